@@ -1,0 +1,15 @@
+# Debian's OpenImageIO config names include folders that need not exist (/usr/include/opencv4) and
+# needs the tools package; without this, generation fails.
+find_package(OpenImageIO 2.4 CONFIG REQUIRED)
+foreach(property INTERFACE_INCLUDE_DIRECTORIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
+    get_target_property(folders OpenImageIO::OpenImageIO ${property})
+    if(folders)
+        set(kept)
+        foreach(folder IN LISTS folders)
+            if(EXISTS "${folder}")
+                list(APPEND kept "${folder}")
+            endif()
+        endforeach()
+        set_target_properties(OpenImageIO::OpenImageIO PROPERTIES ${property} "${kept}")
+    endif()
+endforeach()

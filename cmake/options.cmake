@@ -1,0 +1,15 @@
+# What every target is compiled with.
+add_library(catoptric_options INTERFACE)
+target_include_directories(catoptric_options INTERFACE ${PROJECT_SOURCE_DIR}/engine ${PROJECT_SOURCE_DIR}/shaders)
+# A hit is a comparison of floats: contraction to fused multiply-add would let the CPU oracle and the
+# device disagree about an edge.
+target_compile_options(catoptric_options INTERFACE -ffp-contract=off)
+if(CATOPTRIC_SANITIZE)
+    target_compile_options(catoptric_options INTERFACE
+        -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+    target_link_options(catoptric_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+add_library(catoptric_warnings INTERFACE)
+target_compile_options(catoptric_warnings INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-missing-field-initializers)

@@ -1,0 +1,116 @@
+#include "core/knob.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+namespace catoptric {
+
+namespace {
+
+std::string format(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+    return {text, end};
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
+        }
+    }
+    return row.back();
+}
+
+} // namespace
+
+Settings::Settings(std::span<const Knob> knobs) : knobs_(knobs) {
+    for (const Knob& knob : knobs) values_.push_back(knob.value);
+}
+
+std::size_t Settings::index(std::string_view knob) const {
+    const auto found = std::ranges::find(knobs_, knob, &Knob::name);
+    check(found != knobs_.end(), Failure::internal, "there is no knob '", knob, "'");
+    return static_cast<std::size_t>(found - knobs_.begin());
+}
+
+bool Settings::has(std::string_view knob) const {
+    return std::ranges::find(knobs_, knob, &Knob::name) != knobs_.end();
+}
+
+double Settings::number(std::string_view knob) const { return values_[index(knob)]; }
+
+std::string_view Settings::choice(std::string_view knob) const {
+    const std::size_t i = index(knob);
+    check(!knobs_[i].choices.empty(), Failure::internal, "knob '", knob, "' is not a choice");
+    return knobs_[i].choices[static_cast<std::size_t>(values_[i])];
+}
+
+void Settings::set(std::string_view knob, double value) { values_[index(knob)] = value; }
+
+void Settings::set(std::string_view owner, std::string_view name, std::string_view text) {
+    std::vector<std::string> names;
+    for (const Knob& knob : knobs_) names.emplace_back(knob.name);
+    check(has(name), Failure::usage, "technique '", owner, "' has no knob '", name, "'",
+          did_you_mean(name, names));
+    const Knob& knob = knobs_[index(name)];
+    if (!knob.choices.empty()) {
+        const auto found = std::ranges::find(knob.choices, text);
+        const std::vector<std::string> choices(knob.choices.begin(), knob.choices.end());
+        std::string wanted;
+        for (const std::string& choice : choices) wanted += (wanted.empty() ? "" : "|") + choice;
+        check(found != knob.choices.end(), Failure::usage, "knob '", name, "' of '", owner,
+              "' takes ", wanted, ", not '", text, "'", did_you_mean(text, choices));
+        values_[index(name)] = static_cast<double>(found - knob.choices.begin());
+        return;
+    }
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    check(error == std::errc{} && end == text.data() + text.size() && value == std::floor(value),
+          Failure::usage, "knob '", name, "' of '", owner, "' takes a whole number from ",
+          format(knob.low), " to ", format(knob.high), ", not '", text, "'");
+    check(value >= knob.low && value <= knob.high, Failure::usage, "knob '", name, "' of '", owner,
+          "' takes ", format(knob.low), " to ", format(knob.high), ", not ", text);
+    values_[index(name)] = value;
+}
+
+std::string Settings::text(std::string_view knob) const {
+    const Knob& row = knobs_[index(knob)];
+    return row.choices.empty() ? format(number(knob)) : std::string(choice(knob));
+}
+
+std::string Settings::changed() const {
+    std::string result;
+    for (std::size_t i = 0; i < knobs_.size(); ++i) {
+        if (values_[i] == knobs_[i].value) continue;
+        result += (result.empty() ? "" : ",") + std::string(knobs_[i].name) + "=" +
+                  text(knobs_[i].name);
+    }
+    return result;
+}
+
+std::string nearest_name(std::string_view word, std::span<const std::string> names) {
+    std::size_t best = std::max<std::size_t>(2, word.size() / 2) + 1;
+    std::string nearest;
+    for (const std::string& name : names) {
+        const std::size_t distance = edit_distance(word, name);
+        if (distance < best) best = distance, nearest = name;
+    }
+    return nearest;
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string> names) {
+    const std::string nearest = nearest_name(word, names);
+    return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
+}
+
+} // namespace catoptric

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "graph/graph.hpp"
+
+#include <functional>
+
+namespace catoptric::graph {
+
+/// What a device allows; the plan refuses what is over it.
+struct Limits {
+    std::uint32_t max_size_2d = 16384;
+    std::uint32_t max_size_cube = 16384;
+    std::uint32_t max_layers = 2048;
+    std::uint32_t max_framebuffer_layers = 2048;
+    std::uint64_t max_memory = ~std::uint64_t{0};
+};
+
+/// Memory that a device wants for one image or buffer. Resources of different `heap` never share.
+struct Requirements {
+    std::uint64_t bytes = 0;
+    std::uint64_t alignment = 1;
+    std::uint32_t heap = 0;
+};
+struct Sizer {
+    std::function<Requirements(const ImageDesc&)> image;
+    std::function<Requirements(const BufferDesc&)> buffer;
+};
+/// Texels times bytes, 256-byte aligned, one heap: for tests and for `graph` without a device.
+Sizer plain_sizer();
+
+/// How something was last, or will next be, touched. `nothing` = contents do not matter.
+struct Touch {
+    bool nothing = true;
+    Use use = Use::sampled;
+    bool write = false;
+    bool raster = false; ///< by a raster pass (which shader stages) or by a compute or copy pass
+    friend bool operator==(const Touch&, const Touch&) = default;
+};
+
+/// One dependency: everything in `before` is complete and visible to `after`, in the layout it wants.
+struct Barrier {
+    bool is_buffer = false;
+    std::uint32_t id = 0;
+    bool previous = false; ///< the image's contents of the last frame
+    std::uint32_t first_layer = 0;
+    std::uint32_t layer_count = 0;
+    Touch before;          ///< `nothing`: the old contents are discarded
+    Touch after;
+    std::vector<Touch> shared; ///< last touches of what used the same memory before
+};
+
+struct PlannedPass {
+    std::uint32_t pass = 0; ///< index into Graph::passes()
+    std::vector<Barrier> barriers; ///< to be executed before it
+};
+
+/// Where an image or buffer lies and when it is alive, in positions of `Plan::passes`.
+struct Placement {
+    bool used = false;
+    bool alone = false; ///< kept for the next frame, or wanted: shares no memory
+    std::uint32_t first = 0, last = 0;
+    std::uint32_t heap = 0;
+    std::uint64_t offset = 0, bytes = 0; ///< in the heap; `alone` ones start after the shared part
+};
+
+struct Culled {
+    std::uint32_t pass = 0;
+    std::string reason;
+};
+
+struct Plan {
+    std::vector<PlannedPass> passes;
+    std::vector<Barrier> last; ///< after the final pass: wanted -> copy_from, kept -> sampled
+    std::vector<Culled> culled;
+    std::vector<Placement> images;  ///< one per Graph::images()
+    std::vector<Placement> buffers; ///< one per Graph::buffers()
+    std::vector<std::uint64_t> heap_bytes; ///< size of each heap
+    std::uint64_t bytes = 0;          ///< of all heaps together; a kept image counts twice
+    std::uint64_t bytes_unshared = 0; ///< what it would be without sharing
+    int scene_passes = 0;             ///< executed passes tagged Tag::scene
+};
+
+/// Validates, culls, places and orders. Pure: no device. Passes run in order of declaration.
+/// Throws `Failure::internal` naming pass, image and both uses for a graph that cannot mean anything,
+/// `Failure::exhausted` naming the limit, the wanted and the allowed number.
+/// Costs O(passes * uses + images^2).
+Plan plan(const Graph& graph, const Limits& limits, const Sizer& sizer);
+
+} // namespace catoptric::graph

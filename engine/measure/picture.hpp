@@ -1,0 +1,38 @@
+#pragma once
+
+#include "core/math.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace catoptric::measure {
+
+/// Row-major RGB picture, top row first, linear light, float.
+struct Picture {
+    int width = 0;
+    int height = 0;
+    std::vector<vec3> pixels;
+
+    Picture() = default;
+    Picture(int width, int height) : width(width), height(height) {
+        pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    }
+    vec3& at(int x, int y) { return pixels[index(x, y)]; }
+    const vec3& at(int x, int y) const { return pixels[index(x, y)]; }
+
+private:
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
+};
+
+/// One byte a pixel, row-major; non-zero counts. Empty means "every pixel".
+using Mask = std::vector<std::uint8_t>;
+
+/// What the screen shows: `picture` times 2^exposure_stops, clamped to [0,1], sRGB curve, rounded to
+/// 8 bits; values in [0,1] again (multiples of 1/255). NaN becomes 0.
+Picture to_display(const Picture& picture, double exposure_stops = 0);
+
+} // namespace catoptric::measure

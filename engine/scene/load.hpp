@@ -1,0 +1,40 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace catoptric::scene {
+
+/// Names and one-line descriptions of the built-in scenes.
+struct BuiltIn {
+    std::string name;
+    std::string summary;
+    Scene (*make)();
+};
+const std::vector<BuiltIn>& built_in_scenes();
+
+/// A built-in scene by name, or a .glb, .gltf or .obj file.
+/// Throws `Failure::usage` for a word that is neither (with the nearest built-in name),
+/// `missing_input` for a file that is not there, `bad_data` naming file and place for what cannot be read.
+Scene load(const std::string& name_or_path);
+
+/// Cornell box with four mirror balls (contract: "The built-in scene").
+Scene cornell_mirrors();
+/// The same with a white front wall that camera rays ignore.
+Scene cornell_mirrors_closed();
+
+/// Each reads one file; errors as `load`.
+Scene load_gltf(const std::filesystem::path& path);
+Scene load_obj(const std::filesystem::path& path);
+
+/// Writes .glb (mirror = metallic 1, roughness 0; light = KHR_materials_emissive_strength; motion as
+/// a CUBICSPLINE translation; the camera) or .obj with .mtl beside it (mirror = illum 3, Ks; light = Ke;
+/// camera and motion as `# catoptric ...` comment lines). Same scene, same bytes.
+/// Throws `cannot_create` or `io`; an existing file is replaced only by a complete one.
+void save_glb(const Scene& scene, const std::filesystem::path& path);
+void save_obj(const Scene& scene, const std::filesystem::path& path);
+
+} // namespace catoptric::scene
