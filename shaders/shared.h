@@ -1,0 +1,67 @@
+// Structures that C++ and GLSL both see. Scalar layout: members follow each other without padding,
+// so sizeof is the sum of the members (asserted below, offsets proven by tests/gpu/layout_test.cpp).
+// All lengths and positions are in scene units: world positions minus the scene's centre, times
+// its unit scale (render::Frame), so that everything is about 1.
+#ifndef CATOPTRIC_SHARED_H
+#define CATOPTRIC_SHARED_H
+
+#ifdef __cplusplus
+#include "core/math.hpp"
+
+#include <cstdint>
+
+namespace catoptric::shared {
+using uint = std::uint32_t;
+#else
+#extension GL_EXT_scalar_block_layout : require
+#endif
+
+struct Vertex {
+    vec3 position;
+    vec3 normal;
+};
+
+// What the surface of one object does with light.
+struct Surface {
+    vec3 albedo;      // kd
+    vec3 emission;    // Ke, radiance
+    vec3 reflectance; // of a mirror
+    uint mirror;      // 0: not a mirror; otherwise its number, from 1
+    vec3 centre;      // of the exact sphere the mesh stands for
+    float radius;     // 0: no exact sphere
+};
+
+// A light as the shading formula sees it: one point with a one-sided cosine.
+struct Light {
+    vec3 position;
+    vec3 normal;    // zero: no cosine at the light
+    vec3 intensity; // emission * area
+};
+
+// Where a mirror's surroundings are captured from.
+struct Probe {
+    vec3 centre;
+    float radius;     // of the mirror's bounds around the centre
+    uint first_layer; // 6 * (mirror number - 1)
+    uint has_history; // 0: last frame's capture does not exist, so it shows black
+};
+
+// One projection: clip = (dot(right, v), dot(down, v), near, dot(forward, v)) with v = position - eye.
+// Reversed-Z with infinite far: depth = near / distance along forward.
+struct View {
+    vec3 eye;
+    vec3 right;   // scaled by 1 / tan(half horizontal field of view)
+    vec3 down;    // scaled by 1 / tan(half vertical field of view)
+    vec3 forward; // unit length
+    float near;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(Vertex) == 24);
+static_assert(sizeof(Surface) == 56);
+static_assert(sizeof(Light) == 36);
+static_assert(sizeof(Probe) == 24);
+static_assert(sizeof(View) == 52);
+} // namespace catoptric::shared
+#endif
+#endif
