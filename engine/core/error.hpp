@@ -25,8 +25,8 @@ enum class Failure {
 /// Thrown by `check` and `fail`. `what()` says what, where, wanted and found.
 class Error : public std::runtime_error {
 public:
-    Error(Failure failure, const std::string& message)
-        : std::runtime_error(message), failure(failure) {}
+    Error(Failure why, const std::string& message)
+        : std::runtime_error(message), failure(why) {}
     Failure failure;
 };
 

@@ -1,0 +1,106 @@
+#include "core/file.hpp"
+
+#include "core/error.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include <unistd.h>
+
+namespace catoptric {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Close>;
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+/// Where bytes for `path` finally lie: the end of its links, which may not exist yet.
+fs::path destination(fs::path path) {
+    std::error_code error;
+    for (int link = 0; link < 40 && fs::is_symlink(fs::symlink_status(path, error)); ++link)
+        path = path.parent_path() / fs::read_symlink(path, error);
+    return path;
+}
+
+/// Writes, flushes and closes; throws `io` naming `path`, not the temporary.
+void write_all(File file, std::string_view content, const fs::path& path) {
+    const std::size_t written = std::fwrite(content.data(), 1, content.size(), file.get());
+    const bool whole = written == content.size() && std::fflush(file.get()) == 0;
+    const int error = errno;
+    check(whole, Failure::io, path.string(), ": wanted to write ", content.size(), " bytes: ",
+          reason(error));
+    check(std::fclose(file.release()) == 0, Failure::io, path.string(),
+          ": cannot be closed: ", reason(errno));
+}
+
+File open_new(const fs::path& temporary, const fs::path& path) {
+    File file(std::fopen(temporary.c_str(), "wbx"));
+    const int error = errno;
+    check(file != nullptr, Failure::cannot_create, path.string(),
+          ": cannot be created: ", reason(error));
+    return file;
+}
+
+void replace(const fs::path& target, std::string_view content, const fs::path& path) {
+    fs::path temporary = target;
+    temporary += ".partial-" + std::to_string(::getpid());
+    std::error_code error;
+    fs::remove(temporary, error); // left by a dead process that had our number
+    File file = open_new(temporary, path);
+    try {
+        write_all(std::move(file), content, path);
+        fs::rename(temporary, target, error);
+        check(!error, Failure::io, path.string(), ": cannot be replaced: ", error.message());
+    } catch (...) {
+        fs::remove(temporary, error);
+        throw;
+    }
+}
+
+} // namespace
+
+void write_file(const fs::path& path, std::string_view content) {
+    std::error_code error;
+    const fs::path target = destination(path);
+    const fs::file_status status = fs::status(target, error);
+    check(!fs::is_directory(status) && target.has_filename(), Failure::cannot_create,
+          path.string(), ": wanted a file name, found a folder");
+    if (!fs::exists(status) || fs::is_regular_file(status)) return replace(target, content, path);
+
+    File file(std::fopen(target.c_str(), "wb")); // a device or a pipe
+    check(file != nullptr, Failure::cannot_create, path.string(),
+          ": cannot be opened: ", reason(errno));
+    write_all(std::move(file), content, path);
+}
+
+void write_file(const fs::path& path, std::span<const std::byte> content) {
+    const auto* bytes = reinterpret_cast<const char*>(content.data());
+    write_file(path, std::string_view(bytes, content.size()));
+}
+
+std::string read_file(const fs::path& path) {
+    std::error_code ignored;
+    check(!fs::is_directory(path, ignored), Failure::missing_input, path.string(),
+          ": wanted a file, found a folder");
+    const File file(std::fopen(path.c_str(), "rb"));
+    const int error = errno;
+    check(file != nullptr, Failure::missing_input, path.string(),
+          ": cannot be opened: ", reason(error));
+    std::string content;
+    char block[1 << 16];
+    while (const std::size_t count = std::fread(block, 1, sizeof block, file.get()))
+        content.append(block, count);
+    check(std::ferror(file.get()) == 0, Failure::io, path.string(),
+          ": reading failed after ", content.size(), " bytes");
+    return content;
+}
+
+} // namespace catoptric

@@ -1,0 +1,91 @@
+#include "core/file.hpp"
+
+#include "core/error.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using catoptric::Error;
+using catoptric::Failure;
+using testing::HasSubstr;
+
+class File : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder = fs::temp_directory_path() /
+                 ("catoptric-" + std::to_string(::getpid()) + "-" + test->name());
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+    std::ptrdiff_t entries() const {
+        return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+    }
+    fs::path folder;
+};
+
+template <typename Body>
+Error error_of(Body&& body) {
+    try {
+        body();
+    } catch (const Error& error) {
+        return error;
+    }
+    return Error(Failure::internal, "nothing was thrown");
+}
+
+TEST_F(File, ComesBackByteForByteAndReplaces) {
+    const std::string first("a\0b\r\n\xff", 6);
+    catoptric::write_file(folder / "x", first);
+    EXPECT_EQ(catoptric::read_file(folder / "x"), first);
+    catoptric::write_file(folder / "x", std::string_view());
+    EXPECT_EQ(catoptric::read_file(folder / "x"), "");
+    EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(File, LinkIsFollowed) {
+    fs::create_symlink("real", folder / "link");
+    catoptric::write_file(folder / "link", "text");
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_EQ(catoptric::read_file(folder / "real"), "text");
+}
+
+TEST_F(File, MissingFolderCannotBeCreatedIn) {
+    const Error error = error_of([&] { catoptric::write_file(folder / "no" / "x", "text"); });
+    EXPECT_EQ(error.failure, Failure::cannot_create);
+    EXPECT_THAT(error.what(), HasSubstr((folder / "no" / "x").string()));
+}
+
+TEST_F(File, FolderIsNoFile) {
+    EXPECT_EQ(error_of([&] { catoptric::write_file(folder, "text"); }).failure,
+              Failure::cannot_create);
+    EXPECT_EQ(error_of([&] { catoptric::read_file(folder); }).failure, Failure::missing_input);
+}
+
+TEST_F(File, FullDeviceIsAnIoErrorAndStaysADevice) {
+    if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
+    const Error error = error_of([] { catoptric::write_file("/dev/full", "text"); });
+    EXPECT_EQ(error.failure, Failure::io);
+    EXPECT_THAT(error.what(), HasSubstr("/dev/full"));
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(File, NameTooLongLeavesNothingBehind) {
+    const Error error = error_of([&] { catoptric::write_file(folder / std::string(300, 'x'), "t"); });
+    EXPECT_EQ(error.failure, Failure::cannot_create);
+    EXPECT_EQ(entries(), 0);
+}
+
+TEST_F(File, MissingFileIsMissingInput) {
+    const Error error = error_of([&] { catoptric::read_file(folder / "gone"); });
+    EXPECT_EQ(error.failure, Failure::missing_input);
+    EXPECT_THAT(error.what(), HasSubstr("gone"));
+}
+
+} // namespace
