@@ -1,0 +1,346 @@
+// Pure mathematics of both worlds: no textures, no globals. Compiled as GLSL, as C++ float and as
+// C++ double (engine/core/shader_math.hpp). Comparisons are written so that NaN is a miss.
+#if !defined(CATOPTRIC_MATH_GLSL) || defined(__cplusplus)
+#define CATOPTRIC_MATH_GLSL
+
+#ifndef __cplusplus
+#define real float
+#define INLINE
+#define OUT(type) out type
+const real kUnitRoundoff = 5.9604644775390625e-8; // 2^-24
+const real kSplitter = 4097.0;                    // 2^12 + 1: halves of a float's 24 bits
+
+real next_up(real x) {
+    if (x == 0.0) return uintBitsToFloat(1u);
+    return intBitsToFloat(floatBitsToInt(x) + (x > 0.0 ? 1 : -1));
+}
+real next_down(real x) { return -next_up(-x); }
+#endif
+
+const real kLargest = real(3.402823466e38); // of a float: anything above stands for "infinite"
+const real kPi = real(3.14159265358979323846);
+const real kShadowRayEnd = real(1) - real(1) / real(8192); // shadow rays end this far to the light
+
+// Higham's gamma: relative error bound of n roundings.
+INLINE real gamma_bound(int n) {
+    return real(n) * kUnitRoundoff / (real(1) - real(n) * kUnitRoundoff);
+}
+
+INLINE bool is_finite(real x) { return abs(x) <= kLargest; }
+INLINE bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
+INLINE real largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+// Distances of a capture: "nothing there" is +infinity.
+INLINE bool is_miss(real distance) { return !(distance <= kLargest); }
+
+// ---- Light -------------------------------------------------------------------------------------
+
+// The part of a light's contribution that is geometry: max(0, -w.n_l) / t^2 * max(0, n.w), with w
+// the direction and t the distance to the light. light_normal zero: no cosine at the light.
+// False, factor 0: a cosine is not positive (or the light is at the point): no shadow ray needed.
+INLINE bool light_term(vec3 position, vec3 normal, vec3 light_position, vec3 light_normal,
+                       OUT(vec3) direction, OUT(real) distance, OUT(real) factor) {
+    vec3 to_light = light_position - position;
+    distance = length(to_light);
+    direction = vec3(real(0));
+    factor = real(0);
+    if (!(distance > real(0) && distance <= kLargest)) return false;
+    direction = to_light / distance;
+    real at_light = dot(light_normal, light_normal) > real(0) ? -dot(direction, light_normal)
+                                                              : real(1);
+    real at_surface = dot(normal, direction);
+    if (!(at_light > real(0) && at_surface > real(0))) return false;
+    factor = (at_light / distance) * (at_surface / distance);
+    return true;
+}
+
+// Radiance of a Lambertian surface; `direct` = sum over lights of intensity * factor * visible.
+INLINE vec3 lambert(vec3 emission, vec3 albedo, vec3 direct, real ambient) {
+    return emission + albedo / kPi * direct + albedo * ambient;
+}
+
+// Reflection of the unit direction d about the interpolated normal; where that points below the
+// facet (seen from the side d comes from), it is folded back above it.
+INLINE vec3 mirror_direction(vec3 d, vec3 n_shading, vec3 n_geometric) {
+    vec3 facet = dot(d, n_geometric) > real(0) ? -n_geometric : n_geometric;
+    vec3 r = d - real(2) * dot(d, n_shading) * n_shading;
+    real height = dot(r, facet);
+    return height < real(0) ? normalize(r - real(2) * height * facet) : r;
+}
+
+// ---- Rays --------------------------------------------------------------------------------------
+
+struct Ray {
+    vec3 origin;
+    vec3 direction; // any length but zero
+};
+
+INLINE bool is_valid(Ray ray) {
+    return is_finite(ray.origin) && is_finite(ray.direction) &&
+           largest(abs(ray.direction)) > real(0);
+}
+
+// What the triangle test needs of a ray (Woop, Benthin, Wald 2013): the dominant axis becomes z,
+// and the ray is sheared onto it.
+struct RayShear {
+    int axis;
+    vec3 shear; // d.x / d.z, d.y / d.z, 1 / d.z of the turned direction
+};
+
+// The vector turned so that component `axis` comes last.
+INLINE vec3 turned(vec3 v, int axis) {
+    return axis == 2 ? v : (axis == 0 ? vec3(v.y, v.z, v.x) : vec3(v.z, v.x, v.y));
+}
+
+INLINE RayShear ray_shear(vec3 direction) {
+    vec3 size = abs(direction);
+    RayShear result;
+    result.axis = size.z >= size.x && size.z >= size.y ? 2 : (size.y >= size.x ? 1 : 0);
+    precise vec3 d = turned(direction, result.axis);
+    precise real x = d.x / d.z;
+    precise real y = d.y / d.z;
+    result.shear = vec3(x, y, real(1) / d.z);
+    return result;
+}
+
+// a * b - fl(a * b) without error, barring overflow and underflow (Dekker 1971, Veltkamp split).
+INLINE real product_error(real a, real b) {
+    precise real ta = kSplitter * a;
+    precise real tb = kSplitter * b;
+    precise real a_high = ta - (ta - a);
+    precise real b_high = tb - (tb - b);
+    precise real a_low = a - a_high;
+    precise real b_low = b - b_high;
+    precise real product = a * b;
+    precise real e = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    return e;
+}
+
+// a * b - c * d with the exact sign, barring overflow and underflow. Rounding is monotone, so only
+// a difference of exactly 0 can have lost its sign, and then the products' errors hold it.
+INLINE real edge_function(real a, real b, real c, real d) {
+    precise real difference = a * b - c * d;
+    if (difference == real(0)) {
+        precise real rest = product_error(a, b) - product_error(c, d);
+        difference = rest;
+    }
+    return difference;
+}
+
+// Watertight triangle test, both sides. True when the ray meets the triangle at a finite t > 0;
+// weights / (their sum) are the barycentric weights of a, b, c (see `barycentric`).
+INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT(real) t,
+                          OUT(vec3) weights) {
+    precise vec3 ta = turned(a - origin, ray.axis);
+    precise vec3 tb = turned(b - origin, ray.axis);
+    precise vec3 tc = turned(c - origin, ray.axis);
+    precise real ax = ta.x - ray.shear.x * ta.z;
+    precise real ay = ta.y - ray.shear.y * ta.z;
+    precise real bx = tb.x - ray.shear.x * tb.z;
+    precise real by = tb.y - ray.shear.y * tb.z;
+    precise real cx = tc.x - ray.shear.x * tc.z;
+    precise real cy = tc.y - ray.shear.y * tc.z;
+    precise real u = edge_function(cx, by, cy, bx);
+    precise real v = edge_function(ax, cy, ay, cx);
+    precise real w = edge_function(bx, ay, by, ax);
+    t = real(0);
+    weights = vec3(u, v, w);
+    bool inside = (u >= real(0) && v >= real(0) && w >= real(0)) ||
+                  (u <= real(0) && v <= real(0) && w <= real(0));
+    precise real det = u + v + w;
+    if (!inside || det == real(0)) return false;
+    precise real scaled_t = u * (ray.shear.z * ta.z) + v * (ray.shear.z * tb.z) +
+                            w * (ray.shear.z * tc.z);
+    // Behind the origin: seen by the signs, before the quotient can round to anything.
+    if (!(det > real(0) ? scaled_t > real(0) : scaled_t < real(0))) return false;
+    precise real quotient = scaled_t / det;
+    t = quotient;
+    return t > real(0) && t <= kLargest;
+}
+
+INLINE vec3 barycentric(vec3 weights) {
+    precise real det = weights.x + weights.y + weights.z;
+    return weights / det;
+}
+
+// What the box test needs of a ray. The triangle test sees a sheared ray that is off by roundings
+// relative to its distance from the vertices; origins moved by that much keep every box that holds
+// a triangle the test would accept (Woop et al. 2013, section 4).
+struct BoxRay {
+    vec3 near_origin; // for the planes where the ray enters
+    vec3 far_origin;  // for the planes where it leaves
+    vec3 inverse;     // 1 / direction, infinite where that is 0
+};
+
+// `lo`, `hi`: bounds of everything the ray may meet.
+INLINE BoxRay box_ray(Ray ray, vec3 lo, vec3 hi) {
+    real reach = largest(max(abs(lo - ray.origin), abs(hi - ray.origin)));
+    real slack = gamma_bound(16) * reach;
+    BoxRay result;
+    result.inverse = vec3(real(1)) / ray.direction;
+    vec3 step = vec3(result.inverse.x < real(0) ? -slack : slack,
+                     result.inverse.y < real(0) ? -slack : slack,
+                     result.inverse.z < real(0) ? -slack : slack);
+    result.near_origin = ray.origin + step;
+    result.far_origin = ray.origin - step;
+    return result;
+}
+
+// The smaller (larger); a NaN candidate, 0 * infinity of a ray inside a box's plane, changes nothing.
+INLINE real least(real kept, real candidate) { return candidate < kept ? candidate : kept; }
+INLINE real greatest(real kept, real candidate) { return candidate > kept ? candidate : kept; }
+
+// Does the ray meet the box in [0, t_max]; enters at t_near.
+INLINE bool slab_test(vec3 lo, vec3 hi, BoxRay ray, real t_max, OUT(real) t_near) {
+    bool back_x = ray.inverse.x < real(0);
+    bool back_y = ray.inverse.y < real(0);
+    bool back_z = ray.inverse.z < real(0);
+    vec3 enter = vec3(back_x ? hi.x : lo.x, back_y ? hi.y : lo.y, back_z ? hi.z : lo.z);
+    vec3 leave = vec3(back_x ? lo.x : hi.x, back_y ? lo.y : hi.y, back_z ? lo.z : hi.z);
+    vec3 t_enter = (enter - ray.near_origin) * ray.inverse;
+    vec3 t_leave = (leave - ray.far_origin) * ray.inverse;
+    t_near = greatest(greatest(greatest(real(0), t_enter.x), t_enter.y), t_enter.z);
+    real t_far = least(least(least(t_max, t_leave.x), t_leave.y), t_leave.z);
+    return t_near <= t_far * (real(1) + real(2) * gamma_bound(3));
+}
+
+// Nearest t in (0, t_max) where the ray meets the sphere, from outside or inside
+// (Haines, Gunther, Akenine-Moller 2019: no difference of nearly equal squares).
+INLINE bool sphere_test(vec3 centre, real radius, Ray ray, real t_max, OUT(real) t) {
+    vec3 f = ray.origin - centre;
+    real a = dot(ray.direction, ray.direction);
+    real b = -dot(f, ray.direction);
+    vec3 closest = f + b / a * ray.direction;
+    real gap = length(closest);
+    real quarter = (radius - gap) * (radius + gap);
+    t = real(0);
+    if (!(quarter >= real(0))) return false;
+    real root = sqrt(a) * sqrt(quarter);
+    real q = b < real(0) ? b - root : b + root;
+    real size = length(f);
+    real t0 = (size - radius) * (size + radius) / q;
+    real t1 = q / a;
+    real first = t0 < t1 ? t0 : t1;
+    real second = t0 < t1 ? t1 : t0;
+    t = first > real(0) ? first : second;
+    return t > real(0) && t < t_max;
+}
+
+// ---- Ray spawn: no world epsilon, only bounds of the roundings made ----------------------------
+
+// Unit normal of the facet, counter-clockwise side; zero when it has none.
+INLINE vec3 facet_normal(vec3 a, vec3 b, vec3 c) {
+    vec3 ab = b - a;
+    vec3 ac = c - a;
+    real ab_size = largest(abs(ab));
+    real ac_size = largest(abs(ac));
+    if (!(ab_size > real(0) && ac_size > real(0))) return vec3(real(0));
+    // Scaled first, so that tiny triangles do not underflow.
+    vec3 n = cross(ab / ab_size, ac / ac_size);
+    real size = length(n);
+    return size > real(0) ? n / size : vec3(real(0));
+}
+
+// The point with barycentric weights w, and how far each coordinate may be off: the interpolation's
+// roundings, plus those of a triangle test that starts here.
+INLINE vec3 triangle_point(vec3 a, vec3 b, vec3 c, vec3 w, OUT(vec3) error) {
+    vec3 point = w.x * a + w.y * b + w.z * c;
+    vec3 sum = abs(w.x * a) + abs(w.y * b) + abs(w.z * c);
+    vec3 reach = max(abs(a - point), max(abs(b - point), abs(c - point)));
+    error = gamma_bound(7) * sum + gamma_bound(16) * vec3(largest(reach));
+    return point;
+}
+
+// The same for a hit on a sphere; the point is put back onto the surface.
+INLINE vec3 sphere_point(vec3 centre, real radius, Ray ray, real t, OUT(vec3) error) {
+    vec3 arm = (ray.origin - centre) + t * ray.direction;
+    vec3 on_sphere = arm * (radius / length(arm));
+    vec3 point = centre + on_sphere;
+    error = gamma_bound(3) * abs(point) + vec3(gamma_bound(16) * radius);
+    return point;
+}
+
+// Where a ray that leaves `point` along `direction` starts: off the surface by the error bound
+// projected on its normal, then each coordinate one float further.
+INLINE vec3 spawn_origin(vec3 point, vec3 error, vec3 n_geometric, vec3 direction) {
+    vec3 away = dot(direction, n_geometric) < real(0) ? -n_geometric : n_geometric;
+    vec3 origin = point + dot(abs(away), error) * away;
+    origin.x = away.x > real(0) ? next_up(origin.x)
+                                : (away.x < real(0) ? next_down(origin.x) : origin.x);
+    origin.y = away.y > real(0) ? next_up(origin.y)
+                                : (away.y < real(0) ? next_down(origin.y) : origin.y);
+    origin.z = away.z > real(0) ? next_up(origin.z)
+                                : (away.z < real(0) ? next_down(origin.z) : origin.z);
+    return origin;
+}
+
+// ---- Captures ----------------------------------------------------------------------------------
+
+// Direction from the capture's centre to the point that a ray from `offset` (relative to that
+// centre) along unit `dir` would meet, if what it meets is `distance` from the centre. One step of
+// the secant iteration. Nothing met, or met at the centre itself: `dir` as it is.
+INLINE vec3 parallax_direction(vec3 offset, vec3 dir, real distance) {
+    if (is_miss(distance)) return dir;
+    vec3 p = offset + dir * (distance - dot(offset, dir));
+    real size = largest(abs(p));
+    if (!(size > real(0) && size <= kLargest)) return dir;
+    return normalize(p / size);
+}
+
+// Face of a cube map (+X, -X, +Y, -Y, +Z, -Z) that a direction meets; equals go to z, then y.
+INLINE int cube_face(vec3 dir) {
+    vec3 size = abs(dir);
+    if (size.z >= size.x && size.z >= size.y) return dir.z < real(0) ? 5 : 4;
+    if (size.y >= size.x) return dir.y < real(0) ? 3 : 2;
+    return dir.x < real(0) ? 1 : 0;
+}
+
+// (sc, tc, ma) of the direction on the face: sc right, tc down, ma > 0 towards the face.
+INLINE vec3 cube_coordinates(int face, vec3 dir) {
+    if (face == 0) return vec3(-dir.z, -dir.y, dir.x);
+    if (face == 1) return vec3(dir.z, -dir.y, -dir.x);
+    if (face == 2) return vec3(dir.x, dir.z, dir.y);
+    if (face == 3) return vec3(dir.x, -dir.z, -dir.y);
+    if (face == 4) return vec3(dir.x, -dir.y, dir.z);
+    return vec3(-dir.x, -dir.y, -dir.z);
+}
+
+// The direction whose coordinates on the face are (sc, tc, ma); inverse of cube_coordinates.
+INLINE vec3 cube_direction(int face, vec3 coordinates) {
+    real s = coordinates.x;
+    real t = coordinates.y;
+    real m = coordinates.z;
+    if (face == 0) return vec3(m, -t, -s);
+    if (face == 1) return vec3(-m, -t, s);
+    if (face == 2) return vec3(s, m, t);
+    if (face == 3) return vec3(s, -m, -t);
+    if (face == 4) return vec3(s, -t, m);
+    return vec3(-s, -t, -m);
+}
+
+// ---- Picture -----------------------------------------------------------------------------------
+
+// The sRGB curve (IEC 61966-2-1) of linear light, both in [0, 1]; NaN is black.
+INLINE real srgb_encoded(real linear) {
+    if (!(linear > real(0))) return real(0);
+    if (linear >= real(1)) return real(1);
+    if (linear <= real(0.0031308)) return real(12.92) * linear;
+    return real(1.055) * pow(linear, real(1) / real(2.4)) - real(0.055);
+}
+
+// ---- Layout of the bounding volume hierarchy (engine/bvh/bvh.hpp says what it means) -----------
+
+const int kBvhMaxDepth = 30;        // inner nodes on a path, hence entries on a stack
+const uint kBvhTag = 0x40000000u;   // set in every word: as a float it is neither denormal nor NaN
+const uint kBvhCountShift = 27u;    // a child's triangle count; 0 for an inner node
+const uint kBvhIndexMask = 0x07ffffffu;
+const uint kBvhRoot = 0x40000001u;  // the child word of the root, node 1
+const uint kBvhNothing = 0x40000000u;
+const uint kBvhIdMask = 0x1fffffffu; // of a triangle's words
+const uint kBvhHidden = 1u;          // flag: camera rays pass through
+
+INLINE uint bvh_count(uint word) { return (word & ~kBvhTag) >> kBvhCountShift; }
+INLINE uint bvh_index(uint word) { return word & kBvhIndexMask; }
+INLINE bool bvh_is_inner(uint word) { return bvh_count(word) == 0u && bvh_index(word) != 0u; }
+
+#endif
