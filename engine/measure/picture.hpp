@@ -2,8 +2,8 @@
 
 #include "core/math.hpp"
 
+#include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace catoptric::measure {
@@ -15,9 +15,10 @@ struct Picture {
     std::vector<vec3> pixels;
 
     Picture() = default;
-    Picture(int width, int height) : width(width), height(height) {
-        pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    }
+    /// Black.
+    Picture(int columns, int rows)
+        : width(columns), height(rows),
+          pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), vec3(0)) {}
     vec3& at(int x, int y) { return pixels[index(x, y)]; }
     const vec3& at(int x, int y) const { return pixels[index(x, y)]; }
 
@@ -31,8 +32,8 @@ private:
 /// One byte a pixel, row-major; non-zero counts. Empty means "every pixel".
 using Mask = std::vector<std::uint8_t>;
 
-/// What the screen shows: `picture` times 2^exposure_stops, clamped to [0,1], sRGB curve, rounded to
-/// 8 bits; values in [0,1] again (multiples of 1/255). NaN becomes 0.
+/// What the screen shows: `picture` times 2^exposure_stops, clamped to [0,1], sRGB curve, rounded
+/// to 8 bits; values in [0,1] again (multiples of 1/255). NaN becomes 0.
 Picture to_display(const Picture& picture, double exposure_stops = 0);
 
 } // namespace catoptric::measure

@@ -1,0 +1,88 @@
+#include "measure/difference.hpp"
+
+#include "core/error.hpp"
+#include "measure/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace catoptric::measure {
+namespace {
+
+bool is_finite(const vec3& pixel) {
+    return std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z);
+}
+
+/// NaN stays NaN.
+dvec3 clamped(const vec3& pixel) {
+    const auto one = [](float value) { return std::clamp(static_cast<double>(value), 0.0, 1.0); };
+    return {one(pixel.x), one(pixel.y), one(pixel.z)};
+}
+
+bool counts(const Mask& mask, std::size_t pixel) { return mask.empty() || mask[pixel] != 0; }
+
+void check_sizes(const Picture& a, const Picture& b, const Mask& mask, std::size_t flip_size) {
+    check(a.width == b.width && a.height == b.height, Failure::bad_data, "a difference wants two "
+          "pictures of the same size, found ", a.width, "x", a.height, " and ", b.width, "x",
+          b.height);
+    check(mask.empty() || mask.size() == a.pixels.size(), Failure::bad_data, "a difference of ",
+          a.pixels.size(), " pixels wants a mask of as many, found ", mask.size());
+    check(flip_size == a.pixels.size(), Failure::bad_data, "a difference of ", a.pixels.size(),
+          " pixels wants a FLIP map of as many, found ", flip_size);
+}
+
+} // namespace
+
+Difference difference(const Picture& a, const Picture& b, const Mask& mask,
+                      std::span<const float> flip_map) {
+    check_sizes(a, b, mask, flip_map.size());
+    Difference result;
+    std::vector<double> largest; // of each judged pixel
+    double squares = 0;
+    double absolutes = 0;
+    double flips = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        if (!counts(mask, i)) continue;
+        ++result.pixels;
+        if (!is_finite(a.pixels[i]) || !is_finite(b.pixels[i])) {
+            ++result.nonfinite;
+            continue;
+        }
+        const dvec3 apart = glm::abs(clamped(a.pixels[i]) - clamped(b.pixels[i]));
+        squares += glm::dot(apart, apart);
+        absolutes += apart.x + apart.y + apart.z;
+        flips += static_cast<double>(flip_map[i]);
+        largest.push_back(std::max({apart.x, apart.y, apart.z}));
+        if (largest.size() == 1 || largest.back() > result.max) {
+            result.max = largest.back();
+            result.max_x = static_cast<int>(i % static_cast<std::size_t>(a.width));
+            result.max_y = static_cast<int>(i / static_cast<std::size_t>(a.width));
+        }
+    }
+    if (largest.empty()) return result;
+
+    const auto judged = static_cast<double>(largest.size());
+    result.rmse = std::sqrt(squares / (3 * judged));
+    result.mae = absolutes / (3 * judged);
+    result.flip = flips / judged;
+    if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
+    result.p99 = percentile(std::move(largest), 0.99);
+    return result;
+}
+
+Mean mean_of(const Picture& picture, Range range, const Mask& mask) {
+    check(mask.empty() || mask.size() == picture.pixels.size(), Failure::bad_data, "a mean of ",
+          picture.pixels.size(), " pixels wants a mask of as many, found ", mask.size());
+    dvec3 sum(0);
+    double count = 0;
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        if (!counts(mask, i)) continue;
+        sum += range == Range::clamped ? clamped(picture.pixels[i]) : dvec3(picture.pixels[i]);
+        count += 1;
+    }
+    const dvec3 rgb = sum / count; // 0/0 is NaN
+    return {rgb, (rgb.x + rgb.y + rgb.z) / 3};
+}
+
+} // namespace catoptric::measure

@@ -1,0 +1,53 @@
+#include "measure/masks.hpp"
+
+#include <algorithm>
+
+namespace catoptric::measure {
+namespace {
+
+template <typename Choice>
+Mask where(std::span<const std::uint32_t> hits, const Choice& chosen) {
+    Mask mask;
+    mask.reserve(hits.size());
+    for (const std::uint32_t hit : hits) mask.push_back(chosen(hit) ? 255 : 0);
+    return mask;
+}
+
+} // namespace
+
+Mask all_pixels(std::span<const std::uint32_t> hits) {
+    return where(hits, [](std::uint32_t) { return true; });
+}
+
+Mask mirrors(std::span<const std::uint32_t> hits) {
+    return where(hits, [](std::uint32_t hit) { return first_mirror(hit) != 0; });
+}
+
+Mask first_order(std::span<const std::uint32_t> hits) {
+    return where(hits, [](std::uint32_t hit) {
+        return first_mirror(hit) != 0 && second_mirror(hit) == 0;
+    });
+}
+
+Mask mirror_in_mirror(std::span<const std::uint32_t> hits) {
+    return where(hits, [](std::uint32_t hit) {
+        return first_mirror(hit) != 0 && second_mirror(hit) != 0;
+    });
+}
+
+Mask of_mirror(std::span<const std::uint32_t> hits, std::uint32_t number) {
+    return where(hits, [number](std::uint32_t hit) {
+        return number != 0 && first_mirror(hit) == number;
+    });
+}
+
+Mask non_mirror(std::span<const std::uint32_t> hits) {
+    return where(hits, [](std::uint32_t hit) { return first_mirror(hit) == 0; });
+}
+
+std::size_t pixel_count(const Mask& mask) {
+    return static_cast<std::size_t>(
+        std::count_if(mask.begin(), mask.end(), [](std::uint8_t value) { return value != 0; }));
+}
+
+} // namespace catoptric::measure

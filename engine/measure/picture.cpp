@@ -1,0 +1,25 @@
+#include "measure/picture.hpp"
+
+#include "measure/srgb.hpp"
+
+#include <cmath>
+
+namespace catoptric::measure {
+
+Picture to_display(const Picture& picture, double exposure_stops) {
+    const double gain = std::exp2(exposure_stops);
+    const auto shown = [gain](float linear) {
+        const double value = gain * static_cast<double>(linear);
+        if (!(value > 0)) return 0.0F; // NaN falls here
+        if (value >= 1) return 1.0F;
+        return static_cast<float>(std::round(srgb_from_linear(value) * 255) / 255);
+    };
+    Picture display(picture.width, picture.height);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const vec3& pixel = picture.pixels[i];
+        display.pixels[i] = vec3(shown(pixel.x), shown(pixel.y), shown(pixel.z));
+    }
+    return display;
+}
+
+} // namespace catoptric::measure

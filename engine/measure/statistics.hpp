@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace catoptric::measure {
+
+/// Location and spread of a list of measurements, in their own unit.
+struct Summary {
+    double median = 0;
+    double p05 = 0; ///< 5th percentile
+    double p95 = 0; ///< 95th percentile
+    double mad = 0; ///< median of the absolute deviations from the median, not scaled
+    std::size_t n = 0;
+    std::vector<double> samples; ///< as given, in order
+};
+
+/// Refuses an empty list and one with a NaN or infinity in it (`Failure::internal`).
+Summary summarise(std::span<const double> samples);
+
+/// The value below which `fraction` (0..1) of the values lie, linear between the two nearest ranks:
+/// position fraction * (n - 1) of the sorted list. Refuses an empty list. Costs O(n).
+double percentile(std::vector<double> values, double fraction);
+
+} // namespace catoptric::measure

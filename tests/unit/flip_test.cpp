@@ -1,0 +1,166 @@
+#include "measure/flip.hpp"
+
+#include "core/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace catoptric::measure {
+namespace {
+
+// The formulas of tests/golden/flip_reference.py, which also explains them; the figures in kCases
+// are what it prints.
+using Formula = int (*)(int x, int y, int c, bool b);
+
+int scramble(int x, int y, int c, unsigned seed) {
+    unsigned h = static_cast<unsigned>(x) * 374761393U + static_cast<unsigned>(y) * 668265263U +
+                 static_cast<unsigned>(c) * 974634777U + seed * 2246822519U;
+    h = (h ^ (h >> 13)) * 1274126177U;
+    return static_cast<int>((h ^ (h >> 16)) & 255U);
+}
+
+int constant(int, int, int c, bool b) {
+    constexpr std::array<int, 3> kA = {200, 60, 30};
+    constexpr std::array<int, 3> kB = {190, 80, 40};
+    return (b ? kB : kA)[static_cast<std::size_t>(c)];
+}
+int edges(int x, int y, int, bool b) { return x + y / 2 < (b ? 25 : 22) ? 40 : 220; }
+int points(int x, int y, int, bool b) { return x % 8 == 4 && y % 8 == 4 && !b ? 255 : 128; }
+int noise(int x, int y, int c, bool b) { return scramble(x, y, c, b ? 2 : 1); }
+int natural(int x, int y, int c, bool b) {
+    const int from_centre = x - (b ? 32 : 30);
+    const bool ball = from_centre * from_centre + (y - 20) * (y - 20) < 144;
+    const int value =
+        30 + 2 * x + 10 * c + (ball ? 70 - 30 * c : 0) + scramble(x, y, c, 3) % 16;
+    return std::min(255, value - (b && c == 2 ? 8 : 0));
+}
+int primaries(int, int, int c, bool b) { return c == (b ? 2 : 1) ? 255 : 0; }
+
+Picture picture_of(Formula formula, int width, int height, bool b) {
+    Picture picture(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < 3; ++c)
+                picture.at(x, y)[c] = static_cast<float>(formula(x, y, c, b)) / 255.0F;
+    return picture;
+}
+
+struct Case {
+    Formula formula;
+    int width, height;
+    double pixels_per_degree;
+    double mean;
+    std::array<double, 5> pixels;
+};
+constexpr std::array<std::array<double, 2>, 5> kPlaces = {
+    {{0, 0}, {0.5, 0.5}, {0.3, 0.7}, {0.9, 0.1}, {0.999, 0.999}}};
+const Case kCases[] = {
+    // from flip-evaluator 1.7
+    {constant, 24, 16, 67, 0.2156905, {0.2156905, 0.2156905, 0.2156905, 0.2156905, 0.2156905}},
+    {edges, 40, 30, 67, 0.1488630, {0.0000000, 0.1508427, 0.9661281, 0.0000000, 0.0000000}},
+    {points, 32, 24, 67, 0.0653677, {0.0000576, 0.0071267, 0.0004929, 0.1244844, 0.0021309}},
+    {noise, 33, 21, 67, 0.4316227, {0.5222005, 0.4762466, 0.3012399, 0.3117291, 0.6648194}},
+    {natural, 64, 48, 67, 0.1401119, {0.0755432, 0.1352261, 0.1119139, 0.1328537, 0.1346985}},
+    {primaries, 9, 7, 67, 1.0000000, {1.0000000, 1.0000000, 1.0000000, 1.0000000, 1.0000000}},
+    {natural, 50, 1, 67, 0.1030659, {0.0756613, 0.1061340, 0.0944556, 0.1233173, 0.1225968}},
+    {natural, 1, 1, 67, 0.0730469, {0.0730469, 0.0730469, 0.0730469, 0.0730469, 0.0730469}},
+    {natural, 64, 48, 20, 0.1337787, {0.0746789, 0.1239210, 0.0971719, 0.1310261, 0.1344866}},
+    {natural, 64, 48, 150, 0.1438341, {0.0776868, 0.1680495, 0.1197986, 0.1379943, 0.1346316}},
+};
+
+class Published : public testing::TestWithParam<Case> {};
+
+TEST_P(Published, MapAndMeanEqualTheAuthorsProgram) {
+    const Case& wanted = GetParam();
+    const Picture a = picture_of(wanted.formula, wanted.width, wanted.height, false);
+    const Picture b = picture_of(wanted.formula, wanted.width, wanted.height, true);
+    const std::vector<float> map = flip(a, b, wanted.pixels_per_degree);
+    // The authors' program works in float: where a picture is flat, rounding (1e-8) comes out of
+    // the square root as 1e-4 of feature, 3e-5 of error. Ours works in double.
+    EXPECT_NEAR(flip_mean(map), wanted.mean, wanted.formula == constant ? 3e-5 : 1e-5);
+    for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+        const int x = static_cast<int>(kPlaces[i][0] * wanted.width);
+        const int y = static_cast<int>(kPlaces[i][1] * wanted.height);
+        EXPECT_NEAR(map[static_cast<std::size_t>(y * wanted.width + x)], wanted.pixels[i], 1e-4)
+            << x << " " << y;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Flip, Published, testing::ValuesIn(kCases));
+
+TEST(Flip, EqualPicturesGiveExactlyZero) {
+    const Picture a = picture_of(noise, 20, 20, false);
+    for (const float error : flip(a, a)) EXPECT_EQ(error, 0.0F);
+}
+
+TEST(Flip, IsSymmetric) {
+    const Picture a = picture_of(natural, 40, 30, false);
+    const Picture b = picture_of(natural, 40, 30, true);
+    EXPECT_EQ(flip(a, b), flip(b, a));
+}
+
+TEST(Flip, MirroredPicturesGiveTheMirroredMap) {
+    const auto mirrored = [](const Picture& picture) {
+        Picture result(picture.width, picture.height);
+        for (int y = 0; y < picture.height; ++y)
+            for (int x = 0; x < picture.width; ++x)
+                result.at(picture.width - 1 - x, y) = picture.at(x, y);
+        return result;
+    };
+    const Picture a = picture_of(natural, 40, 30, false);
+    const Picture b = picture_of(natural, 40, 30, true);
+    const std::vector<float> map = flip(a, b);
+    const std::vector<float> other = flip(mirrored(a), mirrored(b));
+    for (std::size_t y = 0; y < 30; ++y)
+        for (std::size_t x = 0; x < 40; ++x)
+            EXPECT_NEAR(map[y * 40 + x], other[y * 40 + 39 - x], 1e-6);
+}
+
+TEST(Flip, AFlatPairDiffersTheSameEverywhereAtEveryDistance) {
+    // No features and nothing to blur: only the colours are left (the figure of the constant case).
+    for (const double pixels_per_degree : {1.0, 20.0, 67.0, 300.0})
+        for (const float error : flip(picture_of(constant, 12, 9, false),
+                                      picture_of(constant, 12, 9, true), pixels_per_degree))
+            EXPECT_NEAR(error, 0.2156905, 1e-4);
+}
+
+TEST(Flip, BlackAgainstWhiteIsNearlyAsBadAsCanBe) {
+    Picture white(8, 8);
+    for (vec3& pixel : white.pixels) pixel = vec3(1);
+    const double mean = flip_mean(flip(Picture(8, 8), white));
+    EXPECT_GT(mean, 0.95);
+    EXPECT_LE(mean, 1);
+}
+
+TEST(Flip, MeanCountsOnlyTheMask) {
+    const std::vector<float> map = {0.5F, 1, 0.25F, 0};
+    EXPECT_EQ(flip_mean(map), 0.4375);
+    EXPECT_EQ(flip_mean(map, {1, 0, 255, 0}), 0.375);
+    EXPECT_TRUE(std::isnan(flip_mean(map, {0, 0, 0, 0})));
+    EXPECT_THROW(flip_mean(map, {1, 0}), Error);
+}
+
+std::string refusal(int width_a, int height_a, int width_b, int height_b, double ppd = 67) {
+    try {
+        flip(Picture(width_a, height_a), Picture(width_b, height_b), ppd);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(Flip, RefusesWhatHasNoAnswer) {
+    EXPECT_EQ(refusal(4, 3, 3, 4),
+              "FLIP wants two pictures of the same size, found 4x3 and 3x4");
+    EXPECT_EQ(refusal(0, 0, 0, 0), "FLIP wants at least one pixel, found 0x0");
+    EXPECT_EQ(refusal(4, 3, 4, 3, 0), "FLIP wants 1 to 1000 pixels per degree, found 0");
+    EXPECT_EQ(refusal(4, 3, 4, 3, std::numeric_limits<double>::quiet_NaN()),
+              "FLIP wants 1 to 1000 pixels per degree, found nan");
+}
+
+} // namespace
+} // namespace catoptric::measure

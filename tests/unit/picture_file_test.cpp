@@ -1,0 +1,241 @@
+#include "measure/picture_file.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+#include <limits>
+
+#include <unistd.h>
+
+namespace catoptric::measure {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+namespace fs = std::filesystem;
+
+/// A folder that goes when the test does.
+class PictureFile : public testing::Test {
+protected:
+    PictureFile() { fs::create_directories(folder); }
+    ~PictureFile() override { fs::remove_all(folder); }
+    PictureFile(const PictureFile&) = delete;
+    PictureFile& operator=(const PictureFile&) = delete;
+
+    fs::path file(const std::string& name, const std::string& bytes) const {
+        write_file(folder / name, bytes);
+        return folder / name;
+    }
+
+    fs::path folder = fs::temp_directory_path() /
+                      ("catoptric-picture-" + std::to_string(::getpid()) + "-" +
+                       testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+std::string from_hex(const std::string& hex) {
+    std::string bytes;
+    for (std::size_t i = 0; i < hex.size(); i += 2)
+        bytes += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+    return bytes;
+}
+
+// PNG files made by another hand (Python's zlib and struct).
+// 2x2: (255 188 0)(1 2 3), (0 0 0)(128 64 32).
+const std::string kRgb8 = from_hex(
+    "89504e470d0a1a0a0000000d4948445200000002000000020802000000fdd49a73000000144944415478da63f8bf"
+    "878191899901081a1c1400182502a223acfc8a0000000049454e44ae426082");
+// 188 188 188 with a gamma chunk that claims linear values.
+const std::string kGamma1 = from_hex(
+    "89504e470d0a1a0a0000000d4948445200000001000000010802000000907753de0000000467414d41000186a031"
+    "e8965f0000000c4944415478da63d8b3670f00046c02355d11ef200000000049454e44ae426082");
+// 65535, 32768
+const std::string kGrey16 = from_hex(
+    "89504e470d0a1a0a0000000d494844520000000200000001100000000081d9fc150000000d4944415478da63f8ff"
+    "bf81010007fe027fad8392250000000049454e44ae426082");
+// (255 128 0 | 0)(0 0 0 | 255)(0 0 1 | 128): red-orange behind no alpha at all, opaque black, blue.
+const std::string kRgba8 = from_hex(
+    "89504e470d0a1a0a0000000d49484452000000030000000108060000001be014b4000000124944415478da63f8df"
+    "c00002ff1918181b0016fe030063c4645b0000000049454e44ae426082");
+
+/// A 2x1 OpenEXR of 16-bit halves, (1 0.5 -2)(inf NaN 65504), spelled out from the file layout.
+std::string half_exr() {
+    std::string bytes("\x76\x2f\x31\x01\x02\0\0\0", 8);
+    const auto number = [](std::uint32_t value, int size) {
+        std::string text;
+        for (int i = 0; i < size; ++i) text += static_cast<char>(value >> (8 * i) & 255U);
+        return text;
+    };
+    const auto attribute = [&](const char* name, const char* type, const std::string& value) {
+        bytes += std::string(name) + '\0' + type + '\0' +
+                 number(static_cast<std::uint32_t>(value.size()), 4) + value;
+    };
+    std::string channels;
+    for (const char* name : {"B", "G", "R"})
+        channels += std::string(name) + '\0' + number(1, 4) + number(0, 4) + number(1, 4) +
+                    number(1, 4);
+    const std::string window = number(0, 4) + number(0, 4) + number(1, 4) + number(0, 4);
+    const std::string one = number(std::bit_cast<std::uint32_t>(1.0F), 4);
+    attribute("channels", "chlist", channels + '\0');
+    attribute("compression", "compression", std::string(1, '\0'));
+    attribute("dataWindow", "box2i", window);
+    attribute("displayWindow", "box2i", window);
+    attribute("lineOrder", "lineOrder", std::string(1, '\0'));
+    attribute("pixelAspectRatio", "float", one);
+    attribute("screenWindowCenter", "v2f", std::string(8, '\0'));
+    attribute("screenWindowWidth", "float", one);
+    bytes += '\0';
+    bytes += number(static_cast<std::uint32_t>(bytes.size()) + 8, 4) + number(0, 4); // line offset
+    bytes += number(0, 4) + number(12, 4);
+    for (const std::uint32_t half : {0xC000U, 0x7BFFU, 0x3800U, 0x7E00U, 0x3C00U, 0x7C00U})
+        bytes += number(half, 2);
+    return bytes;
+}
+
+Picture awkward() {
+    Picture picture(3, 2);
+    picture.at(0, 0) = vec3(0, -0.0F, 1);
+    picture.at(1, 0) = vec3(std::numeric_limits<float>::infinity(), -3.5F, 1e30F);
+    picture.at(2, 0) = vec3(std::numeric_limits<float>::quiet_NaN(), 0.1F, 1e-40F);
+    picture.at(0, 1) = vec3(0.25F, 0.5F, 0.75F);
+    picture.at(1, 1) = vec3(1.0F / 3, 17, 4);
+    picture.at(2, 1) = vec3(1e-8F, 65504, 65536);
+    return picture;
+}
+
+template <typename Call>
+std::string message(Failure wanted, Call call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        EXPECT_EQ(static_cast<int>(error.failure), static_cast<int>(wanted)) << error.what();
+        return error.what();
+    }
+    ADD_FAILURE() << "nothing was refused";
+    return "";
+}
+
+TEST_F(PictureFile, ExrKeepsEveryBit) {
+    const Picture picture = awkward();
+    write_exr(picture, folder / "a.exr");
+    const Picture back = read_picture(folder / "a.exr");
+    ASSERT_EQ(back.width, 3);
+    ASSERT_EQ(back.height, 2);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+        EXPECT_EQ(std::memcmp(&picture.pixels[i], &back.pixels[i], sizeof(vec3)), 0) << i;
+}
+
+TEST_F(PictureFile, TheSamePictureGivesTheSameBytes) {
+    const std::string exr = exr_bytes(awkward());
+    EXPECT_THAT(exr, HasSubstr("2000:01:01 00:00:00")); // so the clock is not in it
+    EXPECT_EQ(exr, exr_bytes(awkward()));
+    EXPECT_EQ(png_bytes(awkward()), png_bytes(awkward()));
+    write_png(awkward(), folder / "a.png");
+    EXPECT_EQ(read_file(folder / "a.png"), png_bytes(awkward()));
+}
+
+TEST_F(PictureFile, PngIsEightBitRgbAndRoundsAndClamps) {
+    Picture display(2, 1);
+    display.at(0, 0) = vec3(-1, 0.5F, std::numeric_limits<float>::quiet_NaN());
+    display.at(1, 0) = vec3(2, 187.4F / 255, 187.6F / 255);
+    const std::string png = png_bytes(display);
+    EXPECT_EQ(png[24], 8); // IHDR: bits
+    EXPECT_EQ(png[25], 2); // RGB
+    write_png(display, folder / "a.png");
+    const Picture shown = to_display(read_picture(folder / "a.png"));
+    EXPECT_EQ(shown.at(0, 0), vec3(0, 128.0F / 255, 0));
+    EXPECT_EQ(shown.at(1, 0), vec3(1, 187.0F / 255, 188.0F / 255));
+}
+
+TEST_F(PictureFile, PngIsDecodedFromSrgb) {
+    const Picture picture = read_picture(file("a.png", kRgb8));
+    EXPECT_EQ(picture.at(0, 0).x, 1.0F);
+    EXPECT_NEAR(picture.at(0, 0).y, 0.502886, 1e-6); // ((188/255 + 0.055) / 1.055)^2.4
+    EXPECT_EQ(picture.at(0, 0).z, 0.0F);
+    EXPECT_NEAR(picture.at(1, 0).x, 1 / 255.0 / 12.92, 1e-9);
+    EXPECT_NEAR(picture.at(1, 1).y, 0.051269, 1e-6);
+    EXPECT_NEAR(read_picture(file("gamma.png", kGamma1)).at(0, 0).x, 0.502886, 1e-6);
+}
+
+TEST_F(PictureFile, SixteenBitGreyBecomesRgb) {
+    const Picture picture = read_picture(file("a.png", kGrey16));
+    EXPECT_EQ(picture.at(0, 0), vec3(1));
+    EXPECT_NEAR(picture.at(1, 0).x, 0.214053, 1e-5); // 32768 / 65535
+    EXPECT_EQ(picture.at(1, 0).x, picture.at(1, 0).z);
+}
+
+TEST_F(PictureFile, AlphaIsLeftOut) {
+    const Picture picture = read_picture(file("a.png", kRgba8));
+    EXPECT_EQ(picture.at(0, 0).x, 1.0F);
+    EXPECT_NEAR(picture.at(0, 0).y, 0.215861, 1e-6);
+    EXPECT_EQ(picture.at(1, 0), vec3(0));
+}
+
+TEST_F(PictureFile, HalfExrOfAnotherHand) {
+    const Picture picture = read_picture(file("a.exr", half_exr()));
+    EXPECT_EQ(picture.at(0, 0), vec3(1, 0.5F, -2));
+    EXPECT_TRUE(std::isinf(picture.at(1, 0).x));
+    EXPECT_TRUE(std::isnan(picture.at(1, 0).y));
+    EXPECT_EQ(picture.at(1, 0).z, 65504.0F);
+}
+
+TEST_F(PictureFile, TheNameDoesNotDecide) {
+    EXPECT_EQ(read_picture(file("a.exr", kRgb8)).at(0, 0).x, 1.0F);
+}
+
+TEST_F(PictureFile, MaskIsWhatIsNotZero) {
+    EXPECT_EQ(read_mask(file("a.png", kRgb8), 2, 2), (Mask{255, 255, 0, 255}));
+    EXPECT_EQ(read_mask(file("b.png", kRgba8), 3, 1), (Mask{255, 0, 255}));
+    EXPECT_THAT(message(Failure::bad_data, [&] { read_mask(folder / "a.png", 4, 2); }),
+                HasSubstr("a.png: wanted a mask of 4x2 as the pictures, found 2x2"));
+    EXPECT_THAT(message(Failure::bad_data,
+                        [&] { read_mask(file("c.exr", half_exr()), 2, 1); }),
+                HasSubstr("c.exr: wanted a PNG as mask, found OpenEXR"));
+}
+
+TEST_F(PictureFile, MissingAndUndecodableInput) {
+    EXPECT_THAT(message(Failure::missing_input, [&] { read_picture(folder / "no.png"); }),
+                HasSubstr("no.png"));
+    EXPECT_THAT(message(Failure::bad_data, [&] { read_picture(file("t.png", "Hello")); }),
+                HasSubstr("t.png: wanted an OpenEXR or PNG picture, found 5 bytes"));
+    EXPECT_THAT(message(Failure::bad_data, [&] { read_picture(file("e.png", "")); }),
+                HasSubstr("found 0 bytes"));
+}
+
+TEST_F(PictureFile, CutFilesAreRefusedWhereverTheyEnd) {
+    const auto refuses = [&](const std::string& name, const std::string& whole, std::size_t size) {
+        const fs::path path = file(name, whole.substr(0, size));
+        const std::string text = message(Failure::bad_data, [&] { read_picture(path); });
+        EXPECT_THAT(text, HasSubstr(name)) << size << " of " << whole.size();
+        EXPECT_THAT(text, Not(HasSubstr("\n")));
+    };
+    const std::string exr = half_exr();
+    for (std::size_t size = 0; size < exr.size(); size += 7) refuses("cut.exr", exr, size);
+    refuses("cut.exr", exr, exr.size() - 1);
+    for (std::size_t size = 0; size < 60; size += 3) refuses("cut.png", kRgb8, size);
+}
+
+TEST_F(PictureFile, AFailureKeepsTheOldFile) {
+    const fs::path old = file("old.png", "old");
+    EXPECT_THAT(message(Failure::internal, [&] { write_png(Picture(), old); }),
+                HasSubstr("a picture of 0x0 cannot be written"));
+    EXPECT_EQ(read_file(old), "old");
+}
+
+TEST_F(PictureFile, PlacesThatCannotBeWritten) {
+    const Picture picture(2, 2);
+    EXPECT_THAT(message(Failure::cannot_create, [&] { write_png(picture, folder); }),
+                HasSubstr(folder.string()));
+    EXPECT_THAT(message(Failure::cannot_create,
+                        [&] { write_exr(picture, folder / "none" / "a.exr"); }),
+                HasSubstr("none/a.exr"));
+    EXPECT_THAT(message(Failure::io, [&] { write_png(picture, "/dev/full"); }),
+                HasSubstr("/dev/full")); // a disk without room
+}
+
+} // namespace
+} // namespace catoptric::measure

@@ -1,0 +1,80 @@
+#include "measure/statistics.hpp"
+
+#include "core/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+namespace catoptric::measure {
+namespace {
+
+TEST(Summary, HandComputed) {
+    const Summary s = summarise(std::vector<double>{4, 1, 3, 2, 10});
+    EXPECT_DOUBLE_EQ(s.median, 3);
+    EXPECT_DOUBLE_EQ(s.p05, 1.2);  // rank 0.2
+    EXPECT_DOUBLE_EQ(s.p95, 8.8);  // rank 3.8
+    EXPECT_DOUBLE_EQ(s.mad, 1);    // of 1 2 0 1 7
+    EXPECT_EQ(s.n, 5U);
+    EXPECT_EQ(s.samples, (std::vector<double>{4, 1, 3, 2, 10})); // in the order they came
+}
+
+TEST(Summary, EvenNumberAndOneOnly) {
+    const Summary even = summarise(std::vector<double>{4, 1, 2, 3});
+    EXPECT_DOUBLE_EQ(even.median, 2.5);
+    EXPECT_DOUBLE_EQ(even.mad, 1); // of 1.5 1.5 0.5 0.5
+    const Summary one = summarise(std::vector<double>{7});
+    EXPECT_EQ(one.median, 7);
+    EXPECT_EQ(one.p05, 7);
+    EXPECT_EQ(one.p95, 7);
+    EXPECT_EQ(one.mad, 0);
+}
+
+TEST(Percentile, EveryRankOfAShuffledList) {
+    std::vector<double> values;
+    for (int i = 0; i <= 100; ++i) values.push_back(i);
+    std::shuffle(values.begin(), values.end(), std::mt19937(1));
+    for (int i = 0; i <= 100; ++i) EXPECT_NEAR(percentile(values, i / 100.0), i, 1e-12);
+    EXPECT_NEAR(percentile(values, 0.123), 12.3, 1e-12);
+}
+
+TEST(Summary, OrderDoesNotMatterAndScaleScales) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> value(1, 5);
+    std::vector<double> samples(21);
+    for (double& sample : samples) sample = value(random);
+    const Summary s = summarise(samples);
+    std::vector<double> doubled = samples;
+    for (double& sample : doubled) sample *= 2;
+    std::reverse(doubled.begin(), doubled.end());
+    const Summary t = summarise(doubled);
+    EXPECT_EQ(t.median, 2 * s.median);
+    EXPECT_EQ(t.p05, 2 * s.p05);
+    EXPECT_EQ(t.p95, 2 * s.p95);
+    EXPECT_EQ(t.mad, 2 * s.mad);
+}
+
+std::string refusal(const std::vector<double>& samples) {
+    try {
+        summarise(samples);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(Summary, RefusesWhatHasNoAnswer) {
+    EXPECT_EQ(refusal({}), "a summary wants at least one sample, found none");
+    EXPECT_EQ(refusal({1, std::numeric_limits<double>::quiet_NaN()}),
+              "a summary wants finite samples, found nan at index 1");
+    EXPECT_EQ(refusal({std::numeric_limits<double>::infinity()}),
+              "a summary wants finite samples, found inf at index 0");
+    EXPECT_THROW(percentile({}, 0.5), Error);
+    EXPECT_THROW(percentile({1}, 1.5), Error);
+    EXPECT_THROW(percentile({1}, std::numeric_limits<double>::quiet_NaN()), Error);
+}
+
+} // namespace
+} // namespace catoptric::measure
