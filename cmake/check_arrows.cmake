@@ -1,3 +1,4 @@
+cmake_policy(VERSION 3.25)
 # Refuses an include of a layer that is not in USES. Run by layer() whenever a source changes.
 string(REPLACE "," ";" uses "${USES}")
 file(GLOB files ${FOLDER}/*.cpp ${FOLDER}/*.hpp)

@@ -13,3 +13,7 @@ endif()
 add_library(catoptric_warnings INTERFACE)
 target_compile_options(catoptric_warnings INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-missing-field-initializers)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # GCC 12 warns of std::string's own code (GCC bug 105651).
+    target_compile_options(catoptric_warnings INTERFACE -Wno-restrict)
+endif()

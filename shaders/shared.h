@@ -38,12 +38,10 @@ struct Light {
     vec3 intensity; // emission * area
 };
 
-// Where a mirror's surroundings are captured from.
+// Where a mirror's surroundings are captured from: layers [6 n, 6 n + 6) of the cubes, n from 0.
 struct Probe {
     vec3 centre;
-    float radius;     // of the mirror's bounds around the centre
-    uint first_layer; // 6 * (mirror number - 1)
-    uint has_history; // 0: last frame's capture does not exist, so it shows black
+    float radius; // of the mirror's bounds around the centre
 };
 
 // One projection: clip = (dot(right, v), dot(down, v), near, dot(forward, v)) with v = position - eye.
@@ -56,12 +54,49 @@ struct View {
     float near;
 };
 
+// What is true for the whole frame.
+struct Frame {
+    float ambient;          // grey, times kd
+    uint light_count;
+    uint mirror_count;
+    uint object_count;
+    uint first_shadow_view; // index of light 0's first face among the views
+    uint shadow_faces;      // views and layers of each light: 5 when every light is one-sided, else 6
+};
+
+// Push constants of one draw.
+struct Draw {
+    uint object;     // index into the surfaces
+    uint first_view; // the view of gl_InstanceIndex 0
+};
+
+// Push constants of one dispatch of the ray tracer.
+struct Trace {
+    vec2 sample_offset; // inside the pixel, (0.5, 0.5) is its centre
+    uint sample_index;  // 0 writes the hits and starts the sum
+    uint sample_count;  // the last sample divides the sum
+    uvec2 size;         // of the picture
+};
+
+// What the ray tracer counts, over all dispatches of the frame.
+struct Counters {
+    uint primary_rays;
+    uint mirror_rays;
+    uint shadow_rays;
+    uint longest_walk; // steps of the busiest invocation in one dispatch
+    uint exhausted;    // invocations that gave up: their pixels are wrong
+};
+
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
 static_assert(sizeof(Light) == 36);
-static_assert(sizeof(Probe) == 24);
+static_assert(sizeof(Probe) == 16);
 static_assert(sizeof(View) == 52);
+static_assert(sizeof(Frame) == 24);
+static_assert(sizeof(Draw) == 8);
+static_assert(sizeof(Trace) == 24);
+static_assert(sizeof(Counters) == 20);
 } // namespace catoptric::shared
 #endif
 #endif

@@ -73,6 +73,7 @@ INLINE vec3 mirror_direction(vec3 d, vec3 n_shading, vec3 n_geometric) {
 struct Ray {
     vec3 origin;
     vec3 direction; // any length but zero
+    uint leaves;    // 1 + original number of the triangle it starts on; 0: it starts in space
 };
 
 INLINE bool is_valid(Ray ray) {
@@ -112,8 +113,9 @@ INLINE real product_error(real a, real b) {
     precise real a_low = a - a_high;
     precise real b_low = b - b_high;
     precise real product = a * b;
-    precise real e = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
-    return e;
+    precise real high = (a_high * b_high - product) + a_high * b_low + a_low * b_high;
+    precise real error = high + a_low * b_low;
+    return error;
 }
 
 // a * b - c * d with the exact sign, barring overflow and underflow. Rounding is monotone, so only
@@ -186,7 +188,7 @@ INLINE BoxRay box_ray(Ray ray, vec3 lo, vec3 hi) {
     return result;
 }
 
-// The smaller (larger); a NaN candidate, 0 * infinity of a ray inside a box's plane, changes nothing.
+// The smaller (larger); a NaN candidate (0 * infinity, a ray in the box's plane) changes nothing.
 INLINE real least(real kept, real candidate) { return candidate < kept ? candidate : kept; }
 INLINE real greatest(real kept, real candidate) { return candidate > kept ? candidate : kept; }
 
@@ -242,12 +244,14 @@ INLINE vec3 facet_normal(vec3 a, vec3 b, vec3 c) {
 }
 
 // The point with barycentric weights w, and how far each coordinate may be off: the interpolation's
-// roundings, plus those of a triangle test that starts here.
+// roundings, plus those of a triangle test that starts here. A flat triangle cannot be met by a ray
+// that leaves it, so Ray::leaves excludes it by name; the bound is for its neighbours in the same
+// plane, and does not cover slivers a hundred times longer than high.
 INLINE vec3 triangle_point(vec3 a, vec3 b, vec3 c, vec3 w, OUT(vec3) error) {
     vec3 point = w.x * a + w.y * b + w.z * c;
     vec3 sum = abs(w.x * a) + abs(w.y * b) + abs(w.z * c);
     vec3 reach = max(abs(a - point), max(abs(b - point), abs(c - point)));
-    error = gamma_bound(7) * sum + gamma_bound(16) * vec3(largest(reach));
+    error = gamma_bound(7) * sum + gamma_bound(32) * vec3(largest(reach));
     return point;
 }
 

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "app/engine.hpp"
+#include "report/comparison.hpp"
+
+namespace catoptric::app {
+
+struct CompareRequest {
+    Request base; ///< its `techniques` are the rows; empty = default_techniques()
+    std::string reference = "raytrace:depth=16";
+    bool together = false; ///< all rows in one frame
+    std::vector<std::string> command; ///< for the record
+    /// Called before each row with its label, number from 0 and the count; may be empty.
+    std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
+};
+
+/// The seed report's rows: naive 0..4, reuse, parallax, ray tracing at depths 0..4 and 8, exact spheres.
+std::vector<std::string> default_techniques();
+
+/// Renders every row and the reference, measures speed and error. A row with `samples` is judged
+/// against the reference at as many samples. After a stop signal the rows so far come back with
+/// `complete` false.
+report::Comparison compare(Engine& engine, const CompareRequest& request);
+
+} // namespace catoptric::app

@@ -1,0 +1,144 @@
+#pragma once
+
+#include "measure/picture.hpp"
+#include "scene/load.hpp"
+#include "scene/scene.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The engine as a program or a library uses it. No Vulkan name is needed to include this.
+namespace catoptric::app {
+
+/// isolated: passes do not overlap and their times add up. pipelined: believe the span only.
+enum class Timing { isolated, pipelined };
+
+struct EngineOptions {
+    std::string device;    ///< index or part of a name; empty = discrete, else integrated, else cpu
+    bool validate = false; ///< the validation layer watches; any message makes the run fail
+    bool layered = true;   ///< false: render captures face by face even where the device can do six
+};
+
+/// What to render and for how long.
+struct Request {
+    scene::Scene scene; ///< at rest
+    /// "name[:knob=value,...]" each. Several are rendered in one frame: one command buffer, one
+    /// submit, one timeline; their pictures equal those of separate runs.
+    std::vector<std::string> techniques;
+    scene::Camera camera;
+    uvec2 size{512, 512};
+    int frames = 20; ///< measured
+    int warmup = 8;  ///< before them; frames count from 1 at cold history, these included
+    double time = 0; ///< seconds into the scene's motion
+    bool animate = false; ///< frame k at time + (k-1)/60 s; otherwise all at `time`
+    double ambient = 0.05;
+    double exposure = 0; ///< stops
+    Timing timing = Timing::isolated;
+    /// Called after each frame with its number and the total; may be empty.
+    std::function<void(int, int)> progress;
+};
+
+struct PassTime {
+    std::string name;
+    double begin_ms = 0, end_ms = 0; ///< from the frame's first stamp
+    double ms() const { return end_ms - begin_ms; }
+};
+
+/// One measured frame. On a cpu device "gpu" time is time of the driver's threads.
+struct Frame {
+    std::vector<PassTime> passes;
+    double gpu_ms = 0;    ///< first to last stamp
+    double record_ms = 0; ///< filling the command buffer
+    double wall_ms = 0;   ///< submit until done, without recording and read-back
+};
+
+struct RayCounts {
+    std::uint64_t primary = 0, mirror = 0, shadow = 0; ///< in one frame
+    std::uint32_t longest_walk = 0; ///< hierarchy steps of the busiest invocation
+};
+
+/// What one technique made in the last frame.
+struct Part {
+    std::string label;   ///< as it was asked for, knobs at their defaults left out
+    std::string prefix;  ///< of its passes' names; empty when it was alone
+    int scene_passes = 0;
+    int scene_draws = 0; ///< scene passes times the layers that each renders
+    std::uint64_t memory_bytes = 0; ///< of the whole frame's images
+    measure::Picture hdr;     ///< linear radiance
+    measure::Picture display; ///< what the screen shows: multiples of 1/255
+    std::vector<std::uint32_t> hits; ///< ray tracing only: first mirror | second mirror << 16
+    std::optional<RayCounts> rays;   ///< ray tracing only
+};
+
+struct Result {
+    std::vector<Part> parts;   ///< one per technique
+    std::vector<Frame> frames; ///< the measured ones
+};
+
+/// How the compiled plan of a request's frame is written.
+enum class PlanFormat { text, dot, json };
+
+struct Knob {
+    std::string name, help;
+    double low = 0, high = 1;
+    std::string value;                ///< default
+    std::vector<std::string> choices; ///< empty for a number
+};
+struct TechniqueInfo {
+    std::string name, summary;
+    std::vector<Knob> knobs;
+};
+/// Every technique in the table's order.
+std::vector<TechniqueInfo> techniques();
+
+/// Checks "name[:knob=value,...]"; throws `Failure::usage` with the nearest name.
+struct TechniqueChoice {
+    std::string technique, label, file_name;
+    std::vector<std::pair<std::string, std::string>> settings; ///< all knobs; numbers in decimal
+    std::vector<bool> is_number;                               ///< of each setting
+};
+TechniqueChoice parse_technique(const std::string& text);
+
+struct DeviceInfo {
+    std::string name, driver, api, type;
+    int threads = 0;
+    std::string missing; ///< what the engine needs and it lacks; empty = usable
+};
+std::vector<DeviceInfo> devices();
+
+/// Set to a signal's number to end the frame loop after the current frame:
+/// run() then throws `Failure::interrupted` (2) or `terminated` (15).
+extern std::atomic<int> stop_signal;
+
+std::string version(); ///< "0.1.0"
+std::string commit();  ///< abbreviated, "unknown" outside a checkout
+
+/// A device with what has been compiled for it. One thread at a time.
+class Engine {
+public:
+    explicit Engine(const EngineOptions& options);
+    ~Engine();
+
+    /// The only frame loop. Throws `usage`, `exhausted`, `device_lost`, `interrupted`.
+    Result run(const Request& request);
+    /// The plan of the request's second frame (when history exists), written out.
+    std::string plan(const Request& request, PlanFormat format);
+    /// Median and samples are up to the caller: milliseconds of `frames` frames that clear the cubes
+    /// of the scene's mirrors once and draw nothing.
+    std::vector<double> clear_ms(const Request& request);
+
+    const DeviceInfo& device() const;
+    /// Throws `internal` with the first message of the validation layer, when there is any.
+    void check_validation() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace catoptric::app

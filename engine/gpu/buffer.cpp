@@ -1,0 +1,121 @@
+#include "gpu/buffer.hpp"
+
+#include <algorithm>
+
+namespace catoptric::gpu {
+
+namespace {
+
+constexpr std::uint64_t kTexelBytes = 16; // rgba32f
+
+VkBufferUsageFlags usage(BufferUse use) {
+    VkBufferUsageFlags flags = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                               VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    if (has(use, BufferUse::vertex)) flags |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+    if (has(use, BufferUse::index)) flags |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+    if (has(use, BufferUse::uniform)) flags |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
+    if (has(use, BufferUse::texels)) flags |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    return flags;
+}
+
+UniqueBuffer make_buffer(const Device& device, std::uint64_t bytes, VkBufferUsageFlags flags,
+                         const std::string& name) {
+    VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    create.size = bytes;
+    create.usage = flags;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    check_vk(vkCreateBuffer(device.handle(), &create, nullptr, &buffer), "create buffer '" + name + "'");
+    device.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
+    return {device.handle(), buffer};
+}
+
+/// Memory for `buffer`, bound; `mapped` is null when the memory is not visible to the host.
+UniqueMemory back(const Device& device, VkBuffer buffer, bool want_mapped, const std::string& name,
+                  void*& mapped) {
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
+    constexpr VkMemoryPropertyFlags kHost =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    int type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHost);
+    bool is_host = type >= 0;
+    if (want_mapped && !is_host) {
+        type = device.memory_type(needs.memoryTypeBits, kHost);
+        is_host = true;
+    } else if (!is_host || (device.staged() && !want_mapped)) {
+        type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+        is_host = false;
+    }
+    check(type >= 0, Failure::internal, "no memory type for buffer '", name, "'");
+    UniqueMemory memory = device.allocate(needs.size, static_cast<std::uint32_t>(type), name);
+    check_vk(vkBindBufferMemory(device.handle(), buffer, memory, 0), "bind buffer '" + name + "'");
+    if (is_host)
+        check_vk(vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped), "map buffer '" + name + "'");
+    return memory;
+}
+
+void copy(Device& device, VkBuffer from, std::uint64_t from_offset, VkBuffer to, std::uint64_t to_offset,
+          std::uint64_t bytes) {
+    device.submit_now([&](VkCommandBuffer commands) {
+        const VkBufferCopy region{from_offset, to_offset, bytes};
+        vkCmdCopyBuffer(commands, from, to, 1, &region);
+        VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+        barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+        barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT;
+        barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_HOST_READ_BIT;
+        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        dependency.memoryBarrierCount = 1;
+        dependency.pMemoryBarriers = &barrier;
+        vkCmdPipelineBarrier2(commands, &dependency);
+    });
+}
+
+} // namespace
+
+Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use)
+    : device_(&device), name_(std::move(name)), bytes_(std::max<std::uint64_t>(bytes, kTexelBytes)) {
+    buffer_ = make_buffer(device, bytes_, usage(use), name_);
+    memory_ = back(device, buffer_, false, name_, mapped_);
+    if (!has(use, BufferUse::texels)) return;
+    check(bytes_ / kTexelBytes <= device.limits().maxTexelBufferElements, Failure::exhausted, "buffer '",
+          name_, "' wants ", bytes_ / kTexelBytes, " texels, the device allows ",
+          device.limits().maxTexelBufferElements);
+    VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+    view.buffer = buffer_;
+    view.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    view.range = bytes_ / kTexelBytes * kTexelBytes;
+    VkBufferView handle = VK_NULL_HANDLE;
+    check_vk(vkCreateBufferView(device.handle(), &view, nullptr, &handle), "view buffer '" + name_ + "'");
+    view_ = {device.handle(), handle};
+}
+
+void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) {
+    if (data.empty()) return;
+    check(offset + data.size() <= bytes_, Failure::internal, "buffer '", name_, "' has ", bytes_,
+          " bytes, a write wants [", offset, ", ", offset + data.size(), ")");
+    if (mapped_) {
+        std::memcpy(static_cast<std::byte*>(mapped_) + offset, data.data(), data.size());
+        return;
+    }
+    void* mapped = nullptr;
+    const UniqueBuffer staging = make_buffer(*device_, data.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "staging");
+    const UniqueMemory memory = back(*device_, staging, true, "staging", mapped);
+    std::memcpy(mapped, data.data(), data.size());
+    copy(*device_, staging, 0, buffer_, offset, data.size());
+}
+
+std::vector<std::byte> Buffer::read() const {
+    std::vector<std::byte> data(bytes_);
+    if (mapped_) {
+        std::memcpy(data.data(), mapped_, bytes_);
+        return data;
+    }
+    void* mapped = nullptr;
+    const UniqueBuffer staging = make_buffer(*device_, bytes_, VK_BUFFER_USAGE_TRANSFER_DST_BIT, "read-back");
+    const UniqueMemory memory = back(*device_, staging, true, "read-back", mapped);
+    copy(*device_, buffer_, 0, staging, 0, bytes_);
+    std::memcpy(data.data(), mapped, bytes_);
+    return data;
+}
+
+} // namespace catoptric::gpu

@@ -1,0 +1,229 @@
+#include "gpu/device.hpp"
+
+#include "core/knob.hpp"
+#include "gpu/instance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace catoptric::gpu {
+
+namespace {
+
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                          void* messages) {
+    static_cast<std::vector<std::string>*>(messages)->push_back(data->pMessage);
+    return VK_FALSE;
+}
+
+VkDebugUtilsMessengerEXT make_messenger(VkInstance instance, std::vector<std::string>& messages) {
+    VkDebugUtilsMessengerCreateInfoEXT create{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    create.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                             VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    create.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+    create.pfnUserCallback = on_message;
+    create.pUserData = &messages;
+    const auto make = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    check_vk(make(instance, &create, nullptr, &messenger), "create the validation messenger");
+    return messenger;
+}
+
+std::size_t find_wanted(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (error == std::errc{} && end == wanted.data() + wanted.size() && index < devices.size())
+        return index;
+    std::vector<std::string> names;
+    for (const DeviceInfo& info : devices) {
+        if (info.name.find(wanted) != std::string::npos) return names.size();
+        names.push_back(info.name);
+    }
+    fail(Failure::usage, "no device '", wanted, "': there are ", devices.size(),
+         ", counted from 0; `catoptric list devices` names them", did_you_mean(wanted, names));
+}
+
+std::vector<DeviceInfo> describe_all(VkInstance instance) {
+    std::vector<DeviceInfo> list;
+    for (VkPhysicalDevice device : physical_devices(instance)) list.push_back(describe(device));
+    return list;
+}
+
+} // namespace
+
+std::vector<DeviceInfo> list_devices() {
+    bool has_debug_utils = false;
+    const VkInstance instance = make_instance(false, has_debug_utils);
+    std::vector<DeviceInfo> list;
+    try {
+        list = describe_all(instance);
+    } catch (...) {
+        vkDestroyInstance(instance, nullptr);
+        throw;
+    }
+    vkDestroyInstance(instance, nullptr);
+    return list;
+}
+
+Device::Device(const DeviceOptions& options)
+    : messages_(std::make_unique<std::vector<std::string>>()) {
+    try {
+        create_instance(options.validate);
+        choose(options);
+        create_device();
+    } catch (...) {
+        close();
+        throw;
+    }
+}
+
+Device::~Device() { close(); }
+
+void Device::close() {
+    if (device_) vkDeviceWaitIdle(device_);
+    one_shot_pool_ = {};
+    if (device_) vkDestroyDevice(device_, nullptr);
+    if (messenger_)
+        reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
+            instance_, "vkDestroyDebugUtilsMessengerEXT"))(instance_, messenger_, nullptr);
+    if (instance_) vkDestroyInstance(instance_, nullptr);
+}
+
+void Device::create_instance(bool validate) {
+    instance_ = make_instance(validate, has_debug_utils_);
+    if (validate && has_debug_utils_) messenger_ = make_messenger(instance_, *messages_);
+}
+
+void Device::choose(const DeviceOptions& options) {
+    const std::vector<VkPhysicalDevice> devices = physical_devices(instance_);
+    const std::vector<DeviceInfo> infos = describe_all(instance_);
+    std::size_t index = 0;
+    if (!options.wanted.empty())
+        index = find_wanted(infos, options.wanted);
+    else
+        index = static_cast<std::size_t>(std::ranges::find(infos, std::string(), &DeviceInfo::missing) -
+                                         infos.begin());
+    check(index < infos.size(), Failure::no_device, "no usable Vulkan device: '", infos[0].name,
+          "' lacks ", infos[0].missing);
+    check(infos[index].missing.empty(), Failure::no_device, "device '", infos[index].name, "' lacks ",
+          infos[index].missing);
+    physical_ = devices[index];
+    info_ = infos[index];
+    staged_ = options.staged;
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(physical_, &properties);
+    limits_ = properties.limits;
+    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+    Features has;
+    vkGetPhysicalDeviceFeatures2(physical_, &has.core);
+    layered_ = options.layered && has.v12.shaderOutputLayer;
+}
+
+void Device::create_device() {
+    queue_family_ = static_cast<std::uint32_t>(find_queue_family(physical_));
+    std::uint32_t count = queue_family_ + 1;
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+    timestamp_bits_ = families[queue_family_].timestampValidBits;
+
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queue.queueFamilyIndex = queue_family_;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    Features features;
+    features.core.features.imageCubeArray = true;
+    features.core.features.fragmentStoresAndAtomics = true;
+    features.v12.scalarBlockLayout = true;
+    features.v12.timelineSemaphore = true;
+    features.v12.hostQueryReset = true;
+    features.v12.shaderOutputLayer = layered_;
+    features.v13.dynamicRendering = true;
+    features.v13.synchronization2 = true;
+    VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
+    create.queueCreateInfoCount = 1;
+    create.pQueueCreateInfos = &queue;
+    check_vk(vkCreateDevice(physical_, &create, nullptr, &device_), "open device '" + info_.name + "'");
+    vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+    if (has_debug_utils_)
+        set_object_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
+            vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
+
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    pool.queueFamilyIndex = queue_family_;
+    VkCommandPool handle = VK_NULL_HANDLE;
+    check_vk(vkCreateCommandPool(device_, &pool, nullptr, &handle), "create a command pool");
+    one_shot_pool_ = {device_, handle};
+    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocate.commandPool = handle;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    check_vk(vkAllocateCommandBuffers(device_, &allocate, &one_shot_), "allocate a command buffer");
+    set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(one_shot_), "one shot");
+}
+
+int Device::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const {
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+        if ((type_bits >> i & 1) && (memory_.memoryTypes[i].propertyFlags & properties) == properties)
+            return static_cast<int>(i);
+    return -1;
+}
+
+std::uint64_t Device::memory_budget() const {
+    std::uint64_t bytes = 0;
+    for (std::uint32_t i = 0; i < memory_.memoryHeapCount; ++i)
+        if (memory_.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
+            bytes = std::max(bytes, memory_.memoryHeaps[i].size);
+    return bytes;
+}
+
+UniqueMemory Device::allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const {
+    VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    allocate.allocationSize = bytes;
+    allocate.memoryTypeIndex = type;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    check_vk(vkAllocateMemory(device_, &allocate, nullptr, &memory),
+             "allocate " + std::to_string(bytes) + " bytes for " + what + " (the device has " +
+                 std::to_string(memory_budget()) + ")");
+    UniqueMemory owned(device_, memory);
+    set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(memory), what);
+    return owned;
+}
+
+void Device::set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const {
+    if (!set_object_name_) return;
+    VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+    info.objectType = type;
+    info.objectHandle = handle;
+    info.pObjectName = name.c_str();
+    set_object_name_(device_, &info);
+}
+
+void Device::begin_one_shot() {
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check_vk(vkBeginCommandBuffer(one_shot_, &begin), "begin a command buffer");
+}
+
+void Device::end_one_shot() {
+    check_vk(vkEndCommandBuffer(one_shot_), "end a command buffer");
+    VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    commands.commandBuffer = one_shot_;
+    VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    submit.commandBufferInfoCount = 1;
+    submit.pCommandBufferInfos = &commands;
+    check_vk(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "submit a copy");
+    check_vk(vkQueueWaitIdle(queue_), "wait for a copy");
+}
+
+void Device::check_validation() const {
+    check(messages_->empty(), Failure::internal, "the validation layer has ", messages_->size(),
+          " message(s), the first: ", messages_->empty() ? "" : messages_->front());
+}
+
+} // namespace catoptric::gpu

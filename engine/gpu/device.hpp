@@ -1,0 +1,105 @@
+#pragma once
+
+#include "gpu/vulkan.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace catoptric::gpu {
+
+/// What a user may know about a device.
+struct DeviceInfo {
+    std::string name;
+    std::string driver; ///< name and version as the driver tells them
+    std::string api;    ///< "1.3.230"
+    std::string type;   ///< discrete | integrated | virtual | cpu | other
+    int threads = 0;    ///< of a cpu device: how many processors it may use; otherwise 0
+    std::string missing; ///< features that the engine requires and the device lacks; empty = usable
+};
+
+/// All devices in the order in which they are preferred: discrete, integrated, virtual, cpu.
+/// Throws `Failure::no_device` saying what to install when there is no driver.
+std::vector<DeviceInfo> list_devices();
+
+struct DeviceOptions {
+    std::string wanted;   ///< index into list_devices(), or part of a name; empty = the first usable
+    bool validate = false; ///< Khronos validation layer: core, synchronization, queue submit
+    bool layered = true;  ///< false: pretend that a vertex shader cannot write gl_Layer
+    bool staged = false;  ///< true: pretend that device memory cannot be mapped
+};
+
+/// Instance, device and its one queue (graphics, compute, copies). Not copyable; everything made
+/// from it must go before it. One thread at a time.
+class Device {
+public:
+    /// Throws `no_device` (nothing there, or lacks a required feature), `usage` (no such device).
+    explicit Device(const DeviceOptions& options);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const DeviceInfo& info() const { return info_; }
+    const VkPhysicalDeviceLimits& limits() const { return limits_; }
+    VkDevice handle() const { return device_; }
+    VkPhysicalDevice physical() const { return physical_; }
+    VkQueue queue() const { return queue_; }
+    std::uint32_t queue_family() const { return queue_family_; }
+    bool is_cpu() const { return info_.type == "cpu"; }
+    /// Vertex shaders may write gl_Layer; otherwise layered passes run layer by layer.
+    bool layered() const { return layered_; }
+    bool staged() const { return staged_; }
+    std::uint32_t timestamp_bits() const { return timestamp_bits_; }
+
+    /// Index of the first memory type that is among `type_bits` and has all of `properties`, or -1.
+    int memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
+    /// Bytes of the largest device-local heap.
+    std::uint64_t memory_budget() const;
+    /// Throws `exhausted` naming the bytes.
+    UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
+    /// Gives the object a name for validation messages and debuggers; nothing without that extension.
+    void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
+    bool has_labels() const { return has_debug_utils_; }
+
+    /// Records with `record`, submits and waits. For uploads and read-back, never inside a timed frame.
+    template <typename Record>
+    void submit_now(Record&& record) {
+        begin_one_shot();
+        record(one_shot_);
+        end_one_shot();
+    }
+
+    /// Messages of the validation layer so far (errors and warnings).
+    const std::vector<std::string>& validation_messages() const { return *messages_; }
+    /// Throws `internal` with the first message when there is any.
+    void check_validation() const;
+
+private:
+    void close();
+    void create_instance(bool validate);
+    void choose(const DeviceOptions& options);
+    void create_device();
+    void begin_one_shot();
+    void end_one_shot();
+
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    std::uint32_t queue_family_ = 0;
+    std::uint32_t timestamp_bits_ = 0;
+    VkPhysicalDeviceLimits limits_{};
+    VkPhysicalDeviceMemoryProperties memory_{};
+    DeviceInfo info_;
+    bool layered_ = true;
+    bool staged_ = false;
+    bool has_debug_utils_ = false;
+    PFN_vkSetDebugUtilsObjectNameEXT set_object_name_ = nullptr;
+    std::unique_ptr<std::vector<std::string>> messages_;
+    UniqueCommandPool one_shot_pool_;
+    VkCommandBuffer one_shot_ = VK_NULL_HANDLE;
+};
+
+} // namespace catoptric::gpu

@@ -1,0 +1,162 @@
+#include "gpu/instance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+
+namespace catoptric::gpu {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* kNoDriver =
+    "no Vulkan device: no driver is installed; install one for the graphics card, or the software "
+    "driver: apt-get install mesa-vulkan-drivers";
+
+bool has_layer(const char* name) {
+    std::uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    return std::ranges::any_of(layers, [&](const auto& l) { return !strcmp(l.layerName, name); });
+}
+
+bool has_instance_extension(const char* layer, const char* name) {
+    std::uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
+    std::vector<VkExtensionProperties> list(count);
+    vkEnumerateInstanceExtensionProperties(layer, &count, list.data());
+    return std::ranges::any_of(list, [&](const auto& e) { return !strcmp(e.extensionName, name); });
+}
+
+int preference(VkPhysicalDeviceType type) {
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return 3;
+    default: return 4;
+    }
+}
+
+std::string version(std::uint32_t v) {
+    return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) +
+           "." + std::to_string(VK_API_VERSION_PATCH(v));
+}
+
+int cpu_threads() {
+    int threads = static_cast<int>(std::thread::hardware_concurrency());
+    if (const char* limit = std::getenv("LP_NUM_THREADS"))
+        threads = std::min(threads, std::max(1, std::atoi(limit)));
+    return threads;
+}
+
+} // namespace
+
+VkInstance make_instance(bool validate, bool& has_debug_utils) {
+    std::vector<const char*> layers, extensions;
+    if (validate) {
+        check(has_layer(kValidationLayer), Failure::usage, "--validate needs the layer ",
+              kValidationLayer, ": apt-get install vulkan-validationlayers");
+        layers.push_back(kValidationLayer);
+        // The layer of Vulkan 1.3 takes this one from the environment only.
+        setenv("VK_LAYER_ENABLES",
+               "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT:"
+               "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 0);
+    }
+    has_debug_utils = has_instance_extension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
+                      (validate && has_instance_extension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
+    if (has_debug_utils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+
+    VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    application.pApplicationName = application.pEngineName = "catoptric";
+    application.apiVersion = VK_API_VERSION_1_3;
+    VkInstanceCreateInfo create{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    create.pApplicationInfo = &application;
+    create.enabledLayerCount = static_cast<std::uint32_t>(layers.size());
+    create.ppEnabledLayerNames = layers.data();
+    create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    create.ppEnabledExtensionNames = extensions.data();
+    VkInstance instance = VK_NULL_HANDLE;
+    const VkResult result = vkCreateInstance(&create, nullptr, &instance);
+    check(result != VK_ERROR_INCOMPATIBLE_DRIVER, Failure::no_device, kNoDriver);
+    check_vk(result, "create an instance");
+    return instance;
+}
+
+std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
+    std::uint32_t count = 0;
+    const VkResult result = vkEnumeratePhysicalDevices(instance, &count, nullptr);
+    check(result != VK_ERROR_INITIALIZATION_FAILED, Failure::no_device, kNoDriver);
+    check_vk(result, "enumerate devices");
+    check(count > 0, Failure::no_device, kNoDriver);
+    std::vector<VkPhysicalDevice> devices(count);
+    check_vk(vkEnumeratePhysicalDevices(instance, &count, devices.data()), "enumerate devices");
+    std::ranges::stable_sort(devices, {}, [](VkPhysicalDevice device) {
+        VkPhysicalDeviceProperties properties;
+        vkGetPhysicalDeviceProperties(device, &properties);
+        return preference(properties.deviceType);
+    });
+    return devices;
+}
+
+DeviceInfo describe(VkPhysicalDevice device) {
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    constexpr std::array kTypes{"discrete", "integrated", "virtual", "cpu", "other"};
+    DeviceInfo info;
+    info.name = properties.properties.deviceName;
+    info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    info.api = version(properties.properties.apiVersion);
+    info.type = kTypes[static_cast<std::size_t>(preference(properties.properties.deviceType))];
+    if (info.type == "cpu") info.threads = cpu_threads();
+    info.missing = properties.properties.apiVersion < VK_API_VERSION_1_3
+                       ? "Vulkan 1.3 (has " + info.api + ")"
+                       : Features::missing(device);
+    if (info.missing.empty() && find_queue_family(device) < 0)
+        info.missing = "a queue for graphics and compute with timestamps";
+    return info;
+}
+
+int find_queue_family(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    constexpr VkQueueFlags kBoth = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (std::uint32_t i = 0; i < count; ++i)
+        if ((families[i].queueFlags & kBoth) == kBoth && families[i].timestampValidBits > 0)
+            return static_cast<int>(i);
+    return -1;
+}
+
+Features::Features() {
+    core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    v11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES;
+    v12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    core.pNext = &v11, v11.pNext = &v12, v12.pNext = &v13;
+}
+
+std::string Features::missing(VkPhysicalDevice device) {
+    Features has;
+    vkGetPhysicalDeviceFeatures2(device, &has.core);
+    const std::pair<const char*, VkBool32> required[] = {
+        {"imageCubeArray", has.core.features.imageCubeArray},
+        {"fragmentStoresAndAtomics", has.core.features.fragmentStoresAndAtomics},
+        {"scalarBlockLayout", has.v12.scalarBlockLayout},
+        {"timelineSemaphore", has.v12.timelineSemaphore},
+        {"hostQueryReset", has.v12.hostQueryReset},
+        {"dynamicRendering", has.v13.dynamicRendering},
+        {"synchronization2", has.v13.synchronization2},
+    };
+    std::string names;
+    for (const auto& [name, there] : required)
+        if (!there) names += (names.empty() ? "" : ", ") + std::string(name);
+    return names;
+}
+
+} // namespace catoptric::gpu

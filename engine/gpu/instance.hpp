@@ -1,0 +1,32 @@
+#pragma once
+
+#include "gpu/device.hpp"
+
+namespace catoptric::gpu {
+
+/// Creates an instance, with the validation layer on request and VK_EXT_debug_utils where it exists.
+/// Throws `no_device` when no driver is installed, `usage` when validation is asked for and absent.
+VkInstance make_instance(bool validate, bool& has_debug_utils);
+
+/// Physical devices in order of preference.
+std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
+
+DeviceInfo describe(VkPhysicalDevice device);
+
+/// Index of the queue family that can draw, dispatch and copy, or -1.
+int find_queue_family(VkPhysicalDevice device);
+
+/// The features that the engine switches on, as one chain; not copyable (it points into itself).
+struct Features {
+    Features();
+    Features(const Features&) = delete;
+    Features& operator=(const Features&) = delete;
+    /// Names of the required ones that `device` lacks, comma-separated.
+    static std::string missing(VkPhysicalDevice device);
+    VkPhysicalDeviceFeatures2 core{};
+    VkPhysicalDeviceVulkan11Features v11{};
+    VkPhysicalDeviceVulkan12Features v12{};
+    VkPhysicalDeviceVulkan13Features v13{};
+};
+
+} // namespace catoptric::gpu

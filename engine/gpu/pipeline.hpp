@@ -1,0 +1,58 @@
+#pragma once
+
+#include "gpu/device.hpp"
+#include "gpu/shader.hpp"
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace catoptric::gpu {
+
+/// Values of specialisation constants, by the name they have in the shader.
+using Constants = std::vector<std::pair<std::string, std::variant<std::uint32_t, float>>>;
+
+/// A raster pipeline as a pass body asks for it; attachments come from the pass. Nothing is culled
+/// by winding (both worlds shade both sides); depth is reversed: greater is nearer.
+struct RasterState {
+    std::string vertex;
+    std::string fragment; ///< empty: depth only
+    Constants constants;
+};
+
+struct ComputeState {
+    std::string shader;
+    Constants constants;
+};
+
+struct Attachments {
+    std::vector<Format> colour;
+    bool depth = false;
+};
+
+/// A pipeline with its layout and the bindings that its shaders use.
+struct Pipeline {
+    UniqueDescriptorSetLayout set_layout;
+    UniquePipelineLayout layout;
+    UniquePipeline pipeline;
+    std::vector<Binding> bindings;
+    std::uint32_t push_bytes = 0;
+    VkShaderStageFlags stages = 0;
+    VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
+};
+
+/// Makes each pipeline once. References stay valid as long as this lives.
+/// On a software driver the first use of a pipeline still compiles it inside the frame.
+class Pipelines {
+public:
+    explicit Pipelines(Device& device) : device_(device) {}
+    const Pipeline& raster(const RasterState& state, const Attachments& attachments);
+    const Pipeline& compute(const ComputeState& state);
+
+private:
+    Device& device_;
+    std::map<std::string, Pipeline> made_;
+};
+
+} // namespace catoptric::gpu

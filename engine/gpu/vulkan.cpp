@@ -1,0 +1,59 @@
+#include "gpu/vulkan.hpp"
+
+namespace catoptric::gpu {
+
+const char* name_of(VkResult result) {
+    switch (result) {
+    case VK_SUCCESS: return "VK_SUCCESS";
+    case VK_TIMEOUT: return "VK_TIMEOUT";
+    case VK_NOT_READY: return "VK_NOT_READY";
+    case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+    case VK_ERROR_OUT_OF_POOL_MEMORY: return "VK_ERROR_OUT_OF_POOL_MEMORY";
+    case VK_ERROR_FRAGMENTED_POOL: return "VK_ERROR_FRAGMENTED_POOL";
+    case VK_ERROR_FRAGMENTATION: return "VK_ERROR_FRAGMENTATION";
+    case VK_ERROR_TOO_MANY_OBJECTS: return "VK_ERROR_TOO_MANY_OBJECTS";
+    case VK_ERROR_INITIALIZATION_FAILED: return "VK_ERROR_INITIALIZATION_FAILED";
+    case VK_ERROR_DEVICE_LOST: return "VK_ERROR_DEVICE_LOST";
+    case VK_ERROR_MEMORY_MAP_FAILED: return "VK_ERROR_MEMORY_MAP_FAILED";
+    case VK_ERROR_LAYER_NOT_PRESENT: return "VK_ERROR_LAYER_NOT_PRESENT";
+    case VK_ERROR_EXTENSION_NOT_PRESENT: return "VK_ERROR_EXTENSION_NOT_PRESENT";
+    case VK_ERROR_FEATURE_NOT_PRESENT: return "VK_ERROR_FEATURE_NOT_PRESENT";
+    case VK_ERROR_INCOMPATIBLE_DRIVER: return "VK_ERROR_INCOMPATIBLE_DRIVER";
+    case VK_ERROR_FORMAT_NOT_SUPPORTED: return "VK_ERROR_FORMAT_NOT_SUPPORTED";
+    default: return "an unnamed VkResult";
+    }
+}
+
+void check_vk(VkResult result, const std::string& doing) {
+    if (result == VK_SUCCESS) return;
+    Failure failure = Failure::internal;
+    switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+    case VK_ERROR_FRAGMENTED_POOL:
+    case VK_ERROR_FRAGMENTATION:
+    case VK_ERROR_MEMORY_MAP_FAILED:
+    case VK_ERROR_TOO_MANY_OBJECTS: failure = Failure::exhausted; break;
+    case VK_ERROR_DEVICE_LOST: failure = Failure::device_lost; break;
+    default: break;
+    }
+    fail(failure, "Vulkan: cannot ", doing, ": ", name_of(result), " (", static_cast<int>(result), ")");
+}
+
+VkFormat vk_format(Format format) {
+    switch (format) {
+    case Format::r8_unorm: return VK_FORMAT_R8_UNORM;
+    case Format::rgba8_unorm: return VK_FORMAT_R8G8B8A8_UNORM;
+    case Format::r16f: return VK_FORMAT_R16_SFLOAT;
+    case Format::rgba16f: return VK_FORMAT_R16G16B16A16_SFLOAT;
+    case Format::r32f: return VK_FORMAT_R32_SFLOAT;
+    case Format::rgba32f: return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case Format::r32ui: return VK_FORMAT_R32_UINT;
+    case Format::d32f: return VK_FORMAT_D32_SFLOAT;
+    }
+    return VK_FORMAT_UNDEFINED;
+}
+
+} // namespace catoptric::gpu

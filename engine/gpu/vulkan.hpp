@@ -1,0 +1,57 @@
+#pragma once
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+
+#include <vulkan/vulkan.h>
+
+#include <string>
+#include <utility>
+
+namespace catoptric::gpu {
+
+/// Throws unless `result` is VK_SUCCESS: out of memory -> `exhausted`, device lost -> `device_lost`,
+/// anything else -> `internal`. `doing` reads on from "Vulkan: cannot ".
+void check_vk(VkResult result, const std::string& doing);
+const char* name_of(VkResult result);
+
+VkFormat vk_format(Format format);
+
+/// A Vulkan object that a device owns, destroyed with this value.
+template <typename Handle, auto Destroy>
+class Unique {
+public:
+    Unique() = default;
+    Unique(VkDevice device, Handle handle) : device_(device), handle_(handle) {}
+    Unique(Unique&& other) noexcept
+        : device_(other.device_), handle_(std::exchange(other.handle_, Handle{})) {}
+    Unique& operator=(Unique&& other) noexcept {
+        std::swap(device_, other.device_), std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Unique() {
+        if (handle_) Destroy(device_, handle_, nullptr);
+    }
+    operator Handle() const { return handle_; }
+
+private:
+    VkDevice device_ = VK_NULL_HANDLE;
+    Handle handle_{};
+};
+
+using UniqueBuffer = Unique<VkBuffer, vkDestroyBuffer>;
+using UniqueBufferView = Unique<VkBufferView, vkDestroyBufferView>;
+using UniqueCommandPool = Unique<VkCommandPool, vkDestroyCommandPool>;
+using UniqueDescriptorPool = Unique<VkDescriptorPool, vkDestroyDescriptorPool>;
+using UniqueDescriptorSetLayout = Unique<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
+using UniqueImage = Unique<VkImage, vkDestroyImage>;
+using UniqueImageView = Unique<VkImageView, vkDestroyImageView>;
+using UniqueMemory = Unique<VkDeviceMemory, vkFreeMemory>;
+using UniquePipeline = Unique<VkPipeline, vkDestroyPipeline>;
+using UniquePipelineLayout = Unique<VkPipelineLayout, vkDestroyPipelineLayout>;
+using UniqueQueryPool = Unique<VkQueryPool, vkDestroyQueryPool>;
+using UniqueSampler = Unique<VkSampler, vkDestroySampler>;
+using UniqueSemaphore = Unique<VkSemaphore, vkDestroySemaphore>;
+using UniqueShaderModule = Unique<VkShaderModule, vkDestroyShaderModule>;
+
+} // namespace catoptric::gpu

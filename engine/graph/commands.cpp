@@ -1,0 +1,170 @@
+#include "graph/commands.hpp"
+
+#include "graph/physical.hpp"
+#include "graph/run.hpp"
+
+#include <algorithm>
+
+namespace catoptric::graph {
+
+void Commands::use(gpu::RasterState state) {
+    gpu::Attachments attachments;
+    for (const ImageUse& use : pass_.images) {
+        if (use.use == Use::colour) attachments.colour.push_back(graph_.images()[use.image.id].format);
+        if (use.use == Use::depth) attachments.depth = true;
+    }
+    if (layer_count_ > 1) state.vertex += "#layered";
+    pipeline_name_ = state.vertex + "+" + state.fragment;
+    pipeline_ = &runner_.pipelines().raster(state, attachments);
+    vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
+    dirty_ = true;
+}
+
+void Commands::use(const gpu::ComputeState& state) {
+    pipeline_name_ = state.shader;
+    pipeline_ = &runner_.pipelines().compute(state);
+    vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
+    dirty_ = true;
+}
+
+void Commands::require_declared(Image image, std::string_view name) const {
+    const auto same = [&](const ImageUse& use) {
+        return use.image.id == image.id && use.image.previous == image.previous &&
+               use.image.first_layer <= image.first_layer &&
+               image.first_layer + image.layer_count <= use.image.first_layer + use.image.layer_count;
+    };
+    check(std::ranges::any_of(pass_.images, same), Failure::internal, "pass '", pass_.name, "' uses image '",
+          graph_.images()[image.id].name, "' as '", name, "' but does not declare it");
+}
+
+void Commands::bind(std::string_view name, Image image, Filter filter) {
+    require_declared(image, name);
+    bound_.insert_or_assign(std::string(name), BoundImage{image, filter});
+    dirty_ = true;
+}
+
+void Commands::bind(std::string_view name, Buffer buffer) {
+    check(std::ranges::any_of(pass_.buffers, [&](const BufferUse& use) { return use.buffer.id == buffer.id; }),
+          Failure::internal, "pass '", pass_.name, "' uses buffer '", graph_.buffers()[buffer.id].name,
+          "' as '", name, "' but does not declare it");
+    bound_.insert_or_assign(std::string(name), runner_.buffer(buffer));
+    dirty_ = true;
+}
+
+void Commands::bind(std::string_view name, const gpu::Buffer& buffer) {
+    bound_.insert_or_assign(std::string(name), &buffer);
+    dirty_ = true;
+}
+
+void Commands::geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices) {
+    const VkBuffer buffer = vertices.handle();
+    const VkDeviceSize offset = 0;
+    vkCmdBindVertexBuffers(commands_, 0, 1, &buffer, &offset);
+    vkCmdBindIndexBuffer(commands_, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+}
+
+void Commands::draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer,
+                    std::uint32_t layer_count) {
+    const std::uint32_t first = std::max(first_layer, first_layer_);
+    const std::uint32_t end = std::min(first_layer + layer_count, first_layer_ + layer_count_);
+    if (first >= end || index_count == 0) return;
+    flush();
+    vkCmdDrawIndexed(commands_, index_count, end - first, first_index, 0, first);
+}
+
+void Commands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    flush();
+    vkCmdDispatch(commands_, x, y, z);
+}
+
+void Commands::barrier() {
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_SHADER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands_, &dependency);
+}
+
+void Commands::copy(Image from, Image to) {
+    require_declared(from, "source of a copy");
+    require_declared(to, "target of a copy");
+    const ImageDesc& desc = graph_.images()[from.id];
+    const VkImageAspectFlags aspect = is_depth(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    VkImageCopy region{};
+    region.srcSubresource = {aspect, 0, from.first_layer, from.layer_count};
+    region.dstSubresource = {aspect, 0, to.first_layer, to.layer_count};
+    region.extent = {desc.width, desc.height, 1};
+    vkCmdCopyImage(commands_, runner_.physical(from).image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                   runner_.physical(to).image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+VkWriteDescriptorSet Commands::write(const gpu::Binding& binding, const Bound& bound, VkDescriptorSet set,
+                                     VkDescriptorImageInfo& image, VkDescriptorBufferInfo& buffer,
+                                     VkBufferView& texels) {
+    using gpu::BindingKind;
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = set;
+    write.dstBinding = binding.binding;
+    write.descriptorCount = 1;
+    write.pImageInfo = &image;
+    write.pBufferInfo = &buffer;
+    write.pTexelBufferView = &texels;
+    const bool wants_image = binding.kind == BindingKind::sampled_image || binding.kind == BindingKind::storage_image;
+    const auto* bound_image = std::get_if<BoundImage>(&bound);
+    check(wants_image == (bound_image != nullptr), Failure::internal, "pass '", pass_.name, "': '", binding.name,
+          "' of ", pipeline_name_, wants_image ? " is an image, bound is a buffer" : " is a buffer, bound is an image");
+    if (bound_image) {
+        const bool sampled = binding.kind == BindingKind::sampled_image;
+        image.sampler = sampled ? runner_.sampler(bound_image->filter) : VK_NULL_HANDLE;
+        image.imageView = runner_.physical(bound_image->image)
+                              .view(runner_.device(), binding.shape, bound_image->image.first_layer,
+                                    bound_image->image.layer_count);
+        image.imageLayout = sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL;
+        write.descriptorType = sampled ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        return write;
+    }
+    const auto* owned = std::get_if<const gpu::Buffer*>(&bound);
+    buffer = {owned ? (*owned)->handle() : std::get<VkBuffer>(bound), 0, VK_WHOLE_SIZE};
+    write.descriptorType = binding.kind == BindingKind::uniform_buffer ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                                                      : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    if (binding.kind == BindingKind::texel_buffer) {
+        check(owned && (*owned)->texels(), Failure::internal, "pass '", pass_.name, "': '", binding.name,
+              "' wants a buffer made with BufferUse::texels");
+        texels = (*owned)->texels();
+        write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    }
+    return write;
+}
+
+/// Writes a fresh descriptor set when pipeline or bindings changed, then the push constants.
+void Commands::flush() {
+    check(pipeline_, Failure::internal, "pass '", pass_.name, "' draws or dispatches without a pipeline");
+    if (dirty_ && !pipeline_->bindings.empty()) {
+        const VkDescriptorSet set = runner_.descriptor_set(pipeline_->set_layout);
+        const std::size_t count = pipeline_->bindings.size();
+        std::vector<VkDescriptorImageInfo> images(count);
+        std::vector<VkDescriptorBufferInfo> buffers(count);
+        std::vector<VkBufferView> texels(count);
+        std::vector<VkWriteDescriptorSet> writes;
+        for (std::size_t i = 0; i < count; ++i) {
+            const gpu::Binding& binding = pipeline_->bindings[i];
+            const auto bound = bound_.find(binding.name);
+            check(bound != bound_.end(), Failure::internal, "pass '", pass_.name, "': nothing is bound to '",
+                  binding.name, "' of ", pipeline_name_);
+            writes.push_back(write(binding, bound->second, set, images[i], buffers[i], texels[i]));
+        }
+        vkUpdateDescriptorSets(runner_.device().handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+        vkCmdBindDescriptorSets(commands_, pipeline_->bind_point, pipeline_->layout, 0, 1, &set, 0, nullptr);
+    }
+    dirty_ = false;
+    if (pipeline_->push_bytes) {
+        check(push_.size() == pipeline_->push_bytes, Failure::internal, "pass '", pass_.name, "': ", pipeline_name_,
+              " wants ", pipeline_->push_bytes, " bytes of push constants, got ", push_.size());
+        vkCmdPushConstants(commands_, pipeline_->layout, pipeline_->stages, 0, pipeline_->push_bytes, push_.data());
+    }
+}
+
+} // namespace catoptric::graph

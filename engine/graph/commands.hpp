@@ -1,0 +1,78 @@
+#pragma once
+
+#include "gpu/buffer.hpp"
+#include "gpu/pipeline.hpp"
+#include "graph/graph.hpp"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace catoptric::graph {
+
+class Runner;
+struct Physical;
+
+/// How a sampled image is looked up. Edges clamp; cubes are seamless.
+enum class Filter { nearest, linear, compare /*depth >= reference, 2x2 PCF*/ };
+
+/// What a pass body records with. Bindings have the names they have in the shaders and stay bound
+/// until the pass ends; a name that the current pipeline does not use is ignored, one that it uses and
+/// nobody bound is refused. Valid only during the call of the body.
+class Commands {
+public:
+    Commands(Runner& runner, const Graph& graph, const Pass& pass, VkCommandBuffer commands,
+             std::uint32_t first_layer, std::uint32_t layer_count)
+        : runner_(runner), graph_(graph), pass_(pass), commands_(commands), first_layer_(first_layer),
+          layer_count_(layer_count) {}
+
+    /// In a pass of several layers the vertex shader's "#layered" build is used where the device can;
+    /// otherwise the body is called once for each layer. Either way gl_InstanceIndex is the layer.
+    void use(gpu::RasterState state);
+    void use(const gpu::ComputeState& state);
+    /// The image must be declared by the pass.
+    void bind(std::string_view name, Image image, Filter filter = Filter::nearest);
+    void bind(std::string_view name, Buffer buffer);
+    void bind(std::string_view name, const gpu::Buffer& buffer);
+    template <typename T>
+    void push(const T& value) {
+        push_.assign(reinterpret_cast<const std::byte*>(&value), reinterpret_cast<const std::byte*>(&value) + sizeof value);
+    }
+    /// 32-bit indices into vertices as shaders/shared.h has them.
+    void geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices);
+    /// Draws into layers [first_layer, first_layer + layer_count) of the pass.
+    void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
+              std::uint32_t layer_count = 1);
+    void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
+    /// Makes what the dispatches so far wrote visible to the following ones of this pass.
+    void barrier();
+    /// Both declared by the pass; same size and format, all layers of the handles.
+    void copy(Image from, Image to);
+
+private:
+    struct BoundImage {
+        Image image;
+        Filter filter;
+    };
+    using Bound = std::variant<BoundImage, VkBuffer, const gpu::Buffer*>;
+    void flush();
+    void require_declared(Image image, std::string_view name) const;
+    VkWriteDescriptorSet write(const gpu::Binding& binding, const Bound& bound, VkDescriptorSet set,
+                               VkDescriptorImageInfo& image, VkDescriptorBufferInfo& buffer,
+                               VkBufferView& texels);
+
+    Runner& runner_;
+    const Graph& graph_;
+    const Pass& pass_;
+    VkCommandBuffer commands_;
+    std::uint32_t first_layer_, layer_count_;
+    const gpu::Pipeline* pipeline_ = nullptr;
+    std::string pipeline_name_;
+    std::map<std::string, Bound, std::less<>> bound_;
+    bool dirty_ = true;
+    std::vector<std::byte> push_;
+};
+
+} // namespace catoptric::graph

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "reflect/technique.hpp"
+
+#include <array>
+
+/// Knobs that the techniques with cube maps share, and what they mean for the shared passes.
+namespace catoptric::reflect {
+
+inline constexpr std::array<std::string_view, 3> kDistanceChoices{"r32f", "r16f", "unorm8"};
+inline constexpr std::array<std::string_view, 2> kShadowChoices{"map", "none"};
+
+inline constexpr Knob kFace{.name = "face", .help = "cube face edge in texels", .low = 1, .high = 16384, .value = 256};
+inline constexpr Knob kShadow{.name = "shadow", .help = "shadow map or none", .high = 1, .choices = kShadowChoices};
+inline constexpr Knob kShadowMapEdge{
+    .name = "shadow_map", .help = "shadow map edge in texels", .low = 1, .high = 16384, .value = 1024};
+inline constexpr Knob kDistance{
+    .name = "distance", .help = "how captures store distance", .high = 2, .choices = kDistanceChoices};
+inline constexpr Knob kRange{
+    .name = "range", .help = "world units of a stored 1 with distance=unorm8", .low = 1, .high = 1000000, .value = 200};
+
+/// The shadow pass that the knobs ask for.
+render::Lighting add_lighting(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings);
+
+/// Shadow passes: one a light, none without shadows.
+int shadow_passes(int lights, const Settings& settings);
+
+/// `face`, lighting and, where there are such knobs, the distance format.
+render::CaptureOptions capture_options(const render::FrameInputs& inputs, const Settings& settings,
+                                       const render::Lighting& lighting);
+
+/// A mirror that looks into `cubes` with the technique's fragment shader.
+render::MirrorLook look_into(std::string fragment, const render::Cubes& cubes, const render::CaptureOptions& options);
+
+/// The frame of part two and its followers: every mirror captured once, seeing last frame's captures,
+/// then the view.
+Outputs add_with_feedback(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+                          const std::string& fragment);
+
+} // namespace catoptric::reflect

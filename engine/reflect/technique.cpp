@@ -1,0 +1,65 @@
+#include "reflect/technique.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+
+namespace catoptric::reflect {
+
+namespace {
+
+std::vector<const Technique*>& table() {
+    static std::vector<const Technique*> rows; // filled while the program starts
+    return rows;
+}
+
+} // namespace
+
+Row::Row(const Technique& technique) { table().push_back(&technique); }
+
+std::vector<const Technique*> techniques() {
+    std::vector<const Technique*> rows = table();
+    std::ranges::sort(rows, {}, [](const Technique* row) { return std::pair(row->order, row->name); });
+    return rows;
+}
+
+const Technique& find_technique(std::string_view name) {
+    std::vector<std::string> names;
+    for (const Technique* row : techniques()) {
+        if (row->name == name) return *row;
+        names.emplace_back(row->name);
+    }
+    fail(Failure::usage, "no technique '", name, "'", did_you_mean(name, names));
+}
+
+std::string Choice::label() const {
+    const std::string changed = settings.changed();
+    return std::string(technique->name) + (changed.empty() ? "" : ":" + changed);
+}
+
+std::string Choice::file_name() const {
+    std::string name = label();
+    std::erase(name, '=');
+    std::ranges::replace_if(name, [](char c) { return c == ':' || c == ','; }, '-');
+    return name;
+}
+
+Choice parse_choice(std::string_view text) {
+    const auto colon = text.find(':');
+    const Technique& technique = find_technique(text.substr(0, colon));
+    Choice choice{&technique, Settings(technique.knobs)};
+    if (colon == std::string_view::npos) return choice;
+    std::string_view rest = text.substr(colon + 1);
+    while (true) {
+        const auto comma = rest.find(',');
+        const std::string_view item = rest.substr(0, comma);
+        const auto equals = item.find('=');
+        check(equals != std::string_view::npos, Failure::usage, "technique '", text, "': '", item,
+              "' should read knob=value");
+        choice.settings.set(technique.name, item.substr(0, equals), item.substr(equals + 1));
+        if (comma == std::string_view::npos) return choice;
+        rest = rest.substr(comma + 1);
+    }
+}
+
+} // namespace catoptric::reflect

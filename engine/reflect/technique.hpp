@@ -1,0 +1,57 @@
+#pragma once
+
+#include "core/knob.hpp"
+#include "render/passes.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The table of techniques. A technique is one row: data and two functions, in one .cpp that
+/// registers itself; nothing else lists it.
+namespace catoptric::reflect {
+
+/// What a technique leaves in the graph.
+struct Outputs {
+    graph::Image hdr;                       ///< linear radiance, rgba32f
+    std::optional<graph::Image> hits;       ///< r32ui: mirror of the first hit, second hit << 16 (0: none)
+    std::optional<graph::Buffer> counters;  ///< shared::Counters
+};
+
+struct Technique {
+    std::string_view name;
+    std::string_view summary; ///< one sentence for `list` and the report
+    int order = 0;            ///< place in lists and tables
+    std::span<const Knob> knobs;
+    /// Scene renders a frame as the report counts its R; a cube counts once.
+    int (*scene_passes)(int mirrors, int lights, const Settings& settings) = nullptr;
+    /// Declares the passes of one frame.
+    Outputs (*add)(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) = nullptr;
+};
+
+/// A namespace-scope Row puts its technique into the table.
+struct Row {
+    explicit Row(const Technique& technique);
+};
+
+/// Every technique by `order`.
+std::vector<const Technique*> techniques();
+/// Throws `Failure::usage` with the nearest name.
+const Technique& find_technique(std::string_view name);
+
+/// A technique with a value for each knob.
+struct Choice {
+    const Technique* technique = nullptr;
+    Settings settings{{}};
+
+    /// "naive:bounces=3" with the knobs that differ from their defaults.
+    std::string label() const;
+    /// The same fit for a file name: "naive-bounces3".
+    std::string file_name() const;
+};
+
+/// Reads "name[:knob=value,...]". Throws `Failure::usage` naming what is wrong and the nearest name.
+Choice parse_choice(std::string_view text);
+
+} // namespace catoptric::reflect

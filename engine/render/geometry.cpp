@@ -1,0 +1,52 @@
+#include "render/geometry.hpp"
+
+namespace catoptric::render {
+
+Geometry make_geometry(const scene::Scene& now, const Space& space) {
+    Geometry geometry;
+    for (const scene::Object& object : now.objects) {
+        const scene::Mesh& mesh = now.meshes[object.mesh];
+        const scene::Material& material = now.materials[object.material];
+        const dmat3 linear(object.world_from_object);
+        const dmat3 normal_from_object = glm::transpose(glm::inverse(linear));
+        DrawRange range;
+        range.first_index = static_cast<std::uint32_t>(geometry.indices.size());
+        range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+        range.mirror = material.mirror;
+        range.casts_shadow = material.emission == vec3(0);
+        range.seen_by_camera = object.seen_by_camera;
+        const auto first_vertex = static_cast<std::uint32_t>(geometry.vertices.size());
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const dvec3 world(object.world_from_object * dvec4(mesh.positions[i], 1));
+            const vec3 position = space.point(world);
+            range.bounds.add(position);
+            geometry.vertices.push_back({position, vec3(glm::normalize(normal_from_object * dvec3(mesh.normals[i])))});
+        }
+        for (const uvec3& triangle : mesh.triangles)
+            for (int i = 0; i < 3; ++i) geometry.indices.push_back(first_vertex + triangle[i]);
+        geometry.ranges.push_back(range);
+    }
+    return geometry;
+}
+
+float squared_distance(vec3 p, vec3 a, vec3 b, vec3 c) {
+    const vec3 ab = b - a, ac = c - a, ap = p - a;
+    const float d1 = dot(ab, ap), d2 = dot(ac, ap);
+    const auto to = [&](vec3 closest) { return dot(p - closest, p - closest); };
+    if (d1 <= 0 && d2 <= 0) return to(a);
+    const vec3 bp = p - b;
+    const float d3 = dot(ab, bp), d4 = dot(ac, bp);
+    if (d3 >= 0 && d4 <= d3) return to(b);
+    const float vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return to(a + ab * (d1 / (d1 - d3)));
+    const vec3 cp = p - c;
+    const float d5 = dot(ab, cp), d6 = dot(ac, cp);
+    if (d6 >= 0 && d5 <= d6) return to(c);
+    const float vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return to(a + ac * (d2 / (d2 - d6)));
+    const float va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return to(b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))));
+    return to(a + ab * (vb / (va + vb + vc)) + ac * (vc / (va + vb + vc)));
+}
+
+} // namespace catoptric::render

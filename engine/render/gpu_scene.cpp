@@ -1,0 +1,116 @@
+#include "render/gpu_scene.hpp"
+
+#include "bvh/bvh.hpp"
+#include "render/views.hpp"
+
+#include <algorithm>
+
+namespace catoptric::render {
+
+namespace {
+
+shared::Surface surface_of(const scene::Scene& now, const scene::Object& object, std::uint32_t mirror, const Space& space) {
+    const scene::Material& material = now.materials[object.material];
+    shared::Surface surface{};
+    surface.albedo = material.mirror ? vec3(0) : material.albedo;
+    surface.emission = material.emission;
+    surface.reflectance = material.reflectance;
+    surface.mirror = mirror;
+    if (object.sphere) {
+        surface.centre = space.point(object.sphere->centre);
+        surface.radius = space.length(object.sphere->radius);
+    }
+    return surface;
+}
+
+} // namespace
+
+GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene) : device_(device), space_(space_of(scene)) {}
+
+void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size, double ambient) {
+    geometry_ = make_geometry(now, space_);
+    mirror_objects_ = scene::mirrors(now);
+    mirror_count_ = static_cast<std::uint32_t>(mirror_objects_.size());
+    std::vector<shared::Surface> surfaces;
+    for (std::size_t i = 0; i < now.objects.size(); ++i) {
+        const auto found = std::ranges::find(mirror_objects_, i);
+        const auto number = static_cast<std::uint32_t>(found - mirror_objects_.begin()) + 1;
+        surfaces.push_back(surface_of(now, now.objects[i], found == mirror_objects_.end() ? 0 : number, space_));
+    }
+    lights_.clear();
+    shadow_faces_ = 5;
+    for (const scene::PointLight& light : scene::lights(now)) {
+        const double area = light.area * space_.scale * space_.scale;
+        lights_.push_back({space_.point(light.position), vec3(light.normal), light.emission * static_cast<float>(area)});
+        if (light.normal == dvec3(0)) shadow_faces_ = 6;
+    }
+    light_count_ = static_cast<std::uint32_t>(lights_.size());
+    fill_views(now, camera, size);
+    const std::vector<shared::Frame> frame{{static_cast<float>(ambient), light_count_, mirror_count_,
+                                            static_cast<std::uint32_t>(now.objects.size()), shadow_view(0), shadow_faces_}};
+    using gpu::BufferUse;
+    upload(device_, vertex_buffer_, "vertices", geometry_.vertices, BufferUse::vertex);
+    upload(device_, index_buffer_, "indices", geometry_.indices, BufferUse::index);
+    upload(device_, frame_, "frame", frame, BufferUse::plain);
+    upload(device_, view_buffer_, "views", views_, BufferUse::plain);
+    upload(device_, surfaces_, "surfaces", surfaces, BufferUse::plain);
+    upload(device_, light_buffer_, "lights", lights_, BufferUse::plain);
+    upload(device_, probe_buffer_, "probes", probes_, BufferUse::plain);
+    fill_tracing();
+}
+
+/// Camera, then six for each mirror, then the shadow faces of each light.
+void GpuScene::fill_views(const scene::Scene& now, const scene::Camera& camera, uvec2 size) {
+    const vec3 eye = space_.point(camera.eye);
+    views_ = {camera_view(camera, space_, size, nearest_distance(geometry_, eye, [](std::size_t, const DrawRange& range) {
+        return !range.seen_by_camera;
+    }))};
+    probes_.clear();
+    for (const std::size_t object : mirror_objects_) {
+        const Bounds<double> bounds = scene::bounds(now, now.objects[object]);
+        const vec3 centre = space_.point(bounds.centre());
+        probes_.push_back({centre, space_.length(glm::length(bounds.extent()) / 2)});
+        const float gap = nearest_distance(geometry_, centre, [&](std::size_t i, const DrawRange&) { return i == object; });
+        std::ranges::copy(cube_views(centre, gap), std::back_inserter(views_));
+    }
+    for (const shared::Light& light : lights_) {
+        const float gap = nearest_distance(geometry_, light.position, [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
+        std::vector<shared::View> faces = turned_cube_views(light.position, light.normal, gap);
+        faces.resize(shadow_faces_); // the last one looks back, where a one-sided light is dark
+        std::ranges::copy(faces, std::back_inserter(views_));
+    }
+}
+
+void GpuScene::fill_tracing() {
+    std::vector<bvh::Triangle> triangles;
+    std::vector<vec4> normals;
+    for (std::size_t object = 0; object < geometry_.ranges.size(); ++object) {
+        const DrawRange& range = geometry_.ranges[object];
+        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
+            const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& { return geometry_.vertices[geometry_.indices[k + j]]; };
+            triangles.push_back({vertex(0).position, vertex(1).position, vertex(2).position,
+                                 static_cast<std::uint32_t>(object), range.seen_by_camera ? 0u : bvh::kHidden});
+            for (std::uint32_t j = 0; j < 3; ++j) normals.emplace_back(vertex(j).normal, 0.0f);
+        }
+    }
+    const bvh::Bvh tree = bvh::build(triangles);
+    upload(device_, bvh_nodes_, "bvh_nodes", tree.nodes, gpu::BufferUse::texels);
+    upload(device_, bvh_triangles_, "bvh_triangles", tree.triangles, gpu::BufferUse::texels);
+    upload(device_, normals_, "normals", normals, gpu::BufferUse::texels);
+}
+
+void GpuScene::bind(graph::Commands& commands) const {
+    commands.bind("frame", frame_);
+    commands.bind("Views", view_buffer_);
+    commands.bind("Surfaces", surfaces_);
+    commands.bind("Lights", light_buffer_);
+    commands.bind("Probes", probe_buffer_);
+    commands.bind("bvh_nodes", bvh_nodes_);
+    commands.bind("BvhNodes", bvh_nodes_);
+    commands.bind("bvh_triangles", bvh_triangles_);
+    commands.bind("BvhTriangles", bvh_triangles_);
+    commands.bind("normals", normals_);
+    commands.geometry(vertex_buffer_, index_buffer_);
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "gpu/buffer.hpp"
+#include "graph/commands.hpp"
+#include "render/geometry.hpp"
+
+namespace catoptric::render {
+
+/// A scene on the device at one instant, and everything derived from it: views, probes, lights, the
+/// hierarchy for tracing. Both worlds read the same vertices.
+class GpuScene {
+public:
+    /// `scene` at rest fixes the units for good.
+    GpuScene(gpu::Device& device, const scene::Scene& scene);
+
+    /// Writes what stands where now. `now` is scene::at of the scene given above; not while a frame
+    /// is in flight. Rebuilds everything: O(n log n) in triangles, some 20 ms for the built-in scene.
+    void update(const scene::Scene& now, const scene::Camera& camera, uvec2 size, double ambient);
+
+    std::uint32_t mirror_count() const { return mirror_count_; }
+    std::uint32_t light_count() const { return light_count_; }
+    std::uint32_t shadow_faces() const { return shadow_faces_; }
+    const Space& space() const { return space_; }
+    const std::vector<DrawRange>& ranges() const { return geometry_.ranges; }
+    const std::vector<shared::View>& views() const { return views_; }
+    /// Index of the object that is mirror n, n from 0.
+    std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
+
+    static constexpr std::uint32_t kCameraView = 0;
+    std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }
+    std::uint32_t shadow_view(std::uint32_t light) const { return 1 + 6 * mirror_count_ + shadow_faces_ * light; }
+
+    /// Binds every buffer of the scene under the name it has in shaders/lib.
+    void bind(graph::Commands& commands) const;
+
+private:
+    void fill_views(const scene::Scene& now, const scene::Camera& camera, uvec2 size);
+    void fill_tracing();
+
+    gpu::Device& device_;
+    Space space_;
+    Geometry geometry_;
+    std::vector<shared::View> views_;
+    std::vector<shared::Probe> probes_;
+    std::vector<shared::Light> lights_;
+    std::vector<std::size_t> mirror_objects_;
+    std::uint32_t mirror_count_ = 0, light_count_ = 0, shadow_faces_ = 6;
+    gpu::Buffer vertex_buffer_, index_buffer_, frame_, view_buffer_, surfaces_, light_buffer_, probe_buffer_;
+    gpu::Buffer bvh_nodes_, bvh_triangles_, normals_;
+};
+
+} // namespace catoptric::render

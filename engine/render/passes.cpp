@@ -1,0 +1,148 @@
+#include "render/passes.hpp"
+
+#include "render/views.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace catoptric::render {
+
+namespace {
+
+using graph::Clear;
+using graph::Commands;
+using graph::Filter;
+using graph::Image;
+using graph::Tag;
+using graph::Use;
+
+constexpr Clear kBlack{0, 0, 0, 1};
+constexpr Clear kFarthest{0, 0, 0, 0}; // reversed depth
+
+/// One object in the layers whose view it may meet; neighbouring layers in one draw.
+void draw_object(Commands& commands, const GpuScene& scene, std::size_t object, std::uint32_t first_view,
+                 std::uint32_t layers) {
+    const DrawRange& range = scene.ranges()[object];
+    commands.push(shared::Draw{static_cast<std::uint32_t>(object), first_view});
+    for (std::uint32_t layer = 0; layer < layers;) {
+        std::uint32_t end = layer;
+        while (end < layers && may_meet(scene.views()[first_view + end], range.bounds)) ++end;
+        if (end > layer) commands.draw(range.first_index, range.index_count, layer, end - layer);
+        layer = end + 1;
+    }
+}
+
+/// Everything that is no mirror, then the mirrors, except where `skip` says so.
+template <typename Skip>
+void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_view, std::uint32_t layers,
+                const Lighting& lighting, const MirrorLook& look, float stored_unit, Skip&& skip) {
+    const std::pair<std::string, std::variant<std::uint32_t, float>> store{"distance_scale", 1 / stored_unit};
+    scene.bind(commands);
+    if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
+    commands.use(gpu::RasterState{"scene.vert", lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed", {store}});
+    for (std::size_t i = 0; i < scene.ranges().size(); ++i)
+        if (!scene.ranges()[i].mirror && !skip(i)) draw_object(commands, scene, i, first_view, layers);
+    gpu::RasterState mirrors{"scene.vert", "mirror_black.frag", {store}};
+    if (look.cubes && !look.blank) {
+        mirrors.fragment = look.fragment;
+        mirrors.constants.insert(mirrors.constants.end(), look.constants.begin(), look.constants.end());
+        commands.bind("colour_cubes", look.cubes->colour, Filter::linear);
+        if (look.cubes->distance) {
+            commands.bind("distance_cubes", *look.cubes->distance, Filter::linear);
+            commands.bind("distance_cubes_nearest", *look.cubes->distance, Filter::nearest);
+        }
+    }
+    commands.use(mirrors);
+    for (std::size_t i = 0; i < scene.ranges().size(); ++i)
+        if (scene.ranges()[i].mirror && !skip(i)) draw_object(commands, scene, i, first_view, layers);
+}
+
+void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const MirrorLook& look) {
+    if (lighting.shadow_map) pass.reads(*lighting.shadow_map, Use::sampled);
+    if (!look.cubes) return;
+    pass.reads(look.cubes->colour, Use::sampled);
+    if (look.cubes->distance) pass.reads(*look.cubes->distance, Use::sampled);
+}
+
+} // namespace
+
+std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t edge) {
+    const GpuScene& scene = inputs.scene;
+    if (scene.light_count() == 0) return std::nullopt;
+    const std::uint32_t faces = scene.shadow_faces();
+    const Image map = graph.image({inputs.prefix + "shadow_map", Format::d32f, edge, edge, faces * scene.light_count()});
+    for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
+        const std::string name = scene.light_count() == 1 ? "shadow" : "shadow/" + std::to_string(light + 1);
+        graph.pass(inputs.prefix + name, Tag::scene)
+            .writes(map.layers(faces * light, faces), Use::depth, kFarthest)
+            .layers(faces)
+            .record([&scene, light, faces](Commands& commands) {
+                scene.bind(commands);
+                commands.use(gpu::RasterState{"scene.vert", "", {}});
+                for (std::size_t i = 0; i < scene.ranges().size(); ++i)
+                    if (scene.ranges()[i].casts_shadow) draw_object(commands, scene, i, scene.shadow_view(light), faces);
+            });
+    }
+    return map;
+}
+
+Cubes declare_cubes(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options) {
+    const std::uint32_t layers = 6 * inputs.scene.mirror_count();
+    const std::string name = inputs.prefix + options.name + "/cubes.";
+    Cubes cubes;
+    cubes.colour = graph.image({name + "colour", Format::rgba16f, options.face, options.face, layers, true});
+    if (options.distance)
+        cubes.distance = graph.image({name + "distance", *options.distance, options.face, options.face, layers, true});
+    return cubes;
+}
+
+void add_captures(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options, const Cubes& cubes) {
+    // "Nothing there" is +infinity; unorm8 has none, so there it is the end of the range.
+    const float nothing = options.distance == Format::r8_unorm ? 1.0f : std::numeric_limits<float>::infinity();
+    for (std::uint32_t mirror = 0; mirror < inputs.scene.mirror_count(); ++mirror) {
+        const std::string name = inputs.prefix + options.name + "/" + std::to_string(mirror + 1);
+        const Image depth = graph.image({name + ".depth", Format::d32f, options.face, options.face, 6, true});
+        graph::PassBuilder pass = graph.pass(name, Tag::scene);
+        read_surroundings(pass, options.lighting, options.look);
+        pass.writes(cubes.colour.layers(6 * mirror, 6), Use::colour, kBlack);
+        if (cubes.distance) pass.writes(cubes.distance->layers(6 * mirror, 6), Use::colour, Clear{nothing, 0, 0, 0});
+        pass.writes(depth, Use::depth, kFarthest)
+            .layers(6)
+            .record([&scene = inputs.scene, mirror, lighting = options.lighting, look = options.look,
+                     unit = options.stored_unit](Commands& commands) {
+                draw_scene(commands, scene, scene.capture_view(mirror), 6, lighting, look, unit,
+                           [&](std::size_t object) { return object == scene.mirror_object(mirror); });
+            });
+    }
+}
+
+Image add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, const MirrorLook& look) {
+    const uvec2 size = inputs.size;
+    const Image hdr = graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
+    const Image depth = graph.image({inputs.prefix + "view.depth", Format::d32f, size.x, size.y});
+    graph::PassBuilder pass = graph.pass(inputs.prefix + "view", Tag::scene);
+    read_surroundings(pass, lighting, look);
+    pass.writes(hdr, Use::colour, kBlack).writes(depth, Use::depth, kFarthest).record([&scene = inputs.scene, lighting, look](Commands& commands) {
+        draw_scene(commands, scene, GpuScene::kCameraView, 1, lighting, look, 1,
+                   [&](std::size_t object) { return !scene.ranges()[object].seen_by_camera; });
+    });
+    return hdr;
+}
+
+Image add_compose(graph::Graph& graph, const FrameInputs& inputs, Image hdr, double exposure_stops) {
+    const uvec2 size = inputs.size;
+    const Image picture = graph.image({inputs.prefix + "ldr", Format::rgba8_unorm, size.x, size.y});
+    graph.pass(inputs.prefix + "compose")
+        .reads(hdr, Use::storage_read)
+        .writes(picture, Use::storage_write)
+        .record([=](Commands& commands) {
+            commands.use(gpu::ComputeState{"compose.comp", {}});
+            commands.bind("hdr", hdr);
+            commands.bind("picture", picture);
+            commands.push(static_cast<float>(std::exp2(exposure_stops)));
+            commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
+        });
+    return picture;
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "core/knob.hpp"
+#include "render/gpu_scene.hpp"
+
+#include <optional>
+#include <string>
+
+/// The passes that techniques share. Each declares passes in a graph and returns what they make; a
+/// `prefix` keeps the names of several techniques in one frame apart.
+namespace catoptric::render {
+
+struct FrameInputs {
+    const GpuScene& scene;
+    uvec2 size{512, 512};
+    std::string prefix;
+};
+
+/// Depth around every light, one pass a light: layers [shadow_faces * l, ...) of a 2D array.
+/// Nothing when the scene has no light.
+std::optional<graph::Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t edge);
+
+/// Colour (rgba16f) and, where asked for, radial distance: cube arrays of 6 layers a mirror.
+struct Cubes {
+    graph::Image colour;
+    std::optional<graph::Image> distance;
+};
+
+/// How a mirror is drawn: a fragment shader and the cubes that it looks into. Without cubes: black.
+struct MirrorLook {
+    std::string fragment = "mirror_black.frag";
+    gpu::Constants constants;
+    std::optional<Cubes> cubes;
+    bool blank = false; ///< the cubes are last frame's and there was none: black
+};
+
+/// How captures and view are lit; no map: light without shadows.
+struct Lighting {
+    std::optional<graph::Image> shadow_map;
+};
+
+/// What a capture holds beside colour.
+struct CaptureOptions {
+    std::string name = "capture"; ///< passes are called name/1, name/2, ...
+    std::uint32_t face = 256;     ///< cube edge in texels
+    std::optional<Format> distance;
+    float stored_unit = 1; ///< scene units of a stored 1 (unorm8: the range)
+    Lighting lighting;
+    MirrorLook look; ///< of the other mirrors; mirror n is left out of its own capture
+};
+
+/// Declares the cubes; what a row's `previous` needs before the captures exist.
+Cubes declare_cubes(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options);
+/// One pass a mirror, six faces at once.
+void add_captures(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options, const Cubes& cubes);
+
+/// The camera's picture: linear radiance, rgba32f.
+graph::Image add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, const MirrorLook& look);
+
+/// Exposure in stops, clamp, sRGB curve: rgba8_unorm.
+graph::Image add_compose(graph::Graph& graph, const FrameInputs& inputs, graph::Image hdr, double exposure_stops);
+
+} // namespace catoptric::render

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "measure/difference.hpp"
+#include "measure/picture.hpp"
+#include "measure/statistics.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// What `compare` found, as plain data. Filled by the application, written by this layer.
+namespace catoptric::report {
+
+struct DeviceFacts {
+    std::string name, driver, api, type;
+    int threads = 0; ///< of a cpu device
+};
+
+struct SceneFacts {
+    std::string name;
+    std::size_t triangles = 0;
+    std::size_t mirrors = 0;
+    std::string hash;
+};
+
+/// A knob and its value; `number` when it is one, else `text`.
+struct Setting {
+    std::string name;
+    std::string text;
+    std::optional<double> number;
+};
+
+struct PassFacts {
+    std::string name;
+    measure::Summary gpu_ms;
+};
+
+struct Rays {
+    std::uint64_t primary = 0, mirror = 0, shadow = 0;
+};
+
+/// One technique with its settings: what it cost and what it got wrong.
+struct Row {
+    std::string technique;         ///< "naive"
+    std::string label;             ///< "naive:bounces=1": the knobs that differ from their defaults
+    std::vector<Setting> settings; ///< all knobs
+    std::string model = "everything";
+    int scene_passes = 0;  ///< counted in the executed plan; a cube counts once, as in the seed report
+    int scene_draws = 0;   ///< the same with every cube face counted
+    measure::Summary gpu_ms, cpu_record_ms, wall_ms;
+    std::vector<PassFacts> passes; ///< in order of execution
+    measure::Difference error;                  ///< over the pixels whose first hit is a mirror
+    measure::Difference error_first_order;      ///< ... whose reflected ray meets no second mirror
+    measure::Difference error_mirror_in_mirror; ///< ... whose reflected ray does
+    measure::Difference error_non_mirror;       ///< everything else
+    measure::Difference error_all;
+    std::vector<measure::Difference> error_per_mirror; ///< entry n-1 is mirror n
+    std::uint64_t memory_bytes = 0; ///< of the frame's images
+    std::optional<Rays> rays;       ///< of ray tracing, one frame
+    std::optional<double> traced_fraction;
+    measure::Mean mean, mean_clamped;
+    measure::Picture hdr;           ///< the last frame, linear
+    measure::Picture display;       ///< the same as shown
+    std::vector<float> flip_map;    ///< against the reference, row-major
+    std::string image;   ///< file name without folder and ending: "naive-bounces1"
+    bool is_reference = false;      ///< same technique and settings as the reference
+};
+
+struct Comparison {
+    std::string version, commit;
+    std::vector<std::string> command;
+    bool complete = true; ///< false: interrupted, rows so far
+    DeviceFacts device;
+    SceneFacts scene;
+    int width = 0, height = 0;
+    int frames = 0, warmup = 0;
+    double time = 0, ambient = 0.05, exposure = 0;
+    std::string timing = "isolated";
+    std::string model = "everything";
+    bool together = false; ///< all rows were one frame, one command buffer
+    std::string reference_technique;
+    std::string reference_label;
+    std::vector<Setting> reference_settings;
+    measure::Summary reference_gpu_ms;
+    measure::Picture reference_display;
+    /// Clearing the cubes of all mirrors once and drawing nothing, at the default face size.
+    std::optional<measure::Summary> clear_ms;
+    std::vector<Row> rows;
+    std::vector<std::size_t> pareto; ///< rows on the front of gpu_ms.median against error.flip
+    std::vector<std::string> warnings;
+};
+
+} // namespace catoptric::report

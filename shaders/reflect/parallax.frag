@@ -1,0 +1,12 @@
+// One correction step (the report's part three; first step of Szirmay-Kalos et al. 2005, "Approximate
+// Ray-Tracing on the GPU with Distance Impostors"): what is seen along the reflected direction from the
+// capture's centre is taken for a plane across that direction.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/probe.glsl"
+
+vec3 reflected(uint mirror, vec3 offset, vec3 direction) {
+    float distance = captured_distance(mirror, direction);
+    return captured_colour(mirror, parallax_direction(offset, direction, distance));
+}
+#include "lib/mirror.glsl"
