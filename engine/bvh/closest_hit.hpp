@@ -1,0 +1,153 @@
+#pragma once
+
+#include "bvh/bvh.hpp"
+
+#include <array>
+#include <bit>
+#include <optional>
+#include <type_traits>
+
+/// The oracle of shaders/lib/trace.glsl: the same walk over the same arrays, in float or double.
+namespace catoptric::bvh {
+
+template <typename Real>
+using Vec = glm::vec<3, Real>;
+template <typename Real>
+using Ray = std::conditional_t<std::is_same_v<Real, float>, f32::Ray, f64::Ray>;
+
+/// What a ray met first. Of triangles at the same t the lowest original number wins.
+template <typename Real>
+struct Hit {
+    Real t = 0;
+    Vec<Real> barycentric{0}; ///< weights of a, b, c
+    std::uint32_t triangle = 0; ///< original number
+    std::uint32_t object = 0;
+    std::uint32_t place = 0; ///< in Bvh::triangles
+    friend bool operator==(const Hit&, const Hit&) = default;
+};
+
+/// Counts node visits and triangle tests.
+struct Steps {
+    std::size_t nodes = 0;
+    std::size_t triangles = 0;
+    std::size_t total() const { return nodes + triangles; }
+};
+
+namespace detail {
+
+using f32::box_ray, f64::box_ray;
+using f32::ray_shear, f64::ray_shear;
+using f32::triangle_test, f64::triangle_test;
+
+inline std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+inline std::uint32_t number(float value) { return bits(value) & f32::kBvhIdMask; }
+
+template <typename Real>
+Vec<Real> corner(const vec4& texel) {
+    return Vec<Real>(vec3(texel));
+}
+
+/// The best hit so far, and what one triangle does to it.
+template <typename Real>
+struct Search {
+    const Bvh& bvh;
+    Ray<Real> ray;
+    Real t_max; ///< excluded; shrinks to the best hit
+    std::uint32_t skipped_flags;
+    std::optional<Hit<Real>> best{};
+    decltype(ray_shear(Vec<Real>{})) shear = ray_shear(ray.direction);
+
+    void test(std::uint32_t place) {
+        const vec4* texel = &bvh.triangles[3 * std::size_t{place}];
+        const std::uint32_t triangle = number(texel[1].w);
+        if ((number(texel[2].w) & skipped_flags) != 0 || triangle + 1 == ray.leaves) return;
+        Real t;
+        Vec<Real> weights;
+        if (!triangle_test(corner<Real>(texel[0]), corner<Real>(texel[1]), corner<Real>(texel[2]),
+                           ray.origin, shear, t, weights))
+            return;
+        if (t < t_max || (best && t == t_max && triangle < best->triangle)) {
+            t_max = t;
+            best = Hit<Real>{t, barycentric(weights), triangle, number(texel[0].w), place};
+        }
+    }
+
+    static Vec<Real> barycentric(const Vec<Real>& weights) {
+        return weights / (weights.x + weights.y + weights.z);
+    }
+};
+
+template <typename Real>
+bool can_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max) {
+    return is_valid(ray) && t_max > 0 && !bvh.triangles.empty();
+}
+
+template <typename Real>
+std::optional<Hit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
+                              std::uint32_t skipped_flags, bool any, Steps* steps) {
+    if (!can_hit(bvh, ray, t_max)) return {};
+    Search<Real> search{bvh, ray, t_max, skipped_flags};
+    const vec4* header = bvh.nodes.data();
+    const auto boxes = box_ray(ray, corner<Real>(header[0]), corner<Real>(header[1]));
+    std::array<std::uint32_t, kMaxDepth> stack;
+    std::size_t waiting = 0;
+    Steps count;
+    std::uint32_t child = f32::kBvhRoot;
+    while (child != f32::kBvhNothing) {
+        if (f32::bvh_is_inner(child)) {
+            ++count.nodes;
+            const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_index(child)}];
+            Real near_0, near_1;
+            const bool meets_0 = slab_test(corner<Real>(node[0]), corner<Real>(node[1]), boxes,
+                                           search.t_max, near_0);
+            const bool meets_1 = slab_test(corner<Real>(node[2]), corner<Real>(node[3]), boxes,
+                                           search.t_max, near_1);
+            const bool second_first = meets_1 && (!meets_0 || near_1 < near_0);
+            const std::uint32_t first = bits(node[second_first ? 1 : 0].w);
+            const std::uint32_t second = bits(node[second_first ? 0 : 1].w);
+            if (meets_0 && meets_1) stack.at(waiting++) = second;
+            if (meets_0 || meets_1) {
+                child = first;
+                continue;
+            }
+        } else {
+            for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
+                ++count.triangles;
+                search.test(f32::bvh_index(child) + i);
+                if (any && search.best) break;
+            }
+            if (any && search.best) break;
+        }
+        child = waiting > 0 ? stack[--waiting] : f32::kBvhNothing;
+    }
+    if (steps != nullptr) *steps = count;
+    return search.best;
+}
+
+} // namespace detail
+
+/// The first triangle that the ray meets at a t in (0, t_max); a ray that is not finite misses.
+/// Camera rays do not see triangles flagged kHidden; no ray sees the triangle it leaves.
+template <typename Real>
+std::optional<Hit<Real>> closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
+                                     bool camera_ray = false, Steps* steps = nullptr) {
+    return detail::walk<Real>(bvh, ray, t_max, camera_ray ? kHidden : 0, false, steps);
+}
+
+/// Whether some triangle is met at a t in (0, t_max).
+template <typename Real>
+bool any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, Steps* steps = nullptr) {
+    return detail::walk<Real>(bvh, ray, t_max, 0, true, steps).has_value();
+}
+
+/// `closest_hit` without the tree: tests every triangle.
+template <typename Real>
+std::optional<Hit<Real>> brute_force(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
+                                     bool camera_ray = false) {
+    if (!detail::can_hit(bvh, ray, t_max)) return {};
+    detail::Search<Real> search{bvh, ray, t_max, camera_ray ? kHidden : 0};
+    for (std::uint32_t i = 0; i < triangle_count(bvh); ++i) search.test(i);
+    return search.best;
+}
+
+} // namespace catoptric::bvh

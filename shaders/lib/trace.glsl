@@ -1,0 +1,151 @@
+// Ray tracing in compute shaders: a walk over the two-child hierarchy of engine/bvh/bvh.hpp.
+// The including shader defines BVH_NODES_BINDING and BVH_TRIANGLES_BINDING (set 0), and
+// TRACE_LOCAL_SIZE where its work group has not 64 invocations.
+// What makes it fast on a processor: uniform texel buffers, the stack in shared memory, lanes that
+// diverge. NAIVE is what one would write first, kept for the benchmark that shows it: storage
+// buffers, the stack in a private array.
+#ifndef CATOPTRIC_TRACE_GLSL
+#define CATOPTRIC_TRACE_GLSL
+
+#include "lib/math.glsl"
+
+#ifndef TRACE_LOCAL_SIZE
+#define TRACE_LOCAL_SIZE 64
+#endif
+
+#ifdef NAIVE
+layout(set = 0, binding = BVH_NODES_BINDING, std430) readonly buffer BvhNodes { vec4 bvh_nodes[]; };
+layout(set = 0, binding = BVH_TRIANGLES_BINDING, std430) readonly buffer BvhTriangles {
+    vec4 bvh_triangles[];
+};
+#define NODE_TEXEL(i) bvh_nodes[i]
+#define TRIANGLE_TEXEL(i) bvh_triangles[i]
+#define STACK(i) stack[i]
+#else
+layout(set = 0, binding = BVH_NODES_BINDING) uniform samplerBuffer bvh_nodes;
+layout(set = 0, binding = BVH_TRIANGLES_BINDING) uniform samplerBuffer bvh_triangles;
+shared uint trace_stack[(kBvhMaxDepth + 2) * TRACE_LOCAL_SIZE];
+#define NODE_TEXEL(i) texelFetch(bvh_nodes, int(i))
+#define TRIANGLE_TEXEL(i) texelFetch(bvh_triangles, int(i))
+#define STACK(i) trace_stack[(i) * TRACE_LOCAL_SIZE + gl_LocalInvocationIndex]
+#endif
+
+// Node visits and triangle tests of this invocation, all its rays together.
+uint trace_steps = 0u;
+// True once a walk ended before it was done: then its answer is worthless. Either it reached
+// kMaxTraceSteps, or the driver stopped the loop: one software driver silently ends all loops of an
+// invocation after 65,535 iterations, counted over the eight lanes that run together.
+bool trace_exhausted = false;
+const uint kMaxTraceSteps = 60000u;
+
+struct Hit {
+    float t;
+    vec3 barycentric; // weights of a, b, c
+    uint triangle;    // original number
+    uint object;
+    uint place;       // where triangle_corners finds it
+};
+
+// Corners in scene units.
+void triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
+    a = TRIANGLE_TEXEL(3u * place).xyz;
+    b = TRIANGLE_TEXEL(3u * place + 1u).xyz;
+    c = TRIANGLE_TEXEL(3u * place + 2u).xyz;
+}
+
+// One triangle against the best hit so far; of equal t the lowest original number wins.
+void trace_triangle(uint place, Ray ray, RayShear shear, uint skipped_flags, inout Hit best,
+                    inout bool found) {
+    vec4 a = TRIANGLE_TEXEL(3u * place);
+    vec4 b = TRIANGLE_TEXEL(3u * place + 1u);
+    vec4 c = TRIANGLE_TEXEL(3u * place + 2u);
+    float t;
+    vec3 weights;
+    bool hit = triangle_test(a.xyz, b.xyz, c.xyz, ray.origin, shear, t, weights);
+    uint triangle = floatBitsToUint(b.w) & kBvhIdMask;
+    bool seen = (floatBitsToUint(c.w) & skipped_flags) == 0u && triangle + 1u != ray.leaves;
+    bool nearer = t < best.t || (found && t == best.t && triangle < best.triangle);
+    if (hit && seen && nearer) {
+        best = Hit(t, weights, triangle, floatBitsToUint(a.w) & kBvhIdMask, place);
+        found = true;
+    }
+}
+
+// Two boxes of a node: the nearer child that the ray meets (or kBvhNothing), and the other.
+void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint second) {
+    vec4 lo_0 = NODE_TEXEL(4u * node);
+    vec4 hi_0 = NODE_TEXEL(4u * node + 1u);
+    vec4 lo_1 = NODE_TEXEL(4u * node + 2u);
+    vec4 hi_1 = NODE_TEXEL(4u * node + 3u);
+    float near_0, near_1;
+    bool meets_0 = slab_test(lo_0.xyz, hi_0.xyz, boxes, t_max, near_0);
+    bool meets_1 = slab_test(lo_1.xyz, hi_1.xyz, boxes, t_max, near_1);
+    uint child_0 = meets_0 ? floatBitsToUint(lo_0.w) : kBvhNothing;
+    uint child_1 = meets_1 ? floatBitsToUint(hi_0.w) : kBvhNothing;
+    bool swap = meets_1 && (!meets_0 || near_1 < near_0);
+    first = swap ? child_1 : child_0;
+    second = swap ? child_0 : child_1;
+}
+
+bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best) {
+    best = Hit(t_max, vec3(0), 0u, 0u, 0u);
+    vec4 header_lo = NODE_TEXEL(0u);
+    vec4 header_hi = NODE_TEXEL(1u);
+    bool empty = (floatBitsToUint(header_lo.w) & kBvhIdMask) == 0u;
+    if (empty || !is_valid(ray) || !(t_max > 0.0)) return false;
+#ifdef NAIVE
+    uint stack[kBvhMaxDepth + 2];
+#endif
+    BoxRay boxes = box_ray(ray, header_lo.xyz, header_hi.xyz);
+    RayShear shear = ray_shear(ray.direction);
+    bool found = false;
+    uint waiting = 0u;
+    uint child = kBvhRoot;
+    while (child != kBvhNothing && trace_steps < kMaxTraceSteps) {
+        // Down to a leaf. A child that is not met leaves `child` for the next on the stack.
+        while (bvh_is_inner(child) && trace_steps < kMaxTraceSteps) {
+            uint second;
+            trace_node(bvh_index(child), boxes, best.t, child, second);
+            ++trace_steps;
+            if (second != kBvhNothing) {
+                STACK(waiting) = second;
+                ++waiting;
+            }
+            if (child == kBvhNothing && waiting > 0u) {
+                --waiting;
+                child = STACK(waiting);
+            }
+        }
+        uint first = bvh_index(child);
+        uint count = bvh_count(child);
+        uint i = 0u;
+        while (i < count) {
+            trace_triangle(first + i, ray, shear, skipped_flags, best, found);
+            ++trace_steps;
+            ++i;
+        }
+        // Out of steps, or stopped by the driver: one of the two loops has work left.
+        if (bvh_is_inner(child) || i < count) break;
+        child = kBvhNothing;
+        if (waiting > 0u && !(any && found)) {
+            --waiting;
+            child = STACK(waiting);
+        }
+    }
+    trace_exhausted = trace_exhausted || child != kBvhNothing;
+    if (found) best.barycentric = barycentric(best.barycentric);
+    return found;
+}
+
+// The first triangle that the ray meets at a t in (0, t_max). Camera rays do not see hidden ones.
+bool closest_hit(Ray ray, float t_max, bool camera_ray, out Hit hit) {
+    return trace_walk(ray, t_max, camera_ray ? kBvhHidden : 0u, false, hit);
+}
+
+// Whether some triangle is met at a t in (0, t_max).
+bool any_hit(Ray ray, float t_max) {
+    Hit hit;
+    return trace_walk(ray, t_max, 0u, true, hit);
+}
+
+#endif

@@ -1,0 +1,439 @@
+#include "bvh/bvh.hpp"
+#include "bvh/closest_hit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+namespace catoptric::bvh {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+struct Random {
+    std::mt19937 engine;
+    explicit Random(unsigned seed) : engine(seed) {}
+    float between(float lo, float hi) {
+        return std::uniform_real_distribution<float>(lo, hi)(engine);
+    }
+    std::size_t below(std::size_t count) {
+        return std::uniform_int_distribution<std::size_t>(0, count - 1)(engine);
+    }
+    vec3 in_cube() { return {between(-1, 1), between(-1, 1), between(-1, 1)}; }
+    vec3 direction() {
+        for (;;) {
+            const vec3 v = in_cube();
+            const float size = glm::length(v);
+            if (size > 0.1f && size <= 1) return v / size;
+        }
+    }
+};
+
+/// Unit ball from an octahedron; neighbours compute a shared midpoint from the same two corners in
+/// either order, so it is the same float.
+std::vector<Triangle> ball(int levels, float scale = 1, vec3 offset = vec3(0)) {
+    std::vector<std::array<vec3, 3>> faces;
+    for (int i = 0; i < 8; ++i) {
+        const vec3 x((i & 1) != 0 ? -1 : 1, 0, 0), y(0, (i & 2) != 0 ? -1 : 1, 0);
+        faces.push_back({x, y, vec3(0, 0, (i & 4) != 0 ? -1 : 1)});
+    }
+    const auto middle = [](vec3 a, vec3 b) { return glm::normalize(a + b); };
+    for (int level = 0; level < levels; ++level) {
+        std::vector<std::array<vec3, 3>> finer;
+        for (const auto& [a, b, c] : faces) {
+            const vec3 ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+            finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        }
+        faces = std::move(finer);
+    }
+    std::vector<Triangle> result;
+    for (const auto& [a, b, c] : faces)
+        result.push_back({a * scale + offset, b * scale + offset, c * scale + offset});
+    return result;
+}
+
+std::vector<Triangle> soup(std::size_t count, unsigned seed) {
+    Random random(seed);
+    std::vector<Triangle> result(count);
+    for (Triangle& t : result) {
+        const vec3 centre = random.in_cube();
+        t.a = centre + 0.1f * random.in_cube();
+        t.b = centre + 0.1f * random.in_cube();
+        t.c = centre + 0.1f * random.in_cube();
+    }
+    return result;
+}
+
+/// Depth, leaf size, boxes that hold what is below them, every triangle in exactly one leaf.
+struct Census {
+    const Bvh& bvh;
+    std::size_t nodes = 0, triangles = 0;
+    std::uint32_t deepest = 0;
+
+    Bounds<float> visit(std::uint32_t child, std::uint32_t depth) {
+        Bounds<float> box;
+        const std::uint32_t first = f32::bvh_index(child);
+        if (f32::bvh_is_inner(child)) {
+            ++nodes;
+            deepest = std::max(deepest, depth + 1);
+            const vec4* node = &bvh.nodes[4 * std::size_t{first}];
+            for (int i : {0, 1}) {
+                const Bounds<float> stored{vec3(node[2 * i]), vec3(node[2 * i + 1])};
+                const Bounds<float> below = visit(detail::bits(node[i].w), depth + 1);
+                EXPECT_EQ(stored.lo, below.lo);
+                EXPECT_EQ(stored.hi, below.hi);
+                box.add(below);
+            }
+            return box;
+        }
+        EXPECT_LE(f32::bvh_count(child), kMaxLeaf);
+        for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
+            EXPECT_EQ(first + i, triangles) << "leaves follow each other";
+            ++triangles;
+            for (int k = 0; k < 3; ++k) box.add(vec3(bvh.triangles[3 * (first + i) + k]));
+        }
+        return box;
+    }
+};
+
+void expect_sound(const Bvh& bvh, std::size_t triangles) {
+    Census census{bvh};
+    const Bounds<float> all = census.visit(f32::kBvhRoot, 0);
+    EXPECT_EQ(all.lo, vec3(bvh.nodes[0]));
+    EXPECT_EQ(all.hi, vec3(bvh.nodes[1]));
+    EXPECT_EQ(census.triangles, triangles);
+    EXPECT_EQ(detail::number(bvh.nodes[0].w), triangles);
+    EXPECT_EQ(detail::number(bvh.nodes[1].w), node_count(bvh));
+    EXPECT_EQ(census.nodes + 1, node_count(bvh));
+    EXPECT_LE(census.deepest, kMaxDepth);
+    // Words survive being read as floats; the second half of a node has none.
+    for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
+        EXPECT_EQ(std::isnormal(bvh.nodes[i].w), i % 4 < 2) << i;
+    for (const vec4& texel : bvh.triangles) EXPECT_TRUE(std::isnormal(texel.w));
+}
+
+TEST(Bvh, IsSoundForAnyCount) {
+    for (std::size_t count : {0, 1, 2, 3, 4, 5, 8, 9, 100, 5000}) {
+        SCOPED_TRACE(count);
+        const Bvh bvh = build(soup(count, 1));
+        expect_sound(bvh, count);
+        EXPECT_EQ(bvh.dropped, 0u);
+    }
+}
+
+TEST(Bvh, EmptyIsAMiss) {
+    const Bvh bvh = build({});
+    EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(1)}, kInfinity));
+    EXPECT_FALSE(any_hit<float>(bvh, {vec3(0), vec3(1)}, kInfinity));
+}
+
+TEST(Bvh, SameInputSameBytes) {
+    const Bvh a = build(soup(3000, 2)), b = build(soup(3000, 2));
+    ASSERT_EQ(a.nodes.size(), b.nodes.size());
+    const auto bytes = [](const std::vector<vec4>& texels) { return texels.size() * sizeof(vec4); };
+    EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), bytes(a.nodes)), 0);
+    EXPECT_EQ(std::memcmp(a.triangles.data(), b.triangles.data(), bytes(a.triangles)), 0);
+}
+
+TEST(Bvh, KeepsNumberObjectAndFlags) {
+    const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 7, kHidden};
+    const Triangle far{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}, 0x1ffffffe, 0};
+    const Bvh bvh = build(std::vector{far, near});
+    const Ray<float> ray{vec3(0), vec3(0, 0, 1)};
+    const auto first = closest_hit<float>(bvh, ray, kInfinity);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->triangle, 1u);
+    EXPECT_EQ(first->object, 7u);
+    EXPECT_EQ(first->t, 1);
+    const auto seen = closest_hit<float>(bvh, ray, kInfinity, true);
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(seen->triangle, 0u) << "camera rays pass through";
+    EXPECT_EQ(seen->object, 0x1ffffffeu);
+    EXPECT_EQ(vec3(bvh.triangles[3 * seen->place]), far.a);
+    EXPECT_TRUE(any_hit<float>(bvh, ray, 1.5f)) << "hidden ones throw shadows";
+    EXPECT_FALSE(any_hit<float>(bvh, ray, 1)) << "t_max is excluded";
+}
+
+TEST(Bvh, DropsAndCountsWhatIsNotFinite) {
+    std::vector<Triangle> triangles = soup(100, 3);
+    triangles[10].b.y = kNan;
+    triangles[20].c.x = kInfinity;
+    triangles[99].a.z = -kInfinity;
+    const Bvh bvh = build(triangles);
+    EXPECT_EQ(bvh.dropped, 3u);
+    expect_sound(bvh, 97);
+}
+
+TEST(Bvh, SurvivesRandomBits) {
+    std::mt19937 bits(4);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<Triangle> triangles(60);
+        std::size_t finite = 0;
+        for (Triangle& t : triangles) {
+            bool good = true;
+            for (vec3* corner : {&t.a, &t.b, &t.c})
+                for (int k = 0; k < 3; ++k) {
+                    (*corner)[k] = std::bit_cast<float>(static_cast<std::uint32_t>(bits()));
+                    good = good && std::isfinite((*corner)[k]);
+                }
+            finite += good ? 1 : 0;
+        }
+        const Bvh bvh = build(triangles);
+        EXPECT_EQ(bvh.dropped, triangles.size() - finite);
+        expect_sound(bvh, finite);
+        closest_hit<float>(bvh, {vec3(1), vec3(1, 2, 3)}, kInfinity);
+    }
+}
+
+TEST(Bvh, CopiesOfOneTriangleAndTheLowestNumberWins) {
+    const std::vector<Triangle> copies(100000, {{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}});
+    const auto start = std::chrono::steady_clock::now();
+    const Bvh bvh = build(copies);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(time.count(), 5);
+    expect_sound(bvh, copies.size());
+    const auto hit = closest_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, kInfinity);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->triangle, 0u);
+    Steps steps;
+    EXPECT_TRUE(any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, kInfinity, &steps));
+    EXPECT_LE(steps.total(), kMaxDepth + kMaxLeaf);
+}
+
+TEST(Bvh, CoplanarCopiesInOtherLeavesTie) {
+    std::vector<Triangle> triangles = ball(4);
+    const std::vector<Triangle> original = triangles;
+    triangles.insert(triangles.end(), original.begin(), original.end());
+    const Bvh bvh = build(triangles);
+    Random random(5);
+    for (int i = 0; i < 2000; ++i) {
+        const auto hit =
+            closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, kInfinity);
+        ASSERT_TRUE(hit);
+        ASSERT_LT(hit->triangle, original.size());
+    }
+}
+
+/// Each split by cost would cut off the largest four octaves: 62 levels.
+TEST(Bvh, DepthIsBoundedForGeometricallyShrinkingTriangles) {
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < 2000; ++i) {
+        const float x = std::ldexp(1.0f, i / 8 - 125) * (1 + 0.1f * static_cast<float>(i % 8));
+        triangles.push_back({{x, 0, 0}, {1.1f * x, 0, 0}, {x, 0.1f * x, 0}});
+    }
+    expect_sound(build(triangles), triangles.size());
+}
+
+template <typename Real>
+void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int rays, unsigned seed) {
+    const Bvh bvh = build(triangles);
+    Random random(seed);
+    int hits = 0;
+    for (int i = 0; i < rays; ++i) {
+        const vec3 origin = 2.0f * random.in_cube();
+        // Most aimed at edges and corners, which lie on the boxes' faces.
+        const Triangle& aim = triangles[random.below(triangles.size())];
+        const float along = i % 4 == 0 ? 0 : random.between(0, 1);
+        const vec3 target = i % 4 == 1 ? random.in_cube() : aim.a + along * (aim.b - aim.a);
+        Ray<Real> ray{Vec<Real>(origin), Vec<Real>(target - origin)};
+        if (i % 8 == 0) ray.direction[i / 8 % 3] = i % 16 == 0 ? Real(0) : Real(-0.0);
+        const Real t_max = i % 2 == 0 ? Real(kInfinity) : Real(random.between(0, 1.5f));
+        const auto tree = closest_hit<Real>(bvh, ray, t_max);
+        const auto all = brute_force<Real>(bvh, ray, t_max);
+        ASSERT_EQ(tree, all) << "ray " << i;
+        ASSERT_EQ(any_hit<Real>(bvh, ray, t_max), all.has_value()) << "ray " << i;
+        hits += all ? 1 : 0;
+    }
+    EXPECT_GT(hits, rays / 10);
+}
+
+TEST(ClosestHit, EqualsBruteForceBitForBit) {
+    expect_equal_to_brute_force<float>(soup(500, 6), 10000, 7);
+    expect_equal_to_brute_force<double>(soup(500, 6), 5000, 8);
+    expect_equal_to_brute_force<float>(ball(3), 10000, 9);
+}
+
+/// Beside an edge much longer than its distance the sheared corners are off by more than a box
+/// test's own roundings: without the slack of box_ray half of these hits are culled.
+TEST(ClosestHit, BoxesKeepHitsBesideLongEdges) {
+    Random random(21);
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const float length = i % 2 == 0 ? 100 : 1e4f;
+        const vec2 edge(random.between(-1, 1), random.between(-1, 1));
+        Triangle t;
+        t.a = vec3(edge, -length * random.between(0, 1));
+        t.b = vec3(edge, length * random.between(0, 1));
+        t.c = vec3(edge, 0) + 0.5f * (random.in_cube() + vec3(1));
+        const vec3 origin = vec3(edge, 0) + vec3(random.between(0, 1), -random.between(0, 1), 0);
+        const vec3 target(edge.x - length * random.between(0, 1e-7f), edge.y, random.between(1, 3));
+        const Bvh bvh = build(std::span(&t, 1));
+        const Ray<float> ray{origin, target - origin};
+        const auto expected = brute_force<float>(bvh, ray, kInfinity);
+        ASSERT_EQ(closest_hit<float>(bvh, ray, kInfinity), expected) << i;
+        hits += expected ? 1 : 0;
+    }
+    EXPECT_GT(hits, 200);
+}
+
+TEST(ClosestHit, FloatAgreesWithDouble) {
+    const Bvh bvh = build(ball(4));
+    Random random(10);
+    for (int i = 0; i < 20000; ++i) {
+        const vec3 origin = 0.5f * random.in_cube(), direction = random.direction();
+        const auto single = closest_hit<float>(bvh, {origin, direction}, kInfinity);
+        const auto precise_hit =
+            closest_hit<double>(bvh, {dvec3(origin), dvec3(direction)}, kInfinity);
+        ASSERT_TRUE(single && precise_hit);
+        ASSERT_NEAR(single->t, precise_hit->t, 4e-6);
+        const vec3& b = single->barycentric;
+        const bool clear_of_edges = std::min({b.x, b.y, b.z}) > 1e-4f;
+        ASSERT_TRUE(!clear_of_edges || single->triangle == precise_hit->triangle);
+    }
+}
+
+/// Rays from strictly inside a closed mesh, aimed at a point of a random edge or at a corner.
+int leaks(float scale, vec3 offset, int rays, unsigned seed) {
+    const std::vector<Triangle> triangles = ball(4, scale, offset);
+    const Bvh bvh = build(triangles);
+    Random random(seed);
+    int result = 0;
+    for (int i = 0; i < rays; ++i) {
+        const Triangle& t = triangles[random.below(triangles.size())];
+        const vec3 target = i % 4 == 0 ? t.a : t.a + random.between(0, 1) * (t.b - t.a);
+        const vec3 origin = offset + 0.4f * scale * random.in_cube();
+        if (!closest_hit<float>(bvh, {origin, target - origin}, kInfinity)) ++result;
+    }
+    return result;
+}
+
+TEST(ClosestHit, ClosedMeshHasNoLeaks) {
+    EXPECT_EQ(leaks(1, vec3(0), 100000, 11), 0);
+    EXPECT_EQ(leaks(1e-4f, vec3(0), 20000, 12), 0);
+    EXPECT_EQ(leaks(1e4f, vec3(0), 20000, 13), 0);
+    EXPECT_EQ(leaks(100, vec3(148376, 1234, -223423), 20000, 14), 0);
+}
+
+TEST(ClosestHit, NoLeaksAlongTheAxes) {
+    const std::vector<Triangle> triangles = ball(3);
+    const Bvh bvh = build(triangles);
+    for (const Triangle& t : triangles)
+        for (int axis = 0; axis < 3; ++axis)
+            for (float sign : {-1.0f, 1.0f}) {
+                vec3 direction(-0.0f);
+                direction[axis] = sign;
+                vec3 origin = t.a;
+                origin[axis] = 0;
+                if (glm::length(origin) > 0.99f) continue;
+                ASSERT_TRUE(closest_hit<float>(bvh, {origin, direction}, kInfinity));
+            }
+}
+
+TEST(ClosestHit, BadRaysMissInBoundedSteps) {
+    const Bvh bvh = build(ball(4));
+    Random random(15);
+    for (float bad : {kNan, kInfinity, -kInfinity})
+        for (int k = 0; k < 7; ++k) {
+            vec3 origin(0), direction = random.direction();
+            float t_max = kInfinity;
+            if (k < 3) origin[k] = bad;
+            else if (k < 6) direction[k - 3] = bad;
+            else t_max = bad;
+            if (k == 6 && bad > 0) continue; // t_max = +infinity is the usual one
+            Steps steps;
+            EXPECT_FALSE(closest_hit<float>(bvh, {origin, direction}, t_max, false, &steps));
+            EXPECT_FALSE(any_hit<float>(bvh, {origin, direction}, t_max));
+            EXPECT_FALSE(brute_force<float>(bvh, {origin, direction}, t_max));
+            EXPECT_EQ(steps.total(), 0u);
+        }
+    EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(0)}, kInfinity)) << "no direction";
+    EXPECT_FALSE(closest_hit<float>(bvh, {vec3(0), vec3(1)}, -0.0f));
+}
+
+TEST(ClosestHit, PowersOfTwoLeaveTheHitsUnchanged) {
+    const std::vector<Triangle> triangles = soup(500, 16);
+    const Bvh one = build(triangles);
+    for (int k : {-20, -7, 13, 20}) {
+        const float s = std::ldexp(1.0f, k);
+        std::vector<Triangle> scaled = triangles;
+        for (Triangle& t : scaled) t.a *= s, t.b *= s, t.c *= s;
+        const Bvh other = build(scaled);
+        Random random(17);
+        for (int i = 0; i < 2000; ++i) {
+            const vec3 origin = 2.0f * random.in_cube(), direction = random.direction();
+            const auto a = closest_hit<float>(one, {origin, direction}, kInfinity);
+            const auto b = closest_hit<float>(other, {s * origin, direction}, kInfinity);
+            ASSERT_EQ(a.has_value(), b.has_value());
+            if (!a) continue;
+            ASSERT_EQ(a->triangle, b->triangle);
+            ASSERT_EQ(a->t * s, b->t);
+        }
+    }
+}
+
+/// Corners of 1e-8 to 1e8, so that most are slivers.
+TEST(ClosestHit, NoRayMeetsTheTriangleItLeaves) {
+    Random random(19);
+    const auto wide = [&] {
+        return random.between(-1, 1) < 0 ? -std::pow(10.0f, random.between(-8, 8))
+                                         : std::pow(10.0f, random.between(-8, 8));
+    };
+    for (int i = 0; i < 100; ++i) {
+        Triangle t;
+        for (vec3* corner : {&t.a, &t.b, &t.c})
+            for (int k = 0; k < 3; ++k) (*corner)[k] = wide();
+        const Bvh bvh = build(std::span(&t, 1));
+        for (int k = 0; k < 100; ++k) {
+            const float s = std::sqrt(random.between(0, 1)), r = random.between(0, 1);
+            vec3 error;
+            const vec3 p = f32::triangle_point(t.a, t.b, t.c, {1 - s, s * (1 - r), s * r}, error);
+            const vec3 direction = random.direction();
+            const vec3 n = f32::facet_normal(t.a, t.b, t.c);
+            const Ray<float> ray{f32::spawn_origin(p, error, n, direction), direction, 1};
+            ASSERT_FALSE(closest_hit<float>(bvh, ray, kInfinity));
+        }
+    }
+}
+
+/// From every facet of a ball seen from inside, the ray reaches another one, not a neighbour in
+/// its own place.
+TEST(ClosestHit, SpawnedRaysCrossTheBall) {
+    for (float scale : {1e-3f, 1.0f, 1e3f}) {
+        const std::vector<Triangle> triangles = ball(3, scale, vec3(2, 3, 5) * scale);
+        const Bvh bvh = build(triangles);
+        Random random(20);
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const auto& [a, b, c, object, flags] = triangles[i];
+            vec3 error;
+            const vec3 p = f32::triangle_point(a, b, c, vec3(1.0f / 3), error);
+            const vec3 inward = vec3(2, 3, 5) * scale - p;
+            const vec3 direction = glm::normalize(inward + 0.5f * scale * random.direction());
+            const vec3 origin =
+                f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
+            const auto hit = closest_hit<float>(bvh, {origin, direction, 0}, kInfinity);
+            ASSERT_TRUE(hit);
+            ASSERT_GT(hit->t, scale);
+        }
+    }
+}
+
+TEST(ClosestHit, VisitsFewNodes) {
+    const Bvh bvh = build(ball(5)); // 8192 triangles
+    Random random(18);
+    std::size_t total = 0;
+    for (int i = 0; i < 1000; ++i) {
+        Steps steps;
+        closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, kInfinity, false,
+                           &steps);
+        total += steps.total();
+    }
+    EXPECT_LT(total / 1000, 60u);
+}
+
+} // namespace
+} // namespace catoptric::bvh

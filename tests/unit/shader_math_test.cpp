@@ -1,0 +1,395 @@
+#include "core/shader_math.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace catoptric {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+struct Random {
+    std::mt19937 engine;
+    explicit Random(unsigned seed) : engine(seed) {}
+    float between(float lo, float hi) {
+        return std::uniform_real_distribution<float>(lo, hi)(engine);
+    }
+    vec3 in_cube() { return {between(-1, 1), between(-1, 1), between(-1, 1)}; }
+    vec3 direction() {
+        for (;;) {
+            const vec3 v = in_cube();
+            const float size = glm::length(v);
+            if (size > 0.1f && size <= 1) return v / size;
+        }
+    }
+    /// Sign and exponent at random: 10^low .. 10^high.
+    float wide(float low, float high) {
+        return (between(0, 1) < 0.5f ? -1.0f : 1.0f) * std::pow(10.0f, between(low, high));
+    }
+};
+
+::testing::AssertionResult near(const vec3& a, const vec3& b, float tolerance) {
+    if (glm::length(a - b) <= tolerance) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x
+                                         << ' ' << b.y << ' ' << b.z;
+}
+
+struct TriangleHit {
+    bool hit;
+    float t;
+    vec3 weights;
+};
+
+TriangleHit hit_triangle(vec3 a, vec3 b, vec3 c, vec3 origin, vec3 direction) {
+    TriangleHit result{};
+    result.hit = f32::triangle_test(a, b, c, origin, f32::ray_shear(direction), result.t,
+                                    result.weights);
+    return result;
+}
+
+// ---- Light
+
+TEST(Light, HandComputedPoint) {
+    // Light at height 2 facing down, point 45 degrees off below: t^2 = 8, both cosines sqrt(1/2).
+    vec3 direction;
+    float distance, factor;
+    ASSERT_TRUE(f32::light_term(vec3(0), vec3(0, 1, 0), vec3(2, 2, 0), vec3(0, -1, 0), direction,
+                                distance, factor));
+    EXPECT_FLOAT_EQ(distance, std::sqrt(8.0f));
+    EXPECT_FLOAT_EQ(factor, 1.0f / 16);
+    EXPECT_TRUE(near(direction, vec3(std::sqrt(0.5f), std::sqrt(0.5f), 0), 1e-7f));
+    // Ke + kd/pi * intensity / 16 + kd * ambient
+    const vec3 direct = vec3(32) * factor;
+    const vec3 radiance = f32::lambert(vec3(1, 0, 0), vec3(0.5f, 0.25f, 0), direct, 0.05f);
+    EXPECT_FLOAT_EQ(radiance.x, 1 + 1 / f32::kPi + 0.025f);
+    EXPECT_FLOAT_EQ(radiance.y, 0.5f / f32::kPi + 0.0125f);
+    EXPECT_EQ(radiance.z, 0);
+}
+
+TEST(Light, WithoutNormalHasNoCosineAtTheLight) {
+    vec3 direction;
+    float distance, factor;
+    ASSERT_TRUE(f32::light_term(vec3(0), vec3(0, 1, 0), vec3(2, 2, 0), vec3(0), direction, distance,
+                                factor));
+    EXPECT_FLOAT_EQ(factor, std::sqrt(0.5f) / 8);
+}
+
+TEST(Light, NeedsNoShadowRayWhereACosineIsNotPositive) {
+    vec3 direction;
+    float distance, factor;
+    const auto lit = [&](vec3 normal, vec3 light, vec3 light_normal) {
+        const bool result =
+            f32::light_term(vec3(0), normal, light, light_normal, direction, distance, factor);
+        EXPECT_EQ(result, factor > 0);
+        return result;
+    };
+    EXPECT_FALSE(lit(vec3(0, -1, 0), vec3(0, 2, 0), vec3(0, -1, 0))) << "surface faces away";
+    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(0, 2, 0), vec3(0, 1, 0))) << "light faces away";
+    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(2, 0, 0), vec3(-1, 0, 0))) << "grazing, cosine 0";
+    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(0), vec3(0))) << "light at the point";
+    EXPECT_FALSE(lit(vec3(kNan), vec3(0, 2, 0), vec3(0)));
+    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(kNan), vec3(0)));
+    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(kInfinity), vec3(0)));
+}
+
+TEST(Mirror, ReflectsAboutTheNormalFromEitherSide) {
+    const vec3 d = glm::normalize(vec3(1, -1, 0));
+    const vec3 expected = glm::normalize(vec3(1, 1, 0));
+    EXPECT_TRUE(near(f32::mirror_direction(d, vec3(0, 1, 0), vec3(0, 1, 0)), expected, 1e-6f));
+    EXPECT_TRUE(near(f32::mirror_direction(d, vec3(0, -1, 0), vec3(0, -1, 0)), expected, 1e-6f));
+}
+
+TEST(Mirror, NeverPointsBelowTheFacet) {
+    Random random(1);
+    for (int i = 0; i < 10000; ++i) {
+        const vec3 d = random.direction(), n_geometric = random.direction();
+        const vec3 n_shading = glm::normalize(n_geometric + 0.9f * random.direction());
+        const vec3 r = f32::mirror_direction(d, n_shading, n_geometric);
+        ASSERT_GE(glm::dot(r, n_geometric) * -glm::dot(d, n_geometric), -1e-6f);
+        ASSERT_NEAR(glm::length(r), 1, 1e-6f);
+    }
+}
+
+// ---- Triangles
+
+TEST(TriangleTest, KnownHit) {
+    const auto [hit, t, weights] =
+        hit_triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}, {1, 2, 0}, {0, 0, 0.5f});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(t, 4);
+    EXPECT_TRUE(near(f32::barycentric(weights), vec3(0.25f, 0.25f, 0.5f), 1e-7f));
+}
+
+TEST(TriangleTest, MissesBehindBesideAndDegenerate) {
+    const vec3 a(0, 0, 2), b(4, 0, 2), c(0, 4, 2);
+    EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 0}, {0, 0, -1}).hit) << "behind";
+    EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 2}, {0, 0, 1}).hit) << "starts on it";
+    EXPECT_FALSE(hit_triangle(a, b, c, {3, 3, 0}, {0, 0, 1}).hit) << "beside";
+    EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 2}, {1, 0, 0}).hit) << "in its plane";
+    EXPECT_FALSE(hit_triangle(a, b, b, {1, 0, 0}, {0, 0, 1}).hit) << "no area";
+    EXPECT_FALSE(hit_triangle(a, a, a, {0, 0, 0}, {0, 0, 1}).hit) << "a point";
+}
+
+TEST(TriangleTest, NanIsAMiss) {
+    const vec3 a(0, 0, 2), b(4, 0, 2), c(0, 4, 2);
+    for (int i = 0; i < 3; ++i) {
+        vec3 bad(0.5f);
+        bad[i] = kNan;
+        EXPECT_FALSE(hit_triangle(bad, b, c, {1, 1, 0}, {0, 0, 1}).hit);
+        EXPECT_FALSE(hit_triangle(a, b, bad, {1, 1, 0}, {0, 0, 1}).hit);
+        EXPECT_FALSE(hit_triangle(a, b, c, bad, {0, 0, 1}).hit);
+        EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 0}, bad).hit);
+    }
+    EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 0}, vec3(0)).hit);
+}
+
+TEST(TriangleTest, AgreesWithDouble) {
+    Random random(2);
+    int hits = 0, disagreements = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const vec3 a = random.in_cube(), b = random.in_cube(), c = random.in_cube();
+        const vec3 origin = 3.0f * random.direction();
+        const vec3 direction = glm::normalize(0.5f * random.in_cube() - origin);
+        const TriangleHit single = hit_triangle(a, b, c, origin, direction);
+        double t;
+        dvec3 weights;
+        const bool hit = f64::triangle_test(dvec3(a), dvec3(b), dvec3(c), dvec3(origin),
+                                            f64::ray_shear(dvec3(direction)), t, weights);
+        if (hit != single.hit) {
+            // Only ever within roundings of an edge.
+            const dvec3 size = glm::abs(f64::barycentric(weights));
+            EXPECT_LT(std::min({size.x, size.y, size.z}), 1e-3);
+            ++disagreements;
+        } else if (hit) {
+            ++hits;
+            // Roundings of the sheared corners move the hit across the ray by about 8 u * 4, and by
+            // that over the cosine along it.
+            const vec3 n = f32::facet_normal(a, b, c);
+            const double slack = 32 * 6e-8 / std::abs(double{glm::dot(n, direction)});
+            ASSERT_NEAR(single.t, t, slack);
+        }
+    }
+    EXPECT_GT(hits, 2000);
+    EXPECT_LT(disagreements, 5);
+}
+
+TEST(TriangleTest, EdgeFunctionHasTheExactSign) {
+    // Long double has 64 bits: the products of 24-bit floats are exact in it.
+    Random random(3);
+    int fallbacks = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const float a = random.between(0.5f, 1), b = random.between(0.5f, 1);
+        const float c = std::nextafter(a, random.between(0, 2));
+        const float d = static_cast<float>(static_cast<long double>(a) * b / c);
+        const long double exact =
+            static_cast<long double>(a) * b - static_cast<long double>(c) * d;
+        const float found = f32::edge_function(a, b, c, d);
+        ASSERT_EQ(found > 0, exact > 0);
+        ASSERT_EQ(found < 0, exact < 0);
+        ASSERT_EQ(f32::edge_function(c, d, a, b), -found) << "the neighbour sees the opposite";
+        const volatile float ab = a * b, cd = c * d;
+        if (ab == cd && exact != 0) ++fallbacks;
+    }
+    EXPECT_GT(fallbacks, 10000) << "the seed must reach the case that is tested";
+}
+
+TEST(TriangleTest, PowersOfTwoChangeNothing) {
+    Random random(4);
+    for (int i = 0; i < 2000; ++i) {
+        const vec3 a = random.in_cube(), b = random.in_cube(), c = random.in_cube();
+        const vec3 origin = 3.0f * random.direction(), direction = 0.5f * random.in_cube() - origin;
+        const TriangleHit one = hit_triangle(a, b, c, origin, direction);
+        for (int k = -20; k <= 20; k += 5) {
+            const float s = std::ldexp(1.0f, k);
+            const TriangleHit scaled = hit_triangle(s * a, s * b, s * c, s * origin, direction);
+            ASSERT_EQ(one.hit, scaled.hit);
+            ASSERT_TRUE(!one.hit || one.t * s == scaled.t);
+        }
+    }
+}
+
+// ---- Boxes and spheres
+
+bool hit_box(vec3 lo, vec3 hi, vec3 origin, vec3 direction, float t_max = kInfinity) {
+    float t;
+    const f32::BoxRay ray = f32::box_ray({origin, direction}, vec3(-1), vec3(1));
+    return f32::slab_test(lo, hi, ray, t_max, t);
+}
+
+TEST(SlabTest, HitsAndMisses) {
+    const vec3 lo(-1), hi(1);
+    EXPECT_TRUE(hit_box(lo, hi, {-5, 0, 0}, {1, 0, 0}));
+    EXPECT_TRUE(hit_box(lo, hi, {0, 0, 0}, {0, -1, 0})) << "from inside";
+    EXPECT_FALSE(hit_box(lo, hi, {-5, 0, 0}, {-1, 0, 0})) << "behind";
+    EXPECT_FALSE(hit_box(lo, hi, {-5, 2, 0}, {1, 0, 0})) << "beside, parallel to two slabs";
+    EXPECT_FALSE(hit_box(lo, hi, {-5, 2, 0}, {1, -0.0f, -0.0f}));
+    EXPECT_FALSE(hit_box(lo, hi, {-5, 0, 0}, {1, 0, 0}, 3.9f)) << "beyond t_max";
+    EXPECT_TRUE(hit_box(lo, hi, {-5, 1, -1}, {1, 0, -0.0f})) << "along an edge: 0 * inf";
+    EXPECT_TRUE(hit_box({-1, 0, -1}, {1, 0, 1}, {0, 5, 0}, {0, -1, 0})) << "flat box";
+    EXPECT_FALSE(hit_box(vec3(kInfinity), vec3(-kInfinity), vec3(0), {1, 0, 0})) << "empty box";
+}
+
+TEST(SlabTest, SmallBoxFarAwayIsHit) {
+    for (float distance : {10.0f, 100.0f, 1000.0f})
+        EXPECT_TRUE(hit_box(vec3(-5e-4f), vec3(5e-4f), {-distance, 0, 0}, {1, 0, 0}));
+}
+
+TEST(SphereTest, FromOutsideInsideAndBehind) {
+    float t;
+    EXPECT_TRUE(f32::sphere_test(vec3(0), 1, {{-3, 0, 0}, {1, 0, 0}}, 10, t));
+    EXPECT_FLOAT_EQ(t, 2);
+    EXPECT_TRUE(f32::sphere_test(vec3(0), 1, {{-3, 0, 0}, {2, 0, 0}}, 10, t));
+    EXPECT_FLOAT_EQ(t, 1);
+    EXPECT_TRUE(f32::sphere_test(vec3(0), 1, {{0.5f, 0, 0}, {1, 0, 0}}, 10, t));
+    EXPECT_FLOAT_EQ(t, 0.5f);
+    EXPECT_TRUE(f32::sphere_test(vec3(0), 1, {{0, 0, 0}, {0, 1, 0}}, 10, t));
+    EXPECT_FLOAT_EQ(t, 1);
+    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {{3, 0, 0}, {1, 0, 0}}, 10, t));
+    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {{-3, 0, 0}, {1, 0, 0}}, 2, t)) << "t_max excluded";
+    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {{-3, 1.001f, 0}, {1, 0, 0}}, 10, t));
+    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {vec3(kNan), {1, 0, 0}}, 10, t));
+    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {vec3(0), vec3(kNan)}, 10, t));
+}
+
+TEST(SphereTest, KeepsItsDigitsFarAway) {
+    Random random(5);
+    for (int i = 0; i < 10000; ++i) {
+        const vec3 origin = 1e4f * random.direction();
+        const vec3 direction = glm::normalize(0.5f * random.direction() - origin);
+        float t;
+        double exact;
+        ASSERT_TRUE(f32::sphere_test(vec3(0), 1, {origin, direction}, kInfinity, t));
+        ASSERT_TRUE(f64::sphere_test(dvec3(0), 1, {dvec3(origin), dvec3(direction)}, 1e30, exact));
+        // The textbook form is off by about 1 here. The ray itself is known to u * 1e4 = 6e-4.
+        ASSERT_NEAR(t, exact, 4e-3);
+    }
+}
+
+// ---- Spawned rays
+
+// Well-shaped or not, corners of 0.1 to 10; what is left are slivers (Ray::leaves).
+TEST(Spawn, NeverMeetsItsOwnTriangle) {
+    Random random(6);
+    for (int i = 0; i < 1000; ++i) {
+        const auto corner = [&] {
+            return vec3(random.wide(-1, 1), random.wide(-1, 1), random.wide(-1, 1));
+        };
+        const vec3 a = corner(), b = corner(), c = corner();
+        for (int k = 0; k < 100; ++k) {
+            const float s = std::sqrt(random.between(0, 1)), r = random.between(0, 1);
+            vec3 error;
+            const vec3 p = f32::triangle_point(a, b, c, {1 - s, s * (1 - r), s * r}, error);
+            const vec3 direction = random.direction();
+            const vec3 origin =
+                f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
+            ASSERT_FALSE(hit_triangle(a, b, c, origin, direction).hit) << i << ' ' << k;
+        }
+    }
+}
+
+TEST(Spawn, StaysWithinTheScaleOfTheRoundings) {
+    const vec3 a(10, 10, 10), b(11, 10, 10), c(10, 11, 10);
+    vec3 error;
+    const vec3 p = f32::triangle_point(a, b, c, vec3(1.0f / 3), error);
+    const vec3 origin = f32::spawn_origin(p, error, vec3(0, 0, 1), vec3(0, 0, 1));
+    EXPECT_GT(origin.z, 10);
+    EXPECT_LT(origin.z, 10 + 16 * 9.6e-7f) << "16 floats at 10";
+}
+
+TEST(Spawn, NeverMeetsItsOwnSphereFromOutside) {
+    Random random(7);
+    for (int i = 0; i < 50000; ++i) {
+        const vec3 centre = 10.0f * random.in_cube();
+        const float radius = std::abs(random.wide(-2, 1));
+        const f32::Ray ray{centre + 3 * radius * random.direction(), random.direction()};
+        const f32::Ray aimed{ray.origin,
+                             centre + 0.99f * radius * random.in_cube() * 0.57f - ray.origin};
+        float t;
+        ASSERT_TRUE(f32::sphere_test(centre, radius, aimed, kInfinity, t));
+        vec3 error;
+        const vec3 p = f32::sphere_point(centre, radius, aimed, t, error);
+        const vec3 n = glm::normalize(p - centre);
+        vec3 out = ray.direction;
+        if (glm::dot(out, n) < 0) out = -out;
+        const vec3 origin = f32::spawn_origin(p, error, n, out);
+        ASSERT_FALSE(f32::sphere_test(centre, radius, {origin, out}, kInfinity, t)) << i;
+    }
+}
+
+TEST(Spawn, ShadowRaysEndShortOfTheLight) { EXPECT_EQ(f32::kShadowRayEnd, 1 - 0x1p-13f); }
+
+// ---- Captures and picture
+
+TEST(Parallax, FindsThePointThatHasThatDistance) {
+    Random random(8);
+    for (int i = 0; i < 10000; ++i) {
+        // Exact where the surface is a plane across the ray: what the ray meets is at
+        // distance = dot(offset, dir) + way, as the one step assumes.
+        const vec3 offset = 0.3f * random.in_cube(), dir = random.direction();
+        const float way = random.between(0.5f, 5);
+        const vec3 expected = glm::normalize(offset + way * dir);
+        const vec3 found = f32::parallax_direction(offset, dir, way + glm::dot(offset, dir));
+        ASSERT_TRUE(near(found, expected, 1e-6f));
+        const vec3 far = f32::parallax_direction(offset, dir, 1e30f);
+        ASSERT_TRUE(near(far, dir, 1e-6f));
+    }
+}
+
+TEST(Parallax, LeavesTheDirectionWhereThereIsNothingToCorrect) {
+    const vec3 dir(0, 0, 1);
+    EXPECT_EQ(f32::parallax_direction(vec3(1), dir, kInfinity), dir);
+    EXPECT_EQ(f32::parallax_direction(vec3(1), dir, kNan), dir);
+    EXPECT_EQ(f32::parallax_direction(vec3(0), dir, 0), dir) << "|p| = 0";
+    EXPECT_EQ(f32::parallax_direction(vec3(0, 0, 2), dir, 0), dir) << "|p| = 0";
+    EXPECT_EQ(f32::parallax_direction(vec3(kNan), dir, 1), dir);
+    EXPECT_EQ(f32::parallax_direction(vec3(0, 0, 3e38f), -dir, 3e38f), -dir) << "overflow";
+}
+
+TEST(CubeFace, CentresInTheApisOrder) {
+    const vec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (int face = 0; face < 6; ++face) {
+        EXPECT_EQ(f32::cube_face(axes[face]), face);
+        EXPECT_EQ(f32::cube_direction(face, vec3(0, 0, 1)), axes[face]);
+    }
+    // Right of +Z's centre lies +X, below it -Y.
+    EXPECT_EQ(f32::cube_coordinates(4, vec3(0.5f, -0.25f, 1)), vec3(0.5f, 0.25f, 1));
+    EXPECT_EQ(f32::cube_face(vec3(1)), 4);
+    EXPECT_EQ(f32::cube_face(vec3(1, 1, 0)), 2);
+}
+
+TEST(CubeFace, RoundTrip) {
+    Random random(9);
+    for (int i = 0; i < 10000; ++i) {
+        const vec3 dir = random.direction();
+        const int face = f32::cube_face(dir);
+        const vec3 coordinates = f32::cube_coordinates(face, dir);
+        ASSERT_GT(coordinates.z, 0);
+        ASSERT_LE(std::abs(coordinates.x), coordinates.z);
+        ASSERT_LE(std::abs(coordinates.y), coordinates.z);
+        ASSERT_EQ(f32::cube_direction(face, coordinates), dir);
+    }
+}
+
+TEST(Srgb, KnownValues) {
+    EXPECT_EQ(f32::srgb_encoded(0), 0);
+    EXPECT_EQ(f32::srgb_encoded(1), 1);
+    EXPECT_EQ(f32::srgb_encoded(7), 1);
+    EXPECT_EQ(f32::srgb_encoded(-1), 0);
+    EXPECT_EQ(f32::srgb_encoded(kNan), 0);
+    EXPECT_NEAR(f32::srgb_encoded(0.214041f), 0.5f, 1e-5f);
+    EXPECT_FLOAT_EQ(f32::srgb_encoded(0.002f), 0.02584f);
+}
+
+TEST(NextFloat, StepsOverZero) {
+    EXPECT_GT(f32::next_up(0), 0);
+    EXPECT_LT(f32::next_down(0), 0);
+    EXPECT_EQ(f32::next_up(1), 1 + 0x1p-23f);
+    EXPECT_EQ(f32::next_down(-1), -1 - 0x1p-23f);
+}
+
+} // namespace
+} // namespace catoptric
