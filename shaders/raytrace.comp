@@ -37,6 +37,7 @@ struct Point {
     vec3 normal; // interpolated, unit
     vec3 facet;  // geometric, unit
     uint object;
+    uint leaves; // for the rays that start here (see Ray)
 };
 Point point; // what is being shaded
 
@@ -66,6 +67,7 @@ Point on_triangle(Hit hit) {
     p.normal = normalize(w.x * NORMAL(3u * hit.triangle) + w.y * NORMAL(3u * hit.triangle + 1u) +
                          w.z * NORMAL(3u * hit.triangle + 2u));
     p.object = hit.object;
+    p.leaves = hit.triangle + 1u;
     return p;
 }
 
@@ -74,6 +76,7 @@ Point on_sphere(Ray ray, float t, uint object) {
     p.position = sphere_point(surfaces[object].centre, surfaces[object].radius, ray, t, p.error);
     p.normal = p.facet = (p.position - surfaces[object].centre) / surfaces[object].radius;
     p.object = object;
+    p.leaves = 0u;
     return p;
 }
 
@@ -99,7 +102,7 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
 #else
     ++shadow_rays;
     vec3 origin = spawn_origin(position, point.error, point.facet, direction);
-    Ray ray = Ray(origin, lights[light].position - origin);
+    Ray ray = Ray(origin, lights[light].position - origin, point.leaves);
     if (any_hit(ray, kShadowRayEnd, kBvhShadowless | passed_by())) return 0.0;
     float t = kShadowRayEnd;
     uint object;
@@ -112,7 +115,7 @@ Ray camera_ray(vec2 place) {
     View view = views[0];
     vec2 ndc = place / vec2(trace.size) * 2.0 - 1.0;
     return Ray(view.eye, normalize(view.forward + ndc.x * view.right / dot(view.right, view.right) +
-                                   ndc.y * view.down / dot(view.down, view.down)));
+                                   ndc.y * view.down / dot(view.down, view.down)), 0u);
 }
 
 // Radiance along the ray; `met` = number of the first mirror, and of the second << 16.
@@ -128,7 +131,7 @@ vec3 radiance(Ray ray, out uint met) {
         if (bounce == max_depth) return vec3(0);
         weight *= surface.reflectance;
         vec3 direction = mirror_direction(ray.direction, point.normal, point.facet);
-        ray = Ray(spawn_origin(point.position, point.error, point.facet, direction), direction);
+        ray = Ray(spawn_origin(point.position, point.error, point.facet, direction), direction, point.leaves);
         skipped = 0u;
         ++mirror_rays;
     }

@@ -127,25 +127,26 @@ std::optional<Hit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
 } // namespace detail
 
 /// The first triangle that the ray meets at a t in (0, t_max); a ray that is not finite misses.
-/// Camera rays do not see triangles flagged kHidden; no ray sees the triangle it leaves.
+/// Triangles with a flag of `skipped` are passed by; no ray sees the triangle it leaves.
 template <typename Real>
 std::optional<Hit<Real>> closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
-                                     bool camera_ray = false, Steps* steps = nullptr) {
-    return detail::walk<Real>(bvh, ray, t_max, camera_ray ? kHidden : 0, false, steps);
+                                     std::uint32_t skipped = 0, Steps* steps = nullptr) {
+    return detail::walk<Real>(bvh, ray, t_max, skipped, false, steps);
 }
 
 /// Whether some triangle is met at a t in (0, t_max).
 template <typename Real>
-bool any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, Steps* steps = nullptr) {
-    return detail::walk<Real>(bvh, ray, t_max, 0, true, steps).has_value();
+bool any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t skipped = 0,
+             Steps* steps = nullptr) {
+    return detail::walk<Real>(bvh, ray, t_max, skipped, true, steps).has_value();
 }
 
 /// `closest_hit` without the tree: tests every triangle.
 template <typename Real>
 std::optional<Hit<Real>> brute_force(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
-                                     bool camera_ray = false) {
+                                     std::uint32_t skipped = 0) {
     if (!detail::can_hit(bvh, ray, t_max)) return {};
-    detail::Search<Real> search{bvh, ray, t_max, camera_ray ? kHidden : 0};
+    detail::Search<Real> search{bvh, ray, t_max, skipped};
     for (std::uint32_t i = 0; i < triangle_count(bvh); ++i) search.test(i);
     return search.best;
 }

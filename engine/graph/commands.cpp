@@ -43,10 +43,14 @@ void Commands::bind(std::string_view name, Image image, Filter filter) {
     dirty_ = true;
 }
 
-void Commands::bind(std::string_view name, Buffer buffer) {
+void Commands::require_declared(Buffer buffer, std::string_view name) const {
     check(std::ranges::any_of(pass_.buffers, [&](const BufferUse& use) { return use.buffer.id == buffer.id; }),
           Failure::internal, "pass '", pass_.name, "' uses buffer '", graph_.buffers()[buffer.id].name,
           "' as '", name, "' but does not declare it");
+}
+
+void Commands::bind(std::string_view name, Buffer buffer) {
+    require_declared(buffer, name);
     bound_.insert_or_assign(std::string(name), runner_.buffer(buffer));
     dirty_ = true;
 }
@@ -99,6 +103,11 @@ void Commands::copy(Image from, Image to) {
     region.extent = {desc.width, desc.height, 1};
     vkCmdCopyImage(commands_, runner_.physical(from).image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                    runner_.physical(to).image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void Commands::fill(Buffer buffer, std::uint32_t word) {
+    require_declared(buffer, "target of a fill");
+    vkCmdFillBuffer(commands_, runner_.buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
 VkWriteDescriptorSet Commands::write(const gpu::Binding& binding, const Bound& bound, VkDescriptorSet set,

@@ -50,6 +50,8 @@ public:
     void barrier();
     /// Both declared by the pass; same size and format, all layers of the handles.
     void copy(Image from, Image to);
+    /// Sets every word of a buffer that the pass declares as copy_to.
+    void fill(Buffer buffer, std::uint32_t word);
 
 private:
     struct BoundImage {
@@ -59,6 +61,7 @@ private:
     using Bound = std::variant<BoundImage, VkBuffer, const gpu::Buffer*>;
     void flush();
     void require_declared(Image image, std::string_view name) const;
+    void require_declared(Buffer buffer, std::string_view name) const;
     VkWriteDescriptorSet write(const gpu::Binding& binding, const Bound& bound, VkDescriptorSet set,
                                VkDescriptorImageInfo& image, VkDescriptorBufferInfo& buffer,
                                VkBufferView& texels);

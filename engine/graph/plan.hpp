@@ -37,7 +37,8 @@ struct Touch {
     friend bool operator==(const Touch&, const Touch&) = default;
 };
 
-/// One dependency: everything in `before` is complete and visible to `after`, in the layout it wants.
+/// One dependency: everything in `before` and `shared` is complete and visible to `after`, in the
+/// layout that `after` wants. The layout until then is always that of `before`.
 struct Barrier {
     bool is_buffer = false;
     std::uint32_t id = 0;
@@ -46,7 +47,9 @@ struct Barrier {
     std::uint32_t layer_count = 0;
     Touch before;          ///< `nothing`: the old contents are discarded
     Touch after;
-    std::vector<Touch> shared; ///< last touches of what used the same memory before
+    /// More to wait for: other readers before a write or a change of layout; with
+    /// `before.nothing`, the last touches of what used the same memory earlier in the frame.
+    std::vector<Touch> shared;
 };
 
 struct PlannedPass {
@@ -60,7 +63,9 @@ struct Placement {
     bool alone = false; ///< kept for the next frame, or wanted: shares no memory
     std::uint32_t first = 0, last = 0;
     std::uint32_t heap = 0;
-    std::uint64_t offset = 0, bytes = 0; ///< in the heap; `alone` ones start after the shared part
+    /// In the heap; `alone` ones start after the shared part. A kept image has two copies, at
+    /// `offset` and at `offset + bytes / 2`.
+    std::uint64_t offset = 0, bytes = 0;
 };
 
 struct Culled {
@@ -70,7 +75,10 @@ struct Culled {
 
 struct Plan {
     std::vector<PlannedPass> passes;
-    std::vector<Barrier> last; ///< after the final pass: wanted -> copy_from, kept -> sampled
+    /// After the final pass: wanted -> copy_from, all layers of kept -> sampled (if both: sampled).
+    /// One for each layer even where the layout is right already: `after` means every stage, of
+    /// the next frame too, where `previous` is sampled without a barrier.
+    std::vector<Barrier> last;
     std::vector<Culled> culled;
     std::vector<Placement> images;  ///< one per Graph::images()
     std::vector<Placement> buffers; ///< one per Graph::buffers()
@@ -81,9 +89,9 @@ struct Plan {
 };
 
 /// Validates, culls, places and orders. Pure: no device. Passes run in order of declaration.
-/// Throws `Failure::internal` naming pass, image and both uses for a graph that cannot mean anything,
-/// `Failure::exhausted` naming the limit, the wanted and the allowed number.
-/// Costs O(passes * uses + images^2).
+/// Throws `Failure::internal` naming pass, image and both uses for a graph that cannot mean
+/// anything, `Failure::exhausted` naming the limit, the wanted and the allowed number.
+/// Costs O(passes * uses * layers + images^2).
 Plan plan(const Graph& graph, const Limits& limits, const Sizer& sizer);
 
 } // namespace catoptric::graph

@@ -15,6 +15,7 @@ Geometry make_geometry(const scene::Scene& now, const Space& space) {
         range.mirror = material.mirror;
         range.casts_shadow = material.emission == vec3(0);
         range.seen_by_camera = object.seen_by_camera;
+        range.exact_sphere = object.sphere.has_value();
         const auto first_vertex = static_cast<std::uint32_t>(geometry.vertices.size());
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             const dvec3 world(object.world_from_object * dvec4(mesh.positions[i], 1));

@@ -18,6 +18,7 @@ struct DrawRange {
     bool mirror = false;
     bool casts_shadow = true; ///< a light's own mesh does not: it would hide the light
     bool seen_by_camera = true;
+    bool exact_sphere = false;   ///< the mesh stands for one
 };
 
 /// All triangles of a frame in scene units; one range for each object, in the scene's order.

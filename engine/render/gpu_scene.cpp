@@ -86,10 +86,12 @@ void GpuScene::fill_tracing() {
     std::vector<vec4> normals;
     for (std::size_t object = 0; object < geometry_.ranges.size(); ++object) {
         const DrawRange& range = geometry_.ranges[object];
+        const std::uint32_t flags = (range.seen_by_camera ? 0 : bvh::kHidden) | (range.casts_shadow ? 0 : bvh::kShadowless) |
+                                    (range.exact_sphere ? bvh::kSphere : 0);
         for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
             const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& { return geometry_.vertices[geometry_.indices[k + j]]; };
             triangles.push_back({vertex(0).position, vertex(1).position, vertex(2).position,
-                                 static_cast<std::uint32_t>(object), range.seen_by_camera ? 0u : bvh::kHidden});
+                                 static_cast<std::uint32_t>(object), flags});
             for (std::uint32_t j = 0; j < 3; ++j) normals.emplace_back(vertex(j).normal, 0.0f);
         }
     }

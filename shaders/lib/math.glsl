@@ -342,6 +342,8 @@ const uint kBvhRoot = 0x40000001u;  // the child word of the root, node 1
 const uint kBvhNothing = 0x40000000u;
 const uint kBvhIdMask = 0x1fffffffu; // of a triangle's words
 const uint kBvhHidden = 1u;          // flag: camera rays pass through
+const uint kBvhShadowless = 2u;      // flag: shadow rays pass through (a light's own mesh)
+const uint kBvhSphere = 4u;          // flag: stands for an exact sphere
 
 INLINE uint bvh_count(uint word) { return (word & ~kBvhTag) >> kBvhCountShift; }
 INLINE uint bvh_index(uint word) { return word & kBvhIndexMask; }

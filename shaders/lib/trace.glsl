@@ -35,6 +35,8 @@ uint trace_steps = 0u;
 // True once a walk ended before it was done: then its answer is worthless. Either it reached
 // kMaxTraceSteps, or the driver stopped the loop: one software driver silently ends all loops of an
 // invocation after 65,535 iterations, counted over the eight lanes that run together.
+// It ends the caller's loops too, and a lane whose walk was just done is not told: a caller that
+// loops over rays checks that its own loop ran to its end.
 bool trace_exhausted = false;
 const uint kMaxTraceSteps = 60000u;
 
@@ -137,15 +139,15 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
     return found;
 }
 
-// The first triangle that the ray meets at a t in (0, t_max). Camera rays do not see hidden ones.
-bool closest_hit(Ray ray, float t_max, bool camera_ray, out Hit hit) {
-    return trace_walk(ray, t_max, camera_ray ? kBvhHidden : 0u, false, hit);
+// The first triangle that the ray meets at a t in (0, t_max), except those with a flag of `skipped`.
+bool closest_hit(Ray ray, float t_max, uint skipped, out Hit hit) {
+    return trace_walk(ray, t_max, skipped, false, hit);
 }
 
-// Whether some triangle is met at a t in (0, t_max).
-bool any_hit(Ray ray, float t_max) {
+// Whether some triangle without a flag of `skipped` is met at a t in (0, t_max).
+bool any_hit(Ray ray, float t_max, uint skipped) {
     Hit hit;
-    return trace_walk(ray, t_max, 0u, true, hit);
+    return trace_walk(ray, t_max, skipped, true, hit);
 }
 
 #endif

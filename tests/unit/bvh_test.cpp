@@ -150,7 +150,7 @@ TEST(Bvh, KeepsNumberObjectAndFlags) {
     EXPECT_EQ(first->triangle, 1u);
     EXPECT_EQ(first->object, 7u);
     EXPECT_EQ(first->t, 1);
-    const auto seen = closest_hit<float>(bvh, ray, kInfinity, true);
+    const auto seen = closest_hit<float>(bvh, ray, kInfinity, kHidden);
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->triangle, 0u) << "camera rays pass through";
     EXPECT_EQ(seen->object, 0x1ffffffeu);
@@ -201,7 +201,7 @@ TEST(Bvh, CopiesOfOneTriangleAndTheLowestNumberWins) {
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->triangle, 0u);
     Steps steps;
-    EXPECT_TRUE(any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, kInfinity, &steps));
+    EXPECT_TRUE(any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, kInfinity, 0, &steps));
     EXPECT_LE(steps.total(), kMaxDepth + kMaxLeaf);
 }
 
@@ -346,7 +346,7 @@ TEST(ClosestHit, BadRaysMissInBoundedSteps) {
             else t_max = bad;
             if (k == 6 && bad > 0) continue; // t_max = +infinity is the usual one
             Steps steps;
-            EXPECT_FALSE(closest_hit<float>(bvh, {origin, direction}, t_max, false, &steps));
+            EXPECT_FALSE(closest_hit<float>(bvh, {origin, direction}, t_max, 0, &steps));
             EXPECT_FALSE(any_hit<float>(bvh, {origin, direction}, t_max));
             EXPECT_FALSE(brute_force<float>(bvh, {origin, direction}, t_max));
             EXPECT_EQ(steps.total(), 0u);
@@ -428,7 +428,7 @@ TEST(ClosestHit, VisitsFewNodes) {
     std::size_t total = 0;
     for (int i = 0; i < 1000; ++i) {
         Steps steps;
-        closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, kInfinity, false,
+        closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, kInfinity, 0,
                            &steps);
         total += steps.total();
     }

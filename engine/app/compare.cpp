@@ -1,0 +1,218 @@
+#include "app/compare.hpp"
+
+#include "core/error.hpp"
+#include "measure/difference.hpp"
+#include "measure/flip.hpp"
+#include "measure/masks.hpp"
+#include "measure/pareto.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace catoptric::app {
+
+namespace {
+
+/// What a row is judged against: the reference at the row's own sample count.
+struct Truth {
+    Part part;
+    std::vector<double> gpu_ms;
+};
+
+std::string sample_count(const TechniqueChoice& choice) {
+    for (const auto& [name, value] : choice.settings)
+        if (choice.technique == "raytrace" && name == "samples") return value;
+    return "1";
+}
+
+/// The text of the reference with `samples` set; text without that knob stays as it is.
+std::string reference_at(const std::string& reference, const std::string& samples) {
+    if (samples == "1" || parse_technique(reference).technique != "raytrace") return reference;
+    return reference + (reference.find(':') == std::string::npos ? ":" : ",") + "samples=" + samples;
+}
+
+std::vector<report::Setting> settings_of(const TechniqueChoice& choice) {
+    std::vector<report::Setting> settings;
+    for (std::size_t i = 0; i < choice.settings.size(); ++i) {
+        const auto& [name, text] = choice.settings[i];
+        settings.push_back({name, text, choice.is_number[i] ? std::optional(std::stod(text)) : std::nullopt});
+    }
+    return settings;
+}
+
+template <typename Value>
+measure::Summary over_frames(const std::vector<Frame>& frames, Value&& value) {
+    std::vector<double> samples;
+    for (const Frame& frame : frames) samples.push_back(value(frame));
+    return measure::summarise(samples);
+}
+
+/// Times of the passes whose name begins with `prefix`, and of them together. Alone, the frame counts
+/// from its first to its last stamp.
+void fill_times(report::Row& row, const std::vector<Frame>& frames, const std::string& prefix) {
+    const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
+    row.gpu_ms = over_frames(frames, [&](const Frame& frame) {
+        if (prefix.empty()) return frame.gpu_ms;
+        double sum = 0;
+        for (const PassTime& pass : frame.passes) sum += mine(pass) ? pass.ms() : 0;
+        return sum;
+    });
+    row.cpu_record_ms = over_frames(frames, [](const Frame& frame) { return frame.record_ms; });
+    row.wall_ms = over_frames(frames, [](const Frame& frame) { return frame.wall_ms; });
+    const std::vector<PassTime>& passes = frames.front().passes;
+    for (std::size_t i = 0; i < passes.size(); ++i)
+        if (mine(passes[i]))
+            row.passes.push_back({passes[i].name, over_frames(frames, [&](const Frame& frame) { return frame.passes[i].ms(); })});
+}
+
+void fill_errors(report::Row& row, const Part& part, const Part& truth, const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
+    row.flip_map = measure::flip(part.display, truth.display);
+    const auto against = [&](const measure::Mask& mask) { return measure::difference(part.hdr, truth.hdr, mask, row.flip_map); };
+    row.error = against(measure::mirrors(hits));
+    row.error_first_order = against(measure::first_order(hits));
+    row.error_mirror_in_mirror = against(measure::mirror_in_mirror(hits));
+    row.error_non_mirror = against(measure::non_mirror(hits));
+    row.error_all = against(measure::all_pixels(hits));
+    for (std::uint32_t mirror = 1; mirror <= mirrors; ++mirror) row.error_per_mirror.push_back(against(measure::of_mirror(hits, mirror)));
+    row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
+    row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
+}
+
+report::Row make_row(const std::string& text, const Part& part, const std::vector<Frame>& frames) {
+    const TechniqueChoice choice = parse_technique(text);
+    report::Row row;
+    row.technique = choice.technique;
+    row.label = choice.label;
+    row.settings = settings_of(choice);
+    row.image = choice.file_name;
+    row.scene_passes = part.scene_passes;
+    row.scene_draws = part.scene_draws;
+    row.memory_bytes = part.memory_bytes;
+    if (part.rays) row.rays = report::Rays{part.rays->primary, part.rays->mirror, part.rays->shadow};
+    row.hdr = part.hdr;
+    row.display = part.display;
+    fill_times(row, frames, part.prefix);
+    return row;
+}
+
+/// Runs rows one by one or together, judges each against the reference at its sample count.
+class Comparer {
+public:
+    Comparer(Engine& engine, const CompareRequest& request) : engine_(engine), request_(request) {
+        if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
+        for (const std::string& text : request_.base.techniques) parse_technique(text); // refused before any work
+        mirrors_ = scene::mirrors(request_.base.scene).size();
+    }
+
+    report::Comparison run() {
+        start();
+        try {
+            // Masks: what the reference's one ray through each pixel centre meets.
+            hits_ = truth("1").part.hits;
+            check(!hits_.empty(), Failure::usage, "the reference '", request_.reference, "' does not tell which pixels are mirrors; use raytrace");
+            fill_reference();
+            const std::vector<double> clear = engine_.clear_ms(request_.base);
+            if (!clear.empty()) comparison_.clear_ms = measure::summarise(clear);
+            request_.together ? run_together() : run_apart();
+        } catch (const Error& error) {
+            const bool stopped = error.failure == Failure::interrupted || error.failure == Failure::terminated;
+            if (!stopped) throw;
+            comparison_.complete = false;
+        }
+        finish();
+        return std::move(comparison_);
+    }
+
+private:
+    void start() {
+        const Request& base = request_.base;
+        const DeviceInfo& device = engine_.device();
+        comparison_.version = version();
+        comparison_.commit = commit();
+        comparison_.command = request_.command;
+        comparison_.device = {device.name, device.driver, device.api, device.type, device.threads};
+        comparison_.scene = {base.scene.name, scene::triangle_count(base.scene), mirrors_, scene::hash(base.scene)};
+        comparison_.width = static_cast<int>(base.size.x);
+        comparison_.height = static_cast<int>(base.size.y);
+        comparison_.frames = base.frames;
+        comparison_.warmup = base.warmup;
+        comparison_.time = base.time;
+        comparison_.ambient = base.ambient;
+        comparison_.exposure = base.exposure;
+        comparison_.timing = base.timing == Timing::isolated ? "isolated" : "pipelined";
+        comparison_.together = request_.together;
+        comparison_.warnings = base.scene.warnings;
+    }
+
+    /// The reference, rendered once for each sample count.
+    const Truth& truth(const std::string& samples) {
+        const auto found = truths_.find(samples);
+        if (found != truths_.end()) return found->second;
+        Request request = request_.base;
+        request.techniques = {reference_at(request_.reference, samples)};
+        Result result = engine_.run(request);
+        Truth made{std::move(result.parts.front()), {}};
+        for (const Frame& frame : result.frames) made.gpu_ms.push_back(frame.gpu_ms);
+        return truths_.emplace(samples, std::move(made)).first->second;
+    }
+
+    void fill_reference() {
+        const TechniqueChoice choice = parse_technique(request_.reference);
+        comparison_.reference_technique = choice.technique;
+        comparison_.reference_label = choice.label;
+        comparison_.reference_settings = settings_of(choice);
+        comparison_.reference_gpu_ms = measure::summarise(truth("1").gpu_ms);
+        comparison_.reference_display = truth("1").part.display;
+    }
+
+    void add(const std::string& text, const Part& part, const std::vector<Frame>& frames) {
+        report::Row row = make_row(text, part, frames);
+        const std::string samples = sample_count(parse_technique(text));
+        fill_errors(row, part, truth(samples).part, hits_, mirrors_);
+        row.is_reference = row.label == parse_technique(reference_at(request_.reference, samples)).label;
+        comparison_.rows.push_back(std::move(row));
+    }
+
+    void run_apart() {
+        const std::vector<std::string>& texts = request_.base.techniques;
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            if (request_.on_row) request_.on_row(texts[i], i, texts.size());
+            Request request = request_.base;
+            request.techniques = {texts[i]};
+            const Result result = engine_.run(request);
+            add(texts[i], result.parts.front(), result.frames);
+        }
+    }
+
+    void run_together() {
+        if (request_.on_row) request_.on_row("all rows in one frame", 0, 1);
+        const Result result = engine_.run(request_.base);
+        for (std::size_t i = 0; i < result.parts.size(); ++i) add(request_.base.techniques[i], result.parts[i], result.frames);
+    }
+
+    void finish() {
+        std::vector<measure::Candidate> candidates;
+        for (const report::Row& row : comparison_.rows) candidates.push_back({row.gpu_ms.median, row.error.flip});
+        comparison_.pareto = measure::pareto_front(candidates);
+    }
+
+    Engine& engine_;
+    CompareRequest request_;
+    std::size_t mirrors_ = 0;
+    std::map<std::string, Truth> truths_;
+    std::vector<std::uint32_t> hits_;
+    report::Comparison comparison_;
+};
+
+} // namespace
+
+std::vector<std::string> default_techniques() {
+    return {"naive:bounces=0", "naive:bounces=1", "naive:bounces=2", "naive:bounces=3", "naive:bounces=4",
+            "reuse", "parallax",
+            "raytrace:depth=0", "raytrace:depth=1", "raytrace:depth=2", "raytrace:depth=3", "raytrace:depth=4",
+            "raytrace:depth=8", "raytrace:sphere=exact"};
+}
+
+report::Comparison compare(Engine& engine, const CompareRequest& request) { return Comparer(engine, request).run(); }
+
+} // namespace catoptric::app

@@ -1,0 +1,219 @@
+#include "app/engine.hpp"
+
+#include "app/version.hpp"
+#include "core/error.hpp"
+#include "graph/dump.hpp"
+#include "graph/run.hpp"
+#include "measure/masks.hpp"
+#include "reflect/technique.hpp"
+
+#include <cstring>
+
+namespace catoptric::app {
+
+std::atomic<int> stop_signal{0};
+
+std::string version() { return CATOPTRIC_VERSION; }
+std::string commit() { return CATOPTRIC_COMMIT; }
+
+namespace {
+
+DeviceInfo to_info(const gpu::DeviceInfo& info) {
+    return {info.name, info.driver, info.api, info.type, info.threads, info.missing};
+}
+
+/// One technique's share of a frame's graph.
+struct Declared {
+    reflect::Choice choice;
+    std::string prefix;
+    reflect::Outputs outputs;
+    graph::Image display;
+};
+
+struct FrameGraph {
+    graph::Graph graph;
+    std::vector<Declared> parts;
+};
+
+/// Life of a frame, step 3: every technique's passes and its compose, and what is wanted of them.
+FrameGraph declare(const Request& request, const std::vector<reflect::Choice>& choices,
+                   const render::GpuScene& scene, graph::History history) {
+    FrameGraph frame{graph::Graph(std::move(history)), {}};
+    for (const reflect::Choice& choice : choices) {
+        const std::string prefix = choices.size() > 1 ? choice.file_name() + "/" : "";
+        const render::FrameInputs inputs{scene, request.size, prefix};
+        reflect::Outputs outputs = choice.technique->add(frame.graph, inputs, choice.settings);
+        const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr, request.exposure);
+        frame.graph.want(outputs.hdr);
+        frame.graph.want(display);
+        if (outputs.hits) frame.graph.want(*outputs.hits);
+        if (outputs.counters) frame.graph.want(*outputs.counters);
+        frame.parts.push_back({choice, prefix, outputs, display});
+    }
+    return frame;
+}
+
+std::vector<reflect::Choice> parse_choices(const Request& request) {
+    check(!request.techniques.empty(), Failure::usage, "no technique was asked for");
+    std::vector<reflect::Choice> choices;
+    for (const std::string& text : request.techniques) {
+        choices.push_back(reflect::parse_choice(text));
+        for (std::size_t i = 0; i + 1 < choices.size(); ++i)
+            check(choices[i].label() != choices.back().label(), Failure::usage, "technique '", text, "' is asked for twice");
+    }
+    return choices;
+}
+
+void check_request(const Request& request) {
+    check(request.size.x > 0 && request.size.y > 0, Failure::usage, "the size must be at least 1x1, not ",
+          request.size.x, "x", request.size.y);
+    check(request.frames > 0 && request.warmup >= 0, Failure::usage, "frames must be at least 1 and warm-up at least 0, not ",
+          request.frames, " and ", request.warmup);
+}
+
+void check_stopped() {
+    const int signal = stop_signal.load();
+    check(signal == 0, signal == 15 ? Failure::terminated : Failure::interrupted, "stopped by signal ", signal);
+}
+
+Frame to_frame(const graph::FrameTimes& times) {
+    Frame frame{{}, times.span_ms, times.record_ms, times.wall_ms};
+    for (const graph::PassTime& pass : times.passes) frame.passes.push_back({pass.name, pass.begin_ms, pass.end_ms});
+    return frame;
+}
+
+/// Scene passes and draws of the part whose passes begin with `prefix`.
+void count_scene_passes(const graph::Graph& graph, const graph::Plan& plan, Part& part) {
+    for (const graph::PlannedPass& planned : plan.passes) {
+        const graph::Pass& pass = graph.passes()[planned.pass];
+        if (pass.tag != graph::Tag::scene || !pass.name.starts_with(part.prefix)) continue;
+        ++part.scene_passes;
+        part.scene_draws += static_cast<int>(pass.layer_count);
+    }
+}
+
+measure::Picture to_picture(const std::vector<std::byte>& texels, uvec2 size, Format format) {
+    measure::Picture picture(static_cast<int>(size.x), static_cast<int>(size.y));
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        if (format == Format::rgba32f) {
+            std::memcpy(&picture.pixels[i], texels.data() + 16 * i, 12);
+        } else {
+            const auto byte = [&](std::size_t c) { return static_cast<float>(texels[4 * i + c]) / 255.0f; };
+            picture.pixels[i] = {byte(0), byte(1), byte(2)};
+        }
+    }
+    return picture;
+}
+
+void read_counters(const std::vector<std::byte>& bytes, Part& part) {
+    shared::Counters counters;
+    std::memcpy(&counters, bytes.data(), sizeof counters);
+    check(counters.exhausted == 0, Failure::exhausted, "'", part.label, "': ", counters.exhausted,
+          " pixels met more triangles and boxes than one invocation may (", counters.longest_walk,
+          " steps); lower the depth");
+    part.rays = RayCounts{counters.primary_rays, counters.mirror_rays, counters.shadow_rays, counters.longest_walk};
+}
+
+Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const Declared& declared, uvec2 size) {
+    Part part;
+    part.label = declared.choice.label();
+    part.prefix = declared.prefix;
+    part.memory_bytes = plan.bytes;
+    count_scene_passes(frame.graph, plan, part);
+    if (declared.outputs.counters) read_counters(runner.read(*declared.outputs.counters), part);
+    part.hdr = to_picture(runner.read(declared.outputs.hdr), size, Format::rgba32f);
+    part.display = to_picture(runner.read(declared.display), size, Format::rgba8_unorm);
+    if (declared.outputs.hits) {
+        const std::vector<std::byte> words = runner.read(*declared.outputs.hits);
+        part.hits.resize(words.size() / 4);
+        std::memcpy(part.hits.data(), words.data(), words.size());
+    }
+    return part;
+}
+
+} // namespace
+
+struct Engine::Impl {
+    explicit Impl(const EngineOptions& options)
+        : device({options.device, options.validate, options.layered, false}), pipelines(device), info(to_info(device.info())) {}
+    gpu::Device device;
+    gpu::Pipelines pipelines;
+    DeviceInfo info;
+};
+
+Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Engine::~Engine() = default;
+
+const DeviceInfo& Engine::device() const { return impl_->info; }
+void Engine::check_validation() const { impl_->device.check_validation(); }
+
+Result Engine::run(const Request& request) {
+    check_request(request);
+    const std::vector<reflect::Choice> choices = parse_choices(request);
+    render::GpuScene scene(impl_->device, request.scene);
+    graph::Runner runner(impl_->device, impl_->pipelines);
+    const auto timing = request.timing == Timing::isolated ? graph::Timing::isolated : graph::Timing::pipelined;
+    const int total = request.warmup + request.frames;
+    Result result;
+    for (int k = 1; k <= total; ++k) {
+        check_stopped();
+        if (k == 1 || request.animate) {
+            const double time = request.time + (request.animate ? (k - 1) / 60.0 : 0.0);
+            scene.update(scene::at(request.scene, time), request.camera, request.size, request.ambient);
+        }
+        const FrameGraph frame = declare(request, choices, scene, runner.history());
+        const graph::Plan plan = runner.plan(frame.graph);
+        const graph::FrameTimes times = runner.run(frame.graph, plan, timing);
+        if (k > request.warmup) result.frames.push_back(to_frame(times));
+        if (k == total)
+            for (const Declared& part : frame.parts) result.parts.push_back(read_part(runner, frame, plan, part, request.size));
+        if (request.progress) request.progress(k, total);
+    }
+    return result;
+}
+
+std::string Engine::plan(const Request& request, PlanFormat format) {
+    check_request(request);
+    const std::vector<reflect::Choice> choices = parse_choices(request);
+    render::GpuScene scene(impl_->device, request.scene);
+    scene.update(scene::at(request.scene, request.time), request.camera, request.size, request.ambient);
+    const graph::Runner runner(impl_->device, impl_->pipelines);
+    const FrameGraph frame = declare(request, choices, scene, {});
+    const graph::Plan plan = runner.plan(frame.graph);
+    switch (format) {
+    case PlanFormat::dot: return graph::to_dot(frame.graph, plan);
+    case PlanFormat::json: return graph::to_json(frame.graph, plan);
+    case PlanFormat::text: break;
+    }
+    return graph::to_text(frame.graph, plan);
+}
+
+std::vector<double> Engine::clear_ms(const Request& request) {
+    const auto mirrors = static_cast<std::uint32_t>(scene::mirrors(request.scene).size());
+    if (mirrors == 0) return {};
+    constexpr std::uint32_t kDefaultFace = 256;
+    graph::Runner runner(impl_->device, impl_->pipelines);
+    std::vector<double> samples;
+    for (int k = 1; k <= request.warmup + request.frames; ++k) {
+        graph::Graph graph;
+        const graph::Image cubes = graph.image({"cubes.colour", Format::rgba16f, kDefaultFace, kDefaultFace, 6 * mirrors, true});
+        const graph::Image depth = graph.image({"depth", Format::d32f, kDefaultFace, kDefaultFace, 6 * mirrors, true});
+        graph.pass("clear")
+            .writes(cubes, graph::Use::colour, graph::Clear{0, 0, 0, 1})
+            .writes(depth, graph::Use::depth, graph::Clear{0, 0, 0, 0})
+            .layers(6 * mirrors)
+            .record([](graph::Commands&) {});
+        graph.want(cubes);
+        const graph::FrameTimes times = runner.run(graph, runner.plan(graph), graph::Timing::isolated);
+        if (k > request.warmup) samples.push_back(times.passes.front().ms());
+    }
+    return samples;
+}
+
+std::vector<DeviceInfo> devices() {
+    std::vector<DeviceInfo> list;
+    for (const gpu::DeviceInfo& info : gpu::list_devices()) list.push_back(to_info(info));
+    return list;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "graph/access.hpp"
+
+namespace catoptric::graph {
+
+/// Fills the barriers of every pass and `last`. Needs placements: memory that was used before is
+/// waited for.
+void order(const Graph& graph, Plan& plan);
+
+} // namespace catoptric::graph

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "graph/access.hpp"
+
+namespace catoptric::graph {
+
+/// For each pass of a valid graph, whether anything wanted depends on it, in this frame or, through
+/// `previous`, in the next.
+std::vector<char> survivors(const Graph& graph);
+
+/// "nobody wants what it writes: 'x', 'y'"
+std::string cull_reason(const Graph& graph, const Pass& pass);
+
+} // namespace catoptric::graph

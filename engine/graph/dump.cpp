@@ -1,0 +1,206 @@
+#include "graph/dump.hpp"
+
+#include "graph/access.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace catoptric::graph {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view name_of(Tag tag) { return tag == Tag::scene ? "scene" : "none"; }
+
+/// "1 pass", "2 passes"
+std::string counted(std::size_t count, const std::string& thing, const std::string& plural) {
+    return std::to_string(count) + " " + (count == 1 ? thing : thing + plural);
+}
+
+const Pass& pass_of(const Graph& graph, const PlannedPass& planned) {
+    return graph.passes()[planned.pass];
+}
+
+/// Names of everything whose memory overlaps that of `mine`.
+std::vector<std::string> sharers(const Graph& graph, const Plan& plan, const Placement& mine) {
+    std::vector<std::string> names;
+    const auto look = [&](const Placement& other, const std::string& name) {
+        if (&other == &mine || !mine.used || !other.used || other.heap != mine.heap) return;
+        if (other.offset < mine.offset + mine.bytes && mine.offset < other.offset + other.bytes)
+            names.push_back(name);
+    };
+    for (std::size_t i = 0; i < plan.images.size(); ++i)
+        look(plan.images[i], graph.images()[i].name);
+    for (std::size_t b = 0; b < plan.buffers.size(); ++b)
+        look(plan.buffers[b], graph.buffers()[b].name);
+    return names;
+}
+
+void write_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
+    for (const Access& a : accesses(pass)) {
+        out << "      " << (a.write ? "writes " : "reads  ") << describe(graph, a) << " as "
+            << graph::name_of(a.use);
+        if (a.clears) out << ", cleared";
+        if (a.write && a.needs && is_attachment(a.use)) out << ", loaded";
+        out << "\n";
+    }
+}
+
+void write_placement(std::ostream& out, const Graph& graph, const Plan& plan,
+                     const Placement& placement) {
+    if (!placement.used) {
+        out << ", not used\n";
+        return;
+    }
+    out << ", passes " << placement.first + 1 << " to " << placement.last + 1 << ", heap "
+        << placement.heap << " at " << placement.offset << ", " << placement.bytes << " bytes";
+    if (placement.alone) out << ", alone";
+    const std::vector<std::string> others = sharers(graph, plan, placement);
+    for (std::size_t i = 0; i < others.size(); ++i)
+        out << (i == 0 ? ", shares with '" : ", '") << others[i] << "'";
+    out << "\n";
+}
+
+Json access_json(const Graph& graph, const Access& a) {
+    if (a.is_buffer)
+        return {{"buffer", graph.buffers()[a.id].name}, {"use", graph::name_of(a.use)}};
+    Json json{{"image", graph.images()[a.id].name},
+              {"layers", {a.first_layer, a.layer_count}},
+              {"use", graph::name_of(a.use)}};
+    if (a.write) json["clear"] = a.clears;
+    else json["previous"] = a.previous;
+    return json;
+}
+
+Json pass_json(const Graph& graph, const PlannedPass& planned) {
+    const Pass& pass = pass_of(graph, planned);
+    Json reads = Json::array(), writes = Json::array();
+    for (const Access& a : accesses(pass))
+        (a.write ? writes : reads).push_back(access_json(graph, a));
+    return {{"name", pass.name},
+            {"tag", name_of(pass.tag)},
+            {"reads", reads},
+            {"writes", writes},
+            {"barriers", planned.barriers.size()}};
+}
+
+void add_placement(Json& json, const Placement& placement) {
+    json["used"] = placement.used;
+    json["first"] = placement.first;
+    json["last"] = placement.last;
+    json["heap"] = placement.heap;
+    json["offset"] = placement.offset;
+    json["bytes"] = placement.bytes;
+    json["alone"] = placement.alone;
+}
+
+Json image_json(const ImageDesc& desc, const Placement& placement) {
+    Json json{{"name", desc.name},
+              {"format", catoptric::name_of(desc.format)},
+              {"size", {desc.width, desc.height}},
+              {"layers", desc.layers},
+              {"cube", desc.cube}};
+    add_placement(json, placement);
+    return json;
+}
+
+/// Text between quotation marks of the dot language.
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out;
+}
+
+void write_dot_pass(std::ostream& out, const Graph& graph, std::uint32_t index, bool culled) {
+    const Pass& pass = graph.passes()[index];
+    const std::string style = culled ? "dashed" : "solid";
+    out << "  p" << index << " [shape=box, style=" << style << ", label=\"" << escaped(pass.name)
+        << (pass.tag == Tag::scene ? "\\n(scene)" : "") << "\"];\n";
+    for (const Access& a : accesses(pass)) {
+        const std::string resource = (a.is_buffer ? "b" : "i") + std::to_string(a.id);
+        const std::string node = "p" + std::to_string(index);
+        out << "  " << (a.write ? node + " -> " + resource : resource + " -> " + node)
+            << " [style=" << (a.previous ? "dotted" : style) << ", label=\""
+            << (a.previous ? "previous, " : "") << graph::name_of(a.use);
+        if (!a.is_buffer && a.layer_count != graph.images()[a.id].layers)
+            out << " [" << a.first_layer << "," << a.end_layer() << ")";
+        out << "\"];\n";
+    }
+}
+
+} // namespace
+
+std::string to_text(const Graph& graph, const Plan& plan) {
+    std::ostringstream out;
+    out << counted(plan.passes.size(), "pass", "es") << ", scene_passes " << plan.scene_passes << ", "
+        << plan.bytes << " bytes (" << plan.bytes_unshared << " without sharing)\n\npasses\n";
+    for (std::size_t p = 0; p < plan.passes.size(); ++p) {
+        const Pass& pass = pass_of(graph, plan.passes[p]);
+        out << "  " << p + 1 << " '" << pass.name << "'"
+            << (pass.tag == Tag::scene ? " (scene)" : "") << ", "
+            << counted(plan.passes[p].barriers.size(), "barrier", "s") << "\n";
+        write_uses(out, graph, pass);
+    }
+    if (!plan.culled.empty()) out << "\nculled\n";
+    for (const Culled& culled : plan.culled)
+        out << "  '" << graph.passes()[culled.pass].name << "': " << culled.reason << "\n";
+    if (!plan.images.empty()) out << "\nimages\n";
+    for (std::size_t i = 0; i < plan.images.size(); ++i) {
+        const ImageDesc& desc = graph.images()[i];
+        out << "  '" << desc.name << "' " << catoptric::name_of(desc.format) << " " << desc.width
+            << "x" << desc.height << ", " << counted(desc.layers, "layer", "s")
+            << (desc.cube ? " (cube)" : "");
+        write_placement(out, graph, plan, plan.images[i]);
+    }
+    if (!plan.buffers.empty()) out << "\nbuffers\n";
+    for (std::size_t b = 0; b < plan.buffers.size(); ++b) {
+        out << "  '" << graph.buffers()[b].name << "'";
+        write_placement(out, graph, plan, plan.buffers[b]);
+    }
+    return out.str();
+}
+
+std::string to_dot(const Graph& graph, const Plan& plan) {
+    std::ostringstream out;
+    out << "digraph frame {\n  rankdir=LR;\n";
+    for (std::size_t i = 0; i < graph.images().size(); ++i)
+        out << "  i" << i << " [shape=ellipse, label=\"" << escaped(graph.images()[i].name)
+            << "\"];\n";
+    for (std::size_t b = 0; b < graph.buffers().size(); ++b)
+        out << "  b" << b << " [shape=cylinder, label=\"" << escaped(graph.buffers()[b].name)
+            << "\"];\n";
+    for (const PlannedPass& planned : plan.passes) write_dot_pass(out, graph, planned.pass, false);
+    for (const Culled& culled : plan.culled) write_dot_pass(out, graph, culled.pass, true);
+    out << "}\n";
+    return out.str();
+}
+
+std::string to_json(const Graph& graph, const Plan& plan) {
+    Json json{{"passes", Json::array()},
+              {"culled", Json::array()},
+              {"images", Json::array()},
+              {"buffers", Json::array()}};
+    for (const PlannedPass& planned : plan.passes)
+        json["passes"].push_back(pass_json(graph, planned));
+    for (const Culled& culled : plan.culled)
+        json["culled"].push_back(
+            {{"name", graph.passes()[culled.pass].name}, {"reason", culled.reason}});
+    for (std::size_t i = 0; i < plan.images.size(); ++i)
+        json["images"].push_back(image_json(graph.images()[i], plan.images[i]));
+    for (std::size_t b = 0; b < plan.buffers.size(); ++b) {
+        Json buffer{{"name", graph.buffers()[b].name}};
+        add_placement(buffer, plan.buffers[b]);
+        json["buffers"].push_back(buffer);
+    }
+    json["scene_passes"] = plan.scene_passes;
+    json["bytes"] = plan.bytes;
+    json["bytes_unshared"] = plan.bytes_unshared;
+    return json.dump(2) + "\n";
+}
+
+} // namespace catoptric::graph

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "graph/access.hpp"
+
+namespace catoptric::graph {
+
+/// Fills `used`, `first`, `last` and `alone` of every image and buffer from the surviving passes.
+void find_lifetimes(const Graph& graph, Plan& plan);
+
+/// Fills offsets, bytes and heap sizes. Needs lifetimes. What is alive at the same time never
+/// overlaps; what is not may.
+void place(const Graph& graph, const Sizer& sizer, Plan& plan);
+
+} // namespace catoptric::graph

@@ -1,0 +1,72 @@
+#include "graph/plan.hpp"
+
+#include "core/error.hpp"
+#include "graph/barriers.hpp"
+#include "graph/cull.hpp"
+#include "graph/place.hpp"
+#include "graph/validate.hpp"
+
+namespace catoptric::graph {
+
+namespace {
+
+void cull(const Graph& graph, Plan& plan) {
+    const std::vector<char> survives = survivors(graph);
+    for (std::uint32_t p = 0; p < survives.size(); ++p) {
+        const Pass& pass = graph.passes()[p];
+        if (!survives[p]) {
+            plan.culled.push_back({p, cull_reason(graph, pass)});
+            continue;
+        }
+        plan.passes.push_back({p, {}});
+        plan.scene_passes += pass.tag == Tag::scene ? 1 : 0;
+    }
+}
+
+void check_memory(const Graph& graph, const Plan& plan, const Limits& limits) {
+    if (plan.bytes <= limits.max_memory) return;
+    std::uint64_t bytes = 0;
+    std::string name;
+    const auto look = [&](const Placement& placement, const std::string& candidate) {
+        if (placement.bytes <= bytes) return;
+        bytes = placement.bytes;
+        name = candidate;
+    };
+    for (std::size_t i = 0; i < plan.images.size(); ++i)
+        look(plan.images[i], graph.images()[i].name);
+    for (std::size_t b = 0; b < plan.buffers.size(); ++b)
+        look(plan.buffers[b], graph.buffers()[b].name);
+    fail(Failure::exhausted, "the frame wants ", plan.bytes,
+         " bytes of memory, device allows max_memory = ", limits.max_memory, "; the largest is '",
+         name, "' with ", bytes);
+}
+
+} // namespace
+
+Sizer plain_sizer() {
+    constexpr std::uint64_t kAlignment = 256;
+    const auto padded = [](std::uint64_t bytes) {
+        return Requirements{.bytes = (bytes + kAlignment - 1) / kAlignment * kAlignment,
+                            .alignment = kAlignment,
+                            .heap = 0};
+    };
+    return {.image =
+                [=](const ImageDesc& desc) {
+                    return padded(std::uint64_t{desc.width} * desc.height * desc.layers *
+                                  bytes_per_texel(desc.format));
+                },
+            .buffer = [=](const BufferDesc& desc) { return padded(desc.bytes); }};
+}
+
+Plan plan(const Graph& graph, const Limits& limits, const Sizer& sizer) {
+    validate(graph, limits);
+    Plan plan;
+    cull(graph, plan);
+    find_lifetimes(graph, plan);
+    place(graph, sizer, plan);
+    check_memory(graph, plan, limits);
+    order(graph, plan);
+    return plan;
+}
+
+} // namespace catoptric::graph
