@@ -121,20 +121,33 @@ Ray camera_ray(vec2 place) {
 // Radiance along the ray; `met` = number of the first mirror, and of the second << 16.
 vec3 radiance(Ray ray, out uint met) {
     vec3 weight = vec3(1);
+    vec3 result = vec3(0);
     met = 0u;
     uint skipped = kBvhHidden;
-    for (uint bounce = 0u;; ++bounce) {
-        if (!trace_ray(ray, skipped, point)) return vec3(0);
+    bool done = false;
+    for (uint bounce = 0u; !done; ++bounce) {
+        if (!trace_ray(ray, skipped, point)) {
+            done = true;
+            continue;
+        }
         Surface surface = surfaces[point.object];
         if (bounce < 2u) met |= surface.mirror << (16u * bounce);
-        if (surface.mirror == 0u) return weight * shade(surface, point.position, point.normal);
-        if (bounce == max_depth) return vec3(0);
-        weight *= surface.reflectance;
-        vec3 direction = mirror_direction(ray.direction, point.normal, point.facet);
-        ray = Ray(spawn_origin(point.position, point.error, point.facet, direction), direction, point.leaves);
-        skipped = 0u;
-        ++mirror_rays;
+        if (surface.mirror == 0u) {
+            result = weight * shade(surface, point.position, point.normal);
+            done = true;
+        } else if (bounce == max_depth) {
+            done = true;
+        } else {
+            weight *= surface.reflectance;
+            vec3 direction = mirror_direction(ray.direction, point.normal, point.facet);
+            ray = Ray(spawn_origin(point.position, point.error, point.facet, direction), direction, point.leaves);
+            skipped = 0u;
+            ++mirror_rays;
+        }
     }
+    // A driver that stopped the walk's loops stops this one too, without a word.
+    trace_exhausted = trace_exhausted || !done;
+    return result;
 }
 
 // Neighbouring work groups cost alike, and a software driver gives each of its threads one contiguous

@@ -144,6 +144,7 @@ void Device::create_device() {
     features.v12.shaderOutputLayer = layered_;
     features.v13.dynamicRendering = true;
     features.v13.synchronization2 = true;
+    features.v13.maintenance4 = true; // work-group sizes as glslang writes them for Vulkan 1.3
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;

@@ -152,6 +152,7 @@ std::string Features::missing(VkPhysicalDevice device) {
         {"hostQueryReset", has.v12.hostQueryReset},
         {"dynamicRendering", has.v13.dynamicRendering},
         {"synchronization2", has.v13.synchronization2},
+        {"maintenance4", has.v13.maintenance4},
     };
     std::string names;
     for (const auto& [name, there] : required)

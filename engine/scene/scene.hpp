@@ -85,10 +85,11 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Object> objects;
     std::vector<Camera> cameras;
+    std::vector<std::string> warnings; ///< what the loader left out or repaired, for the user
 };
 
 /// The scene as it stands `seconds` after its start: every motion applied to the transforms (and
-/// to the exact spheres), none left. Pure.
+/// to the exact spheres), none left. Pure. A time that is not finite is `Failure::usage`.
 Scene at(const Scene& scene, double seconds);
 
 /// True when some object moves.
@@ -97,19 +98,23 @@ bool is_animated(const Scene& scene);
 /// Indices into Scene::objects of the mirrors, in file order; mirror number n (from 1) is entry n-1.
 std::vector<std::size_t> mirrors(const Scene& scene);
 
-/// One light for each connected component of each emissive object's mesh, in file order.
+/// One light for each connected component of each emissive object's mesh, in file order. Vertices
+/// connect through a shared index or an identical position (which then counts once in the mean);
+/// triangles without area, and vertices that only they use, contribute nothing.
 std::vector<PointLight> lights(const Scene& scene);
 
-/// World-space bounds of one object or of everything; empty for nothing.
+/// World-space bounds, at rest, of one object's triangles or of everything; empty for nothing.
 Bounds<double> bounds(const Scene& scene, const Object& object);
 Bounds<double> bounds(const Scene& scene);
 
 std::size_t triangle_count(const Scene& scene);
 
-/// Where a file has no camera: along the axis of the bounds' smallest extent, whole bounds in view.
+/// Where a file has no camera: along the axis of the bounds' smallest extent, whole bounds in view
+/// of a square picture. Stands on the positive side, as glTF models face +z.
 Camera default_camera(const Scene& scene);
 
-/// 64-bit FNV-1a over names, geometry, materials and cameras as 16 hex digits.
+/// 64-bit FNV-1a over names, geometry, materials, motion and cameras as 16 hex digits. The scene's
+/// own name and its warnings do not count: a copied file has the same hash.
 std::string hash(const Scene& scene);
 
 } // namespace catoptric::scene

@@ -1,0 +1,78 @@
+#include "scene/load.hpp"
+#include "scene/shapes.hpp"
+
+namespace catoptric::scene {
+
+namespace {
+
+enum : std::size_t { kWhite, kGreen, kRed, kLight, kMirror };
+
+std::vector<Material> materials() {
+    return {{.name = "white", .albedo = {0.725f, 0.71f, 0.68f}},
+            {.name = "green", .albedo = {0.14f, 0.45f, 0.091f}},
+            {.name = "red", .albedo = {0.63f, 0.065f, 0.05f}},
+            {.name = "light", .emission = {17, 12, 4}},
+            {.name = "mirror", .mirror = true}};
+}
+
+void add_wall(Scene& scene, const std::string& name, std::size_t material, dvec3 a, dvec3 b,
+              dvec3 c, dvec3 d) {
+    scene.objects.push_back({.name = name, .mesh = scene.meshes.size(), .material = material});
+    scene.meshes.push_back(quad(name, a, b, c, d));
+}
+
+void add_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec3 centre,
+              double radius) {
+    dmat4 world_from_object(radius);
+    world_from_object[3] = dvec4(centre, 1);
+    scene.objects.push_back({.name = name,
+                             .mesh = mesh,
+                             .material = kMirror,
+                             .world_from_object = world_from_object,
+                             .sphere = Sphere{centre, radius}});
+}
+
+/// The measured box; its left wall is 3.2 off the plane at the floor's back corner, as published.
+void add_walls(Scene& scene) {
+    add_wall(scene, "floor", kWhite, //
+             {552.8, 0, 0}, {0, 0, 0}, {0, 0, 559.2}, {549.6, 0, 559.2});
+    add_wall(scene, "ceiling", kWhite, //
+             {556, 548.8, 0}, {556, 548.8, 559.2}, {0, 548.8, 559.2}, {0, 548.8, 0});
+    add_wall(scene, "back", kWhite, //
+             {549.6, 0, 559.2}, {0, 0, 559.2}, {0, 548.8, 559.2}, {556, 548.8, 559.2});
+    add_wall(scene, "right", kGreen, //
+             {0, 0, 559.2}, {0, 0, 0}, {0, 548.8, 0}, {0, 548.8, 559.2});
+    add_wall(scene, "left", kRed, //
+             {552.8, 0, 0}, {549.6, 0, 559.2}, {556, 548.8, 559.2}, {556, 548.8, 0});
+    add_wall(scene, "light", kLight, //
+             {343, 548.7, 227}, {343, 548.7, 332}, {213, 548.7, 332}, {213, 548.7, 227});
+}
+
+} // namespace
+
+Scene cornell_mirrors() {
+    Scene scene{.name = "cornell-mirrors", .materials = materials()};
+    add_walls(scene);
+    const std::size_t unit_ball = scene.meshes.size();
+    scene.meshes.push_back(ball("ball", 5));
+    add_ball(scene, "ball1", unit_ball, {445, 73, 320}, 72);
+    add_ball(scene, "ball2", unit_ball, {90, 100, 110}, 72);
+    add_ball(scene, "ball3", unit_ball, {190, 113, 410}, 110);
+    add_ball(scene, "ball4", unit_ball, {500, 80, 210}, 36);
+    scene.objects.back().motion = Harmonic{.amplitude = {0, 50, 0}, .period = 4};
+    scene.cameras.push_back({.name = "contract",
+                             .eye = {278, 273, -800},
+                             .target = {278, 273, 0},
+                             .vertical_fov_degrees = 37.5});
+    return scene;
+}
+
+Scene cornell_mirrors_closed() {
+    Scene scene = cornell_mirrors();
+    scene.name = "cornell-mirrors-closed";
+    add_wall(scene, "front", kWhite, {0, 0, 0}, {552.8, 0, 0}, {556, 548.8, 0}, {0, 548.8, 0});
+    scene.objects.back().seen_by_camera = false;
+    return scene;
+}
+
+} // namespace catoptric::scene

@@ -1,0 +1,82 @@
+#include "scene/scene.hpp"
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+namespace catoptric::scene {
+
+namespace {
+
+/// 64-bit FNV-1a. Lists and texts go in with their length, so that no two scenes run together.
+struct Hasher {
+    std::uint64_t state = 14695981039346656037ull;
+
+    void bytes(std::span<const std::byte> data) {
+        for (const std::byte byte : data)
+            state = (state ^ std::to_integer<std::uint64_t>(byte)) * 1099511628211ull;
+    }
+    template <typename Number>
+        requires std::is_arithmetic_v<Number>
+    void add(Number number) {
+        bytes(std::as_bytes(std::span(&number, 1)));
+    }
+    void add(const std::string& text) {
+        add(std::uint64_t(text.size()));
+        bytes(std::as_bytes(std::span(text)));
+    }
+    template <glm::length_t size, typename Number, glm::qualifier q>
+    void add(const glm::vec<size, Number, q>& vector) {
+        for (glm::length_t i = 0; i < size; ++i) add(vector[i]);
+    }
+    void add(const dmat4& matrix) {
+        for (int column = 0; column < 4; ++column) add(matrix[column]);
+    }
+    template <typename Item>
+    void add(const std::vector<Item>& list) {
+        add(std::uint64_t(list.size()));
+        for (const Item& item : list) add(item);
+    }
+
+    void add(const Mesh& mesh) {
+        add(mesh.name), add(mesh.positions), add(mesh.normals), add(mesh.triangles);
+    }
+    void add(const Material& material) {
+        add(material.name), add(material.albedo), add(material.emission);
+        add(material.mirror), add(material.reflectance);
+    }
+    void add(const std::monostate&) {}
+    void add(const Harmonic& motion) { add(motion.amplitude), add(motion.period); }
+    void add(const Keyframes& keys) {
+        add(static_cast<int>(keys.interpolation));
+        add(keys.times), add(keys.values), add(keys.in_tangents), add(keys.out_tangents);
+    }
+    void add(const Object& object) {
+        add(object.name), add(std::uint64_t(object.mesh)), add(std::uint64_t(object.material));
+        add(object.world_from_object), add(std::uint64_t(object.motion.index()));
+        std::visit([this](const auto& motion) { add(motion); }, object.motion);
+        add(object.sphere.has_value());
+        if (object.sphere) add(object.sphere->centre), add(object.sphere->radius);
+        add(object.seen_by_camera);
+    }
+    void add(const Camera& camera) {
+        add(camera.name), add(camera.eye), add(camera.target), add(camera.up);
+        add(camera.vertical_fov_degrees);
+    }
+};
+
+} // namespace
+
+std::string hash(const Scene& scene) {
+    Hasher hasher;
+    hasher.add(scene.meshes);
+    hasher.add(scene.materials);
+    hasher.add(scene.objects);
+    hasher.add(scene.cameras);
+    std::string digits(16, '0');
+    for (std::size_t i = 0; i < digits.size(); ++i)
+        digits[i] = "0123456789abcdef"[(hasher.state >> (60 - 4 * i)) & 15];
+    return digits;
+}
+
+} // namespace catoptric::scene

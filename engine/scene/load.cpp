@@ -1,0 +1,52 @@
+#include "scene/load.hpp"
+
+#include "core/error.hpp"
+#include "core/knob.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace catoptric::scene {
+
+namespace {
+
+std::string lower_case_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+[[noreturn]] void fail_unknown(const std::string& word) {
+    std::vector<std::string> names;
+    std::string list;
+    for (const BuiltIn& scene : built_in_scenes()) {
+        names.push_back(scene.name);
+        list += (list.empty() ? "" : ", ") + scene.name;
+    }
+    fail(Failure::usage, "scene '", word, "': wanted a built-in scene (", list,
+         ") or a .glb, .gltf or .obj file", did_you_mean(word, names));
+}
+
+} // namespace
+
+const std::vector<BuiltIn>& built_in_scenes() {
+    static const std::vector<BuiltIn> scenes = {
+        {"cornell-mirrors", "Cornell box with four mirror balls, one of them moving; front open",
+         cornell_mirrors},
+        {"cornell-mirrors-closed", "the same with a white front wall that camera rays ignore",
+         cornell_mirrors_closed},
+    };
+    return scenes;
+}
+
+Scene load(const std::string& name_or_path) {
+    for (const BuiltIn& scene : built_in_scenes())
+        if (scene.name == name_or_path) return scene.make();
+    const std::string extension = lower_case_extension(name_or_path);
+    if (extension == ".glb" || extension == ".gltf") return load_gltf(name_or_path);
+    if (extension == ".obj") return load_obj(name_or_path);
+    fail_unknown(name_or_path);
+}
+
+} // namespace catoptric::scene

@@ -1,0 +1,71 @@
+#include "core/error.hpp"
+#include "scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace catoptric::scene {
+
+namespace {
+
+dvec3 offset_at(const std::monostate&, double) { return dvec3(0); }
+
+dvec3 offset_at(const Harmonic& motion, double seconds) {
+    // 1 - cos(a) = 2 sin^2(a/2), which keeps its digits near zero; the remainder is exact
+    const double phase = std::remainder(seconds, motion.period) / motion.period;
+    const double sine = std::sin(std::numbers::pi * phase);
+    return motion.amplitude * (2 * sine * sine);
+}
+
+/// Time within [0, last key]: after the last key everything starts again at 0.
+double wrapped(const Keyframes& keys, double seconds) {
+    const double end = keys.times.back();
+    if (!(end > 0) || (seconds >= 0 && seconds <= end)) return seconds;
+    const double rest = std::fmod(seconds, end);
+    return rest < 0 ? rest + end : rest;
+}
+
+/// glTF 2.0 appendix C: p(t) = (2s^3-3s^2+1) v_k + td(s^3-2s^2+s) b_k + (-2s^3+3s^2) v_k+1 + td(s^3-s^2) a_k+1
+dvec3 hermite(const Keyframes& keys, std::size_t k, double s, double interval) {
+    const double s2 = s * s, s3 = s2 * s;
+    return (2 * s3 - 3 * s2 + 1) * keys.values[k] +
+           interval * (s3 - 2 * s2 + s) * keys.out_tangents[k] +
+           (3 * s2 - 2 * s3) * keys.values[k + 1] +
+           interval * (s3 - s2) * keys.in_tangents[k + 1];
+}
+
+dvec3 offset_at(const Keyframes& keys, double seconds) {
+    if (keys.times.empty()) return dvec3(0);
+    const double time = wrapped(keys, seconds);
+    const auto after = std::ranges::upper_bound(keys.times, time);
+    if (after == keys.times.begin()) return keys.values.front();
+    if (after == keys.times.end()) return keys.values.back();
+    const std::size_t k = static_cast<std::size_t>(after - keys.times.begin()) - 1;
+    const double interval = keys.times[k + 1] - keys.times[k];
+    const double s = (time - keys.times[k]) / interval;
+    switch (keys.interpolation) {
+    case Keyframes::Interpolation::step: return keys.values[k];
+    case Keyframes::Interpolation::linear: return glm::mix(keys.values[k], keys.values[k + 1], s);
+    case Keyframes::Interpolation::cubic: return hermite(keys, k, s, interval);
+    }
+    return dvec3(0);
+}
+
+} // namespace
+
+Scene at(const Scene& scene, double seconds) {
+    check(std::isfinite(seconds), Failure::usage, "time: wanted a finite number of seconds, found ",
+          seconds);
+    Scene still = scene;
+    for (Object& object : still.objects) {
+        const dvec3 offset =
+            std::visit([&](const auto& motion) { return offset_at(motion, seconds); }, object.motion);
+        object.world_from_object[3] += dvec4(offset, 0);
+        if (object.sphere) object.sphere->centre += offset;
+        object.motion = std::monostate();
+    }
+    return still;
+}
+
+} // namespace catoptric::scene

@@ -1,0 +1,133 @@
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "scene/load.hpp"
+#include "scene/number.hpp"
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace catoptric::scene {
+
+namespace {
+
+std::string text_of(const vec3& v) {
+    return number_text(v.x) + " " + number_text(v.y) + " " + number_text(v.z);
+}
+std::string text_of(const dvec3& v) {
+    return number_text(v.x) + " " + number_text(v.y) + " " + number_text(v.z);
+}
+
+/// A word that no other has: spaces become '_', an empty name `fallback`, a second "x" "x-2".
+std::string unique_word(std::string name, const std::string& fallback, std::set<std::string>& taken) {
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return c <= ' ' || c == '#' || c == '\\'; }, '_');
+    if (name.empty()) name = fallback;
+    std::string word = name;
+    for (int n = 2; !taken.insert(word).second; ++n) word = name + "-" + std::to_string(n);
+    return word;
+}
+
+template <typename Item>
+std::vector<std::string> unique_words(const std::vector<Item>& items, const std::string& fallback) {
+    std::set<std::string> taken;
+    std::vector<std::string> names;
+    for (const Item& item : items) names.push_back(unique_word(item.name, fallback, taken));
+    return names;
+}
+
+std::string motion_text(const std::monostate&) { return {}; }
+
+std::string motion_text(const Harmonic& motion) {
+    return "harmonic " + text_of(motion.amplitude) + " " + number_text(motion.period);
+}
+
+std::string motion_text(const Keyframes& keys) {
+    using enum Keyframes::Interpolation;
+    const bool is_cubic = keys.interpolation == cubic;
+    std::string text = is_cubic ? "cubic " : keys.interpolation == linear ? "linear " : "step ";
+    text += std::to_string(keys.times.size());
+    for (std::size_t i = 0; i < keys.times.size(); ++i) {
+        text += " " + number_text(keys.times[i]);
+        if (is_cubic) text += " " + text_of(keys.in_tangents[i]);
+        text += " " + text_of(keys.values[i]);
+        if (is_cubic) text += " " + text_of(keys.out_tangents[i]);
+    }
+    return text;
+}
+
+std::string remarks(const Object& object, const std::string& name) {
+    std::string text;
+    const std::string motion =
+        std::visit([](const auto& its) { return motion_text(its); }, object.motion);
+    if (!motion.empty()) text += "# catoptric motion " + name + " " + motion + "\n";
+    if (object.sphere)
+        text += "# catoptric sphere " + name + " " + text_of(object.sphere->centre) + " " +
+                number_text(object.sphere->radius) + "\n";
+    if (!object.seen_by_camera) text += "# catoptric hidden " + name + "\n";
+    return text;
+}
+
+std::string camera_text(const Camera& camera, const std::string& name) {
+    return "# catoptric camera " + name + " " + text_of(camera.eye) + " " + text_of(camera.target) +
+           " " + text_of(camera.up) + " " + number_text(camera.vertical_fov_degrees) + "\n";
+}
+
+/// World-space vertices and faces; `first` counts the vertices written so far.
+std::string geometry(const Mesh& mesh, const dmat4& world_from_object, std::size_t& first) {
+    std::string text;
+    for (const dvec3& position : mesh.positions)
+        text += "v " + text_of(transform_point(world_from_object, position)) + "\n";
+    const dmat3 normal_to_world = normal_matrix(world_from_object);
+    for (const vec3& normal : mesh.normals)
+        text += "vn " + text_of(vec3(normalized_or_zero(normal_to_world * dvec3(normal)))) + "\n";
+    for (const uvec3& triangle : mesh.triangles) {
+        text += "f";
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::string index = std::to_string(first + triangle[corner] + 1);
+            text += " " + index + "//" + index;
+        }
+        text += "\n";
+    }
+    first += mesh.positions.size();
+    return text;
+}
+
+std::string materials_text(const std::vector<Material>& materials,
+                           const std::vector<std::string>& names) {
+    std::string text = "# written by catoptric\n";
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const Material& material = materials[i];
+        text += "\nnewmtl " + names[i] + "\nKd " + text_of(material.albedo) + "\n";
+        if (material.mirror) text += "Ks " + text_of(material.reflectance) + "\n";
+        if (material.emission != vec3(0)) text += "Ke " + text_of(material.emission) + "\n";
+        text += material.mirror ? "illum 3\n" : "illum 1\n";
+    }
+    return text;
+}
+
+} // namespace
+
+void save_obj(const Scene& scene, const std::filesystem::path& path) {
+    const std::vector<std::string> object_names = unique_words(scene.objects, "object");
+    const std::vector<std::string> material_names = unique_words(scene.materials, "material");
+    const std::vector<std::string> camera_names = unique_words(scene.cameras, "camera");
+    std::filesystem::path library = path;
+    library.replace_extension(".mtl");
+
+    std::string text = "# catoptric's comment lines hold what .obj has no word for\nmtllib " +
+                       library.filename().string() + "\n";
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+        text += camera_text(scene.cameras[i], camera_names[i]);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        text += "\no " + object_names[i] + "\nusemtl " + material_names[object.material] + "\n" +
+                remarks(object, object_names[i]) +
+                geometry(scene.meshes[object.mesh], object.world_from_object, first);
+    }
+    write_file(library, materials_text(scene.materials, material_names)); // first: the .obj wants it
+    write_file(path, text);
+}
+
+} // namespace catoptric::scene

@@ -1,0 +1,117 @@
+#include "scene/repair.hpp"
+
+#include "core/error.hpp"
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace catoptric::scene {
+
+namespace {
+
+template <typename Vector>
+bool is_finite(const Vector& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+dvec3 edge_cross(const dvec3& a, const dvec3& b, const dvec3& c) {
+    return glm::cross(b - a, c - a);
+}
+
+dvec3 normal_of(const Mesh& mesh, const uvec3& t) {
+    const auto& p = mesh.positions;
+    return normalized_or_zero(edge_cross(p[t.x], p[t.y], p[t.z]));
+}
+
+std::size_t drop_flat_triangles(Mesh& mesh) {
+    return std::erase_if(mesh.triangles, [&](const uvec3& t) {
+        return normal_of(mesh, t) == dvec3(0);
+    });
+}
+
+/// Gives every corner without a normal a vertex of its own.
+void complete_normals(Mesh& mesh) {
+    mesh.normals.resize(mesh.positions.size(), vec3(0));
+    for (vec3& normal : mesh.normals) normal = vec3(normalized_or_zero(dvec3(normal)));
+    for (uvec3& triangle : mesh.triangles) {
+        const vec3 geometric(normal_of(mesh, triangle));
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::uint32_t vertex = triangle[corner];
+            if (mesh.normals[vertex] != vec3(0)) continue;
+            triangle[corner] = static_cast<std::uint32_t>(mesh.positions.size());
+            const dvec3 position = mesh.positions[vertex];
+            mesh.positions.push_back(position);
+            mesh.normals.push_back(geometric);
+        }
+    }
+}
+
+void drop_unused_vertices(Mesh& mesh) {
+    std::vector<std::uint32_t> renamed(mesh.positions.size(), 0);
+    for (const uvec3& t : mesh.triangles) renamed[t.x] = renamed[t.y] = renamed[t.z] = 1;
+    std::uint32_t kept = 0;
+    for (std::size_t i = 0; i < renamed.size(); ++i) {
+        if (renamed[i] == 0) continue;
+        mesh.positions[kept] = mesh.positions[i];
+        mesh.normals[kept] = mesh.normals[i];
+        renamed[i] = kept++;
+    }
+    mesh.positions.resize(kept);
+    mesh.normals.resize(kept);
+    for (uvec3& t : mesh.triangles) t = {renamed[t.x], renamed[t.y], renamed[t.z]};
+}
+
+bool has_area(const Scene& scene, const Object& object) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    const auto world = [&](std::uint32_t i) {
+        return transform_point(object.world_from_object, mesh.positions[i]);
+    };
+    return std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
+        return edge_cross(world(t.x), world(t.y), world(t.z)) != dvec3(0);
+    });
+}
+
+} // namespace
+
+void check_mesh(const Mesh& mesh, const std::string& place) {
+    const std::size_t count = mesh.positions.size();
+    check(mesh.normals.empty() || mesh.normals.size() == count, Failure::bad_data, place,
+          ": wanted ", count, " normals, one for each position, found ", mesh.normals.size());
+    for (std::size_t i = 0; i < count; ++i)
+        check(is_finite(mesh.positions[i]), Failure::bad_data, place, ": vertex ", i,
+              ": wanted finite coordinates, found NaN or infinity");
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i)
+        check(is_finite(mesh.normals[i]), Failure::bad_data, place, ": normal ", i,
+              ": wanted finite coordinates, found NaN or infinity");
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (int corner = 0; corner < 3; ++corner)
+            check(mesh.triangles[i][corner] < count, Failure::bad_data, place, ": triangle ", i,
+                  ": wanted indices below ", count, ", found ", mesh.triangles[i][corner]);
+}
+
+std::size_t repair(Mesh& mesh) {
+    const std::size_t dropped = drop_flat_triangles(mesh);
+    complete_normals(mesh);
+    drop_unused_vertices(mesh);
+    return dropped;
+}
+
+void finish(Scene& scene, const std::string& file) {
+    for (const Object& object : scene.objects)
+        for (const dvec3& position : scene.meshes[object.mesh].positions)
+            check(is_finite(transform_point(object.world_from_object, position)),
+                  Failure::bad_data, file, ": object '", object.name,
+                  "': wanted finite world coordinates, found an overflow");
+    std::erase_if(scene.objects, [&](const Object& object) {
+        if (has_area(scene, object)) return false;
+        scene.warnings.push_back(file + ": object '" + object.name +
+                                 "' has no triangle with an area and is left out");
+        return true;
+    });
+    check(!scene.objects.empty(), Failure::bad_data, file,
+          ": wanted at least one triangle with an area, found none");
+}
+
+} // namespace catoptric::scene

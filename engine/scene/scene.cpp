@@ -1,0 +1,61 @@
+#include "scene/scene.hpp"
+
+#include "scene/transform.hpp"
+
+#include <algorithm>
+
+namespace catoptric::scene {
+
+bool is_animated(const Scene& scene) {
+    return std::ranges::any_of(scene.objects, [](const Object& object) {
+        return !std::holds_alternative<std::monostate>(object.motion);
+    });
+}
+
+std::vector<std::size_t> mirrors(const Scene& scene) {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+        if (scene.materials[scene.objects[i].material].mirror) indices.push_back(i);
+    return indices;
+}
+
+Bounds<double> bounds(const Scene& scene, const Object& object) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    Bounds<double> box;
+    for (const uvec3& triangle : mesh.triangles)
+        for (int corner = 0; corner < 3; ++corner)
+            box.add(transform_point(object.world_from_object, mesh.positions[triangle[corner]]));
+    return box;
+}
+
+Bounds<double> bounds(const Scene& scene) {
+    Bounds<double> box;
+    for (const Object& object : scene.objects) box.add(bounds(scene, object));
+    return box;
+}
+
+std::size_t triangle_count(const Scene& scene) {
+    std::size_t count = 0;
+    for (const Object& object : scene.objects) count += scene.meshes[object.mesh].triangles.size();
+    return count;
+}
+
+Camera default_camera(const Scene& scene) {
+    constexpr double kMargin = 1.05; // of the distance, so that the outermost edge is inside
+    Bounds<double> box = bounds(scene);
+    if (box.empty()) box.lo = dvec3(-1), box.hi = dvec3(1);
+    const dvec3 half = box.extent() * 0.5;
+    const int axis = half.z <= half.x && half.z <= half.y ? 2 : half.x <= half.y ? 0 : 1;
+    const double widest = std::max(half[(axis + 1) % 3], half[(axis + 2) % 3]);
+
+    Camera camera{.name = "default"};
+    camera.target = box.centre();
+    const double slope = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
+    const double distance = widest > 0 ? kMargin * (half[axis] + widest / slope) : 1;
+    camera.eye = camera.target;
+    camera.eye[axis] += distance;
+    camera.up = axis == 1 ? dvec3(0, 0, -1) : dvec3(0, 1, 0);
+    return camera;
+}
+
+} // namespace catoptric::scene

@@ -1,0 +1,145 @@
+// What people and programs are shown of a plan.
+#include "graph/dump.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace catoptric::graph {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+constexpr Clear kBlack{};
+
+/// Two images that share memory, a kept one, a culled pass and a buffer.
+struct Dump : ::testing::Test {
+    Graph g;
+    Image first = add("first"), second = add("second"), third = add("third");
+    Image kept = add("kept"), out = add("out"), unused = add("say \"no\"");
+    Buffer args = g.buffer({.name = "args", .bytes = 64});
+    Plan plan;
+
+    Dump() {
+        const auto body = [](Commands&) {};
+        g.pass("one", Tag::scene)
+            .writes(first, Use::colour, kBlack)
+            .writes(args, Use::storage_write)
+            .layers(2)
+            .record(body);
+        g.pass("two")
+            .reads(first, Use::sampled)
+            .reads(args, Use::indirect)
+            .writes(second, Use::storage_write)
+            .record(body);
+        g.pass("three").reads(second, Use::sampled).writes(third, Use::storage_write).record(body);
+        g.pass("vain").reads(third, Use::sampled).writes(unused, Use::storage_write).record(body);
+        g.pass("four")
+            .reads(third, Use::sampled)
+            .reads(g.previous(kept), Use::sampled)
+            .writes(out, Use::storage_write)
+            .record(body);
+        g.pass("five").writes(kept, Use::colour, kBlack).layers(2).record(body);
+        g.pass("six").writes(kept.layers(0, 1), Use::colour).record(body);
+        g.want(out);
+        plan = graph::plan(g, {}, plain_sizer());
+    }
+
+    Image add(const std::string& name) {
+        return g.image({.name = name, .width = 8, .height = 8, .layers = 2});
+    }
+};
+
+TEST_F(Dump, Text) {
+    EXPECT_EQ(to_text(g, plan),
+              R"(6 passes, scene_passes 1, 5376 bytes (6400 without sharing)
+
+passes
+  1 'one' (scene), 1 barrier
+      writes 'first' [0,2) as colour, cleared
+      writes buffer 'args' as storage_write
+  2 'two', 3 barriers
+      reads  'first' [0,2) as sampled
+      writes 'second' [0,2) as storage_write
+      reads  buffer 'args' as indirect
+  3 'three', 2 barriers
+      reads  'second' [0,2) as sampled
+      writes 'third' [0,2) as storage_write
+  4 'four', 2 barriers
+      reads  'third' [0,2) as sampled
+      reads  previous('kept') [0,2) as sampled
+      writes 'out' [0,2) as storage_write
+  5 'five', 1 barrier
+      writes 'kept' [0,2) as colour, cleared
+  6 'six', 1 barrier
+      writes 'kept' [0,1) as colour, loaded
+
+culled
+  'vain': nobody wants what it writes: 'say "no"'
+
+images
+  'first' rgba16f 8x8, 2 layers, passes 1 to 2, heap 0 at 0, 1024 bytes, shares with 'third'
+  'second' rgba16f 8x8, 2 layers, passes 2 to 3, heap 0 at 1024, 1024 bytes
+  'third' rgba16f 8x8, 2 layers, passes 3 to 4, heap 0 at 0, 1024 bytes, shares with 'first'
+  'kept' rgba16f 8x8, 2 layers, passes 4 to 6, heap 0 at 3328, 2048 bytes, alone
+  'out' rgba16f 8x8, 2 layers, passes 4 to 4, heap 0 at 2304, 1024 bytes, alone
+  'say "no"' rgba16f 8x8, 2 layers, not used
+
+buffers
+  'args', passes 1 to 2, heap 0 at 2048, 256 bytes
+)");
+}
+
+TEST_F(Dump, DotShowsCulledDashedAndLastFrameDotted) {
+    const std::string dot = to_dot(g, plan);
+    EXPECT_THAT(dot, HasSubstr("p0 [shape=box, style=solid, label=\"one\\n(scene)\"]"));
+    EXPECT_THAT(dot, HasSubstr("p3 [shape=box, style=dashed, label=\"vain\"]"));
+    EXPECT_THAT(dot, HasSubstr("i5 [shape=ellipse, label=\"say \\\"no\\\"\"]"));
+    EXPECT_THAT(dot, HasSubstr("p0 -> i0 [style=solid, label=\"colour\"]"));
+    EXPECT_THAT(dot, HasSubstr("i0 -> p1 [style=solid, label=\"sampled\"]"));
+    EXPECT_THAT(dot, HasSubstr("b0 -> p1 [style=solid, label=\"indirect\"]"));
+    EXPECT_THAT(dot, HasSubstr("p3 -> i5 [style=dashed, label=\"storage_write\"]"));
+    EXPECT_THAT(dot, HasSubstr("i3 -> p4 [style=dotted, label=\"previous, sampled\"]"));
+    EXPECT_THAT(dot, HasSubstr("p6 -> i3 [style=solid, label=\"colour [0,1)\"]"));
+}
+
+TEST_F(Dump, Json) {
+    const Json json = Json::parse(to_json(g, plan));
+    ASSERT_EQ(json["passes"].size(), 6u);
+    EXPECT_EQ(json["passes"][0]["name"], "one");
+    EXPECT_EQ(json["passes"][0]["tag"], "scene");
+    EXPECT_EQ(json["passes"][1]["tag"], "none");
+    EXPECT_EQ(json["passes"][1]["barriers"], 3);
+    EXPECT_EQ(json["passes"][1]["reads"],
+              Json::parse(R"([{"image": "first", "layers": [0, 2], "use": "sampled",
+                               "previous": false},
+                              {"buffer": "args", "use": "indirect"}])"));
+    EXPECT_EQ(json["passes"][3]["reads"][1]["previous"], true);
+    EXPECT_EQ(json["passes"][5]["writes"],
+              Json::parse(R"([{"image": "kept", "layers": [0, 1], "use": "colour",
+                               "clear": false}])"));
+    EXPECT_EQ(json["culled"], Json::parse(R"([{"name": "vain", "reason":
+                                "nobody wants what it writes: 'say \"no\"'"}])"));
+    EXPECT_EQ(json["images"][3],
+              Json::parse(R"({"name": "kept", "format": "rgba16f", "size": [8, 8], "layers": 2,
+                              "cube": false, "used": true, "first": 3, "last": 5, "heap": 0,
+                              "offset": 3328, "bytes": 2048, "alone": true})"));
+    EXPECT_EQ(json["images"][5]["used"], false);
+    EXPECT_EQ(json["buffers"][0]["name"], "args");
+    EXPECT_EQ(json["scene_passes"], 1);
+    EXPECT_EQ(json["bytes"], 5376);
+    EXPECT_EQ(json["bytes_unshared"], 6400);
+}
+
+TEST(EmptyDump, HasNoSections) {
+    const Graph g;
+    const Plan plan = graph::plan(g, {}, plain_sizer());
+    EXPECT_EQ(to_text(g, plan),
+              "0 passes, scene_passes 0, 0 bytes (0 without sharing)\n\npasses\n");
+    EXPECT_THAT(to_dot(g, plan), Not(HasSubstr("->")));
+    EXPECT_EQ(Json::parse(to_json(g, plan))["passes"], Json::array());
+}
+
+} // namespace
+} // namespace catoptric::graph

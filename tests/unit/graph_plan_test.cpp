@@ -1,0 +1,484 @@
+// The report's frames as graphs, and small graphs of which the whole plan is known.
+#include "replay.hpp"
+
+#include "core/error.hpp"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+namespace catoptric::graph {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr Clear kBlack{};
+constexpr std::uint32_t kFace = 64;
+
+void nothing(Commands&) {}
+
+Plan planned(const Graph& graph) { return plan(graph, {}, plain_sizer()); }
+
+std::vector<std::string> names_of(const Graph& graph, const Plan& plan) {
+    std::vector<std::string> names;
+    for (const PlannedPass& pass : plan.passes) names.push_back(graph.passes()[pass.pass].name);
+    return names;
+}
+
+Touch touch(Use use, bool write, bool raster) {
+    return {.nothing = false, .use = use, .write = write, .raster = raster};
+}
+const Touch kFresh{};
+const Touch kColour = touch(Use::colour, true, true);
+const Touch kSampledInRaster = touch(Use::sampled, false, true);
+const Touch kSampledInCompute = touch(Use::sampled, false, false);
+const Touch kCopied = touch(Use::copy_from, false, false);
+
+/// "before>after [first,count]" plus what else is waited for; enough to compare by eye.
+std::string text(const Barrier& b) {
+    const auto word = [](const Touch& t) {
+        return t.nothing ? std::string("nothing")
+                         : std::string(name_of(t.use)) + (t.write ? "!" : "") +
+                               (t.raster ? "/raster" : "");
+    };
+    std::string out = (b.is_buffer ? "buffer " : b.previous ? "previous " : "image ") +
+                      std::to_string(b.id) + " [" + std::to_string(b.first_layer) + "," +
+                      std::to_string(b.layer_count) + "] " + word(b.before) + " > " +
+                      word(b.after);
+    for (const Touch& t : b.shared) out += " +" + word(t);
+    return out;
+}
+
+std::vector<std::string> barriers_of(const Plan& plan, std::size_t pass) {
+    std::vector<std::string> all;
+    for (const Barrier& b : plan.passes.at(pass).barriers) all.push_back(text(b));
+    return all;
+}
+
+std::vector<std::string> last_barriers(const Plan& plan) {
+    std::vector<std::string> all;
+    for (const Barrier& b : plan.last) all.push_back(text(b));
+    return all;
+}
+
+/// What both frames of the report have: shadow before the captures, view after them.
+struct Frame {
+    explicit Frame(int mirror_count) : mirrors(static_cast<std::uint32_t>(mirror_count)) {
+        g.pass("shadow", Tag::scene).writes(shadow, Use::depth, kBlack).record(nothing);
+    }
+
+    Image cubes(const std::string& name) {
+        return g.image({.name = name,
+                        .width = kFace,
+                        .height = kFace,
+                        .layers = 6 * mirrors,
+                        .cube = true});
+    }
+
+    /// One scene pass for each mirror.
+    void capture(const std::string& name, Image target, std::optional<Image> source) {
+        for (std::uint32_t n = 0; n < mirrors; ++n) {
+            PassBuilder pass = g.pass(name + "/" + std::to_string(n), Tag::scene);
+            pass.reads(shadow, Use::sampled);
+            if (source) pass.reads(*source, Use::sampled);
+            pass.writes(target.layers(6 * n, 6), Use::colour, kBlack)
+                .writes(depth, Use::depth, kBlack)
+                .layers(6)
+                .record(nothing);
+        }
+    }
+
+    void view(Image source) {
+        g.pass("view", Tag::scene)
+            .reads(shadow, Use::sampled)
+            .reads(source, Use::sampled)
+            .writes(hdr, Use::colour, kBlack)
+            .record(nothing);
+        g.pass("compose")
+            .reads(hdr, Use::sampled)
+            .writes(ldr, Use::colour, kBlack)
+            .record(nothing);
+        g.want(ldr);
+    }
+
+    std::uint32_t mirrors;
+    Graph g;
+    Image shadow = g.image({.name = "shadow", .format = Format::d32f, .width = 32, .height = 32});
+    Image depth = g.image({.name = "depth",
+                           .format = Format::d32f,
+                           .width = kFace,
+                           .height = kFace,
+                           .layers = 6});
+    Image hdr = g.image({.name = "hdr", .width = 32, .height = 32});
+    Image ldr =
+        g.image({.name = "ldr", .format = Format::rgba8_unorm, .width = 32, .height = 32});
+};
+
+/// Part one: every bounce captures all mirrors anew from the bounce before.
+struct NaiveFrame : Frame {
+    NaiveFrame(int mirror_count, int bounces) : Frame(mirror_count) {
+        for (int k = 0; k < bounces; ++k) {
+            images.push_back(cubes("cubes" + std::to_string(k)));
+            const bool first = k == 0;
+            capture("capture" + std::to_string(k), images.back(),
+                    first ? std::nullopt : std::optional(images[images.size() - 2]));
+        }
+        view(images.back());
+    }
+    std::vector<Image> images;
+};
+
+/// Part two: one capture, deeper bounces arrive from the frame before.
+struct ReuseFrame : Frame {
+    explicit ReuseFrame(int mirror_count) : Frame(mirror_count) {
+        capture("capture", captured, g.previous(captured));
+        view(captured);
+    }
+    Image captured = cubes("cubes");
+};
+
+TEST(GraphPlan, NaiveFrameRendersTheSceneOncePerMirrorAndBounce) {
+    for (const int mirrors : {1, 2, 4})
+        for (const int bounces : {1, 2, 3, 7}) {
+            const NaiveFrame frame(mirrors, bounces);
+            const Plan plan = planned(frame.g);
+            EXPECT_EQ(plan.scene_passes, mirrors * bounces + 2);
+            EXPECT_THAT(plan.culled, IsEmpty());
+            EXPECT_THAT(replay(frame.g, plan, plain_sizer()), IsEmpty());
+        }
+}
+
+TEST(GraphPlan, NaiveFrameHasTwoPhysicalCubeImages) {
+    for (const int bounces : {2, 3, 4, 8}) {
+        const NaiveFrame frame(4, bounces);
+        const Plan plan = planned(frame.g);
+        std::set<std::uint64_t> offsets;
+        for (std::size_t k = 0; k < frame.images.size(); ++k) {
+            offsets.insert(plan.images[frame.images[k].id].offset);
+            if (k < 2) continue;
+            EXPECT_EQ(plan.images[frame.images[k].id].offset,
+                      plan.images[frame.images[k - 2].id].offset);
+        }
+        EXPECT_EQ(offsets.size(), 2u) << bounces << " bounces";
+        EXPECT_EQ(plan.bytes, planned(NaiveFrame(4, 2).g).bytes) << bounces << " bounces";
+    }
+}
+
+TEST(GraphPlan, PingPongWaitsForTheLastReaderOfTheMemory) {
+    const NaiveFrame frame(1, 3);
+    const Plan plan = planned(frame.g); // shadow, capture0, capture1, capture2, view, compose
+    EXPECT_THAT(barriers_of(plan, 3), ::testing::Contains("image 6 [0,6] nothing > colour!/raster "
+                                                          "+sampled/raster"));
+}
+
+TEST(GraphPlan, ReuseFrameRendersTheSceneOncePerMirror) {
+    const ReuseFrame frame(4);
+    const Plan plan = planned(frame.g);
+    EXPECT_EQ(plan.scene_passes, 6);
+    EXPECT_THAT(replay(frame.g, plan, plain_sizer()), IsEmpty());
+}
+
+TEST(GraphPlan, KeptImageCountsTwiceAndSharesNothing) {
+    const ReuseFrame frame(4);
+    const Plan plan = planned(frame.g);
+    const Placement& cubes = plan.images[frame.captured.id];
+    EXPECT_TRUE(cubes.alone);
+    EXPECT_EQ(cubes.bytes, 2u * 24 * kFace * kFace * 8);
+    for (std::size_t i = 0; i < plan.images.size(); ++i)
+        EXPECT_LE(plan.images[i].offset, cubes.offset) << "kept images come last";
+    EXPECT_EQ(cubes.offset + cubes.bytes, plan.bytes);
+}
+
+TEST(GraphPlan, KeptImageIsReadWithoutABarrierAndLeftReadable) {
+    const ReuseFrame frame(2);
+    const Plan plan = planned(frame.g);
+    for (const PlannedPass& pass : plan.passes)
+        for (const Barrier& b : pass.barriers) EXPECT_FALSE(b.previous) << text(b);
+    EXPECT_THAT(last_barriers(plan), ElementsAre("image 3 [0,1] colour!/raster > copy_from",
+                                                 "image 4 [0,12] sampled/raster > sampled"));
+}
+
+TEST(GraphPlan, HistoryIsWhatTheRunnerKept) {
+    Graph g({"cubes"});
+    const Image cubes = g.image({.name = "cubes"});
+    const Image other = g.image({.name = "other"});
+    EXPECT_TRUE(g.has_history(cubes));
+    EXPECT_FALSE(g.has_history(other));
+}
+
+/// Four images of one size and a buffer; tests declare the passes.
+struct SmallGraph : ::testing::Test {
+    Graph g;
+    Image a = add("a"), b = add("b"), c = add("c"), d = add("d");
+    Buffer args = g.buffer({.name = "args", .bytes = 64});
+
+    Image add(const std::string& name) {
+        return g.image({.name = name, .width = 8, .height = 8, .layers = 4});
+    }
+    PassBuilder fill(const std::string& name, Image image) {
+        return g.pass(name).writes(image, Use::colour, kBlack).layers(image.layer_count);
+    }
+};
+
+TEST_F(SmallGraph, NothingWantedIsNothingDone) {
+    fill("a", a).record(nothing);
+    const Plan plan = planned(g);
+    EXPECT_THAT(plan.passes, IsEmpty());
+    EXPECT_EQ(plan.bytes, 0u);
+    EXPECT_FALSE(plan.images[a.id].used);
+}
+
+TEST_F(SmallGraph, CullsWhatNobodyWantsAndSaysWhy) {
+    fill("a", a).record(nothing);
+    fill("b", b).reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
+    fill("c", c).reads(a, Use::sampled).record(nothing);
+    g.want(c);
+    const Plan plan = planned(g);
+    EXPECT_THAT(names_of(g, plan), ElementsAre("a", "c"));
+    ASSERT_EQ(plan.culled.size(), 1u);
+    EXPECT_EQ(plan.culled[0].pass, 1u);
+    EXPECT_EQ(plan.culled[0].reason, "nobody wants what it writes: 'b', 'args'");
+    EXPECT_FALSE(plan.images[b.id].used);
+    EXPECT_FALSE(plan.buffers[args.id].used);
+}
+
+TEST_F(SmallGraph, CullsWhatIsOverwrittenUnread) {
+    fill("lost", a).record(nothing);
+    fill("seen", a).record(nothing);
+    fill("b", b).reads(a, Use::sampled).record(nothing);
+    fill("wanted", a).record(nothing);
+    g.want(a);
+    g.want(b);
+    EXPECT_THAT(names_of(g, planned(g)), ElementsAre("seen", "b", "wanted"));
+}
+
+TEST_F(SmallGraph, KeepsWhatIsLoadedOrOnlyPartlyOverwritten) {
+    fill("base", a).record(nothing);
+    fill("part", a.layers(1, 2)).record(nothing);
+    g.pass("load").writes(a.layers(0, 1), Use::colour).record(nothing);
+    g.want(a);
+    EXPECT_THAT(names_of(g, planned(g)), ElementsAre("base", "part", "load"));
+}
+
+TEST_F(SmallGraph, CullsByLayer) {
+    fill("low", a.layers(0, 2)).record(nothing);
+    fill("high", a.layers(2, 2)).record(nothing);
+    fill("b", b).reads(a.layers(0, 2), Use::sampled).record(nothing);
+    g.want(b);
+    EXPECT_THAT(names_of(g, planned(g)), ElementsAre("low", "b"));
+}
+
+TEST_F(SmallGraph, KeepsWhatTheNextFrameReads) {
+    fill("base", b).record(nothing);
+    fill("history", a).reads(b, Use::sampled).record(nothing); // after its reader, by way of `b`
+    fill("view", c).reads(g.previous(a), Use::sampled).record(nothing);
+    g.want(c);
+    EXPECT_THAT(names_of(g, planned(g)), ElementsAre("base", "history", "view"));
+}
+
+TEST_F(SmallGraph, KeepsOnlyTheLastWriterForTheNextFrame) {
+    fill("view", c).reads(g.previous(a), Use::sampled).record(nothing);
+    fill("lost", a).record(nothing);
+    fill("history", a).reads(g.previous(b), Use::sampled).record(nothing);
+    fill("deeper", b).record(nothing); // needed only by what the next frame needs
+    g.want(c);
+    EXPECT_THAT(names_of(g, planned(g)), ElementsAre("view", "history", "deeper"));
+}
+
+TEST_F(SmallGraph, AHistoryThatOnlyFeedsItselfIsCulled) {
+    fill("loop", a).reads(g.previous(a), Use::sampled).record(nothing);
+    fill("view", c).record(nothing);
+    g.want(c);
+    const Plan plan = planned(g);
+    EXPECT_THAT(names_of(g, plan), ElementsAre("view"));
+    EXPECT_FALSE(plan.images[a.id].used);
+    EXPECT_EQ(plan.bytes, 4u * 64 * 8);
+}
+
+TEST_F(SmallGraph, LifetimesAreFirstAndLastUse) {
+    fill("a", a).record(nothing);
+    fill("culled", d).record(nothing);
+    fill("b", b).reads(a, Use::sampled).record(nothing);
+    fill("c", c).reads(b, Use::sampled).record(nothing);
+    g.want(c);
+    const Plan plan = planned(g);
+    EXPECT_EQ(plan.images[a.id].first, 0u);
+    EXPECT_EQ(plan.images[a.id].last, 1u);
+    EXPECT_EQ(plan.images[b.id].first, 1u);
+    EXPECT_EQ(plan.images[b.id].last, 2u);
+    EXPECT_FALSE(plan.images[a.id].alone);
+    EXPECT_TRUE(plan.images[c.id].alone);
+}
+
+TEST_F(SmallGraph, HeapsAreNotMixed) {
+    fill("a", a).record(nothing);
+    fill("b", b).reads(a, Use::sampled).record(nothing);
+    fill("c", c).reads(b, Use::sampled).record(nothing);
+    fill("d", d).reads(c, Use::sampled).record(nothing);
+    g.want(d);
+    Sizer sizer = plain_sizer();
+    sizer.image = [](const ImageDesc& desc) {
+        return Requirements{.bytes = 100, .alignment = 64, .heap = desc.name == "c" ? 3u : 1u};
+    };
+    const Plan plan = graph::plan(g, {}, sizer);
+    EXPECT_THAT(plan.heap_bytes, ElementsAre(0u, 356u, 0u, 100u)); // a at 0, b at 128, d at 256
+    EXPECT_EQ(plan.images[c.id].heap, 3u);
+    EXPECT_EQ(plan.images[c.id].offset, 0u);
+    EXPECT_EQ(plan.bytes, 456u);
+    EXPECT_THAT(replay(g, plan, sizer), IsEmpty());
+}
+
+TEST_F(SmallGraph, ReadAfterWriteAndFirstTouch) {
+    fill("a", a).record(nothing);
+    fill("b", b).reads(a, Use::sampled).record(nothing);
+    g.want(b);
+    const Plan plan = planned(g);
+    EXPECT_THAT(barriers_of(plan, 0), ElementsAre("image 0 [0,4] nothing > colour!/raster"));
+    EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 1 [0,4] nothing > colour!/raster",
+                                                  "image 0 [0,4] colour!/raster > sampled/raster"));
+    EXPECT_THAT(last_barriers(plan), ElementsAre("image 1 [0,4] colour!/raster > copy_from"));
+}
+
+TEST_F(SmallGraph, ReadAfterReadInTheSameLayoutNeedsNone) {
+    fill("a", a).record(nothing);
+    fill("b", b).reads(a, Use::sampled).record(nothing);
+    fill("c", c).reads(a, Use::sampled).record(nothing);
+    g.want(b);
+    g.want(c);
+    EXPECT_THAT(barriers_of(planned(g), 2), ElementsAre("image 2 [0,4] nothing > colour!/raster"));
+}
+
+TEST_F(SmallGraph, ReadInAnotherStageChainsToTheReaderSoThatTheLayoutIsTrue) {
+    fill("a", a).record(nothing);
+    fill("b", b).reads(a, Use::sampled).record(nothing);
+    g.pass("sum").reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
+    fill("rewrite", a).record(nothing);
+    g.want(a);
+    g.want(b);
+    g.want(args);
+    const Plan plan = planned(g);
+    EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > sampled"));
+    EXPECT_THAT(barriers_of(plan, 3),
+                ElementsAre("image 0 [0,4] sampled/raster > colour!/raster +sampled"));
+}
+
+TEST_F(SmallGraph, ReadInAnotherLayoutNeedsOne) {
+    fill("a", a).record(nothing);
+    fill("b", b).reads(a, Use::sampled).record(nothing);
+    g.pass("copy").reads(a, Use::copy_from).writes(c, Use::copy_to).record(nothing);
+    fill("d", d).reads(a, Use::sampled).record(nothing);
+    g.want(b);
+    g.want(c);
+    g.want(d);
+    const Plan plan = planned(g);
+    EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > copy_from",
+                                                  "image 2 [0,4] nothing > copy_to!"));
+    EXPECT_THAT(barriers_of(plan, 3), ElementsAre("image 3 [0,4] nothing > colour!/raster",
+                                                  "image 0 [0,4] copy_from > sampled/raster"));
+}
+
+TEST_F(SmallGraph, WriteAfterWrite) {
+    fill("a", a).record(nothing);
+    g.pass("blur").writes(a, Use::storage).record(nothing);
+    g.pass("again").writes(a, Use::storage).record(nothing);
+    g.want(a);
+    const Plan plan = planned(g);
+    EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 0 [0,4] colour!/raster > storage!"));
+    EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] storage! > storage!"));
+}
+
+TEST_F(SmallGraph, BarriersAreMergedOverLayersOfOneFate) {
+    fill("low", a.layers(0, 2)).record(nothing);
+    g.pass("high").writes(a.layers(2, 2), Use::storage_write).record(nothing);
+    fill("b", b).reads(a, Use::sampled).record(nothing);
+    g.want(b);
+    const Plan plan = planned(g);
+    EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 1 [0,4] nothing > colour!/raster",
+                                                  "image 0 [0,2] colour!/raster > sampled/raster",
+                                                  "image 0 [2,2] storage_write! > sampled/raster"));
+}
+
+TEST_F(SmallGraph, BarriersAreNotMergedOverDifferentUses) {
+    fill("a", a).record(nothing);
+    g.pass("blur")
+        .reads(a.layers(0, 2), Use::sampled)
+        .writes(a.layers(2, 2), Use::storage_write)
+        .record(nothing);
+    g.want(a);
+    EXPECT_THAT(barriers_of(planned(g), 1),
+                ElementsAre("image 0 [0,2] colour!/raster > sampled",
+                            "image 0 [2,2] colour!/raster > storage_write!"));
+}
+
+TEST_F(SmallGraph, BarriersAreNotMergedOverFrames) {
+    fill("a", a).record(nothing);
+    g.pass("sum").reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
+    fill("b", b).reads(a, Use::sampled).record(nothing);
+    g.pass("copy")
+        .reads(g.previous(a.layers(0, 2)), Use::copy_from)
+        .reads(a.layers(2, 2), Use::copy_from)
+        .writes(c, Use::copy_to)
+        .record(nothing);
+    g.want(args);
+    g.want(b);
+    g.want(c);
+    EXPECT_THAT(barriers_of(planned(g), 3),
+                ElementsAre("previous 0 [0,2] sampled > copy_from +sampled/raster",
+                            "image 0 [2,2] sampled > copy_from +sampled/raster",
+                            "image 2 [0,4] nothing > copy_to!"));
+}
+
+TEST_F(SmallGraph, BuffersHaveNoLayout) {
+    g.pass("fill").writes(args, Use::storage_write).record(nothing);
+    fill("a", a).reads(args, Use::indirect).record(nothing);
+    g.pass("b").reads(args, Use::storage_read).writes(b, Use::storage_write).record(nothing);
+    g.pass("refill").writes(args, Use::copy_to).record(nothing);
+    g.want(a);
+    g.want(b);
+    g.want(args);
+    const Plan plan = planned(g);
+    EXPECT_THAT(barriers_of(plan, 0), IsEmpty());
+    EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 0 [0,4] nothing > colour!/raster",
+                                                  "buffer 0 [0,1] storage_write! > "
+                                                  "indirect/raster"));
+    EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 1 [0,4] nothing > storage_write!",
+                                                  "buffer 0 [0,1] storage_write! > storage_read"));
+    EXPECT_THAT(barriers_of(plan, 3),
+                ElementsAre("buffer 0 [0,1] indirect/raster > copy_to! +storage_read"));
+    EXPECT_EQ(last_barriers(plan).back(), "buffer 0 [0,1] copy_to! > copy_from");
+}
+
+TEST_F(SmallGraph, WantedAndKeptIsLeftSampledInAllLayers) {
+    fill("a", a.layers(0, 2)).reads(g.previous(a.layers(0, 2)), Use::sampled).record(nothing);
+    g.want(a.layers(0, 1));
+    EXPECT_THAT(last_barriers(planned(g)), ElementsAre("image 0 [0,2] colour!/raster > sampled",
+                                                       "image 0 [2,2] nothing > sampled"));
+}
+
+TEST_F(SmallGraph, WantedTwiceIsLeftOnce) {
+    fill("a", a).record(nothing);
+    g.want(a.layers(0, 3));
+    g.want(a.layers(1, 2));
+    EXPECT_THAT(last_barriers(planned(g)), ElementsAre("image 0 [0,3] colour!/raster > copy_from"));
+}
+
+TEST_F(SmallGraph, LastFrameInAnotherLayoutNeedsABarrier) {
+    g.pass("copy").reads(g.previous(a), Use::copy_from).writes(b, Use::copy_to).record(nothing);
+    fill("a", a).record(nothing);
+    g.want(b);
+    EXPECT_THAT(barriers_of(planned(g), 0),
+                ElementsAre("previous 0 [0,4] sampled > copy_from +sampled/raster",
+                            "image 1 [0,4] nothing > copy_to!"));
+}
+
+TEST(PlainSizer, CountsTexelsAndPadsTo256Bytes) {
+    const Requirements image = plain_sizer().image(
+        {.name = "x", .format = Format::rgba16f, .width = 5, .height = 3, .layers = 6});
+    EXPECT_EQ(image.bytes, 768u); // 720 padded
+    EXPECT_EQ(image.alignment, 256u);
+    EXPECT_EQ(plain_sizer().buffer({.name = "y", .bytes = 256}).bytes, 256u);
+}
+
+} // namespace
+} // namespace catoptric::graph

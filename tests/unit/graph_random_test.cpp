@@ -1,0 +1,148 @@
+// Plans of random graphs, replayed on paper; and broken plans, which the replay must find out.
+#include "graph/dump.hpp"
+#include "replay.hpp"
+
+#include <gmock/gmock.h>
+
+namespace catoptric::graph {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr unsigned kGraphs = 500;
+
+/// Two heaps and alignments that do not divide the sizes.
+Sizer awkward_sizer() {
+    return {.image =
+                [](const ImageDesc& desc) {
+                    return Requirements{.bytes = std::uint64_t{desc.layers} * 1000 *
+                                                 bytes_per_texel(desc.format),
+                                        .alignment = desc.layers % 2 ? 256u : 96u,
+                                        .heap = is_depth(desc.format) ? 2u : 0u};
+                },
+            .buffer =
+                [](const BufferDesc& desc) {
+                    return Requirements{.bytes = desc.bytes, .alignment = 64, .heap = 0};
+                }};
+}
+
+struct Sample {
+    explicit Sample(unsigned seed) : sizer(seed % 2 ? awkward_sizer() : plain_sizer()) {
+        std::mt19937 random(seed);
+        graph = random_graph(random);
+        right = plan(graph, {}, sizer);
+    }
+    /// Expects that the replay finds out what is wrong with `plan`.
+    void expect_refused(const Plan& wrong, const std::string& mistake) const {
+        EXPECT_THAT(replay(graph, wrong, sizer), Not(IsEmpty())) << mistake << "\n"
+                                                                 << to_text(graph, right);
+    }
+    Sizer sizer;
+    Graph graph;
+    Plan right;
+};
+
+/// Calls `test` with every sample.
+template <typename Test>
+void for_each_sample(const Test& test) {
+    for (unsigned seed = 0; seed < kGraphs; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        test(Sample(seed));
+    }
+}
+
+/// Calls `test` with every barrier of the plan and a copy of it to spoil.
+template <typename Test>
+void for_each_barrier(const Plan& right, const Test& test) {
+    for (std::size_t p = 0; p < right.passes.size(); ++p)
+        for (std::size_t b = 0; b < right.passes[p].barriers.size(); ++b) {
+            Plan wrong = right;
+            test(wrong, wrong.passes[p].barriers, b);
+        }
+}
+
+TEST(RandomGraphs, HavePlansThatHold) {
+    for_each_sample([](const Sample& sample) {
+        EXPECT_THAT(replay(sample.graph, sample.right, sample.sizer), IsEmpty());
+    });
+}
+
+TEST(RandomGraphs, NeedEachOfTheirBarriers) {
+    for_each_sample([](const Sample& sample) {
+        for_each_barrier(sample.right, [&](Plan& wrong, std::vector<Barrier>& barriers,
+                                           std::size_t b) {
+            barriers.erase(barriers.begin() + static_cast<std::ptrdiff_t>(b));
+            sample.expect_refused(wrong, "without barrier " + std::to_string(b));
+        });
+    });
+}
+
+TEST(RandomGraphs, NeedEachReaderThatABarrierWaitsFor) {
+    for_each_sample([](const Sample& sample) {
+        for_each_barrier(sample.right, [&](Plan& wrong, std::vector<Barrier>& barriers,
+                                           std::size_t b) {
+            // Who waits for the last user of memory has waited for earlier ones; and nobody
+            // writes to the last frame.
+            if (barriers[b].before.nothing || barriers[b].previous) return;
+            if (barriers[b].shared.empty()) return;
+            barriers[b].shared.pop_back();
+            sample.expect_refused(wrong, "with one reader less in barrier " + std::to_string(b));
+        });
+    });
+}
+
+TEST(RandomGraphs, NeedEachOfTheirPasses) {
+    for_each_sample([](const Sample& sample) {
+        for (std::size_t p = 0; p < sample.right.passes.size(); ++p) {
+            Plan wrong = sample.right;
+            wrong.culled.push_back({wrong.passes[p].pass, "mistake"});
+            wrong.passes.erase(wrong.passes.begin() + static_cast<std::ptrdiff_t>(p));
+            sample.expect_refused(wrong, "without pass " + std::to_string(p));
+        }
+    });
+}
+
+TEST(RandomGraphs, NeedAllOfTheirMemory) {
+    for_each_sample([](const Sample& sample) {
+        for (std::size_t i = 0; i < sample.right.images.size(); ++i) {
+            if (sample.right.images[i].offset == 0) continue;
+            Plan wrong = sample.right;
+            wrong.images[i].offset = 0; // somebody who needed this place had it
+            wrong.images[i].heap = sample.right.images[i].heap;
+            sample.expect_refused(wrong, "with image " + std::to_string(i) + " at 0");
+        }
+    });
+}
+
+// The random graphs are worth their name: together they do everything a plan can do.
+TEST(RandomGraphs, CoverWhatPlansDo) {
+    int culled = 0, aliased = 0, kept = 0, chained = 0, changed = 0, several = 0, empty = 0;
+    for (unsigned seed = 0; seed < kGraphs; ++seed) {
+        std::mt19937 random(seed);
+        const Graph graph = random_graph(random);
+        const Plan plan = graph::plan(graph, {}, plain_sizer());
+        culled += plan.culled.empty() ? 0 : 1;
+        empty += plan.passes.empty() ? 1 : 0;
+        for (std::uint32_t i = 0; i < plan.images.size(); ++i)
+            kept += plan.images[i].used && graph.is_kept(i) ? 1 : 0;
+        for (const PlannedPass& pass : plan.passes)
+            for (const Barrier& b : pass.barriers) {
+                const bool read_after_read = !b.before.nothing && !b.before.write && !b.after.write;
+                aliased += b.before.nothing && !b.shared.empty() ? 1 : 0;
+                chained += read_after_read && b.before.use == b.after.use ? 1 : 0;
+                changed += read_after_read && b.before.use != b.after.use ? 1 : 0;
+                several += !b.before.nothing && !b.shared.empty() ? 1 : 0;
+            }
+    }
+    EXPECT_GT(culled, 100);
+    EXPECT_GT(aliased, 30);
+    EXPECT_GT(kept, 100);
+    EXPECT_GT(chained, 30);
+    EXPECT_GT(changed, 100);
+    EXPECT_GT(several, 50);
+    EXPECT_LT(empty, 20);
+}
+
+} // namespace
+} // namespace catoptric::graph

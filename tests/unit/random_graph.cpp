@@ -1,0 +1,175 @@
+#include "replay.hpp"
+
+#include <algorithm>
+
+namespace catoptric::graph {
+
+namespace {
+
+/// Declares random passes, each of which only reads what is written by then.
+class Author {
+public:
+    explicit Author(std::mt19937& random) : random_(random) {}
+
+    Graph write() {
+        add_resources();
+        const std::uint32_t passes = below(14) + 2;
+        for (std::uint32_t p = 0; p < passes; ++p) add_pass(p);
+        for (std::uint32_t i = 0; i < images_.size(); ++i)
+            if (graph_.is_kept(i)) write_all(i);
+        want();
+        return std::move(graph_);
+    }
+
+private:
+    std::uint32_t below(std::uint32_t count) {
+        return static_cast<std::uint32_t>(random_()) % count;
+    }
+    bool chance(std::uint32_t percent) { return below(100) < percent; }
+    bool is_depth(const Image& image) const {
+        return catoptric::is_depth(graph_.images()[image.id].format);
+    }
+
+    void add_resources() {
+        const Format formats[] = {Format::rgba16f, Format::r8_unorm, Format::rgba32f,
+                                  Format::d32f,    Format::r32f};
+        const std::uint32_t images = below(6) + 3;
+        for (std::uint32_t i = 0; i < images; ++i) {
+            images_.push_back(graph_.image({.name = "i" + std::to_string(i),
+                                            .format = formats[i == 0 ? 0 : below(5)],
+                                            .width = 8,
+                                            .height = 8,
+                                            .layers = below(4) + 1}));
+            written_.emplace_back(images_.back().layer_count, false);
+        }
+        const std::uint32_t buffers = below(3);
+        for (std::uint32_t b = 0; b < buffers; ++b) {
+            buffers_.push_back(
+                graph_.buffer({.name = "b" + std::to_string(b), .bytes = 100 + below(2000)}));
+            buffer_written_.push_back(false);
+        }
+    }
+
+    bool is_written(const Image& image) const {
+        const auto first = written_[image.id].begin() + image.first_layer;
+        return std::all_of(first, first + image.layer_count, [](bool w) { return w; });
+    }
+
+    Image part_of(const Image& image) {
+        const std::uint32_t first = below(image.layer_count);
+        return image.layers(first, below(image.layer_count - first) + 1);
+    }
+
+    void add_pass(std::uint32_t number) {
+        PassBuilder pass = graph_.pass("p" + std::to_string(number),
+                                       chance(40) ? Tag::scene : Tag::none);
+        touched_.assign(images_.size(), false);
+        const Image target = part_of(images_[below(static_cast<std::uint32_t>(images_.size()))]);
+        touched_[target.id] = true;
+        const bool raster = is_depth(target) || chance(40);
+        const bool copy = !raster && chance(30);
+        if (raster) add_attachments(pass, target);
+        else if (copy) pass.writes(target, Use::copy_to);
+        else if (is_written(target) && chance(40)) pass.writes(target, Use::storage);
+        else pass.writes(target, Use::storage_write);
+        add_reads(pass, copy);
+        add_disjoint_read(pass, target, copy);
+        add_buffers(pass, copy);
+        pass.record([](Commands&) {});
+        std::fill_n(written_[target.id].begin() + target.first_layer, target.layer_count, true);
+    }
+
+    void add_attachments(PassBuilder& pass, const Image& target) {
+        const Use use = is_depth(target) ? Use::depth : Use::colour;
+        std::optional<Clear> clear;
+        if (!is_written(target) || chance(60)) clear = Clear{};
+        pass.writes(target, use, clear).layers(target.layer_count);
+        if (use == Use::depth || chance(50)) return;
+        for (const Image& image : images_) { // test against a depth image
+            if (!is_depth(image) || image.layer_count < target.layer_count) continue;
+            const Image depth = image.layers(0, target.layer_count);
+            if (!is_written(depth)) continue;
+            touched_[image.id] = true;
+            pass.reads(depth, Use::depth);
+            return;
+        }
+    }
+
+    Use read_use(const Image& image, bool copy) {
+        if (copy) return Use::copy_from;
+        return !is_depth(image) && chance(30) ? Use::storage_read : Use::sampled;
+    }
+
+    void add_reads(PassBuilder& pass, bool copy) {
+        for (std::uint32_t n = below(7); n > 0; --n) {
+            const Image image = part_of(images_[below(static_cast<std::uint32_t>(images_.size()))]);
+            if (touched_[image.id]) continue;
+            if (is_written(image)) {
+                touched_[image.id] = true;
+                pass.reads(image, read_use(image, copy));
+            } else if (chance(6)) {
+                touched_[image.id] = true;
+                pass.reads(graph_.previous(image), read_use(image, copy));
+            }
+        }
+    }
+
+    /// Other layers of the target.
+    void add_disjoint_read(PassBuilder& pass, const Image& target, bool copy) {
+        if (target.first_layer == 0) return;
+        const Image rest = images_[target.id].layers(0, target.first_layer);
+        if (is_written(rest) && chance(50)) pass.reads(rest, read_use(rest, copy));
+        else if (chance(10)) pass.reads(graph_.previous(target), Use::sampled);
+    }
+
+    void add_buffers(PassBuilder& pass, bool copy) {
+        for (std::uint32_t b = 0; b < buffers_.size(); ++b) {
+            if (chance(50)) continue;
+            if (buffer_written_[b] && chance(60)) {
+                pass.reads(buffers_[b], copy ? Use::copy_from : Use::storage_read);
+                if (!copy && chance(50)) pass.reads(buffers_[b], Use::indirect);
+                continue;
+            }
+            const bool modifies = buffer_written_[b] && chance(50);
+            const Use compute = modifies ? Use::storage : Use::storage_write;
+            pass.writes(buffers_[b], copy ? Use::copy_to : compute);
+            buffer_written_[b] = true;
+        }
+    }
+
+    /// So that nobody reads a last frame that never was.
+    void write_all(std::uint32_t id) {
+        if (is_written(images_[id])) return;
+        graph_.pass("all" + std::to_string(id))
+            .writes(images_[id], is_depth(images_[id]) ? Use::depth : Use::colour, Clear{})
+            .layers(images_[id].layer_count)
+            .record([](Commands&) {});
+        written_[id].assign(images_[id].layer_count, true);
+    }
+
+    void want() {
+        for (const Image& image : images_) {
+            const Image part = part_of(image);
+            if (is_written(part) && chance(15)) graph_.want(part);
+        }
+        for (const Image& image : images_) // seldom nothing
+            if (graph_.wanted_images().empty() && is_written(image.layers(0, 1)))
+                graph_.want(image.layers(0, 1));
+        for (std::uint32_t b = 0; b < buffers_.size(); ++b)
+            if (buffer_written_[b] && chance(20)) graph_.want(buffers_[b]);
+    }
+
+    std::mt19937& random_;
+    Graph graph_;
+    std::vector<Image> images_;
+    std::vector<Buffer> buffers_;
+    std::vector<std::vector<bool>> written_;
+    std::vector<bool> buffer_written_;
+    std::vector<bool> touched_; // images that the pass at hand uses
+};
+
+} // namespace
+
+Graph random_graph(std::mt19937& random) { return Author(random).write(); }
+
+} // namespace catoptric::graph

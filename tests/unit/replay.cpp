@@ -1,0 +1,270 @@
+#include "replay.hpp"
+
+#include "replay_contents.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace catoptric::graph {
+
+namespace {
+
+/// Something that was done to a cell, and which touches have since been made to wait for it.
+struct Event {
+    Cell cell;
+    Touch touch;
+    bool is_write = false; // a write, or a change of layout
+    bool is_layout = false;
+    std::vector<std::pair<Cell, Touch>> ordered; // the cell whose barrier did it
+
+    /// A barrier counts for its own cell, and for all when it is on the cell of the event.
+    bool is_before(const Cell& by, const Touch& t) const {
+        return std::ranges::count(ordered, std::pair(by, t)) > 0 ||
+               std::ranges::count(ordered, std::pair(cell, t)) > 0;
+    }
+    bool is_in(const Cell& by, const std::vector<Touch>& scope) const {
+        return (!is_layout && std::ranges::count(scope, touch) > 0) ||
+               std::ranges::any_of(scope, [&](const Touch& t) { return is_before(by, t); });
+    }
+};
+
+class Replay {
+public:
+    Replay(const Graph& graph, const Plan& plan, const Sizer& sizer)
+        : graph_(graph), plan_(plan), sizer_(sizer) {
+        const Touch raster{.nothing = false, .use = Use::sampled, .write = false, .raster = true};
+        Touch compute = raster;
+        compute.raster = false;
+        for (std::uint32_t i = 0; i < graph.images().size(); ++i)
+            for (std::uint32_t l = 0; l < graph.images()[i].layers; ++l) {
+                const Cell cell{Kind::previous, i, l};
+                layouts_[cell] = Use::sampled;
+                events_[cell] = {{cell, {}, true, true, {{cell, raster}, {cell, compute}}}};
+            }
+    }
+
+    std::vector<std::string> run() {
+        check_passes();
+        check_memory();
+        for (const PlannedPass& planned : plan_.passes) {
+            where_ = "'" + graph_.passes()[planned.pass].name + "'";
+            pass_barriers(planned.barriers);
+            execute(planned.pass);
+        }
+        where_ = "the end";
+        pass_barriers(plan_.last);
+        check_end();
+        return std::move(faults_);
+    }
+
+private:
+    template <typename... Parts>
+    void expect(bool ok, const Cell& cell, const Parts&... parts) {
+        if (ok) return;
+        const std::string name = cell.kind == Kind::buffer ? graph_.buffers()[cell.id].name
+                                                           : graph_.images()[cell.id].name;
+        faults_.push_back(where_ + ": " + name + " layer " + std::to_string(cell.layer) +
+                          (cell.kind == Kind::previous ? " of last frame" : "") + ": " +
+                          (std::string(parts) + ...));
+    }
+
+    const Placement& placement(const Cell& cell) const {
+        return cell.kind == Kind::buffer ? plan_.buffers[cell.id] : plan_.images[cell.id];
+    }
+
+    bool share_memory(const Cell& a, const Cell& b) const {
+        if (a.kind == Kind::previous || b.kind == Kind::previous) return false;
+        if (a.kind == b.kind && a.id == b.id) return false;
+        const Placement& x = placement(a);
+        const Placement& y = placement(b);
+        return x.used && y.used && x.heap == y.heap && x.offset < y.offset + y.bytes &&
+               y.offset < x.offset + x.bytes;
+    }
+
+    void check_passes() {
+        std::vector<std::uint32_t> kept, all;
+        int scene = 0;
+        for (const PlannedPass& planned : plan_.passes) {
+            kept.push_back(planned.pass);
+            scene += graph_.passes()[planned.pass].tag == Tag::scene ? 1 : 0;
+        }
+        if (!std::ranges::is_sorted(kept)) faults_.push_back("passes are reordered");
+        if (scene != plan_.scene_passes) faults_.push_back("scene passes are miscounted");
+        all = kept;
+        for (const Culled& culled : plan_.culled) all.push_back(culled.pass);
+        std::ranges::sort(all);
+        for (std::uint32_t p = 0; p < graph_.passes().size(); ++p)
+            if (p >= all.size() || all[p] != p) faults_.push_back("a pass is lost or doubled");
+        const std::vector<Cell> cells = outcome_cells(graph_, plan_);
+        const std::vector<Value> outcome = ideal_outcome(graph_, kept, cells);
+        for (const std::uint32_t p : kept) {
+            std::vector<std::uint32_t> fewer = kept;
+            std::erase(fewer, p);
+            if (ideal_outcome(graph_, fewer, cells) == outcome)
+                faults_.push_back("nobody needs pass '" + graph_.passes()[p].name + "'");
+        }
+    }
+
+    void check_memory() {
+        std::map<Cell, std::pair<std::uint32_t, std::uint32_t>> lives;
+        for (std::uint32_t at = 0; at < plan_.passes.size(); ++at)
+            for (CellUse u : uses_of(graph_.passes()[plan_.passes[at].pass])) {
+                u.cell.layer = 0;
+                if (u.cell.kind == Kind::previous) u.cell.kind = Kind::image;
+                lives.try_emplace(u.cell, at, at).first->second.second = at;
+            }
+        std::vector<std::uint64_t> ends(plan_.heap_bytes.size(), 0);
+        for (const auto& [cell, life] : lives) {
+            const Placement& p = placement(cell);
+            expect(p.used && std::pair(p.first, p.last) == life, cell, "wrong lifetime");
+            check_size(cell);
+            expect(p.heap < ends.size(), cell, "no such heap");
+            ends.at(p.heap) = std::max(ends.at(p.heap), p.offset + p.bytes);
+            for (const auto& [other, life2] : lives) {
+                if (!(cell < other) || !share_memory(cell, other)) continue;
+                expect(life.second < life2.first || life2.second < life.first, cell,
+                       "shares memory while alive");
+                expect(!must_be_alone(cell) && !must_be_alone(other), cell, "should be alone");
+            }
+        }
+        std::uint64_t sum = 0;
+        for (const std::uint64_t end : ends) sum += end;
+        if (ends != plan_.heap_bytes || sum != plan_.bytes || sum > plan_.bytes_unshared)
+            faults_.push_back("heap sizes are wrong");
+    }
+
+    bool must_be_alone(const Cell& cell) const {
+        if (cell.kind == Kind::buffer)
+            return std::ranges::count(graph_.wanted_buffers(), cell.id, &Buffer::id) > 0;
+        return graph_.is_kept(cell.id) ||
+               std::ranges::count(graph_.wanted_images(), cell.id, &Image::id) > 0;
+    }
+
+    void check_size(const Cell& cell) {
+        const Placement& p = placement(cell);
+        const bool is_buffer = cell.kind == Kind::buffer;
+        const Requirements wanted = is_buffer ? sizer_.buffer(graph_.buffers()[cell.id])
+                                              : sizer_.image(graph_.images()[cell.id]);
+        std::uint64_t bytes = wanted.bytes;
+        if (!is_buffer && graph_.is_kept(cell.id)) {
+            const std::uint64_t padding = wanted.alignment - 1;
+            bytes = 2 * ((bytes + padding) / wanted.alignment * wanted.alignment);
+        }
+        expect(p.bytes == bytes && p.heap == wanted.heap && p.offset % wanted.alignment == 0, cell,
+               "wrong size, heap or alignment");
+        expect(p.alone == must_be_alone(cell), cell, "wrong `alone`");
+    }
+
+    /// All at once: none of them is ordered by another.
+    void pass_barriers(const std::vector<Barrier>& barriers) {
+        std::vector<std::tuple<Event*, Cell, Touch>> ordered;
+        std::map<Cell, Touch> transitions;
+        for (const Barrier& b : barriers) {
+            std::vector<Touch> scope = b.shared;
+            if (!b.before.nothing) scope.push_back(b.before);
+            const Kind kind = b.is_buffer   ? Kind::buffer
+                              : b.previous ? Kind::previous
+                                           : Kind::image;
+            for (std::uint32_t l = 0; l < b.layer_count; ++l) {
+                const Cell cell{kind, b.id, b.first_layer + l};
+                const bool same = !b.before.nothing && b.before.use == b.after.use;
+                const bool moves = !b.is_buffer && !same;
+                if (!b.is_buffer && !b.before.nothing)
+                    expect(layouts_.contains(cell) && layouts_[cell] == b.before.use, cell,
+                           "barrier from a layout that it has not");
+                if (b.before.nothing) contents_.set(cell, kGarbage);
+                if (moves) transitions[cell] = b.after;
+                for (auto& [other, events] : events_) {
+                    if (other != cell && !share_memory(cell, other)) continue;
+                    for (Event& e : events) {
+                        if (e.is_in(cell, scope)) ordered.emplace_back(&e, cell, b.after);
+                        else if (moves) expect(false, cell, "change of layout races");
+                    }
+                }
+            }
+        }
+        for (auto& [event, cell, after] : ordered) event->ordered.emplace_back(cell, after);
+        for (const auto& [cell, after] : transitions) {
+            layouts_[cell] = after.use;
+            events_[cell] = {{cell, after, true, true, {{cell, after}}}};
+        }
+    }
+
+    void execute(std::uint32_t index) {
+        const Pass& pass = graph_.passes()[index];
+        const std::vector<CellUse> uses = uses_of(pass);
+        for (const CellUse& u : uses) check_touch(u, touch(pass, u));
+        for (const CellUse& u : uses)
+            for (const auto& [other, events] : events_)
+                if (u.write && share_memory(u.cell, other)) contents_.lose(other.kind, other.id);
+        contents_.execute(pass, index);
+        for (const CellUse& u : uses) {
+            std::vector<Event>& events = events_[u.cell];
+            if (u.write) events.clear();
+            events.push_back({u.cell, touch(pass, u), u.write, false, {}});
+        }
+    }
+
+    static Touch touch(const Pass& pass, const CellUse& u) {
+        return {.nothing = false, .use = u.use, .write = u.write, .raster = pass.is_raster()};
+    }
+
+    void check_touch(const CellUse& u, const Touch& t) {
+        if (u.cell.kind != Kind::buffer)
+            expect(layouts_.contains(u.cell) && layouts_[u.cell] == u.use, u.cell,
+                   "wrong layout for ", std::string(name_of(u.use)));
+        for (const auto& [other, events] : events_) {
+            if (other != u.cell && !share_memory(u.cell, other)) continue;
+            for (const Event& e : events)
+                if (u.write || e.is_write)
+                    expect(e.is_before(u.cell, t), u.cell, std::string(name_of(u.use)),
+                           " races with ", std::string(name_of(e.touch.use)), " of image ",
+                           std::to_string(other.id));
+        }
+    }
+
+    void check_end() {
+        std::vector<std::uint32_t> all(graph_.passes().size());
+        for (std::uint32_t p = 0; p < all.size(); ++p) all[p] = p;
+        const std::vector<Cell> cells = outcome_cells(graph_, plan_);
+        const std::vector<Value> ideal = ideal_outcome(graph_, all, cells);
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const Cell& cell = cells[i];
+            expect(contents_.at(cell) == ideal[i], cell, "wrong contents");
+            if (cell.kind == Kind::image) check_left(cell);
+            else expect_ordered(cell, Use::copy_from);
+        }
+        for (std::uint32_t i = 0; i < plan_.images.size(); ++i)
+            for (std::uint32_t l = 0; l < graph_.images()[i].layers; ++l)
+                if (plan_.images[i].used && graph_.is_kept(i)) check_left({Kind::image, i, l});
+    }
+
+    void check_left(const Cell& cell) {
+        const Use use = graph_.is_kept(cell.id) ? Use::sampled : Use::copy_from;
+        expect(layouts_.contains(cell) && layouts_[cell] == use, cell, "left in a wrong layout");
+        expect_ordered(cell, use);
+    }
+
+    void expect_ordered(const Cell& cell, Use use) {
+        for (const Event& e : events_[cell])
+            expect(e.is_before(cell, {.nothing = false, .use = use}), cell,
+                   "races with its reader");
+    }
+
+    const Graph& graph_;
+    const Plan& plan_;
+    const Sizer& sizer_;
+    std::string where_ = "memory";
+    std::vector<std::string> faults_;
+    Contents contents_;
+    std::map<Cell, Use> layouts_;
+    std::map<Cell, std::vector<Event>> events_;
+};
+
+} // namespace
+
+std::vector<std::string> replay(const Graph& graph, const Plan& plan, const Sizer& sizer) {
+    return Replay(graph, plan, sizer).run();
+}
+
+} // namespace catoptric::graph

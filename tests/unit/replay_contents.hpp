@@ -1,0 +1,103 @@
+#pragma once
+
+#include "graph/graph.hpp"
+#include "graph/plan.hpp"
+
+#include <map>
+
+// What images and buffers hold, on paper: a number that tells who wrote it from what.
+namespace catoptric::graph {
+
+enum class Kind { image, previous, buffer };
+
+/// One layer of an image, of its contents of the last frame, or a buffer.
+struct Cell {
+    Kind kind = Kind::image;
+    std::uint32_t id = 0;
+    std::uint32_t layer = 0;
+    friend auto operator<=>(const Cell&, const Cell&) = default;
+};
+
+struct CellUse {
+    Cell cell;
+    Use use = Use::sampled;
+    bool write = false;
+    bool needs = false;
+};
+
+using Value = std::uint64_t; // stands for the contents of a cell
+constexpr Value kGarbage = 0xdead;
+
+inline Value mix(Value a, Value b) {
+    return (a ^ (b + 0x9e3779b97f4a7c15u + (a << 6) + (a >> 2))) * 31;
+}
+
+inline std::vector<CellUse> uses_of(const Pass& pass) {
+    std::vector<CellUse> uses;
+    for (const ImageUse& u : pass.images) {
+        const bool attached = u.use == Use::colour || u.use == Use::depth;
+        const bool needs = !u.write || u.use == Use::storage || (attached && !u.clear);
+        for (std::uint32_t l = 0; l < u.image.layer_count; ++l)
+            uses.push_back({{u.image.previous ? Kind::previous : Kind::image, u.image.id,
+                             u.image.first_layer + l},
+                            u.use, u.write, needs});
+    }
+    for (const BufferUse& u : pass.buffers)
+        uses.push_back(
+            {{Kind::buffer, u.buffer.id, 0}, u.use, u.write, !u.write || u.use == Use::storage});
+    return uses;
+}
+
+class Contents {
+public:
+    Value at(const Cell& cell) const {
+        if (cell.kind == Kind::previous) return mix(mix(7, cell.id), cell.layer);
+        const auto found = values_.find(cell);
+        return found == values_.end() ? kGarbage : found->second;
+    }
+    void set(const Cell& cell, Value value) { values_[cell] = value; }
+    void lose(Kind kind, std::uint32_t id) {
+        for (auto& [cell, value] : values_)
+            if (cell.kind == kind && cell.id == id) value = kGarbage;
+    }
+    /// What a pass writes is made of its number and of all it reads.
+    void execute(const Pass& pass, std::uint32_t index) {
+        const std::vector<CellUse> uses = uses_of(pass);
+        Value inputs = index + 1;
+        for (const CellUse& u : uses)
+            if (u.needs) inputs = mix(inputs, at(u.cell));
+        for (std::size_t i = 0; i < uses.size(); ++i)
+            if (uses[i].write) set(uses[i].cell, mix(inputs, i));
+    }
+
+private:
+    std::map<Cell, Value> values_;
+};
+
+/// Wanted cells, and those that passes of the plan read of the last frame.
+inline std::vector<Cell> outcome_cells(const Graph& graph, const Plan& plan) {
+    std::vector<Cell> cells;
+    for (const Image& image : graph.wanted_images())
+        for (std::uint32_t l = 0; l < image.layer_count; ++l)
+            cells.push_back({Kind::image, image.id, image.first_layer + l});
+    for (const Buffer& buffer : graph.wanted_buffers())
+        cells.push_back({Kind::buffer, buffer.id, 0});
+    for (const PlannedPass& planned : plan.passes)
+        for (const CellUse& u : uses_of(graph.passes()[planned.pass]))
+            if (u.cell.kind == Kind::previous)
+                cells.push_back({Kind::image, u.cell.id, u.cell.layer});
+    return cells;
+}
+
+/// The outcome when each of `passes` has memory of its own.
+inline std::vector<Value> ideal_outcome(const Graph& graph,
+                                        const std::vector<std::uint32_t>& passes,
+                                        const std::vector<Cell>& cells) {
+    Contents contents;
+    for (const std::uint32_t p : passes) contents.execute(graph.passes()[p], p);
+    std::vector<Value> values;
+    for (const Cell& cell : cells) values.push_back(contents.at(cell));
+    return values;
+}
+
+} // namespace catoptric::graph

@@ -1,0 +1,455 @@
+// Graphs that cannot mean anything, and the words with which each is refused.
+#include "core/error.hpp"
+#include "graph/plan.hpp"
+
+#include <gmock/gmock.h>
+
+namespace catoptric::graph {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+void nothing(Commands&) {}
+
+constexpr Clear kBlack{};
+
+/// What `plan` says; fails the test when it says nothing or fails in another way.
+std::string refusal(const Graph& graph, Failure failure = Failure::internal, Limits limits = {}) {
+    try {
+        plan(graph, limits, plain_sizer());
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, failure) << error.what();
+        return error.what();
+    }
+    ADD_FAILURE() << "the graph was accepted";
+    return "";
+}
+
+/// A graph with one image that pass 'make' writes; tests add what is wrong.
+struct WrongGraph : ::testing::Test {
+    Graph g;
+    Image cubes =
+        g.image({.name = "cubes", .width = 8, .height = 8, .layers = 24, .cube = true});
+    Image out = g.image({.name = "out", .width = 8, .height = 8});
+    Image depth = g.image({.name = "depth", .format = Format::d32f, .width = 8, .height = 8});
+    Buffer args = g.buffer({.name = "args", .bytes = 64});
+
+    void make(Image image) {
+        g.pass("make").writes(image, Use::colour, kBlack).layers(image.layer_count).record(nothing);
+    }
+};
+
+TEST_F(WrongGraph, IsAcceptedWithoutTheMistake) {
+    make(cubes);
+    g.pass("view").reads(cubes, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+    g.want(out);
+    EXPECT_EQ(plan(g, {}, plain_sizer()).passes.size(), 2u);
+}
+
+TEST_F(WrongGraph, ReadBeforeWrite) {
+    g.pass("view").reads(cubes, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+    make(cubes);
+    EXPECT_EQ(refusal(g), "pass 'view' reads 'cubes' [0,24) as sampled before any pass writes "
+                          "layers [0,24)");
+}
+
+TEST_F(WrongGraph, ReadOfPartiallyWritten) {
+    g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
+    g.pass("b").writes(cubes.layers(12, 12), Use::colour, kBlack).layers(12).record(nothing);
+    g.pass("view").reads(cubes, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'view' reads 'cubes' [0,24) as sampled before any pass writes "
+                          "layers [6,12)");
+}
+
+TEST_F(WrongGraph, ReadOfLastFrameIsNoWrite) {
+    g.pass("old")
+        .reads(g.previous(cubes), Use::sampled)
+        .writes(out, Use::colour, kBlack)
+        .record(nothing);
+    g.pass("new").reads(cubes, Use::sampled).writes(args, Use::storage_write).record(nothing);
+    make(cubes);
+    EXPECT_EQ(refusal(g), "pass 'new' reads 'cubes' [0,24) as sampled before any pass writes "
+                          "layers [0,24)");
+}
+
+TEST_F(WrongGraph, LoadOfNothing) {
+    g.pass("glow").writes(out, Use::colour).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'glow' loads (has no clear for) 'out' [0,1) as colour before any "
+                          "pass writes layers [0,1)");
+}
+
+TEST_F(WrongGraph, ModificationOfNothing) {
+    g.pass("blur").writes(out, Use::storage).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'blur' reads and writes 'out' [0,1) as storage before any pass "
+                          "writes layers [0,1)");
+}
+
+TEST_F(WrongGraph, BufferReadBeforeWrite) {
+    g.pass("draw").reads(args, Use::indirect).writes(out, Use::colour, kBlack).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'draw' reads buffer 'args' as indirect before any pass writes it");
+}
+
+TEST_F(WrongGraph, SampledWhileAttached) {
+    make(cubes);
+    g.pass("capture")
+        .reads(cubes, Use::sampled)
+        .writes(cubes.layers(6, 6), Use::colour, kBlack)
+        .layers(6)
+        .record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'capture' reads 'cubes' [0,24) as sampled while it writes 'cubes' "
+                          "[6,12) as colour, in layers [6,12)");
+}
+
+TEST_F(WrongGraph, SampledWhileStored) {
+    make(out);
+    g.pass("blur").writes(out, Use::storage_write).reads(out, Use::sampled).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'blur' reads 'out' [0,1) as sampled while it writes 'out' [0,1) as "
+                          "storage_write, in layers [0,1)");
+}
+
+TEST_F(WrongGraph, OtherLayersAndLastFrameMayBeSampledWhileAttached) {
+    make(cubes);
+    g.pass("capture")
+        .reads(cubes.layers(0, 6), Use::sampled)
+        .reads(g.previous(cubes), Use::sampled)
+        .writes(cubes.layers(6, 6), Use::colour, kBlack)
+        .layers(6)
+        .record(nothing);
+    g.want(cubes);
+    EXPECT_EQ(plan(g, {}, plain_sizer()).passes.size(), 2u);
+}
+
+TEST_F(WrongGraph, BufferReadWhileWritten) {
+    g.pass("fill").writes(args, Use::copy_to).record(nothing);
+    g.pass("sort").reads(args, Use::storage_read).writes(args, Use::storage_write).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'sort' reads buffer 'args' as storage_read while it writes buffer "
+                          "'args' as storage_write");
+}
+
+TEST_F(WrongGraph, TwoWritesOfTheSameLayers) {
+    g.pass("twice")
+        .writes(cubes.layers(0, 6), Use::storage_write)
+        .writes(cubes.layers(4, 6), Use::copy_to)
+        .record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'twice' writes 'cubes' [0,6) as storage_write and 'cubes' [4,10) "
+                          "as copy_to: written twice, in layers [4,6)");
+}
+
+TEST_F(WrongGraph, TwoLayoutsAtOnce) {
+    make(out);
+    g.pass("look")
+        .reads(out, Use::sampled)
+        .reads(out, Use::storage_read)
+        .writes(args, Use::storage_write)
+        .record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'look' reads 'out' [0,1) as sampled and 'out' [0,1) as "
+                          "storage_read: one image cannot be in two layouts at once, in layers "
+                          "[0,1)");
+}
+
+TEST_F(WrongGraph, WantedButNeverWritten) {
+    make(cubes);
+    g.want(out);
+    EXPECT_EQ(refusal(g), "'out' [0,1) is wanted, but no pass writes layers [0,1)");
+}
+
+TEST_F(WrongGraph, WantedLayersNeverWritten) {
+    g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
+    g.want(cubes.layers(3, 6));
+    EXPECT_EQ(refusal(g), "'cubes' [3,9) is wanted, but no pass writes layers [6,9)");
+}
+
+TEST_F(WrongGraph, WantedBufferNeverWritten) {
+    make(out);
+    g.want(args);
+    EXPECT_EQ(refusal(g), "buffer 'args' is wanted, but no pass writes it");
+}
+
+TEST_F(WrongGraph, WantedLayersOutOfRange) {
+    make(out);
+    g.want(out.layers(0, 2));
+    EXPECT_EQ(refusal(g), "'out' [0,2) is wanted, but the image has layers [0,1)");
+}
+
+TEST_F(WrongGraph, WantedPrevious) {
+    make(out);
+    g.want(g.previous(out));
+    EXPECT_EQ(refusal(g),
+              "previous('out') [0,1) is wanted: only this frame's contents can be");
+}
+
+TEST_F(WrongGraph, WantedOfAnotherGraph) {
+    make(out);
+    g.want(Image{.id = 9, .layer_count = 1});
+    EXPECT_EQ(refusal(g), "image number 9 is wanted, but the graph has 3");
+}
+
+TEST_F(WrongGraph, PreviousOfWhatNobodyWrites) {
+    g.pass("view")
+        .reads(g.previous(cubes), Use::sampled)
+        .writes(out, Use::colour, kBlack)
+        .record(nothing);
+    EXPECT_EQ(refusal(g),
+              "pass 'view' reads previous('cubes') as sampled but no pass writes 'cubes'");
+}
+
+TEST_F(WrongGraph, PreviousOfLayersThatNobodyWrites) {
+    g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
+    g.pass("view")
+        .reads(g.previous(cubes.layers(0, 12)), Use::sampled)
+        .writes(out, Use::colour, kBlack)
+        .record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'view' reads previous('cubes') [0,12) as sampled but no pass "
+                          "writes layers [6,12) of 'cubes'");
+}
+
+TEST_F(WrongGraph, PreviousAsTarget) {
+    g.pass("rewrite").writes(g.previous(out), Use::colour, kBlack).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'rewrite' writes previous('out') [0,1) as colour: last frame's "
+                          "contents are only read");
+}
+
+TEST_F(WrongGraph, PreviousOfAnotherGraph) {
+    try {
+        g.previous(Image{.id = 9});
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "previous() of image number 9, but the graph has 3 images");
+    }
+}
+
+TEST_F(WrongGraph, LayersOutOfRange) {
+    g.pass("capture").writes(cubes.layers(20, 6), Use::colour, kBlack).layers(6).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'capture' uses 'cubes' [20,26) as colour, but the image has layers "
+                          "[0,24)");
+}
+
+TEST_F(WrongGraph, LayersThatWrapAround) {
+    g.pass("capture").writes(cubes.layers(1, ~0u), Use::storage_write).record(nothing);
+    EXPECT_THAT(refusal(g), HasSubstr("but the image has layers [0,24)"));
+}
+
+TEST_F(WrongGraph, NoLayers) {
+    g.pass("capture").writes(cubes.layers(3, 0), Use::storage_write).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'capture' names no layer of 'cubes' as storage_write");
+}
+
+TEST_F(WrongGraph, HandleOfAnotherGraph) {
+    g.pass("a").writes(Image{.id = 3, .layer_count = 1}, Use::storage_write).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'a' names image number 3, but the graph has 3");
+}
+
+TEST_F(WrongGraph, BufferHandleOfAnotherGraph) {
+    g.pass("a").writes(Buffer{1}, Use::storage_write).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'a' names buffer number 1, but the graph has 1");
+}
+
+TEST_F(WrongGraph, AttachmentLayersDifferFromThePass) {
+    g.pass("capture").writes(cubes.layers(0, 6), Use::colour, kBlack).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'capture' renders 1 layer(s), but attaches 'cubes' [0,6) as "
+                          "colour, which are 6");
+}
+
+TEST_F(WrongGraph, AttachmentSizesDiffer) {
+    const Image small = g.image({.name = "small", .width = 8, .height = 4});
+    g.pass("view")
+        .writes(small, Use::colour, kBlack)
+        .writes(depth, Use::depth, kBlack)
+        .record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'view' attaches 'small' [0,1) as colour (8x4) and 'depth' [0,1) as "
+                          "depth (8x8): attachments have one size");
+}
+
+TEST_F(WrongGraph, TwoDepthAttachments) {
+    const Image other =
+        g.image({.name = "other", .format = Format::d32f, .width = 8, .height = 8});
+    g.pass("view")
+        .writes(other, Use::depth, kBlack)
+        .writes(depth, Use::depth, kBlack)
+        .record(nothing);
+    EXPECT_EQ(refusal(g),
+              "pass 'view' attaches both 'other' [0,1) and 'depth' [0,1) as depth");
+}
+
+TEST_F(WrongGraph, DepthUseOfAColourFormat) {
+    g.pass("shadow").writes(out, Use::depth, kBlack).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'shadow' uses 'out' [0,1) as depth, but its format rgba16f is a "
+                          "colour format");
+}
+
+TEST_F(WrongGraph, ColourUseOfADepthFormat) {
+    g.pass("shadow").writes(depth, Use::colour, kBlack).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'shadow' uses 'depth' [0,1) as colour, but its format d32f is a "
+                          "depth format");
+}
+
+TEST_F(WrongGraph, TwoPassesOfOneName) {
+    make(out);
+    make(cubes);
+    EXPECT_EQ(refusal(g), "pass 'make' is declared twice: names are unique");
+}
+
+TEST_F(WrongGraph, TwoImagesOfOneName) {
+    g.image({.name = "out"});
+    EXPECT_EQ(refusal(g), "image 'out': another image or buffer has the same name");
+}
+
+TEST_F(WrongGraph, BufferNamedLikeAnImage) {
+    g.buffer({.name = "out", .bytes = 4});
+    EXPECT_EQ(refusal(g), "buffer 'out': another image or buffer has the same name");
+}
+
+TEST_F(WrongGraph, NamelessImage) {
+    g.image({.name = ""});
+    EXPECT_EQ(refusal(g), "image number 3 has no name");
+}
+
+TEST_F(WrongGraph, NamelessPass) {
+    make(out);
+    g.pass("").writes(out, Use::colour, kBlack).record(nothing);
+    EXPECT_EQ(refusal(g), "pass number 1 has no name");
+}
+
+TEST_F(WrongGraph, PassWithoutBody) {
+    g.pass("forgotten").writes(out, Use::colour, kBlack);
+    EXPECT_EQ(refusal(g), "pass 'forgotten' has no body");
+}
+
+TEST_F(WrongGraph, PassThatWritesNothing) {
+    make(out);
+    g.pass("look").reads(out, Use::sampled).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'look' writes nothing");
+}
+
+TEST_F(WrongGraph, PassOfNoLayers) {
+    g.pass("view").writes(out, Use::colour, kBlack).layers(0).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'view' renders 0 layers");
+}
+
+TEST_F(WrongGraph, CubeOfSevenFaces) {
+    g.image({.name = "odd", .width = 4, .height = 4, .layers = 7, .cube = true});
+    EXPECT_EQ(refusal(g), "image 'odd' is a cube, but its 7 layers are not a multiple of 6");
+}
+
+TEST_F(WrongGraph, CubeThatIsNotSquare) {
+    g.image({.name = "flat", .width = 4, .height = 2, .layers = 6, .cube = true});
+    EXPECT_EQ(refusal(g), "image 'flat' is a cube, but not square: 4x2");
+}
+
+TEST_F(WrongGraph, ImageOfNoSize) {
+    g.image({.name = "void", .width = 4, .height = 0, .layers = 2});
+    EXPECT_EQ(refusal(g), "image 'void' is empty: 4x0, 2 layers");
+}
+
+TEST_F(WrongGraph, ImageOfNoLayers) {
+    g.image({.name = "void", .layers = 0});
+    EXPECT_EQ(refusal(g), "image 'void' is empty: 1x1, 0 layers");
+}
+
+TEST_F(WrongGraph, BufferOfNoSize) {
+    g.buffer({.name = "void"});
+    EXPECT_EQ(refusal(g), "buffer 'void' is empty: 0 bytes");
+}
+
+TEST_F(WrongGraph, ClearOfWhatIsNotAttached) {
+    g.pass("blur").writes(out, Use::storage_write, kBlack).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'blur' clears 'out' [0,1) as storage_write, but only attachments "
+                          "are cleared");
+}
+
+TEST_F(WrongGraph, CopyInARasterPass) {
+    g.pass("view").writes(out, Use::colour, kBlack).writes(args, Use::copy_to).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'view' has attachments and uses buffer 'args' as copy_to: copies "
+                          "need a pass of their own");
+}
+
+// Every use in every direction, so that none is accepted by oversight.
+TEST_F(WrongGraph, UsesInTheWrongDirection) {
+    for (const Use use : {Use::sampled, Use::storage_read, Use::storage_write, Use::storage,
+                          Use::colour, Use::depth, Use::copy_from, Use::copy_to, Use::indirect}) {
+        const bool reads = use == Use::sampled || use == Use::storage_read ||
+                           use == Use::copy_from || use == Use::indirect;
+        const bool image_only = use == Use::colour || use == Use::depth;
+        const std::string name(name_of(use));
+        if (reads) {
+            Graph wrong = g;
+            wrong.pass("p").writes(out, use).record(nothing);
+            EXPECT_EQ(refusal(wrong), "pass 'p' writes 'out' [0,1) as " + name +
+                                          ", which is not a way to write an image");
+        }
+        if ((!reads && use != Use::depth) || use == Use::indirect) {
+            Graph wrong = g;
+            wrong.pass("p").reads(out, use).record(nothing);
+            EXPECT_EQ(refusal(wrong), "pass 'p' reads 'out' [0,1) as " + name +
+                                          ", which is not a way to read an image");
+        }
+        if (reads || image_only) {
+            Graph wrong = g;
+            wrong.pass("p").writes(args, use).record(nothing);
+            EXPECT_EQ(refusal(wrong), "pass 'p' writes buffer 'args' as " + name +
+                                          ", which is not a way to write a buffer");
+        }
+        if (!reads) {
+            Graph wrong = g;
+            wrong.pass("p").reads(args, use).record(nothing);
+            EXPECT_EQ(refusal(wrong), "pass 'p' reads buffer 'args' as " + name +
+                                          ", which is not a way to read a buffer");
+        }
+    }
+}
+
+// A mistake is told even where nobody wants the result.
+TEST_F(WrongGraph, CulledPassesAreLookedAt) {
+    make(out);
+    g.want(out);
+    g.pass("debug").reads(cubes, Use::sampled).writes(args, Use::storage_write).record(nothing);
+    EXPECT_THAT(refusal(g), AllOf(HasSubstr("'debug'"), HasSubstr("'cubes'")));
+}
+
+TEST_F(WrongGraph, OverSize2d) {
+    make(out);
+    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_size_2d = 7}),
+              "image 'out' wants 8 texels a side, device allows max_size_2d = 7");
+}
+
+TEST_F(WrongGraph, OverSizeCube) {
+    make(out);
+    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_size_cube = 7}),
+              "image 'cubes' wants 8 texels a side, device allows max_size_cube = 7");
+}
+
+TEST_F(WrongGraph, OverLayers) {
+    make(out);
+    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_layers = 23}),
+              "image 'cubes' wants 24 layers, device allows max_layers = 23");
+}
+
+TEST_F(WrongGraph, OverFramebufferLayers) {
+    make(cubes);
+    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_framebuffer_layers = 6}),
+              "pass 'make' wants 24 framebuffer layers for 'cubes', device allows "
+              "max_framebuffer_layers = 6");
+}
+
+TEST_F(WrongGraph, OverMemory) {
+    make(cubes);
+    g.want(cubes);
+    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_memory = 12287}),
+              "the frame wants 12288 bytes of memory, device allows max_memory = 12287; the "
+              "largest is 'cubes' with 12288");
+}
+
+TEST_F(WrongGraph, JustAtEveryLimitIsAccepted) {
+    make(cubes);
+    g.want(cubes);
+    const Limits limits{.max_size_2d = 8,
+                        .max_size_cube = 8,
+                        .max_layers = 24,
+                        .max_framebuffer_layers = 24,
+                        .max_memory = 12288};
+    EXPECT_EQ(plan(g, limits, plain_sizer()).bytes, 12288u);
+}
+
+} // namespace
+} // namespace catoptric::graph
