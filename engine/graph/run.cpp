@@ -94,6 +94,7 @@ void Runner::record(const Graph& graph, const Plan& plan, Timing timing) {
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
     next_query_ = 0;
+    full_barrier();
     if (timing == Timing::isolated) stamp(timing);
     for (const PlannedPass& planned : plan.passes) {
         const Pass& pass = graph.passes()[planned.pass];
@@ -104,6 +105,18 @@ void Runner::record(const Graph& graph, const Plan& plan, Timing timing) {
     }
     barriers(graph, plan, plan.last, true);
     gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
+}
+
+/// Everything before is done and visible to everything after: divides frames and read-backs.
+void Runner::full_barrier() {
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands_, &dependency);
 }
 
 /// A stamp is only true when an execution barrier follows it: without, a software driver takes it
@@ -126,6 +139,8 @@ void Runner::barriers(const Graph& graph, const Plan&, const std::vector<Barrier
         }
         Scope after = scope_of(barrier.after);
         if (last) after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
+        // First touch of the frame: chains on to the barrier that divides it from the frame before.
+        if (before.stages == VK_PIPELINE_STAGE_2_NONE) before.stages = after.stages;
         if (barrier.is_buffer) {
             VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
             b.srcStageMask = before.stages, b.srcAccessMask = before.access;
@@ -182,7 +197,7 @@ void Runner::render(const Graph& graph, const Pass& pass, std::uint32_t first_la
         info.imageView = physical(use.image).view(device_, shape, use.image.first_layer + first_layer, layer_count);
         info.imageLayout = layout_of(use.use);
         info.loadOp = use.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-        info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+        info.storeOp = use.write ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE;
         if (use.clear && use.use == Use::colour) std::ranges::copy(*use.clear, info.clearValue.color.float32);
         if (use.clear && use.use == Use::depth) info.clearValue.depthStencil = {(*use.clear)[0], 0};
         if (use.use == Use::colour)

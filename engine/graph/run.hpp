@@ -75,6 +75,7 @@ private:
     void record_pass(const Graph& graph, const Pass& pass);
     void render(const Graph& graph, const Pass& pass, std::uint32_t first_layer, std::uint32_t layer_count);
     void barriers(const Graph& graph, const Plan& plan, const std::vector<Barrier>& list, bool last);
+    void full_barrier();
     void stamp(Timing timing);
     double submit_and_wait(const Graph& graph, const Plan& plan);
     FrameTimes read_times(const Graph& graph, const Plan& plan, Timing timing) const;
