@@ -112,8 +112,8 @@ void Reader::read_materials() {
         const dvec3 base = glm::clamp(colour(pbr.baseColorFactor, 1), 0.0, 1.0);
         (material.mirror ? material.reflectance : material.albedo) = vec3(base);
         material.emission = vec3(emissive_strength(from) * colour(from.emissiveFactor, 0));
-        require(glm::all(glm::greaterThanEqual(material.emission, vec3(0))), "material '", from.name,
-                "': wanted an emission of at least 0, found less");
+        require(is_radiance(material.emission), "material '", from.name,
+                "': wanted an emission of at least 0 that fits a float, found another");
         document.materials.push_back(material);
     }
 }
@@ -237,7 +237,8 @@ tinygltf::FsCallbacks files_of(fs::path& folder) {
                 },
             .ExpandFilePath = [](const std::string& name, void*) { return name; },
             .ReadWholeFile =
-                [](std::vector<unsigned char>* bytes, std::string*, const std::string& name, void*) {
+                [](std::vector<unsigned char>* bytes, std::string*, const std::string& name,
+                   void*) {
                     const std::string content = read_file(name);
                     bytes->assign(content.begin(), content.end());
                     return true;

@@ -8,14 +8,14 @@
 #include <string_view>
 #include <vector>
 
-/// A glTF 2.0 file in our own types, checked, but with its node tree not yet flattened. Indices that
-/// may be absent are optional; every index is in range.
+/// A glTF 2.0 file in our own types, checked, but with its node tree not yet flattened. Indices
+/// that may be absent are optional; every index is in range.
 namespace catoptric::scene::gltf {
 
 /// What glTF has no word for, from a node's `extras`:
 ///   {"catoptric": {"sphere": true | [x, y, z, r], "seen_by_camera": false, "distance": d}}
-/// `sphere`: the mesh stands for this sphere in node space (true: [0, 0, 0, 1]), which a uniform scale
-/// carries exactly into the world. `distance`: from a camera to its target.
+/// `sphere`: the mesh stands for this sphere in node space (true: [0, 0, 0, 1]), which a uniform
+/// scale carries exactly into the world. `distance`: from a camera to its target.
 struct Marks {
     std::optional<Sphere> sphere;
     std::optional<double> distance;
@@ -59,8 +59,9 @@ Marks marks(const std::string& extras_json, const std::string& place);
 dmat4 matrix_of(const std::vector<double>& matrix, const std::vector<double>& translation,
                 const std::vector<double>& rotation, const std::vector<double>& scale);
 
-/// An animation sampler's keys; cubic ones come as in-tangent, value, out-tangent. Throws `bad_data`
-/// naming `place` for times that do not increase, counts that do not match, or what is not finite.
+/// An animation sampler's keys; cubic ones come as in-tangent, value, out-tangent. Throws
+/// `bad_data` naming `place` for times that do not increase, counts that do not match, or what is
+/// not finite.
 Keyframes keyframes(const std::string& interpolation, std::vector<double> times,
                     const std::vector<dvec3>& output, const std::string& place);
 

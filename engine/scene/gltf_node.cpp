@@ -26,7 +26,8 @@ std::optional<Sphere> sphere(const Json& value, const std::string& place) {
     for (const Json& number : value)
         check(number.is_number(), Failure::bad_data, place, ": wanted numbers, found ",
               number.dump());
-    return Sphere{.centre = {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()},
+    const auto number = [&](std::size_t i) { return value[i].get<double>(); };
+    return Sphere{.centre = {number(0), number(1), number(2)},
                   .radius = positive(value[3], place)};
 }
 
@@ -37,8 +38,8 @@ Marks marks(const std::string& extras_json, const std::string& place) {
     const Json extras = Json::parse(extras_json, nullptr, false); // not JSON: no marks
     if (!extras.is_object() || !extras.contains("catoptric")) return marks;
     const Json& ours = extras["catoptric"];
-    check(ours.is_object(), Failure::bad_data, place, ": extras.catoptric: wanted an object, found ",
-          ours.dump());
+    check(ours.is_object(), Failure::bad_data, place,
+          ": extras.catoptric: wanted an object, found ", ours.dump());
     if (ours.contains("sphere")) marks.sphere = sphere(ours["sphere"], place + ": sphere");
     if (ours.contains("distance"))
         marks.distance = positive(ours["distance"], place + ": distance");

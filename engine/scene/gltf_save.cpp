@@ -154,15 +154,13 @@ Json json(const dmat4& matrix) {
 /// Our marks (gltf_document.hpp), the sphere in node space; null when there is nothing to say.
 Json extras(const Object& object) {
     Json ours;
-    if (object.sphere) {
-        const dmat4& world = object.world_from_object;
-        const double scale = glm::length(dvec3(world[0]));
+    const dmat4& world = object.world_from_object;
+    const double scale = glm::length(dvec3(world[0]));
+    if (object.sphere && object.sphere->centre == dvec3(world[3]) && object.sphere->radius == scale)
+        ours["sphere"] = true;
+    else if (object.sphere) {
         const dvec3 centre = transform_point(glm::inverse(world), object.sphere->centre);
-        const double radius = object.sphere->radius / scale;
-        if (centre == dvec3(0) && radius == 1)
-            ours["sphere"] = true;
-        else
-            ours["sphere"] = {centre.x, centre.y, centre.z, radius};
+        ours["sphere"] = {centre.x, centre.y, centre.z, object.sphere->radius / scale};
     }
     if (!object.seen_by_camera) ours["seen_by_camera"] = false;
     return ours.is_null() ? ours : Json{{"catoptric", ours}};

@@ -92,7 +92,8 @@ std::vector<Sums> sums_of(const Mesh& mesh, const dmat4& world_from_object) {
         const std::size_t root = islands.find(first[i]);
         const std::size_t index = index_of_root.try_emplace(root, sums.size()).first->second;
         if (index == sums.size()) sums.emplace_back();
-        sums[index].add_vertex(normalized_or_zero(normal_to_world * dvec3(mesh.normals[i])), area[i]);
+        const dvec3 normal = normalized_or_zero(normal_to_world * dvec3(mesh.normals[i]));
+        sums[index].add_vertex(normal, area[i]);
         if (!counted[first[i]]) sums[index].add_position(world[i]);
         counted[first[i]] = true;
     }

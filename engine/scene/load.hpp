@@ -18,7 +18,8 @@ const std::vector<BuiltIn>& built_in_scenes();
 
 /// A built-in scene by name, or a .glb, .gltf or .obj file.
 /// Throws `Failure::usage` for a word that is neither (with the nearest built-in name),
-/// `missing_input` for a file that is not there, `bad_data` naming file and place for what cannot be read.
+/// `missing_input` for a file that is not there, `bad_data` naming file and place for what cannot
+/// be read. What is left out or repaired is in the scene's warnings.
 Scene load(const std::string& name_or_path);
 
 /// Cornell box with four mirror balls (contract: "The built-in scene").
@@ -30,9 +31,10 @@ Scene cornell_mirrors_closed();
 Scene load_gltf(const std::filesystem::path& path);
 Scene load_obj(const std::filesystem::path& path);
 
-/// Writes .glb (mirror = metallic 1, roughness 0; light = KHR_materials_emissive_strength; motion as
-/// a CUBICSPLINE translation; the camera) or .obj with .mtl beside it (mirror = illum 3, Ks; light = Ke;
-/// camera and motion as `# catoptric ...` comment lines). Same scene, same bytes.
+/// Writes .glb (mirror = metallic 1, roughness 0; light = KHR_materials_emissive_strength; motion
+/// as a CUBICSPLINE translation; the camera; marks in gltf_document.hpp) or .obj with .mtl beside
+/// it (mirror = illum 3, Ks; light = Ke; camera, motion and exact spheres as `# catoptric ...`
+/// comment lines, obj_text.hpp). Same scene, same bytes.
 /// Throws `cannot_create` or `io`; an existing file is replaced only by a complete one.
 void save_glb(const Scene& scene, const std::filesystem::path& path);
 void save_obj(const Scene& scene, const std::filesystem::path& path);

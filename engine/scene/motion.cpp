@@ -26,7 +26,8 @@ double wrapped(const Keyframes& keys, double seconds) {
     return rest < 0 ? rest + end : rest;
 }
 
-/// glTF 2.0 appendix C: p(t) = (2s^3-3s^2+1) v_k + td(s^3-2s^2+s) b_k + (-2s^3+3s^2) v_k+1 + td(s^3-s^2) a_k+1
+/// glTF 2.0 appendix C, with s from 0 to 1 in an interval of td seconds: p = (2s^3 - 3s^2 + 1) v_k
+/// + td (s^3 - 2s^2 + s) b_k + (-2s^3 + 3s^2) v_k+1 + td (s^3 - s^2) a_k+1
 dvec3 hermite(const Keyframes& keys, std::size_t k, double s, double interval) {
     const double s2 = s * s, s3 = s2 * s;
     return (2 * s3 - 3 * s2 + 1) * keys.values[k] +
@@ -59,8 +60,8 @@ Scene at(const Scene& scene, double seconds) {
           seconds);
     Scene still = scene;
     for (Object& object : still.objects) {
-        const dvec3 offset =
-            std::visit([&](const auto& motion) { return offset_at(motion, seconds); }, object.motion);
+        const auto offset_of = [&](const auto& motion) { return offset_at(motion, seconds); };
+        const dvec3 offset = std::visit(offset_of, object.motion);
         object.world_from_object[3] += dvec4(offset, 0);
         if (object.sphere) object.sphere->centre += offset;
         object.motion = std::monostate();

@@ -53,11 +53,13 @@ Mesh mesh_of(const obj::Text& text, const std::vector<tinyobj::index_t>& corners
 }
 
 /// The shape's corners by material (-1: none), in order of first use.
-std::vector<std::pair<int, std::vector<tinyobj::index_t>>> by_material(const tinyobj::mesh_t& mesh) {
-    std::vector<std::pair<int, std::vector<tinyobj::index_t>>> parts;
+using Part = std::pair<int, std::vector<tinyobj::index_t>>;
+
+std::vector<Part> by_material(const tinyobj::mesh_t& mesh) {
+    std::vector<Part> parts;
     for (std::size_t face = 0; 3 * face + 2 < mesh.indices.size(); ++face) {
         const int material = mesh.material_ids.at(face);
-        auto part = std::ranges::find(parts, material, [](const auto& p) { return p.first; });
+        auto part = std::ranges::find(parts, material, &Part::first);
         if (part == parts.end()) part = parts.insert(parts.end(), {material, {}});
         const auto corners = mesh.indices.begin() + std::ptrdiff_t(3 * face);
         part->second.insert(part->second.end(), corners, corners + 3);

@@ -1,6 +1,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "scene/obj_text.hpp"
+#include "scene/repair.hpp"
 
 namespace catoptric::scene::obj {
 
@@ -15,8 +16,8 @@ vec3 reflectance(const Line& line) { return glm::clamp(colour(line), 0.0f, 1.0f)
 
 vec3 radiance(const Line& line) {
     const vec3 emission = colour(line);
-    check(glm::all(glm::greaterThanEqual(emission, vec3(0))), Failure::bad_data, line.where,
-          ": 'Ke' wants radiance of at least 0, found '", line.rest, "'");
+    check(is_radiance(emission), Failure::bad_data, line.where,
+          ": 'Ke' wants radiance of at least 0 that fits a float, found '", line.rest, "'");
     return emission;
 }
 

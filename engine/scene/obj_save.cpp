@@ -19,7 +19,8 @@ std::string text_of(const dvec3& v) {
 }
 
 /// A word that no other has: spaces become '_', an empty name `fallback`, a second "x" "x-2".
-std::string unique_word(std::string name, const std::string& fallback, std::set<std::string>& taken) {
+std::string unique_word(std::string name, const std::string& fallback,
+                        std::set<std::string>& taken) {
     std::ranges::replace_if(
         name, [](unsigned char c) { return c <= ' ' || c == '#' || c == '\\'; }, '_');
     if (name.empty()) name = fallback;
@@ -126,7 +127,7 @@ void save_obj(const Scene& scene, const std::filesystem::path& path) {
                 remarks(object, object_names[i]) +
                 geometry(scene.meshes[object.mesh], object.world_from_object, first);
     }
-    write_file(library, materials_text(scene.materials, material_names)); // first: the .obj wants it
+    write_file(library, materials_text(scene.materials, material_names)); // the .obj wants it there
     write_file(path, text);
 }
 

@@ -43,8 +43,8 @@ dvec3 vector_of(const Line& line) {
 
 void Reader::library_file(const Line& line, const fs::path& name) {
     const bool stays = name.is_relative() && *name.lexically_normal().begin() != "..";
-    check(stays, Failure::bad_data, line.where, ": mtllib wants a file in the folder of the .obj, found '",
-          name.string(), "'");
+    check(stays, Failure::bad_data, line.where,
+          ": mtllib wants a file in the folder of the .obj, found '", name.string(), "'");
     const fs::path path = folder / name;
     std::error_code ignored;
     check(fs::is_regular_file(path, ignored), Failure::missing_input, line.where,

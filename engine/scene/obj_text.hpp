@@ -36,7 +36,8 @@ std::vector<Material> read_materials(const std::filesystem::path& path);
 /// What the `# catoptric` comments say about objects, by name:
 ///   # catoptric camera NAME ex ey ez tx ty tz ux uy uz fov
 ///   # catoptric motion OBJECT harmonic ax ay az period
-///   # catoptric motion OBJECT step|linear|cubic N, then N times: t x y z (cubic: t, in, value, out)
+///   # catoptric motion OBJECT step|linear|cubic N, then N times: t x y z
+///       (cubic: t, in-tangent, value, out-tangent)
 ///   # catoptric sphere OBJECT cx cy cz r
 ///   # catoptric hidden OBJECT            (camera rays pass through it)
 struct Remarks {
@@ -52,8 +53,8 @@ void add_remark(Remarks& remarks, const Line& line);
 
 /// What our own scan of an .obj file finds.
 struct Text {
-    /// Nothing but `o`, `g`, `v`, `usemtl INDEX`, and `f` with absolute indices v or v//vn that exist:
-    /// what is left for a parser to do is grouping and cutting polygons.
+    /// Nothing but `o`, `g`, `v`, `usemtl INDEX`, and `f` with absolute indices v or v//vn that
+    /// exist: what is left for a parser to do is grouping and cutting polygons.
     std::string statements;
     std::vector<dvec3> positions, normals; ///< exact, unlike a parser's floats
     std::vector<Material> materials;       ///< of all libraries

@@ -98,6 +98,10 @@ std::size_t repair(Mesh& mesh) {
     return dropped;
 }
 
+bool is_radiance(const vec3& emission) {
+    return is_finite(emission) && glm::all(glm::greaterThanEqual(emission, vec3(0)));
+}
+
 void finish(Scene& scene, const std::string& file) {
     for (const Object& object : scene.objects)
         for (const dvec3& position : scene.meshes[object.mesh].positions)

@@ -17,8 +17,11 @@ void check_mesh(const Mesh& mesh, const std::string& place);
 /// normal. Returns the number of triangles dropped.
 std::size_t repair(Mesh& mesh);
 
-/// Drops objects that have no triangle with an area, with a warning. Throws `bad_data` naming `file`
-/// when no object is left, or when one reaches beyond what double precision holds.
+/// True for an emission that can be: each component finite and at least 0.
+bool is_radiance(const vec3& emission);
+
+/// Drops objects that have no triangle with an area, with a warning. Throws `bad_data` naming
+/// `file` when no object is left, or when one reaches beyond what double precision holds.
 void finish(Scene& scene, const std::string& file);
 
 } // namespace catoptric::scene

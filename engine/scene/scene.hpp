@@ -95,7 +95,7 @@ Scene at(const Scene& scene, double seconds);
 /// True when some object moves.
 bool is_animated(const Scene& scene);
 
-/// Indices into Scene::objects of the mirrors, in file order; mirror number n (from 1) is entry n-1.
+/// Indices into Scene::objects of the mirrors, in file order; mirror n (from 1) is entry n-1.
 std::vector<std::size_t> mirrors(const Scene& scene);
 
 /// One light for each connected component of each emissive object's mesh, in file order. Vertices

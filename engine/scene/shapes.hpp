@@ -8,8 +8,8 @@ namespace catoptric::scene {
 Mesh quad(std::string name, dvec3 a, dvec3 b, dvec3 c, dvec3 d);
 
 /// Unit ball from a tetrahedron subdivided `levels` times, midpoints normalised at each level:
-/// 4^(levels+1) triangles, 2*4^levels + 2 shared vertices, smooth normals. Level 5 is the contract's
-/// ball: 4096 triangles, 2050 vertices.
+/// 4^(levels+1) triangles, 2*4^levels + 2 shared vertices, smooth normals. Level 5 is the
+/// contract's ball: 4096 triangles, 2050 vertices.
 Mesh ball(std::string name, int levels);
 
 } // namespace catoptric::scene

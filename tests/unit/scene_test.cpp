@@ -1,0 +1,319 @@
+#include "scene/scene.hpp"
+
+#include "core/error.hpp"
+#include "scene/load.hpp"
+#include "scene/shapes.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::scene;
+
+dvec3 face_normal(const Mesh& mesh, const uvec3& t) {
+    const auto& p = mesh.positions;
+    return glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
+}
+
+const Object& object_named(const Scene& scene, const std::string& name) {
+    const auto at = std::ranges::find(scene.objects, name, &Object::name);
+    if (at == scene.objects.end()) throw std::out_of_range(name);
+    return *at;
+}
+
+const Mesh& mesh_named(const Scene& scene, const std::string& name) {
+    return scene.meshes[object_named(scene, name).mesh];
+}
+
+void expect_near(const dvec3& found, const dvec3& wanted, double tolerance) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], wanted[i], tolerance) << "component " << i;
+}
+
+/// One object of white light with this mesh.
+Scene glowing(Mesh mesh, const dmat4& world_from_object = dmat4(1)) {
+    Scene scene{.name = "glow"};
+    scene.materials.push_back({.name = "light", .emission = vec3(1)});
+    scene.objects.push_back({.name = "light", .world_from_object = world_from_object});
+    scene.meshes.push_back(std::move(mesh));
+    return scene;
+}
+
+// ---- shapes
+
+TEST(Ball, HasTheContractsCounts) {
+    for (int level = 0; level <= 5; ++level) {
+        const Mesh mesh = ball("ball", level);
+        const auto four = std::size_t(1) << (2 * level);
+        EXPECT_EQ(mesh.triangles.size(), 4 * four);
+        EXPECT_EQ(mesh.positions.size(), 2 * four + 2);
+        EXPECT_EQ(mesh.normals.size(), mesh.positions.size());
+    }
+    EXPECT_EQ(ball("ball", 5).triangles.size(), 4096u);
+    EXPECT_EQ(ball("ball", 5).positions.size(), 2050u);
+}
+
+TEST(Ball, IsAClosedUnitSphereSeenFromOutside) {
+    const Mesh mesh = ball("ball", 5);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        EXPECT_NEAR(glm::length(mesh.positions[i]), 1, 4e-16); // 2 ulp
+        EXPECT_EQ(mesh.normals[i], vec3(mesh.positions[i]));
+    }
+    std::map<std::pair<unsigned, unsigned>, int> edges; // each directed edge once, its reverse once
+    for (const uvec3& t : mesh.triangles) {
+        EXPECT_GT(glm::dot(face_normal(mesh, t), mesh.positions[t.x]), 0);
+        for (int i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
+    }
+    for (const auto& [edge, count] : edges) {
+        EXPECT_EQ(count, 1);
+        EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
+    }
+}
+
+TEST(Ball, StartsFromTheContractsTetrahedron) {
+    const Mesh mesh = ball("ball", 0);
+    const double s = std::sqrt(2.0), q = std::sqrt(6.0);
+    EXPECT_EQ(mesh.positions[0], dvec3(0, 0, -1));
+    EXPECT_EQ(mesh.positions[1], dvec3(0, 2 * s / 3, 1.0 / 3));
+    EXPECT_EQ(mesh.positions[2], dvec3(-q / 3, -s / 3, 1.0 / 3));
+    EXPECT_EQ(mesh.positions[3], dvec3(q / 3, -s / 3, 1.0 / 3));
+}
+
+// ---- the built-in scene
+
+TEST(CornellMirrors, HasTheContractsObjectsAndMaterials) {
+    const Scene scene = cornell_mirrors();
+    std::vector<std::string> objects, materials;
+    for (const Object& object : scene.objects) objects.push_back(object.name);
+    for (const Material& material : scene.materials) materials.push_back(material.name);
+    EXPECT_THAT(objects, testing::ElementsAre("floor", "ceiling", "back", "right", "left", "light",
+                                              "ball1", "ball2", "ball3", "ball4"));
+    EXPECT_THAT(materials, testing::ElementsAre("white", "green", "red", "light", "mirror"));
+    EXPECT_EQ(scene.materials[object_named(scene, "right").material].name, "green");
+    EXPECT_EQ(scene.materials[object_named(scene, "left").material].name, "red");
+    EXPECT_EQ(triangle_count(scene), 6 * 2 + 4 * 4096u);
+    EXPECT_THAT(mirrors(scene), testing::ElementsAre(6, 7, 8, 9));
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].eye, dvec3(278, 273, -800));
+    EXPECT_EQ(scene.cameras[0].target, dvec3(278, 273, 0));
+    EXPECT_EQ(scene.cameras[0].vertical_fov_degrees, 37.5);
+}
+
+TEST(CornellMirrors, EveryWallFacesIntoTheBox) {
+    const Scene scene = cornell_mirrors_closed();
+    const dvec3 middle(278, 274, 280);
+    for (const char* name : {"floor", "ceiling", "back", "right", "left", "light", "front"}) {
+        const Mesh& mesh = mesh_named(scene, name);
+        for (const uvec3& t : mesh.triangles) {
+            EXPECT_GT(glm::dot(face_normal(mesh, t), middle - mesh.positions[t.x]), 0) << name;
+            EXPECT_GT(glm::dot(dvec3(mesh.normals[t.x]), middle - mesh.positions[t.x]), 0) << name;
+        }
+    }
+}
+
+TEST(CornellMirrors, LightLooksDown) {
+    const std::vector<PointLight> found = lights(cornell_mirrors());
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].normal, dvec3(0, -1, 0));
+    expect_near(found[0].position, {278, 548.7, 279.5}, 1e-12);
+    EXPECT_NEAR(found[0].area, 130 * 105, 1e-9);
+    EXPECT_EQ(found[0].emission, vec3(17, 12, 4));
+}
+
+TEST(CornellMirrors, BallsStandWhereTheReportHasThem) {
+    const Scene scene = cornell_mirrors();
+    const std::map<std::string, Sphere> wanted = {{"ball1", {{445, 73, 320}, 72}},
+                                                  {"ball2", {{90, 100, 110}, 72}},
+                                                  {"ball3", {{190, 113, 410}, 110}},
+                                                  {"ball4", {{500, 80, 210}, 36}}};
+    for (const auto& [name, sphere] : wanted) {
+        const Object& object = object_named(scene, name);
+        EXPECT_EQ(object.sphere->centre, sphere.centre);
+        EXPECT_EQ(object.sphere->radius, sphere.radius);
+        expect_near(bounds(scene, object).centre(), sphere.centre, 0.01 * sphere.radius);
+    }
+}
+
+TEST(CornellMirrors, ClosedHasAFrontThatOnlyTheCameraIgnores) {
+    const Scene scene = cornell_mirrors_closed();
+    const Object& front = object_named(scene, "front");
+    EXPECT_FALSE(front.seen_by_camera);
+    EXPECT_EQ(mesh_named(scene, "front").normals[0], vec3(0, 0, 1));
+    for (const dvec3& p : mesh_named(scene, "front").positions) EXPECT_EQ(p.z, 0);
+    EXPECT_EQ(mirrors(scene), mirrors(cornell_mirrors()));
+    EXPECT_EQ(std::ranges::count(scene.objects, false, &Object::seen_by_camera), 1);
+}
+
+// ---- motion
+
+TEST(Motion, BallFourGoesUpAndDown) {
+    const Scene scene = cornell_mirrors();
+    EXPECT_TRUE(is_animated(scene));
+    for (const double t : {0.0, 0.3, 1.0, 2.0, 3.7, 4.0, 1e6, -0.25}) {
+        const Scene still = at(scene, t);
+        const double y = 80 + 50 * (1 - std::cos(2 * M_PI * t / 4));
+        const Object& ball4 = object_named(still, "ball4");
+        EXPECT_NEAR(ball4.world_from_object[3].y, y, std::abs(t) > 100 ? 1e-7 : 1e-12) << t;
+        EXPECT_EQ(ball4.sphere->centre.y, ball4.world_from_object[3].y);
+        EXPECT_EQ(ball4.world_from_object[3].x, 500);
+        EXPECT_EQ(object_named(still, "ball1").sphere->centre, dvec3(445, 73, 320));
+        EXPECT_FALSE(is_animated(still));
+    }
+    EXPECT_EQ(object_named(at(scene, 0), "ball4").sphere->centre, dvec3(500, 80, 210));
+    EXPECT_EQ(object_named(at(scene, 2), "ball4").sphere->centre, dvec3(500, 180, 210));
+}
+
+dvec3 moved(const Keyframes& keys, double seconds) {
+    Scene scene = glowing(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}));
+    scene.objects[0].motion = keys;
+    return dvec3(at(scene, seconds).objects[0].world_from_object[3]);
+}
+
+TEST(Motion, KeyframesStepLinearAndRepeat) {
+    Keyframes keys{.times = {1, 2, 4}, .values = {{0, 0, 0}, {2, 0, 0}, {6, 1, 0}}};
+    EXPECT_EQ(moved(keys, 0.5), dvec3(0)); // before the first key
+    EXPECT_EQ(moved(keys, 1.5), dvec3(1, 0, 0));
+    EXPECT_EQ(moved(keys, 3), dvec3(4, 0.5, 0));
+    EXPECT_EQ(moved(keys, 4), dvec3(6, 1, 0)); // the end itself
+    EXPECT_EQ(moved(keys, 5.5), dvec3(1, 0, 0)); // 4 s later, again
+    keys.interpolation = Keyframes::Interpolation::step;
+    EXPECT_EQ(moved(keys, 1.99), dvec3(0));
+    EXPECT_EQ(moved(keys, 2), dvec3(2, 0, 0));
+}
+
+TEST(Motion, CubicKeysReproduceACubic) {
+    // p(t) = t^3 - 2 t has tangents 3 t^2 - 2; a Hermite spline is exact for it
+    const auto p = [](double t) { return dvec3(t * t * t - 2 * t, 0, 0); };
+    Keyframes keys{.interpolation = Keyframes::Interpolation::cubic};
+    for (const double t : {0.0, 0.5, 2.0}) {
+        keys.times.push_back(t);
+        keys.values.push_back(p(t));
+        keys.in_tangents.emplace_back(3 * t * t - 2, 0, 0);
+    }
+    keys.out_tangents = keys.in_tangents;
+    for (const double t : {0.1, 0.5, 0.9, 1.7}) expect_near(moved(keys, t), p(t), 1e-14);
+}
+
+TEST(Motion, TimeMustBeFinite) {
+    EXPECT_THROW(at(cornell_mirrors(), std::nan("")), Error);
+}
+
+// ---- lights
+
+TEST(Lights, EachConnectedPieceIsOne) {
+    Mesh two = quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0});
+    const Mesh other = quad("b", {5, 0, 0}, {5, 0, 2}, {7, 0, 2}, {7, 0, 0});
+    two.positions.insert(two.positions.end(), other.positions.begin(), other.positions.end());
+    two.normals.insert(two.normals.end(), other.normals.begin(), other.normals.end());
+    for (const uvec3& t : other.triangles) two.triangles.push_back(t + 4u);
+    const auto found = lights(glowing(two));
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].position, dvec3(0.5, 0, 0.5));
+    EXPECT_EQ(found[0].area, 1);
+    EXPECT_EQ(found[1].position, dvec3(6, 0, 1));
+    EXPECT_EQ(found[1].area, 4);
+}
+
+TEST(Lights, IdenticalPositionsConnectAndCountOnce) {
+    Mesh unshared{.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, {1, 0, 1}, {1, 0, 0}},
+                  .normals = std::vector<vec3>(6, vec3(0, 1, 0)),
+                  .triangles = {{0, 1, 2}, {3, 4, 5}}};
+    const auto found = lights(glowing(unshared));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].position, dvec3(0.5, 0, 0.5));
+    EXPECT_EQ(found[0].area, 1);
+}
+
+TEST(Lights, ClosedBallHasNoDirection) {
+    dmat4 world(3);
+    world[3] = dvec4(1, 2, 3, 1);
+    const auto found = lights(glowing(ball("ball", 4), world));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].normal, dvec3(0));
+    expect_near(found[0].position, {1, 2, 3}, 1e-12);
+    EXPECT_NEAR(found[0].area, 4 * M_PI * 9, 1);
+}
+
+TEST(Lights, TrianglesWithoutAreaContributeNothing) {
+    Mesh mesh = quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0});
+    mesh.positions.insert(mesh.positions.end(), {{9, 9, 9}, {8, 8, 8}});
+    mesh.normals.resize(6, vec3(1, 0, 0));
+    mesh.triangles.emplace_back(0, 4, 4);
+    mesh.triangles.emplace_back(5, 5, 5);
+    const auto found = lights(glowing(mesh));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].position, dvec3(0.5, 0, 0.5));
+    EXPECT_EQ(found[0].normal, dvec3(0, 1, 0));
+}
+
+TEST(Lights, NormalAndAreaFollowTheTransform) {
+    dmat4 world(1); // squeezed along x+z would tilt a wrongly carried normal
+    world[0] = dvec4(2, 0, 0, 0);
+    world[1] = dvec4(0, 0, 3, 0);
+    world[2] = dvec4(0, -1, 0, 0);
+    const auto found =
+        lights(glowing(quad("a", {0, 0, 0}, {1, 1, 0}, {1, 1, 1}, {0, 0, 1}), world));
+    ASSERT_EQ(found.size(), 1u);
+    // edges become (2,0,3) and (0,-1,0): normal along their cross (b-a) x (c-a)
+    const dvec3 normal = glm::normalize(glm::cross(dvec3(2, 0, 3), dvec3(2, -1, 3)));
+    expect_near(found[0].normal, normal, 1e-6);
+    EXPECT_NEAR(found[0].area, std::sqrt(13.0), 1e-12);
+}
+
+// ---- the rest
+
+TEST(DefaultCamera, LooksAlongTheSmallestExtentWithEverythingInView) {
+    const Scene scene = at(cornell_mirrors(), 0);
+    const Camera camera = default_camera(scene); // 556 x 548.8 x 559.2: y is smallest
+    const dvec3 forward = glm::normalize(camera.target - camera.eye);
+    EXPECT_EQ(forward, dvec3(0, -1, 0));
+    const dvec3 right = glm::normalize(glm::cross(forward, camera.up));
+    const dvec3 up = glm::cross(right, forward);
+    const double slope = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
+    const Bounds<double> box = bounds(scene);
+    for (int corner = 0; corner < 8; ++corner) {
+        const dvec3 p(corner & 1 ? box.lo.x : box.hi.x, corner & 2 ? box.lo.y : box.hi.y,
+                      corner & 4 ? box.lo.z : box.hi.z);
+        const dvec3 view = p - camera.eye;
+        EXPECT_LT(std::abs(glm::dot(view, right)), slope * glm::dot(view, forward));
+        EXPECT_LT(std::abs(glm::dot(view, up)), slope * glm::dot(view, forward));
+    }
+}
+
+TEST(DefaultCamera, ExistsForAnEmptyScene) {
+    const Camera camera = default_camera(Scene());
+    EXPECT_GT(glm::distance(camera.eye, camera.target), 0);
+}
+
+TEST(Hash, ChangesWithEverythingThatIsSeen) {
+    const Scene scene = cornell_mirrors();
+    const std::string whole = hash(scene);
+    EXPECT_EQ(whole.size(), 16u);
+    EXPECT_EQ(hash(cornell_mirrors()), whole);
+    std::set<std::string> hashes = {whole, hash(cornell_mirrors_closed())};
+    const auto changed = [&](auto&& change) {
+        Scene other = scene;
+        change(other);
+        EXPECT_TRUE(hashes.insert(hash(other)).second);
+    };
+    changed([](Scene& s) { s.meshes[0].positions[0].x = std::nextafter(552.8, 0); });
+    changed([](Scene& s) { s.meshes[0].normals[0].x = 1; });
+    changed([](Scene& s) { std::swap(s.meshes[0].triangles[0], s.meshes[0].triangles[1]); });
+    changed([](Scene& s) { s.materials[0].albedo.x = 0.5f; });
+    changed([](Scene& s) { s.materials[4].mirror = false; });
+    changed([](Scene& s) { s.objects[6].name = "other"; });
+    changed([](Scene& s) { s.objects[6].sphere.reset(); });
+    changed([](Scene& s) { s.objects[9].motion = Harmonic{{0, 50, 0}, 5}; });
+    changed([](Scene& s) { s.cameras[0].vertical_fov_degrees = 38; });
+    Scene renamed = scene;
+    renamed.name = "copy";
+    EXPECT_EQ(hash(renamed), whole);
+}
+
+} // namespace
