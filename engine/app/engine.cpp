@@ -135,7 +135,7 @@ Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan
 
 struct Engine::Impl {
     explicit Impl(const EngineOptions& options)
-        : device({options.device, options.validate, options.layered, false}), pipelines(device), info(to_info(device.info())) {}
+        : device({options.device, options.validate, options.layered, false}), pipelines(device, options.shader_variants), info(to_info(device.info())) {}
     gpu::Device device;
     gpu::Pipelines pipelines;
     DeviceInfo info;

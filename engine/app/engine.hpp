@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,8 @@ struct EngineOptions {
     std::string device;    ///< index or part of a name; empty = discrete, else integrated, else cpu
     bool validate = false; ///< the validation layer watches; any message makes the run fail
     bool layered = true;   ///< false: render captures face by face even where the device can do six
+    /// Shader builds to use in place of others, for benchmarks: "raytrace.comp" -> "raytrace.comp#naive".
+    std::map<std::string, std::string> shader_variants = {};
 };
 
 /// What to render and for how long.

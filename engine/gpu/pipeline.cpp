@@ -170,6 +170,11 @@ VkPipeline make_raster(const Device& device, std::span<const VkPipelineShaderSta
 
 } // namespace
 
+const std::string& Pipelines::variant_of(const std::string& shader) const {
+    const auto found = variants_.find(shader);
+    return found == variants_.end() ? shader : found->second;
+}
+
 const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& attachments) {
     std::string key = state.vertex + "+" + state.fragment + key_of(state.constants);
     for (Format format : attachments.colour) key += "/" + std::string(catoptric::name_of(format));
@@ -178,9 +183,9 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
 
     Pipeline pipeline;
     std::vector<Stage> stages;
-    stages.emplace_back(device_, state.vertex, VK_SHADER_STAGE_VERTEX_BIT, state.constants);
+    stages.emplace_back(device_, variant_of(state.vertex), VK_SHADER_STAGE_VERTEX_BIT, state.constants);
     if (!state.fragment.empty())
-        stages.emplace_back(device_, state.fragment, VK_SHADER_STAGE_FRAGMENT_BIT, state.constants);
+        stages.emplace_back(device_, variant_of(state.fragment), VK_SHADER_STAGE_FRAGMENT_BIT, state.constants);
     lay_out(device_, key, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
     for (Stage& stage : stages) infos.push_back(stage.info());
@@ -195,7 +200,7 @@ const Pipeline& Pipelines::compute(const ComputeState& state) {
 
     Pipeline pipeline;
     pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
-    Stage stage(device_, state.shader, VK_SHADER_STAGE_COMPUTE_BIT, state.constants);
+    Stage stage(device_, variant_of(state.shader), VK_SHADER_STAGE_COMPUTE_BIT, state.constants);
     lay_out(device_, key, {&stage, 1}, state.constants, pipeline);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = stage.info();

@@ -46,12 +46,17 @@ struct Pipeline {
 /// On a software driver the first use of a pipeline still compiles it inside the frame.
 class Pipelines {
 public:
-    explicit Pipelines(Device& device) : device_(device) {}
+    /// `variants`: shaders to use in place of others ("raytrace.comp" -> "raytrace.comp#naive"), for
+    /// benchmarks that compare two builds of one shader.
+    explicit Pipelines(Device& device, std::map<std::string, std::string> variants = {})
+        : device_(device), variants_(std::move(variants)) {}
     const Pipeline& raster(const RasterState& state, const Attachments& attachments);
     const Pipeline& compute(const ComputeState& state);
 
 private:
+    const std::string& variant_of(const std::string& shader) const;
     Device& device_;
+    std::map<std::string, std::string> variants_;
     std::map<std::string, Pipeline> made_;
 };
 

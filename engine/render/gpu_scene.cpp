@@ -112,6 +112,7 @@ void GpuScene::bind(graph::Commands& commands) const {
     commands.bind("bvh_triangles", bvh_triangles_);
     commands.bind("BvhTriangles", bvh_triangles_);
     commands.bind("normals", normals_);
+    commands.bind("Normals", normals_);
     commands.geometry(vertex_buffer_, index_buffer_);
 }
 
