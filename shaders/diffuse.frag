@@ -13,4 +13,4 @@ float light_visible(uint light, vec3 at, vec3 n, vec3 direction, float distance)
 #endif
 #include "lib/lighting.glsl"
 
-void main() { write_surface(shade(surfaces[draw.object], position, normalize(normal))); }
+void main() { write_surface(shade(draw.surface, position, normalize(normal))); }

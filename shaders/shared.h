@@ -32,11 +32,17 @@ struct Surface {
 };
 
 // A light as the shading formula sees it: one point with a one-sided cosine.
+// `right`, `down`, `forward`: axes of its shadow faces, unit, face +Z along `forward`.
 struct Light {
     vec3 position;
     vec3 normal;    // zero: no cosine at the light
     vec3 intensity; // emission * area
+    vec3 right;
+    vec3 down;
+    vec3 forward;
+    float near;     // of the shadow faces' reversed depth
 };
+const uint kMaxLights = 128u; // the smallest uniform buffer that every device has, 16 KiB, holds 215
 
 // Where a mirror's surroundings are captured from: layers [6 n, 6 n + 6) of the cubes, n from 0.
 struct Probe {
@@ -60,14 +66,14 @@ struct Frame {
     uint light_count;
     uint mirror_count;
     uint object_count;
-    uint first_shadow_view; // index of light 0's first face among the views
-    uint shadow_faces;      // views and layers of each light: 5 when every light is one-sided, else 6
+    uint shadow_faces; // layers of each light: 5 when every light is one-sided, else 6
 };
 
 // Push constants of one draw.
 struct Draw {
-    uint object;     // index into the surfaces
-    uint first_view; // the view of gl_InstanceIndex 0
+    uint first_view;   // the view of gl_InstanceIndex 0
+    Surface surface;   // of what is drawn
+    vec3 probe_centre; // of a mirror's capture
 };
 
 // Push constants of one dispatch of the ray tracer.
@@ -90,11 +96,11 @@ struct Counters {
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
-static_assert(sizeof(Light) == 36);
+static_assert(sizeof(Light) == 76);
 static_assert(sizeof(Probe) == 16);
 static_assert(sizeof(View) == 52);
-static_assert(sizeof(Frame) == 24);
-static_assert(sizeof(Draw) == 8);
+static_assert(sizeof(Frame) == 20);
+static_assert(sizeof(Draw) == 72);
 static_assert(sizeof(Trace) == 24);
 static_assert(sizeof(Counters) == 20);
 } // namespace catoptric::shared

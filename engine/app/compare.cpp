@@ -31,6 +31,8 @@ std::string reference_at(const std::string& reference, const std::string& sample
     return reference + (reference.find(':') == std::string::npos ? ":" : ",") + "samples=" + samples;
 }
 
+bool same(const TechniqueChoice& a, const TechniqueChoice& b) { return a.technique == b.technique && a.settings == b.settings; }
+
 std::vector<report::Setting> settings_of(const TechniqueChoice& choice) {
     std::vector<report::Setting> settings;
     for (std::size_t i = 0; i < choice.settings.size(); ++i) {
@@ -169,7 +171,7 @@ private:
         report::Row row = make_row(text, part, frames);
         const std::string samples = sample_count(parse_technique(text));
         fill_errors(row, part, truth(samples).part, hits_, mirrors_);
-        row.is_reference = row.label == parse_technique(reference_at(request_.reference, samples)).label;
+        row.is_reference = same(parse_technique(text), parse_technique(reference_at(request_.reference, samples)));
         comparison_.rows.push_back(std::move(row));
     }
 

@@ -59,7 +59,7 @@ std::vector<reflect::Choice> parse_choices(const Request& request) {
     for (const std::string& text : request.techniques) {
         choices.push_back(reflect::parse_choice(text));
         for (std::size_t i = 0; i + 1 < choices.size(); ++i)
-            check(choices[i].label() != choices.back().label(), Failure::usage, "technique '", text, "' is asked for twice");
+            check(!choices[i].same_as(choices.back()), Failure::usage, "technique '", text, "' is asked for twice");
     }
     return choices;
 }
@@ -116,7 +116,7 @@ void read_counters(const std::vector<std::byte>& bytes, Part& part) {
 
 Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const Declared& declared, uvec2 size) {
     Part part;
-    part.label = declared.choice.label();
+    part.label = declared.choice.label;
     part.prefix = declared.prefix;
     part.memory_bytes = plan.bytes;
     count_scene_passes(frame.graph, plan, part);

@@ -67,7 +67,7 @@ struct RayCounts {
 
 /// What one technique made in the last frame.
 struct Part {
-    std::string label;   ///< as it was asked for, knobs at their defaults left out
+    std::string label;   ///< as it was asked for
     std::string prefix;  ///< of its passes' names; empty when it was alone
     int scene_passes = 0;
     int scene_draws = 0; ///< scene passes times the layers that each renders

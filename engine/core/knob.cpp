@@ -88,16 +88,6 @@ std::string Settings::text(std::string_view knob) const {
     return row.choices.empty() ? format(number(knob)) : std::string(choice(knob));
 }
 
-std::string Settings::changed() const {
-    std::string result;
-    for (std::size_t i = 0; i < knobs_.size(); ++i) {
-        if (values_[i] == knobs_[i].value) continue;
-        result += (result.empty() ? "" : ",") + std::string(knobs_[i].name) + "=" +
-                  text(knobs_[i].name);
-    }
-    return result;
-}
-
 std::string nearest_name(std::string_view word, std::span<const std::string> names) {
     std::size_t best = std::max<std::size_t>(2, word.size() / 2) + 1;
     std::string nearest;

@@ -37,8 +37,6 @@ public:
     void set(std::string_view knob, double value);
 
     std::span<const Knob> knobs() const { return knobs_; }
-    /// "bounces=3,face=512": the knobs that differ from their defaults; empty when none does.
-    std::string changed() const;
     /// The value as the user would type it.
     std::string text(std::string_view knob) const;
 

@@ -32,13 +32,8 @@ const Technique& find_technique(std::string_view name) {
     fail(Failure::usage, "no technique '", name, "'", did_you_mean(name, names));
 }
 
-std::string Choice::label() const {
-    const std::string changed = settings.changed();
-    return std::string(technique->name) + (changed.empty() ? "" : ":" + changed);
-}
-
 std::string Choice::file_name() const {
-    std::string name = label();
+    std::string name = label;
     std::erase(name, '=');
     std::ranges::replace_if(name, [](char c) { return c == ':' || c == ','; }, '-');
     return name;
@@ -47,7 +42,7 @@ std::string Choice::file_name() const {
 Choice parse_choice(std::string_view text) {
     const auto colon = text.find(':');
     const Technique& technique = find_technique(text.substr(0, colon));
-    Choice choice{&technique, Settings(technique.knobs)};
+    Choice choice{&technique, Settings(technique.knobs), std::string(text)};
     if (colon == std::string_view::npos) return choice;
     std::string_view rest = text.substr(colon + 1);
     while (true) {

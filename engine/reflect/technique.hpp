@@ -44,11 +44,12 @@ const Technique& find_technique(std::string_view name);
 struct Choice {
     const Technique* technique = nullptr;
     Settings settings{{}};
+    std::string label; ///< as it was asked for: "naive:bounces=3"
 
-    /// "naive:bounces=3" with the knobs that differ from their defaults.
-    std::string label() const;
-    /// The same fit for a file name: "naive-bounces3".
+    /// The label fit for a file name: "naive-bounces3".
     std::string file_name() const;
+    /// Same technique, same value of each knob, whatever was spelled out.
+    bool same_as(const Choice& other) const { return technique == other.technique && settings == other.settings; }
 };
 
 /// Reads "name[:knob=value,...]". Throws `Failure::usage` naming what is wrong and the nearest name.

@@ -31,32 +31,52 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     geometry_ = make_geometry(now, space_);
     mirror_objects_ = scene::mirrors(now);
     mirror_count_ = static_cast<std::uint32_t>(mirror_objects_.size());
-    std::vector<shared::Surface> surfaces;
+    surfaces_.clear();
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         const auto found = std::ranges::find(mirror_objects_, i);
         const auto number = static_cast<std::uint32_t>(found - mirror_objects_.begin()) + 1;
-        surfaces.push_back(surface_of(now, now.objects[i], found == mirror_objects_.end() ? 0 : number, space_));
+        surfaces_.push_back(surface_of(now, now.objects[i], found == mirror_objects_.end() ? 0 : number, space_));
     }
+    fill_lights(now);
+    fill_views(now, camera, size);
+    const std::vector<shared::Frame> frame{{static_cast<float>(ambient), light_count_, mirror_count_,
+                                            static_cast<std::uint32_t>(now.objects.size()), shadow_faces_}};
+    std::vector<shared::Light> lights = lights_;
+    lights.resize(shared::kMaxLights);
+    using gpu::BufferUse;
+    upload(device_, vertex_buffer_, "vertices", geometry_.vertices, BufferUse::vertex);
+    upload(device_, index_buffer_, "indices", geometry_.indices, BufferUse::index);
+    upload(device_, frame_, "frame", frame, BufferUse::uniform);
+    upload(device_, view_buffer_, "views", views_, BufferUse::plain);
+    upload(device_, surface_buffer_, "surfaces", surfaces_, BufferUse::plain);
+    upload(device_, light_buffer_, "lights", lights, BufferUse::uniform);
+    upload(device_, probe_buffer_, "probes", probes_, BufferUse::plain);
+    fill_tracing();
+}
+
+void GpuScene::fill_lights(const scene::Scene& now) {
     lights_.clear();
     shadow_faces_ = 5;
     for (const scene::PointLight& light : scene::lights(now)) {
         const double area = light.area * space_.scale * space_.scale;
-        lights_.push_back({space_.point(light.position), vec3(light.normal), light.emission * static_cast<float>(area)});
+        shared::Light entry{};
+        entry.position = space_.point(light.position);
+        entry.normal = vec3(light.normal);
+        entry.intensity = light.emission * static_cast<float>(area);
+        const float gap = nearest_distance(geometry_, entry.position, [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
+        const shared::View main = turned_cube_views(entry.position, entry.normal, gap)[4];
+        entry.right = main.right, entry.down = main.down, entry.forward = main.forward, entry.near = main.near;
+        lights_.push_back(entry);
         if (light.normal == dvec3(0)) shadow_faces_ = 6;
     }
     light_count_ = static_cast<std::uint32_t>(lights_.size());
-    fill_views(now, camera, size);
-    const std::vector<shared::Frame> frame{{static_cast<float>(ambient), light_count_, mirror_count_,
-                                            static_cast<std::uint32_t>(now.objects.size()), shadow_view(0), shadow_faces_}};
-    using gpu::BufferUse;
-    upload(device_, vertex_buffer_, "vertices", geometry_.vertices, BufferUse::vertex);
-    upload(device_, index_buffer_, "indices", geometry_.indices, BufferUse::index);
-    upload(device_, frame_, "frame", frame, BufferUse::plain);
-    upload(device_, view_buffer_, "views", views_, BufferUse::plain);
-    upload(device_, surfaces_, "surfaces", surfaces, BufferUse::plain);
-    upload(device_, light_buffer_, "lights", lights_, BufferUse::plain);
-    upload(device_, probe_buffer_, "probes", probes_, BufferUse::plain);
-    fill_tracing();
+    check(light_count_ <= shared::kMaxLights, Failure::exhausted, "the scene has ", light_count_, " lights, ",
+          shared::kMaxLights, " are allowed");
+}
+
+shared::Draw GpuScene::draw_of(std::size_t object, std::uint32_t first_view) const {
+    const shared::Surface& surface = surfaces_[object];
+    return {first_view, surface, surface.mirror ? probes_[surface.mirror - 1].centre : vec3(0)};
 }
 
 /// Camera, then six for each mirror, then the shadow faces of each light.
@@ -74,8 +94,8 @@ void GpuScene::fill_views(const scene::Scene& now, const scene::Camera& camera, 
         std::ranges::copy(cube_views(centre, gap), std::back_inserter(views_));
     }
     for (const shared::Light& light : lights_) {
-        const float gap = nearest_distance(geometry_, light.position, [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
-        std::vector<shared::View> faces = turned_cube_views(light.position, light.normal, gap);
+        std::vector<shared::View> faces = turned_cube_views(light.position, light.normal, 0);
+        for (shared::View& face : faces) face.near = light.near;
         faces.resize(shadow_faces_); // the last one looks back, where a one-sided light is dark
         std::ranges::copy(faces, std::back_inserter(views_));
     }
@@ -104,7 +124,7 @@ void GpuScene::fill_tracing() {
 void GpuScene::bind(graph::Commands& commands) const {
     commands.bind("frame", frame_);
     commands.bind("Views", view_buffer_);
-    commands.bind("Surfaces", surfaces_);
+    commands.bind("Surfaces", surface_buffer_);
     commands.bind("Lights", light_buffer_);
     commands.bind("Probes", probe_buffer_);
     commands.bind("bvh_nodes", bvh_nodes_);

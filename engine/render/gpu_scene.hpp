@@ -25,6 +25,8 @@ public:
     const std::vector<shared::View>& views() const { return views_; }
     /// Index of the object that is mirror n, n from 0.
     std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
+    /// Push constants that draw an object into the views from `first_view` on.
+    shared::Draw draw_of(std::size_t object, std::uint32_t first_view) const;
 
     static constexpr std::uint32_t kCameraView = 0;
     std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }
@@ -34,6 +36,7 @@ public:
     void bind(graph::Commands& commands) const;
 
 private:
+    void fill_lights(const scene::Scene& now);
     void fill_views(const scene::Scene& now, const scene::Camera& camera, uvec2 size);
     void fill_tracing();
 
@@ -41,11 +44,12 @@ private:
     Space space_;
     Geometry geometry_;
     std::vector<shared::View> views_;
+    std::vector<shared::Surface> surfaces_;
     std::vector<shared::Probe> probes_;
     std::vector<shared::Light> lights_;
     std::vector<std::size_t> mirror_objects_;
     std::uint32_t mirror_count_ = 0, light_count_ = 0, shadow_faces_ = 6;
-    gpu::Buffer vertex_buffer_, index_buffer_, frame_, view_buffer_, surfaces_, light_buffer_, probe_buffer_;
+    gpu::Buffer vertex_buffer_, index_buffer_, frame_, view_buffer_, surface_buffer_, light_buffer_, probe_buffer_;
     gpu::Buffer bvh_nodes_, bvh_triangles_, normals_;
 };
 

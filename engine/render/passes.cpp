@@ -23,7 +23,7 @@ constexpr Clear kFarthest{0, 0, 0, 0}; // reversed depth
 void draw_object(Commands& commands, const GpuScene& scene, std::size_t object, std::uint32_t first_view,
                  std::uint32_t layers) {
     const DrawRange& range = scene.ranges()[object];
-    commands.push(shared::Draw{static_cast<std::uint32_t>(object), first_view});
+    commands.push(scene.draw_of(object, first_view));
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
         while (end < layers && may_meet(scene.views()[first_view + end], range.bounds)) ++end;

@@ -30,6 +30,7 @@ struct Setting {
     std::string name;
     std::string text;
     std::optional<double> number;
+    bool changed = false; ///< not the knob's default
 };
 
 struct PassFacts {
@@ -44,7 +45,7 @@ struct Rays {
 /// One technique with its settings: what it cost and what it got wrong.
 struct Row {
     std::string technique;         ///< "naive"
-    std::string label;             ///< "naive:bounces=1": the knobs that differ from their defaults
+    std::string label;             ///< as it was asked for: "naive:bounces=1"
     std::vector<Setting> settings; ///< all knobs
     std::string model = "everything";
     int scene_passes = 0;  ///< counted in the executed plan; a cube counts once, as in the seed report

@@ -5,10 +5,11 @@
 #include "lib/math.glsl"
 #include "shared.h"
 
-layout(set = 0, binding = 0, scalar) readonly buffer FrameBuffer { Frame value; } frame;
+// Uniform buffers where every invocation reads the same: a software driver loads them once.
+layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame value; } frame;
 layout(set = 0, binding = 1, scalar) readonly buffer Views { View views[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Surfaces { Surface surfaces[]; };
-layout(set = 0, binding = 3, scalar) readonly buffer Lights { Light lights[]; };
+layout(set = 0, binding = 3, scalar) uniform Lights { Light lights[kMaxLights]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Probes { Probe probes[]; };
 layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 layout(set = 0, binding = 6) uniform samplerCubeArray colour_cubes;

@@ -10,11 +10,9 @@
 #include "lib/surface.glsl"
 
 void main() {
-    Surface surface = surfaces[draw.object];
-    uint mirror = surface.mirror - 1u;
     vec3 facet = normalize(cross(dFdx(from_eye), dFdy(from_eye)));
     vec3 direction = mirror_direction(normalize(from_eye), normalize(normal), facet);
-    write_surface(surface.reflectance * reflected(mirror, position - probes[mirror].centre, direction));
+    write_surface(draw.surface.reflectance * reflected(draw.surface.mirror - 1u, position - draw.probe_centre, direction));
 }
 
 #endif

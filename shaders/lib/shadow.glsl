@@ -12,21 +12,22 @@ const float kLiftTexels = 1.5;
 // Stored and looked-up depth are each rounded a few times from the same plane: 2^-20 is 16 roundings.
 const float kDepthSlack = 1.0 + 1.0 / 1048576.0;
 
+vec3 in_light_frame(uint light, vec3 v) {
+    return vec3(dot(lights[light].right, v), -dot(lights[light].down, v), dot(lights[light].forward, v));
+}
+
 // Share of the light that reaches the point, 0 to 1 (2x2 percentage-closer filtering).
 float shadow_map_visible(uint light, vec3 position, vec3 normal) {
-    uint first = frame.value.first_shadow_view + light * frame.value.shadow_faces;
-    View main = views[first + 4u];
-    vec3 v = position - main.eye;
-    int face = cube_face(vec3(dot(main.right, v), -dot(main.down, v), dot(main.forward, v)));
+    vec3 v = in_light_frame(light, position - lights[light].position);
+    vec3 n = in_light_frame(light, normal);
+    int face = cube_face(v);
     if (uint(face) >= frame.value.shadow_faces) return 0.0;
-    View view = views[first + uint(face)];
-    float texel = 2.0 * dot(view.forward, v) / float(textureSize(shadow_map, 0).x);
-    float cosine = dot(normal, view.forward);
-    v += normal * (kLiftTexels * texel * sqrt(max(0.0, 1.0 - cosine * cosine)));
-    float along = dot(view.forward, v);
-    vec2 place = vec2(dot(view.right, v), dot(view.down, v)) / along * 0.5 + 0.5;
+    float texel = 2.0 * cube_coordinates(face, v).z / float(textureSize(shadow_map, 0).x);
+    float cosine = cube_coordinates(face, n).z;
+    v += n * (kLiftTexels * texel * sqrt(max(0.0, 1.0 - cosine * cosine)));
+    vec3 place = cube_coordinates(face, v);
     float layer = float(light * frame.value.shadow_faces + uint(face));
-    return texture(shadow_map, vec4(place, layer, view.near / along * kDepthSlack));
+    return texture(shadow_map, vec4(place.xy / place.z * 0.5 + 0.5, layer, lights[light].near / place.z * kDepthSlack));
 }
 
 #endif

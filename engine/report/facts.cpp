@@ -1,0 +1,65 @@
+// What was measured where, and what to keep in mind.
+#include "report/rows.hpp"
+#include "report/tables.hpp"
+#include "report/text.hpp"
+
+#include <fmt/format.h>
+
+namespace catoptric::report {
+
+namespace {
+
+std::string device_text(const DeviceFacts& device) {
+    const std::string threads =
+        device.threads > 0 ? fmt::format(", {} threads", device.threads) : std::string();
+    return fmt::format("{} ({}{})", device.name, device.type, threads);
+}
+
+std::string settings_of(const Comparison& comparison) {
+    return fmt::format("t = {} s, ambient {}, exposure {} stops, model {}", comparison.time,
+                       comparison.ambient, comparison.exposure, comparison.model);
+}
+
+} // namespace
+
+std::vector<Fact> facts(const Comparison& comparison) {
+    return {
+        {"Scene",
+         fmt::format("{}, {} triangles, {} mirrors, hash {}", comparison.scene.name,
+                     comparison.scene.triangles, comparison.scene.mirrors, comparison.scene.hash)},
+        {"Picture",
+         fmt::format("{}x{}, {}", comparison.width, comparison.height, settings_of(comparison))},
+        {"Device", device_text(comparison.device)},
+        {"Driver", comparison.device.driver + ", " + comparison.device.api},
+        {"Timing", fmt::format("{}{}, {} frames after {} of warm-up", comparison.timing,
+                               comparison.together ? ", all rows in one command buffer" : "",
+                               comparison.frames, comparison.warmup)},
+        {"Reference",
+         comparison.reference_label + ", " + ms_text(comparison.reference_gpu_ms.median) + " ms"},
+        {"Program", fmt::format("catoptric {}, commit {}", comparison.version, comparison.commit)},
+        {"Command", joined(comparison.command, " ")},
+    };
+}
+
+std::vector<std::string> cautions(const Comparison& comparison) {
+    std::vector<std::string> list;
+    if (!comparison.complete)
+        list.push_back("The run was stopped before its end: these are the rows so far.");
+    if (comparison.device.type == "cpu")
+        list.push_back(
+            "This device is a processor: \"GPU time\" here is processor time of its "
+            "software driver, and what it says of speed holds for such a device, not for "
+            "a graphics card.");
+    if (comparison.together)
+        list.push_back("All rows ran in one command buffer: a row's ms is the sum of its passes.");
+    for (const Row& row : comparison.rows)
+        if (failed(row))
+            list.push_back(
+                fmt::format("{} failed: {} pixels are no finite numbers, and its figures "
+                            "leave them out.",
+                            row.label, row.error_all.nonfinite));
+    list.insert(list.end(), comparison.warnings.begin(), comparison.warnings.end());
+    return list;
+}
+
+} // namespace catoptric::report

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "report/comparison.hpp"
+
+#include <string>
+#include <vector>
+
+// Sentences drawn from the figures; plain text. Each is there only when the rows it speaks of are.
+namespace catoptric::report {
+
+/// What the run says of the seed report's statements about its Table 1 and figures 5 and 7.
+std::vector<std::string> findings(const Comparison& comparison);
+
+/// The Pareto front in words: the rows on it, who beats each of the others, and whether ray tracing
+/// or the captures win.
+std::vector<std::string> front_in_words(const Comparison& comparison);
+
+} // namespace catoptric::report

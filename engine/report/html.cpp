@@ -1,0 +1,213 @@
+// report.html: one page that needs nothing else and runs nothing.
+#include "measure/heat.hpp"
+#include "report/findings.hpp"
+#include "report/html_text.hpp"
+#include "report/plot.hpp"
+#include "report/report.hpp"
+#include "report/rows.hpp"
+#include "report/tables.hpp"
+#include "report/text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace catoptric::report {
+
+namespace {
+
+std::string cell(const Column& column, const char* tag, const char* scope,
+                 const std::string& content) {
+    return fmt::format("<{}{}{}>{}</{}>", tag, scope, column.is_number ? "" : " class=\"text\"",
+                       content, tag);
+}
+
+/// `linked`: the first cell of row i leads to the pictures of row i.
+std::string to_html(const Table& table, const std::string& look, bool linked) {
+    const std::string title = html_escaped(table.title);
+    std::string html =
+        fmt::format("<section><h2>{0}</h2><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+                    "aria-label=\"{0}\"><table class=\"{1}\"><thead><tr>",
+                    title, look);
+    for (const Column& column : table.columns)
+        html += cell(column, "th", " scope=\"col\"", html_escaped(column.name));
+    html += "</tr></thead><tbody>";
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+        const bool marked = r < table.marked.size() && table.marked[r];
+        html += marked ? "\n<tr class=\"front\">" : "\n<tr>";
+        for (std::size_t i = 0; i < table.columns.size(); ++i) {
+            std::string content = html_escaped(table.rows[r][i]);
+            if (i == 0 && linked) content = fmt::format("<a href=\"#row-{}\">{}</a>", r, content);
+            html += cell(table.columns[i], i == 0 ? "th" : "td", i == 0 ? " scope=\"row\"" : "",
+                         content);
+        }
+        html += "</tr>";
+    }
+    return html + "</tbody></table></div><p class=\"note\">" + html_escaped(table.note) +
+           "</p></section>\n";
+}
+
+std::string list_of(const std::vector<std::string>& sentences) {
+    std::string html = "<ul>";
+    for (const std::string& sentence : sentences)
+        html += "<li>" + html_escaped(sentence) + "</li>";
+    return html + "</ul>";
+}
+
+std::string headline(const std::string& name, const std::string& figure, const std::string& of) {
+    return fmt::format("<div><dt>{}</dt><dd>{} <small>{}</small></dd></div>", name, figure,
+                       html_escaped(of));
+}
+
+/// Fastest, closest but for the reference itself, the front, the reference.
+std::string headlines(const Comparison& comparison) {
+    const Row* fastest = nullptr;
+    const Row* closest = nullptr;
+    for (const Row& row : comparison.rows) {
+        if (fastest == nullptr || row.gpu_ms.median < fastest->gpu_ms.median) fastest = &row;
+        if (row.is_reference || !judged(&row)) continue;
+        if (closest == nullptr || row.error.flip < closest->error.flip) closest = &row;
+    }
+    std::string html = "<dl class=\"headline\">";
+    if (fastest != nullptr)
+        html += headline("Fastest", ms_text(fastest->gpu_ms.median) + " ms", fastest->label);
+    if (closest != nullptr)
+        html += headline("Closest", "FLIP " + error_text(closest->error.flip), closest->label);
+    html += headline("On the front", std::to_string(comparison.pareto.size()),
+                     fmt::format("of {} rows", comparison.rows.size()));
+    html += headline("Reference", ms_text(comparison.reference_gpu_ms.median) + " ms",
+                     comparison.reference_label);
+    return html + "</dl>";
+}
+
+std::string figure(const measure::Picture& display, const std::string& alt,
+                   const std::string& caption) {
+    if (display.pixels.empty()) return "";
+    return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">"
+                       "<figcaption>{}</figcaption></figure>",
+                       display.width, display.height, html_escaped(alt), data_uri(display),
+                       html_escaped(caption));
+}
+
+std::string number(const char* name, const std::string& value) {
+    return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value);
+}
+
+std::string numbers(const Row& row) {
+    return "<dl class=\"numbers\">" + number("ms", ms_text(row.gpu_ms.median)) +
+           number("FPS", fps_text(row.gpu_ms.median)) + number("FLIP", error_text(row.error.flip)) +
+           number("rmse", error_text(row.error.rmse)) +
+           number("rmse, 1st order", error_text(row.error_first_order.rmse)) +
+           number("PSNR dB", row.error.psnr ? fixed(*row.error.psnr, 1) : std::string(kNothing)) +
+           number("Scene passes", std::to_string(row.scene_passes)) +
+           number("MiB", mebibytes(row.memory_bytes)) + "</dl>";
+}
+
+std::string details(const Row& row) {
+    std::string html = "<details><summary>Knobs and passes</summary><p><code>" +
+                       html_escaped(settings_text(row)) + "</code></p>";
+    if (row.rays)
+        html += fmt::format("<p>Rays: {} primary, {} mirror, {} shadow.</p>", row.rays->primary,
+                            row.rays->mirror, row.rays->shadow);
+    if (row.traced_fraction)
+        html += "<p>Traced: " + fixed(100 * *row.traced_fraction, 1) + " % of mirror pixels.</p>";
+    if (row.passes.empty()) return html + "</details>";
+    html += "<table><thead><tr><th class=\"text\" scope=\"col\">Pass</th><th "
+            "scope=\"col\">ms</th></tr></thead><tbody>";
+    for (const PassFacts& pass : row.passes)
+        html += fmt::format("<tr><th class=\"text\" scope=\"row\">{}</th><td>{}</td></tr>",
+                            html_escaped(pass.name), fixed(pass.gpu_ms.median, 4));
+    return html + "</tbody></table></details>";
+}
+
+std::string article(const Comparison& comparison, std::size_t index) {
+    const Row& row = comparison.rows[index];
+    std::string html = fmt::format("<article id=\"row-{}\"><div class=\"title\"><h3>{}</h3>", index,
+                                   html_escaped(row.label));
+    for (const auto& [holds, name] :
+         {std::pair(on_front(comparison, row), "on the front"),
+          std::pair(row.is_reference, "the reference"), std::pair(failed(row), "failed")})
+        if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
+    html +=
+        "</div><div class=\"pair\">" + figure(row.display, "Picture by " + row.label, "Picture");
+    if (!row.flip_map.empty())
+        html += figure(measure::heat(row.flip_map, row.display.width, row.display.height),
+                       "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
+                           error_text(row.error.flip),
+                       "FLIP error");
+    return html + "</div>" + numbers(row) + details(row) + "</article>\n";
+}
+
+/// The colours of the heat maps from 0 to 1.
+std::string heat_scale() {
+    std::string stops;
+    for (int i = 0; i <= 8; ++i) {
+        const vec3 colour = measure::heat_colour(static_cast<float>(i) / 8) * 255.0F;
+        stops += fmt::format(",rgb({:.0f} {:.0f} {:.0f})", colour.x, colour.y, colour.z);
+    }
+    return "<div class=\"scale\" style=\"background:linear-gradient(90deg" + stops +
+           ")\"></div><div class=\"ends\"><span>FLIP 0: no difference</span><span>1</span></div>";
+}
+
+std::string pictures(const Comparison& comparison) {
+    std::string html =
+        "<section><h2>Pictures</h2><div class=\"reference\">" +
+        figure(comparison.reference_display, "Reference picture by " + comparison.reference_label,
+               "Reference: " + comparison.reference_label) +
+        "<div><p>Each row: its last frame, and where it differs from the reference.</p>" +
+        heat_scale() + "</div></div><div class=\"rows\">";
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i)
+        html += article(comparison, i);
+    return html + "</div></section>\n";
+}
+
+std::string front(const Comparison& comparison) {
+    std::string html = "<section><h2>Time against error</h2>";
+    const std::string drawing = plot(comparison);
+    if (!drawing.empty())
+        html += "<figure class=\"plot\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+                "aria-label=\"Plot\">" +
+                drawing +
+                "</div><figcaption>Lower left is better. Filled: on the Pareto front (dashed). "
+                "Squares: ray "
+                "traced. The lane below is error 0.</figcaption></figure>";
+    return html + list_of(front_in_words(comparison)) + "</section>\n";
+}
+
+std::string circumstances(const Comparison& comparison) {
+    std::string html = "<section><h2>What was measured where</h2><dl class=\"facts\">";
+    for (const Fact& fact : facts(comparison)) {
+        const char* tag = fact.name == "Command" ? "code" : "span";
+        html += fmt::format("<dt>{}</dt><dd><{}>{}</{}></dd>", fact.name, tag,
+                            html_escaped(fact.value), tag);
+    }
+    return html + "</dl></section>\n";
+}
+
+} // namespace
+
+std::string to_html(const Comparison& comparison) {
+    const std::string scene = html_escaped(comparison.scene.name);
+    std::string html =
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+        "<title>Reflections compared: " +
+        scene + "</title><style>" + kStyle +
+        "</style></head>\n<body><header><p class=\"kicker\">Reflections compared</p><h1>" + scene +
+        "</h1><p class=\"lede\">What each way of rendering its reflections costs, and what it gets "
+        "wrong.</p>";
+    const std::vector<std::string> notes = cautions(comparison);
+    if (!notes.empty()) html += "<aside class=\"caution\">" + list_of(notes) + "</aside>";
+    html += headlines(comparison) + "</header>\n<main>" + front(comparison) +
+            to_html(seed_table(comparison), "seed", false);
+    const std::vector<std::string> sentences = findings(comparison);
+    if (!sentences.empty())
+        html += "<section><h2>What this says of the seed report</h2>" + list_of(sentences) +
+                "</section>\n";
+    html += to_html(rows_table(comparison), "all", true) +
+            to_html(mirror_table(comparison), "mirrors", true) + pictures(comparison) +
+            circumstances(comparison);
+    return html + "</main></body></html>\n";
+}
+
+} // namespace catoptric::report

@@ -1,0 +1,91 @@
+#include "report/findings.hpp"
+#include "report/report.hpp"
+#include "report/tables.hpp"
+#include "report/text.hpp"
+
+#include <algorithm>
+
+namespace catoptric::report {
+
+namespace {
+
+/// Text that Markdown leaves as it is, on one line.
+std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (std::string_view("\\`*_[]<>|#&~").find(c) != std::string_view::npos) result += '\\';
+        const bool control = static_cast<unsigned char>(c) < ' ';
+        result += control ? ' ' : c;
+    }
+    return result;
+}
+
+/// Characters, not bytes.
+std::size_t width_of(const std::string& text) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string padded(const std::string& cell, std::size_t width, bool right) {
+    const std::string space(width - width_of(cell), ' ');
+    return right ? space + cell : cell + space;
+}
+
+std::string line_of(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
+                    const std::vector<Column>& columns) {
+    std::string line = "|";
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        line += " " + padded(cells[i], widths[i], columns[i].is_number) + " |";
+    return line + "\n";
+}
+
+/// A pipe table whose columns line up as plain text, too.
+std::string to_text(const Table& table) {
+    std::vector<std::vector<std::string>> lines(1);
+    for (const Column& column : table.columns)
+        lines[0].push_back(escaped(column.name));
+    for (const std::vector<std::string>& row : table.rows) {
+        std::vector<std::string>& cells = lines.emplace_back();
+        for (const std::string& cell : row)
+            cells.push_back(escaped(cell));
+    }
+    std::vector<std::size_t> widths(table.columns.size(), 2);
+    for (const std::vector<std::string>& cells : lines)
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            widths[i] = std::max(widths[i], width_of(cells[i]));
+    std::vector<std::string> rule;
+    for (std::size_t i = 0; i < widths.size(); ++i)
+        rule.push_back(std::string(widths[i] - 1, '-') + (table.columns[i].is_number ? ":" : "-"));
+    lines.insert(lines.begin() + 1, rule);
+
+    std::string text = "## " + escaped(table.title) + "\n\n";
+    for (const std::vector<std::string>& cells : lines)
+        text += line_of(cells, widths, table.columns);
+    return text + (table.note.empty() ? "" : "\n" + escaped(table.note) + "\n") + "\n";
+}
+
+std::string list_of(const std::vector<std::string>& sentences) {
+    std::string text;
+    for (const std::string& sentence : sentences)
+        text += "- " + escaped(sentence) + "\n";
+    return text + "\n";
+}
+
+} // namespace
+
+std::string to_markdown(const Comparison& comparison) {
+    std::string text = "# Reflections compared: " + escaped(comparison.scene.name) + "\n\n";
+    for (const Fact& fact : facts(comparison))
+        text += "- **" + fact.name + "**: " + escaped(fact.value) + "\n";
+    text += "\n";
+    for (const std::string& caution : cautions(comparison))
+        text += "> " + escaped(caution) + "\n>\n";
+    text += "\n" + to_text(seed_table(comparison)) + to_text(rows_table(comparison)) +
+            to_text(mirror_table(comparison));
+    text += "## The Pareto front: time against FLIP\n\n" + list_of(front_in_words(comparison));
+    const std::vector<std::string> sentences = findings(comparison);
+    if (!sentences.empty()) text += "## What this says of the seed report\n\n" + list_of(sentences);
+    return text;
+}
+
+} // namespace catoptric::report

@@ -1,0 +1,180 @@
+#include "report/plot.hpp"
+
+#include "report/html_text.hpp"
+#include "report/rows.hpp"
+#include "report/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::report {
+
+namespace {
+
+constexpr double kWidth = 860, kHeight = 470;
+constexpr double kLeft = 64, kRight = 836, kTop = 16, kLane = 380, kBottom = 424; // lane: error 0
+constexpr double kLetter = 6.6, kLine = 13; // of an 11 px label, about
+
+/// From the logarithm of a value to pixels.
+struct Scale {
+    double low, high; ///< logarithms to base 10
+    double from, to;  ///< pixels
+    double operator()(double value) const {
+        return from + (std::log10(value) - low) / (high - low) * (to - from);
+    }
+};
+
+/// Room for all values with some air; one decade around a single one.
+Scale scale_for(const std::vector<double>& values, double from, double to) {
+    if (values.empty()) return {-3, 0, from, to};
+    const auto [least, most] = std::ranges::minmax(values);
+    const double low = std::log10(least), high = std::log10(most);
+    const double air = high - low < 0.5 ? 0.5 - (high - low) / 2 : 0.08 * (high - low);
+    return {low - air, high + air, from, to};
+}
+
+struct Point {
+    double x, y;
+    const Row* row;
+    bool front;
+};
+
+struct Box {
+    double x0, y0, x1, y1;
+    bool meets(const Box& other) const {
+        return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1;
+    }
+};
+
+bool can_be_placed(const Row& row) {
+    return row.gpu_ms.median > 0 && std::isfinite(row.error.flip);
+}
+
+/// 1, 2 and 5 times powers of ten inside the scale.
+std::vector<double> ticks(const Scale& scale) {
+    std::vector<double> values;
+    for (int decade = static_cast<int>(std::floor(scale.low)); decade <= scale.high; ++decade)
+        for (const double step : {1.0, 2.0, 5.0}) {
+            const double value = step * std::pow(10.0, decade);
+            const double place = std::log10(value);
+            if (place >= scale.low && place <= scale.high) values.push_back(value);
+        }
+    return values;
+}
+
+std::string grid_line(double x0, double y0, double x1, double y1) {
+    return fmt::format(R"(<line class="grid" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
+                       x0, y0, x1, y1);
+}
+
+std::string text(double x, double y, const char* anchor, std::string_view content) {
+    return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor,
+                       content);
+}
+
+std::string axes(const Scale& x, const Scale& y, bool has_errors) {
+    constexpr double kMiddle = (kLane + kBottom) / 2;
+    std::string svg = fmt::format(R"(<rect class="lane" x="{}" y="{}" width="{}" height="{}"/>)",
+                                  kLeft, kLane, kRight - kLeft, kBottom - kLane);
+    for (const double value : ticks(x))
+        svg += grid_line(x(value), kTop, x(value), kBottom) +
+               text(x(value), kBottom + 16, "middle", fmt::format("{:g}", value));
+    for (const double value : has_errors ? ticks(y) : std::vector<double>())
+        svg += grid_line(kLeft, y(value), kRight, y(value)) +
+               text(kLeft - 8, y(value) + 4, "end", fmt::format("{:g}", value));
+    svg += text(kLeft - 8, kMiddle + 4, "end", "0");
+    svg += text((kLeft + kRight) / 2, kBottom + 38, "middle", "GPU time of a frame, median, ms");
+    svg += fmt::format("<g transform=\"translate(14 {}) rotate(-90)\">", (kTop + kLane) / 2);
+    return svg + text(0, 0, "middle", "FLIP over the mirrors") + "</g>";
+}
+
+/// The front as stairs: what a given time buys.
+std::string stairs(std::vector<Point> points) {
+    std::erase_if(points, [](const Point& point) { return !point.front; });
+    std::ranges::sort(
+        points, [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y > b.y; });
+    if (points.empty()) return "";
+    std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, kTop);
+    for (const Point& point : points)
+        path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
+    return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kRight) + "\"/>";
+}
+
+/// Ray-traced rows are squares, all others discs; what one says on hover.
+std::string mark(const Point& point) {
+    const char* kind = point.front ? "mark front" : "mark";
+    const std::string title =
+        fmt::format("<title>{}: {} ms, FLIP {}</title>", html_escaped(point.row->label),
+                    ms_text(point.row->gpu_ms.median), error_text(point.row->error.flip));
+    if (is_ray_traced(*point.row))
+        return fmt::format(
+            R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9">{}</rect>)", kind,
+            point.x - 4.5, point.y - 4.5, title);
+    return fmt::format(R"(<circle class="{}" cx="{:.1f}" cy="{:.1f}" r="5">{}</circle>)", kind,
+                       point.x, point.y, title);
+}
+
+/// The first of some places around the point where the label meets nothing placed before; if there
+/// is none, the last. Left of the front there are no stairs to cross.
+Box place_label(const Point& point, const std::vector<Box>& taken) {
+    const double width = kLetter * static_cast<double>(point.row->label.size());
+    Box box{};
+    for (const double rise : {0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -4.0, 4.0})
+        for (const bool first : {true, false}) {
+            const double x = first != point.front ? point.x + 9 : point.x - 9 - width;
+            const double y = point.y + rise * kLine;
+            box = {x, y - kLine / 2, x + width, y + kLine / 2};
+            const bool inside =
+                box.x0 >= kLeft && box.x1 <= kRight && box.y0 >= kTop && box.y1 <= kBottom;
+            if (inside &&
+                std::ranges::none_of(taken, [&](const Box& other) { return box.meets(other); }))
+                return box;
+        }
+    return box;
+}
+
+std::string labels(const std::vector<Point>& points) {
+    std::vector<Box> taken;
+    for (const Point& point : points)
+        taken.push_back({point.x - 6, point.y - 6, point.x + 6, point.y + 6});
+    std::string svg;
+    for (const Point& point : points) {
+        const Box box = place_label(point, taken);
+        taken.push_back(box);
+        svg += fmt::format(R"(<text class="label" x="{:.1f}" y="{:.1f}">{}</text>)", box.x0,
+                           box.y1 - 3, html_escaped(point.row->label));
+    }
+    return svg;
+}
+
+} // namespace
+
+std::string plot(const Comparison& comparison) {
+    std::vector<double> times, errors;
+    for (const Row& row : comparison.rows) {
+        if (!can_be_placed(row)) continue;
+        times.push_back(row.gpu_ms.median);
+        if (row.error.flip > 0) errors.push_back(row.error.flip);
+    }
+    if (times.empty()) return "";
+    const Scale x = scale_for(times, kLeft, kRight);
+    const Scale y = scale_for(errors, kLane - 8, kTop);
+    std::vector<Point> points;
+    for (const Row& row : comparison.rows)
+        if (can_be_placed(row))
+            points.push_back({x(row.gpu_ms.median),
+                              row.error.flip > 0 ? y(row.error.flip) : (kLane + kBottom) / 2, &row,
+                              on_front(comparison, row)});
+    std::string svg =
+        fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of GPU time )"
+                    R"(against FLIP; the figures are in the table of every row">)",
+                    kWidth, kHeight);
+    svg += axes(x, y, !errors.empty()) + stairs(points);
+    for (const Point& point : points)
+        svg += mark(point);
+    return svg + labels(points) + "</svg>";
+}
+
+} // namespace catoptric::report

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string_view>
+
+// Table 1 of the seed report (section 4.2): frames per second in a browser on a GeForce GTX 770.
+namespace catoptric::report {
+
+struct SeedRow {
+    std::string_view implementation;
+    std::string_view technique; ///< ours for it
+    int inter_reflections;      ///< -1: the table has none
+    int scene_passes;           ///< its R, four reflectors: 4 i + 2, else one capture each; 0: none
+    double fps;
+    double ms;
+};
+
+inline constexpr int kSeedMirrors = 4;
+
+inline constexpr SeedRow kSeedPartOne{"Part one", "naive", 0, 2, 93, 10.8};
+inline constexpr SeedRow kSeedPartTwo{"Part two", "reuse", -1, 6, 136, 7.4};
+inline constexpr SeedRow kSeedPartThree{"Part three", "parallax", -1, 6, 134, 7.5};
+inline constexpr SeedRow kSeedRayTrace{"ray trace", "raytrace", -1, 0, 10.7, 93.0};
+
+inline constexpr SeedRow kSeedTable[] = {
+    kSeedPartOne,
+    {"Part one", "naive", 1, 6, 88, 11.4},
+    {"Part one", "naive", 2, 10, 68, 14.7},
+    {"Part one", "naive", 3, 14, 48, 20.8},
+    {"Part one", "naive", 4, 18, 37, 27.0},
+    kSeedPartTwo,
+    kSeedPartThree,
+    kSeedRayTrace,
+};
+
+} // namespace catoptric::report

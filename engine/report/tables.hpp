@@ -1,0 +1,41 @@
+#pragma once
+
+#include "report/comparison.hpp"
+
+#include <string>
+#include <vector>
+
+// The report's tables as text, before Markdown or HTML gives them a look.
+namespace catoptric::report {
+
+struct Column {
+    std::string name;
+    bool is_number = true; ///< right-aligned
+};
+
+struct Table {
+    std::string title;
+    std::vector<Column> columns;
+    std::vector<std::vector<std::string>> rows;
+    std::vector<bool> marked; ///< rows to stand out; empty or one entry a row
+    std::string note;         ///< what the columns mean; may be empty
+};
+
+/// The seed report's Table 1 beside what was measured here.
+Table seed_table(const Comparison& comparison);
+/// Every row, every figure; the rows on the Pareto front are marked.
+Table rows_table(const Comparison& comparison);
+/// rmse by mirror.
+Table mirror_table(const Comparison& comparison);
+
+/// What was measured where: name and value.
+struct Fact {
+    std::string name;
+    std::string value;
+};
+std::vector<Fact> facts(const Comparison& comparison);
+/// What to keep in mind while reading: a processor as device, a run cut short, rows together,
+/// warnings.
+std::vector<std::string> cautions(const Comparison& comparison);
+
+} // namespace catoptric::report

@@ -1,0 +1,60 @@
+#include "report/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::report {
+
+namespace {
+
+/// Decimals that give three significant digits, four at most.
+int decimals_for(double value) {
+    if (!(value > 0)) return 0;
+    return std::clamp(2 - static_cast<int>(std::floor(std::log10(value))), 0, 4);
+}
+
+} // namespace
+
+std::string fixed(double value, int decimals) {
+    return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : std::string(kNothing);
+}
+
+std::string error_text(double error) {
+    if (error == 0) return "0";
+    const bool tiny = std::abs(error) < 5e-5; // four decimals would read 0.0000
+    return tiny ? fmt::format("{:.0e}", error) : fixed(error, 4);
+}
+
+std::string ms_text(double ms) {
+    return fixed(ms, decimals_for(ms));
+}
+
+int ms_decimals(const Comparison& comparison) {
+    double fastest = INFINITY;
+    for (const Row& row : comparison.rows)
+        if (row.gpu_ms.median > 0) fastest = std::min(fastest, row.gpu_ms.median);
+    return std::isfinite(fastest) ? decimals_for(fastest) : 1;
+}
+
+std::string fps_text(double ms) {
+    return ms > 0 ? fixed(1000 / ms, std::min(decimals_for(1000 / ms), 2)) : std::string(kNothing);
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+    return fixed(static_cast<double>(bytes) / (1024 * 1024), 1);
+}
+
+std::string settings_text(const Row& row) {
+    std::vector<std::string> parts;
+    for (const Setting& setting : row.settings)
+        parts.push_back(setting.name + "=" + setting.text);
+    return joined(parts, ", ");
+}
+
+std::string joined(const std::vector<std::string>& parts, std::string_view between) {
+    return fmt::format("{}", fmt::join(parts, between));
+}
+
+} // namespace catoptric::report
