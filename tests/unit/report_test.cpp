@@ -1,0 +1,240 @@
+#include "report/report.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "measure/picture_file.hpp"
+#include "report_sample.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+#include <regex>
+
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using catoptric::Error;
+using catoptric::Failure;
+using catoptric::report::Comparison;
+using namespace catoptric::report::sample;
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::string said(const Comparison& made) {
+    return catoptric::report::to_markdown(made);
+}
+
+TEST(ReportJson, HasTheContractsFieldsInItsOrder) {
+    const std::string text = catoptric::report::to_json(usual());
+    const auto document = nlohmann::ordered_json::parse(text);
+    std::vector<std::string> names;
+    for (const auto& [name, value] : document.items())
+        names.push_back(name);
+    EXPECT_THAT(names,
+                ElementsAre("schema", "version", "commit", "command", "complete", "device", "scene",
+                            "size", "frames", "warmup", "timing", "time", "ambient", "exposure",
+                            "together", "warnings", "reference", "model", "rows", "pareto"));
+    EXPECT_EQ(document["schema"], "catoptric/compare/1");
+    EXPECT_EQ(document["size"], json::parse("[4, 3]"));
+    EXPECT_EQ(document["command"], json::parse(R"(["catoptric", "compare", "-o", "out"])"));
+    EXPECT_EQ(document["reference"]["settings"], json::parse(R"({"depth": 16, "shadow": "ray"})"));
+    EXPECT_EQ(document["pareto"], json::parse("[0, 2, 3]"));
+    EXPECT_EQ(document["warnings"], json::array());
+}
+
+TEST(ReportJson, SaysOfARowWhatTheContractAsks) {
+    const json document = json::parse(catoptric::report::to_json(usual()));
+    const json& first = document["rows"][0];
+    for (const char* name : {"technique",
+                             "settings",
+                             "label",
+                             "scene_passes",
+                             "scene_draws",
+                             "gpu_ms",
+                             "cpu_record_ms",
+                             "wall_ms",
+                             "passes",
+                             "error",
+                             "error_first_order",
+                             "error_mirror_in_mirror",
+                             "error_non_mirror",
+                             "error_all",
+                             "error_per_mirror",
+                             "memory_bytes",
+                             "traced_fraction",
+                             "rays",
+                             "mean",
+                             "mean_clamped",
+                             "image",
+                             "model"})
+        EXPECT_TRUE(first.contains(name)) << name;
+    EXPECT_EQ(first["settings"], json::parse(R"({"bounces": 0, "face": 256})"));
+    EXPECT_EQ(first["gpu_ms"]["samples"].size(), 3U);
+    EXPECT_EQ(first["error"]["mask"], "mirrors");
+    EXPECT_EQ(first["error_per_mirror"][1]["mirror"], 2);
+    EXPECT_EQ(first["passes"][0]["name"], "shadow");
+    EXPECT_EQ(first["image"], "images/naive0.png");
+    EXPECT_EQ(document["rows"][3]["rays"],
+              json::parse(R"({"primary": 12, "mirror": 6, "shadow": 18})"));
+}
+
+TEST(ReportJson, WritesNullWhereThereIsNoNumber) {
+    Comparison made = usual();
+    made.rows[0].error.rmse = kNaN;
+    made.rows[0].gpu_ms.p95 = std::numeric_limits<double>::infinity();
+    made.reference_gpu_ms = {};
+    const json document = json::parse(catoptric::report::to_json(made));
+    EXPECT_TRUE(document["rows"][0]["error"]["rmse"].is_null());
+    EXPECT_TRUE(document["rows"][0]["gpu_ms"]["p95"].is_null());
+    EXPECT_TRUE(document["rows"][0]["rays"].is_null());
+    EXPECT_TRUE(document["rows"][0]["traced_fraction"].is_null());
+    EXPECT_TRUE(document["rows"][0]["error_mirror_in_mirror"]["flip"].is_null());
+    EXPECT_TRUE(document["rows"][0]["mean"][0].is_null());
+    EXPECT_EQ(document["rows"][3]["error"]["rmse"], 0);
+    EXPECT_TRUE(document["rows"][3]["error"]["psnr"].is_null());
+    EXPECT_EQ(document["rows"][1]["error"]["psnr"], 20);
+    EXPECT_TRUE(document["reference"]["gpu_ms"].is_null());
+}
+
+TEST(ReportJson, MarksRowsThatFailedAndKeepsItsManners) {
+    Comparison made = usual();
+    made.rows[1].error.nonfinite = 2;
+    made.clear_ms = times(0.5);
+    made.scene.name = "bytes that are no UTF-8: \xff\xfe";
+    const json document = json::parse(catoptric::report::to_json(made));
+    EXPECT_EQ(document["rows"][1]["failed"], true);
+    EXPECT_FALSE(document["rows"][0].contains("failed"));
+    EXPECT_EQ(document["clear_ms"]["median"], 0.5);
+}
+
+TEST(ReportJson, HoldsARunWithoutRows) {
+    const json document = json::parse(catoptric::report::to_json({}));
+    EXPECT_EQ(document["rows"], json::array());
+    EXPECT_EQ(document["command"], json::array());
+    EXPECT_EQ(document["reference"]["settings"], json::object());
+    EXPECT_THAT(said({}), HasSubstr("no front"));
+    EXPECT_THAT(catoptric::report::to_html({}), HasSubstr("</html>"));
+}
+
+TEST(ReportCsv, QuotesFieldsAndEndsLinesAsTheStandardSays) {
+    Comparison made = usual();
+    made.rows[0].label = "naive:bounces=0,face=512";
+    made.rows[1].model = "say \"everything\"\nor not";
+    const std::string csv = catoptric::report::to_csv(made);
+    EXPECT_THAT(csv, HasSubstr("\"naive:bounces=0,face=512\",\"bounces=0, face=256\","));
+    EXPECT_THAT(csv, HasSubstr("\"say \"\"everything\"\"\nor not\""));
+    EXPECT_TRUE(
+        csv.starts_with("technique,label,settings,model,scene_passes,scene_draws,gpu_ms_median,"));
+    EXPECT_TRUE(csv.ends_with("\r\n"));
+    EXPECT_THAT(csv, Not(HasSubstr("nan")));
+}
+
+TEST(ReportCsv, GivesEveryLineTheSameNumberOfFields) {
+    Comparison made = usual();
+    made.rows[2].error_per_mirror.clear();
+    const std::string csv = catoptric::report::to_csv(made);
+    std::vector<std::ptrdiff_t> commas;
+    bool quoted = false;
+    commas.push_back(0);
+    for (const char c : csv) {
+        if (c == '"') quoted = !quoted;
+        if (c == ',' && !quoted) ++commas.back();
+        if (c == '\n' && !quoted) commas.push_back(0);
+    }
+    ASSERT_EQ(commas.size(), 6U); // the header, four rows, nothing
+    for (int line = 1; line < 5; ++line)
+        EXPECT_EQ(commas[line], commas[0]);
+}
+
+TEST(ReportHtml, EscapesAndNeedsNothingFromOutside) {
+    Comparison made = usual();
+    made.scene.name = "<script>alert('x')</script>\" onload=\"&";
+    made.warnings = {"<img src=x>"};
+    made.rows[0].label = "naive:<b>";
+    const std::string html = catoptric::report::to_html(made);
+    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_THAT(
+        html,
+        HasSubstr("&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;&quot; onload=&quot;&amp;"));
+    EXPECT_THAT(html, Not(HasSubstr("<img src=x>")));
+    EXPECT_THAT(html, Not(HasSubstr("<b>")));
+    for (const char* outside : {"http://", "https://", "@import", "url("})
+        EXPECT_THAT(html, Not(HasSubstr(outside)));
+}
+
+TEST(ReportHtml, HoldsThePlotAndEveryPicture) {
+    const std::string html = catoptric::report::to_html(usual());
+    const std::regex pictures(
+        "<img [^>]*alt=\"[^\"]+\" src=\"data:image/png;base64,iVBORw0KGgo[A-Za-z0-9+/]*=*\">");
+    EXPECT_EQ(std::distance(std::sregex_iterator(html.begin(), html.end(), pictures),
+                            std::sregex_iterator()),
+              9);
+    EXPECT_THAT(html, HasSubstr("<svg viewBox"));
+    EXPECT_THAT(html, HasSubstr("class=\"step\""));
+    EXPECT_THAT(html, HasSubstr("id=\"row-3\""));
+    EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+class ReportWrite : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder = fs::temp_directory_path() /
+                 ("catoptric-" + std::to_string(::getpid()) + "-" + test->name());
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+    Error error_of_writing_to(const fs::path& path) const {
+        try {
+            catoptric::report::write(usual(), path);
+        } catch (const Error& error) {
+            return error;
+        }
+        return Error(Failure::internal, "nothing was thrown");
+    }
+    fs::path folder;
+};
+
+TEST_F(ReportWrite, PutsEveryFileThereAndReplacesOldOnesWhole) {
+    const fs::path out = folder / "out";
+    fs::create_directories(out / "images");
+    catoptric::write_file(out / "report.json", std::string(1 << 20, 'x'));
+    catoptric::write_file(out / "notes.txt", "stays");
+    catoptric::report::write(usual(), out / "");
+    EXPECT_EQ(catoptric::read_file(out / "report.json"), catoptric::report::to_json(usual()));
+    EXPECT_EQ(catoptric::read_file(out / "report.md"), said(usual()));
+    EXPECT_EQ(catoptric::read_file(out / "report.html"), catoptric::report::to_html(usual()));
+    EXPECT_EQ(catoptric::read_file(out / "rows.csv"), catoptric::report::to_csv(usual()));
+    EXPECT_EQ(catoptric::read_file(out / "notes.txt"), "stays");
+    for (const char* name :
+         {"reference.png", "naive0.png", "naive0.exr", "naive0-error.png", "raytrace.png"})
+        EXPECT_EQ(catoptric::measure::read_picture(out / "images" / name).width, 4) << name;
+    EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 6);
+    EXPECT_EQ(std::distance(fs::directory_iterator(out / "images"), fs::directory_iterator()), 13);
+}
+
+TEST_F(ReportWrite, RefusesAFolderWithoutAParentAndLeavesNothing) {
+    const Error error = error_of_writing_to(folder / "missing" / "out");
+    EXPECT_EQ(error.failure, Failure::cannot_create);
+    EXPECT_THAT(error.what(), HasSubstr((folder / "missing" / "out").string()));
+    EXPECT_THAT(error.what(),
+                HasSubstr("'" + (folder / "missing").string() + "' to be a folder, found nothing"));
+    EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(ReportWrite, RefusesAFileWhereTheFolderShouldBe) {
+    catoptric::write_file(folder / "out", "a file");
+    const Error error = error_of_writing_to(folder / "out");
+    EXPECT_EQ(error.failure, Failure::cannot_create);
+    EXPECT_THAT(error.what(), HasSubstr("the folder cannot be created: File exists"));
+    EXPECT_EQ(catoptric::read_file(folder / "out"), "a file");
+}
+
+} // namespace

@@ -1,0 +1,147 @@
+#include "report/report.hpp"
+
+#include "report_sample.hpp"
+
+#include <gmock/gmock.h>
+
+#include <regex>
+
+namespace {
+
+using catoptric::report::Comparison;
+using namespace catoptric::report::sample;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string said(const Comparison& made) {
+    return catoptric::report::to_markdown(made);
+}
+
+TEST(ReportMarkdown, SetsTheSeedTableBesideOurs) {
+    const std::string text = said(usual());
+    EXPECT_TRUE(std::regex_search(
+        text,
+        std::regex(
+            R"(\| Part one +\| +0 \| +2 \| +93 \| +10\.8 \| naive:bounces=0 +\| +6 \| +26 \| +2\.00 \|)")))
+        << text;
+    EXPECT_TRUE(std::regex_search(
+        text, std::regex(R"(\| Part one +\| +4 \| +18 \| +37 \| +27\.0 \| not in this run)")));
+    EXPECT_TRUE(
+        std::regex_search(text, std::regex(R"(\| ray trace +\| +– \| +– \| +10\.7 \| +93\.0 \|)")));
+    EXPECT_THAT(text, HasSubstr("## Mirror by mirror"));
+    EXPECT_THAT(text, Not(HasSubstr("nan")));
+}
+
+TEST(ReportMarkdown, TakesForTheReportsRowsOnlyThoseWithDefaultKnobs) {
+    Comparison made = usual();
+    const std::regex traced(R"(93\.0 \| raytrace:depth=8 +\|)"), reused(R"(7\.4 \| reuse +\|)");
+    EXPECT_FALSE(std::regex_search(said(made), traced));
+    EXPECT_TRUE(std::regex_search(said(made), reused));
+    made.rows.push_back(
+        row("raytrace:depth=8", 10, 0.001, 0.001, {number("depth", 8), choice("sphere", "mesh")}));
+    made.rows[1].settings = {number("face", 512, true)};
+    EXPECT_TRUE(std::regex_search(said(made), traced));
+    EXPECT_FALSE(std::regex_search(said(made), reused));
+    EXPECT_THAT(said(made),
+                HasSubstr("here raytrace:depth=8 takes 1.67 times as long as parallax"));
+}
+
+TEST(ReportMarkdown, SaysWhatAProcessorsTimesAre) {
+    Comparison made = usual();
+    EXPECT_THAT(said(made), Not(HasSubstr("processor time")));
+    made.device.type = "cpu";
+    made.device.threads = 2;
+    made.complete = false;
+    made.warnings = {"no light: ambient only"};
+    EXPECT_THAT(said(made), HasSubstr("processor time of its software driver"));
+    EXPECT_THAT(said(made), HasSubstr("2 threads"));
+    EXPECT_THAT(said(made), HasSubstr("the rows so far"));
+    EXPECT_THAT(said(made), HasSubstr("no light: ambient only"));
+}
+
+TEST(ReportMarkdown, PutsTheFrontInWords) {
+    const std::string text = said(usual());
+    EXPECT_THAT(
+        text, HasSubstr("naive:bounces=0 (2.00 ms, FLIP 0.5000); parallax (6.00 ms, FLIP 0.1000); "
+                        "raytrace:depth=16 (12.0 ms, FLIP 0)"));
+    EXPECT_THAT(text, HasSubstr("parallax beats reuse (7.00 ms, FLIP 0.2000)."));
+    EXPECT_THAT(text, HasSubstr("No ray-traced row beats"));
+}
+
+TEST(ReportMarkdown, SaysSoWhereRayTracingWins) {
+    Comparison made = usual();
+    made.rows[3].gpu_ms = times(5);
+    made.pareto = {0, 3};
+    EXPECT_THAT(said(made), HasSubstr("Ray tracing beats 2 of the 3 other rows in speed and error "
+                                      "together on this device: all but naive:bounces=0."));
+    made.rows[3].gpu_ms = times(1);
+    made.pareto = {3};
+    EXPECT_THAT(said(made), HasSubstr("Ray tracing wins on this device: each of the 3 other rows"));
+    made.rows[3].error.nonfinite = 1; // what failed beats nobody
+    EXPECT_THAT(said(made), HasSubstr("No ray-traced row beats"));
+    EXPECT_THAT(said(made), HasSubstr("raytrace:depth=16 failed"));
+}
+
+TEST(ReportMarkdown, JudgesTheGuessAboutClears) {
+    Comparison made = usual(); // 2 ms against 7 ms
+    EXPECT_THAT(
+        said(made),
+        HasSubstr("is not slower than part two (2.00 against 7.00 ms); what a clear costs"));
+    made.clear_ms = times(1);
+    EXPECT_THAT(said(made), HasSubstr("Clearing the cubes of all mirrors costs 1.00 ms"));
+    EXPECT_THAT(said(made),
+                HasSubstr("clearing alone does not explain the report's order on this device"));
+    made.clear_ms = times(8);
+    EXPECT_THAT(
+        said(made),
+        HasSubstr("43 % behind part two (the report: 46 %), so clearing alone does explain"));
+    made.rows[0].gpu_ms = times(9);
+    EXPECT_THAT(said(made), HasSubstr("is slower than part two"));
+    EXPECT_THAT(said(made),
+                HasSubstr("slower without any clear, so clearing alone does not explain"));
+    made.rows.erase(made.rows.begin());
+    EXPECT_THAT(said(made), Not(HasSubstr("Clears:")));
+}
+
+TEST(ReportMarkdown, SetsStoredDistancesSideBySide) {
+    Comparison made = usual();
+    EXPECT_THAT(said(made), Not(HasSubstr("Stored distance")));
+    made.rows.push_back(unorm8(1000, 0.035));
+    EXPECT_THAT(said(made), HasSubstr("0.0350 with 8 bits up to 1000 units."));
+    made.rows.push_back(unorm8(200, 0.0961));
+    EXPECT_THAT(
+        said(made),
+        HasSubstr(
+            "is 0.0900 without correction, 0.0300 corrected with 32-bit distances, 0.0961 with "
+            "8 bits up to 200 units as in the report, 0.0350 with 8 bits"));
+    EXPECT_THAT(said(made),
+                HasSubstr("its figure 7 cannot have been made that way in these units"));
+    made.rows.back().error.rmse = 0.05;
+    EXPECT_THAT(said(made), HasSubstr("still helps"));
+    EXPECT_THAT(said(made), Not(HasSubstr("cannot have been made")));
+}
+
+TEST(ReportMarkdown, SaysWhetherInterReflectionsHelp) {
+    Comparison made = usual();
+    EXPECT_THAT(said(made), Not(HasSubstr("Inter-reflections:")));
+    made.rows.push_back(naive(1, 7, 0.0880, 0.2));
+    made.rows.push_back(naive(2, 9, 0.0871, 0.2));
+    made.rows.push_back(naive(3, 11, 0.0870, 0.2));
+    EXPECT_THAT(
+        said(made),
+        HasSubstr(
+            "with i = 1 to 3 the rmse of part one over the mirrors is 0.0880, 0.0871, 0.0870"));
+    EXPECT_THAT(said(made), HasSubstr("parallax dominates what is left"));
+    made.rows[2].error.rmse = 0.08;
+    EXPECT_THAT(said(made), Not(HasSubstr("parallax dominates")));
+    made.rows.back().error.rmse = 0.05;
+    EXPECT_THAT(said(made), HasSubstr("bring it closer to the reference, by 0.0380 in all"));
+}
+
+TEST(ReportMarkdown, KeepsHostileNamesInTheirCells) {
+    Comparison made = usual();
+    made.scene.name = "a|b\n# <b>c</b>";
+    EXPECT_THAT(said(made), HasSubstr("a\\|b \\# \\<b\\>c\\</b\\>"));
+}
+
+} // namespace
