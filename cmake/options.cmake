@@ -8,7 +8,16 @@ if(CATOPTRIC_SANITIZE)
     target_compile_options(catoptric_options INTERFACE
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
     target_link_options(catoptric_options INTERFACE -fsanitize=address,undefined)
+    add_library(catoptric_sanitizer_support OBJECT ${PROJECT_SOURCE_DIR}/cmake/sanitizer_support.cpp)
 endif()
+
+# program(TARGET): what every executable of this tree links.
+function(program target)
+    target_link_libraries(${target} PRIVATE catoptric catoptric_options catoptric_warnings)
+    if(CATOPTRIC_SANITIZE)
+        target_link_libraries(${target} PRIVATE catoptric_sanitizer_support)
+    endif()
+endfunction()
 
 add_library(catoptric_warnings INTERFACE)
 target_compile_options(catoptric_warnings INTERFACE
