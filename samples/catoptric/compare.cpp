@@ -1,0 +1,136 @@
+// catoptric compare: every technique against the reference, speed and error in one table.
+#include "app/compare.hpp"
+
+#include "core/error.hpp"
+#include "options.hpp"
+#include "progress.hpp"
+#include "report/report.hpp"
+#include "signals.hpp"
+#include "table.hpp"
+#include "verbs.hpp"
+
+#include <csignal>
+#include <memory>
+
+namespace catoptric::cli {
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  catoptric compare -o out
+  catoptric compare scene.glb -o out --size 256x256 --techniques reuse parallax:face=512
+  catoptric compare -o out --together --json > report.json
+
+SCENE comes before --techniques. DIR gets report.html, report.md, report.json, rows.csv and images/.)";
+
+struct Options {
+    Common common;
+    std::string folder;
+    std::vector<std::string> techniques;
+    bool together = false;
+    std::vector<std::string> command;
+};
+
+/// The list takes every word that follows it, a scene too.
+void check_no_scene(const std::string& text) {
+    bool scene = text.ends_with(".glb") || text.ends_with(".gltf") || text.ends_with(".obj");
+    for (const scene::BuiltIn& built_in : scene::built_in_scenes())
+        scene |= built_in.name == text;
+    check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
+          "'; SCENE comes before --techniques");
+}
+
+app::CompareRequest make_compare_request(const Options& options) {
+    app::CompareRequest request;
+    for (const std::string& text : options.techniques) { // before any work
+        check_no_scene(text);
+        app::parse_technique(text);
+    }
+    request.base = make_request(options.common);
+    request.base.techniques = options.techniques;
+    request.reference = options.common.reference;
+    request.together = options.together;
+    request.command = options.command;
+    return request;
+}
+
+/// Labels of the rows with pixels that are NaN or infinite.
+std::vector<std::string> broken_rows(const report::Comparison& comparison) {
+    std::vector<std::string> broken;
+    for (const report::Row& row : comparison.rows)
+        if (row.error_all.nonfinite > 0)
+            broken.push_back("'" + row.label + "' has " + std::to_string(row.error_all.nonfinite) +
+                             " pixels that are not finite");
+    return broken;
+}
+
+void show(const Options& options, const report::Comparison& comparison) {
+    const Manners& manners = options.common.manners;
+    for (const std::string& warning : comparison.warnings)
+        detail(manners, "warning: " + warning);
+    put(manners.json ? report::to_json(comparison) : compare_table(comparison));
+    note(manners, "written: " + options.folder);
+}
+
+int exit_code(const report::Comparison& comparison, std::size_t row_count) {
+    if (!comparison.complete)
+        fail(app::stop_signal == SIGTERM ? Failure::terminated : Failure::interrupted,
+             "stopped after ", comparison.rows.size(), " of ", row_count,
+             " rows; what there is has been written");
+    const std::vector<std::string> broken = broken_rows(comparison);
+    check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
+          broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
+    return 0;
+}
+
+int run(const Options& options) {
+    const Manners& manners = options.common.manners;
+    require_given(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
+    check_folder_can_be_made(options.folder);
+    app::CompareRequest request = make_compare_request(options);
+    const std::size_t row_count =
+        options.techniques.empty() ? app::default_techniques().size() : options.techniques.size();
+    app::Engine engine(engine_options(options.common));
+    detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
+
+    stop_on_signals();
+    Progress progress(manners);
+    progress.row("reference " + request.reference, 0, row_count);
+    request.on_row = [&](const std::string& label, std::size_t index, std::size_t count) {
+        progress.row(label, index, count);
+    };
+    request.base.progress = [&](int number, int total) { progress.frame(number, total); };
+    const report::Comparison comparison = app::compare(engine, request);
+    progress.clear();
+
+    report::write(comparison, options.folder);
+    show(options, comparison);
+    const int code = exit_code(comparison, row_count);
+    if (options.common.validate) engine.check_validation();
+    return code;
+}
+
+} // namespace
+
+void add_compare(CLI::App& program, Run& chosen, std::vector<std::string> command) {
+    const auto options = std::make_shared<Options>();
+    options->command = std::move(command);
+    CLI::App* verb = program.add_subcommand(
+        "compare", "every technique against the reference: speed and error in one table");
+    verb->footer(kExamples);
+    verb->add_option("-o,--output", options->folder,
+                     "folder for the report; required, made if missing")
+        ->type_name("DIR");
+    verb->add_option("--techniques", options->techniques,
+                     "name[:knob=value,...] each, see 'list techniques' (the default list)")
+        ->type_name("T");
+    verb->add_flag("--together", options->together,
+                   "all rows in one command buffer, on one timeline");
+    add_common(*verb, options->common);
+    verb->callback([verb, options, &chosen] {
+        refuse_extras(*verb);
+        chosen = [options] { return run(*options); };
+    });
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,127 @@
+// catoptric diff: how far two pictures are apart.
+#include "measure/difference.hpp"
+
+#include "core/error.hpp"
+#include "json.hpp"
+#include "measure/flip.hpp"
+#include "measure/picture_file.hpp"
+#include "options.hpp"
+#include "parse.hpp"
+#include "verbs.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+namespace catoptric::cli {
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  catoptric diff a.exr b.exr
+  catoptric diff a.png b.png --mask mirrors.png --json
+  catoptric diff new.exr golden.exr --max-flip 0.01 --max-rmse 0.001
+
+All on linear RGB clamped to [0,1], flip on the pictures as displayed at 67 pixels per degree.
+Exit code 1 when a figure is over its threshold or, with one given, a pixel is not finite.)";
+
+struct Options {
+    Manners manners;
+    std::string a, b, mask;
+    double exposure = 0;
+    std::optional<double> most_flip, most_rmse;
+};
+
+void judge(DiffFacts& facts, const char* option, double value, std::optional<double> most) {
+    if (!most) return;
+    // NaN (no pixel to judge) is over every threshold.
+    if (!(value <= *most))
+        facts.over.push_back(
+            fmt::format("{} {:.6g} is over --max-{} {:.6g}", option, value, option, *most));
+}
+
+DiffFacts compare_files(const Options& options) {
+    const measure::Picture a = measure::read_picture(options.a);
+    const measure::Picture b = measure::read_picture(options.b);
+    check(a.width == b.width && a.height == b.height, Failure::bad_data, options.a, " is ", a.width,
+          "x", a.height, ", ", options.b, " is ", b.width, "x", b.height,
+          ": wanted two pictures of one size");
+    measure::Mask mask;
+    if (!options.mask.empty()) mask = measure::read_mask(options.mask, a.width, a.height);
+    const std::vector<float> map = measure::flip(measure::to_display(a, options.exposure),
+                                                 measure::to_display(b, options.exposure));
+    using measure::Range;
+    DiffFacts facts{options.a,
+                    options.b,
+                    options.mask,
+                    {a.width, a.height},
+                    options.exposure,
+                    measure::difference(a, b, mask, map),
+                    measure::mean_of(a, Range::unclamped, mask),
+                    measure::mean_of(b, Range::unclamped, mask),
+                    measure::mean_of(a, Range::clamped, mask),
+                    measure::mean_of(b, Range::clamped, mask),
+                    {}};
+    judge(facts, "flip", facts.difference.flip, options.most_flip);
+    judge(facts, "rmse", facts.difference.rmse, options.most_rmse);
+    if ((options.most_flip || options.most_rmse) && facts.difference.nonfinite > 0)
+        facts.over.push_back(fmt::format("{} pixels are not finite", facts.difference.nonfinite));
+    return facts;
+}
+
+std::string mean_text(const char* name, const measure::Mean& mean, const measure::Mean& clamped) {
+    return fmt::format("mean {}  {:.6f} {:.6f} {:.6f}  clamped {:.6f} {:.6f} {:.6f}\n", name,
+                       mean.rgb.x, mean.rgb.y, mean.rgb.z, clamped.rgb.x, clamped.rgb.y,
+                       clamped.rgb.z);
+}
+
+std::string text_of(const DiffFacts& facts) {
+    const measure::Difference& d = facts.difference;
+    const std::string psnr = d.psnr        ? fmt::format("{:.3f} dB", *d.psnr)
+                             : d.rmse == 0 ? "none, equal"
+                                           : "none";
+    return fmt::format(
+               "rmse    {:.6f}\nmae     {:.6f}\nflip    {:.6f}\npsnr    {}\np99     {:.6f}\n",
+               d.rmse, d.mae, d.flip, psnr, d.p99) +
+           fmt::format("max     {:.6f} at ({}, {})\npixels  {}, {} of them not finite\n", d.max,
+                       d.max_x, d.max_y, d.pixels, d.nonfinite) +
+           mean_text("A", facts.a_mean, facts.a_clamped) +
+           mean_text("B", facts.b_mean, facts.b_clamped);
+}
+
+int run(const Options& options) {
+    const DiffFacts facts = compare_files(options);
+    put(options.manners.json ? diff_json(facts) : text_of(facts));
+    check(facts.over.empty(), Failure::threshold, join(facts.over));
+    return 0;
+}
+
+} // namespace
+
+void add_diff(CLI::App& program, Run& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* verb = program.add_subcommand("diff", "how far two pictures are apart");
+    verb->footer(kExamples);
+    verb->add_option("A", options->a, "picture, .exr or .png")->type_name("")->required();
+    verb->add_option("B", options->b, "picture of the same size")->type_name("")->required();
+    verb->add_option("--mask", options->mask,
+                     "PNG of the same size: pixels that are not black count")
+        ->type_name("M");
+    add_text(*verb, "--max-flip", "X", "exit 1 when flip is over it",
+             [options](const std::string& text) {
+                 options->most_flip = parse_real("--max-flip", text, 0);
+             });
+    add_text(*verb, "--max-rmse", "X", "exit 1 when rmse is over it",
+             [options](const std::string& text) {
+                 options->most_rmse = parse_real("--max-rmse", text, 0);
+             });
+    add_exposure(*verb, options->exposure);
+    add_manners(*verb, options->manners);
+    verb->callback([verb, options, &chosen] {
+        refuse_extras(*verb);
+        chosen = [options] { return run(*options); };
+    });
+}
+
+} // namespace catoptric::cli

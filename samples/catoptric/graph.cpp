@@ -1,0 +1,75 @@
+// catoptric graph: the compiled plan of a frame.
+#include "app/engine.hpp"
+#include "core/error.hpp"
+#include "options.hpp"
+#include "parse.hpp"
+#include "verbs.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace catoptric::cli {
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  catoptric graph --technique naive:bounces=2
+  catoptric graph scene.glb --technique reuse --format dot | dot -Tsvg > reuse.svg
+  catoptric graph --technique parallax --json
+
+The plan of a frame with a frame before it: passes in order, what each reads and writes, what was
+left out and why, memory that images share.)";
+
+struct Options {
+    Common common;
+    std::string technique;
+    std::optional<app::PlanFormat> format;
+};
+
+app::PlanFormat format_of(const Options& options) {
+    const app::PlanFormat asked =
+        options.common.manners.json ? app::PlanFormat::json : app::PlanFormat::text;
+    const app::PlanFormat format = options.format.value_or(asked);
+    check(!options.common.manners.json || format == app::PlanFormat::json, Failure::usage,
+          "--json and --format: stdout has room for one of them");
+    return format;
+}
+
+int run(const Options& options) {
+    require_given(!options.technique.empty(), "graph", "--technique T",
+                  "see 'catoptric list techniques'");
+    app::parse_technique(options.technique);
+    const app::PlanFormat format = format_of(options);
+    app::Request request = make_request(options.common);
+    request.techniques = {options.technique};
+    app::Engine engine(engine_options(options.common));
+    std::string plan = engine.plan(request, format);
+    if (!plan.ends_with('\n')) plan += '\n';
+    put(plan);
+    if (options.common.validate) engine.check_validation();
+    return 0;
+}
+
+} // namespace
+
+void add_graph(CLI::App& program, Run& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* verb = program.add_subcommand("graph", "the compiled plan of a technique's frame");
+    verb->footer(kExamples);
+    verb->add_option("--technique", options->technique,
+                     "name[:knob=value,...], see 'list techniques'; required")
+        ->type_name("T");
+    add_text(
+        *verb, "--format", "F", "text, dot or json (text)", [options](const std::string& text) {
+            constexpr app::PlanFormat kFormats[] = {app::PlanFormat::text, app::PlanFormat::dot,
+                                                    app::PlanFormat::json};
+            options->format = kFormats[parse_choice("--format", text, {"text", "dot", "json"})];
+        });
+    add_common(*verb, options->common);
+    verb->callback([verb, options, &chosen] {
+        refuse_extras(*verb);
+        chosen = [options] { return run(*options); };
+    });
+}
+
+} // namespace catoptric::cli

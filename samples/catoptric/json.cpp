@@ -1,0 +1,188 @@
+#include "json.hpp"
+
+#include "measure/statistics.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace catoptric::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string written(const Json& document) {
+    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json to_json(const dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Json to_json(const measure::Summary& s) {
+    return {{"median", s.median}, {"p05", s.p05}, {"p95", s.p95},
+            {"mad", s.mad},       {"n", s.n},     {"samples", s.samples}};
+}
+
+Json to_json(const app::DeviceInfo& device) {
+    Json row{{"name", device.name},
+             {"driver", device.driver},
+             {"api", device.api},
+             {"type", device.type},
+             {"threads", device.threads}};
+    row["usable"] = device.missing.empty();
+    if (!device.missing.empty()) row["missing"] = device.missing;
+    return row;
+}
+
+template <typename Value>
+Json over_frames(const std::vector<app::Frame>& frames, Value&& value) {
+    std::vector<double> samples;
+    for (const app::Frame& frame : frames)
+        samples.push_back(value(frame));
+    return to_json(measure::summarise(samples));
+}
+
+Json passes_json(const std::vector<app::Frame>& frames) {
+    Json passes = Json::array();
+    for (std::size_t i = 0; i < frames.front().passes.size(); ++i)
+        passes.push_back(
+            {{"name", frames.front().passes[i].name},
+             {"gpu_ms", over_frames(frames, [&](const auto& f) { return f.passes[i].ms(); })}});
+    return passes;
+}
+
+Json settings_json(const app::TechniqueChoice& choice) {
+    Json settings = Json::object();
+    for (std::size_t i = 0; i < choice.settings.size(); ++i) {
+        const auto& [name, text] = choice.settings[i];
+        settings[name] = choice.is_number[i] ? Json(std::stoll(text)) : Json(text);
+    }
+    return settings;
+}
+
+} // namespace
+
+std::string diff_json(const DiffFacts& facts) {
+    const measure::Difference& d = facts.difference;
+    Json document{{"schema", "catoptric/diff/1"}, {"a", facts.a}, {"b", facts.b}};
+    document["mask"] = facts.mask.empty() ? Json() : Json(facts.mask);
+    document["size"] = {facts.size.x, facts.size.y};
+    document["exposure"] = facts.exposure;
+    document["pixels"] = d.pixels;
+    document["nonfinite"] = d.nonfinite;
+    document["rmse"] = d.rmse;
+    document["mae"] = d.mae;
+    document["flip"] = d.flip;
+    document["psnr"] = d.psnr ? Json(*d.psnr) : Json();
+    document["p99"] = d.p99;
+    document["max"] = d.max;
+    document["max_at"] = {d.max_x, d.max_y};
+    document["mean"] = {{"a", to_json(facts.a_mean.rgb)}, {"b", to_json(facts.b_mean.rgb)}};
+    document["mean_clamped"] = {{"a", to_json(facts.a_clamped.rgb)},
+                                {"b", to_json(facts.b_clamped.rgb)}};
+    document["over"] = facts.over;
+    return written(document);
+}
+
+std::string render_json(const app::Request& request, const app::DeviceInfo& device,
+                        const app::Result& result, const std::string& output) {
+    const app::Part& part = result.parts.front();
+    const app::TechniqueChoice choice = app::parse_technique(request.techniques.front());
+    using measure::Range;
+    Json document{
+        {"schema", "catoptric/render/1"}, {"version", app::version()}, {"commit", app::commit()}};
+    document["output"] = output;
+    document["device"] = to_json(device);
+    document["scene"] = request.scene.name;
+    document["camera"] = request.camera.name;
+    document["size"] = {request.size.x, request.size.y};
+    document["frames"] = request.frames;
+    document["warmup"] = request.warmup;
+    document["time"] = request.time;
+    document["exposure"] = request.exposure;
+    document["timing"] = request.timing == app::Timing::isolated ? "isolated" : "pipelined";
+    document["technique"] = choice.technique;
+    document["label"] = choice.label;
+    document["settings"] = settings_json(choice);
+    document["scene_passes"] = part.scene_passes;
+    document["scene_draws"] = part.scene_draws;
+    document["gpu_ms"] = over_frames(result.frames, [](const auto& f) { return f.gpu_ms; });
+    document["cpu_record_ms"] =
+        over_frames(result.frames, [](const auto& f) { return f.record_ms; });
+    document["wall_ms"] = over_frames(result.frames, [](const auto& f) { return f.wall_ms; });
+    document["passes"] = passes_json(result.frames);
+    document["memory_bytes"] = part.memory_bytes;
+    if (part.rays)
+        document["rays"] = {{"primary", part.rays->primary},
+                            {"mirror", part.rays->mirror},
+                            {"shadow", part.rays->shadow}};
+    document["mean"] = to_json(measure::mean_of(part.hdr, Range::unclamped).rgb);
+    document["mean_clamped"] = to_json(measure::mean_of(part.hdr, Range::clamped).rgb);
+    return written(document);
+}
+
+std::string trace_json(const app::Frame& frame, const std::string& process) {
+    Json events = Json::array();
+    const auto name_of = [&](const char* what, const std::string& name) {
+        events.push_back(
+            {{"name", what}, {"ph", "M"}, {"pid", 1}, {"tid", 1}, {"args", {{"name", name}}}});
+    };
+    name_of("process_name", process);
+    name_of("thread_name", "device");
+    for (const app::PassTime& pass : frame.passes) // the format wants microseconds
+        events.push_back({{"name", pass.name},
+                          {"cat", "pass"},
+                          {"ph", "X"},
+                          {"ts", 1000 * pass.begin_ms},
+                          {"dur", 1000 * pass.ms()},
+                          {"pid", 1},
+                          {"tid", 1}});
+    return written({{"traceEvents", events}, {"displayTimeUnit", "ms"}});
+}
+
+std::string devices_json(const std::vector<app::DeviceInfo>& devices) {
+    Json rows = Json::array();
+    for (const app::DeviceInfo& device : devices)
+        rows.push_back(to_json(device));
+    return written({{"schema", "catoptric/list/1"}, {"devices", rows}});
+}
+
+std::string techniques_json(const std::vector<app::TechniqueInfo>& techniques) {
+    Json rows = Json::array();
+    for (const app::TechniqueInfo& technique : techniques) {
+        Json knobs = Json::array();
+        for (const app::Knob& knob : technique.knobs) {
+            Json row{{"name", knob.name}, {"help", knob.help}, {"default", knob.value}};
+            if (knob.choices.empty())
+                row["low"] = knob.low, row["high"] = knob.high,
+                row["default"] = std::stoll(knob.value);
+            else
+                row["choices"] = knob.choices;
+            knobs.push_back(row);
+        }
+        rows.push_back(
+            {{"name", technique.name}, {"summary", technique.summary}, {"knobs", knobs}});
+    }
+    return written({{"schema", "catoptric/list/1"}, {"techniques", rows}});
+}
+
+std::string named_json(const std::string& kind, const std::vector<Named>& named) {
+    Json rows = Json::array();
+    for (const Named& row : named)
+        rows.push_back({{"name", row.name}, {"summary", row.summary}});
+    return written({{"schema", "catoptric/list/1"}, {kind, rows}});
+}
+
+std::string info_json(const InfoFacts& facts) {
+    Json document{
+        {"schema", "catoptric/info/1"}, {"version", app::version()}, {"commit", app::commit()}};
+    document["device"] = facts.device ? to_json(*facts.device) : Json();
+    if (!facts.device) document["no_device"] = facts.why_no_device;
+    Json features = Json::object();
+    for (const auto& [group, names] : facts.features)
+        features[group] = names;
+    document["features"] = features;
+    return written(document);
+}
+
+} // namespace catoptric::cli

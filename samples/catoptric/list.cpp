@@ -1,0 +1,106 @@
+// catoptric list: what there is.
+#include "app/engine.hpp"
+#include "json.hpp"
+#include "options.hpp"
+#include "parse.hpp"
+#include "scene/load.hpp"
+#include "table.hpp"
+#include "verbs.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace catoptric::cli {
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  catoptric list techniques
+  catoptric list devices --json)";
+
+const std::vector<std::string> kKinds{"techniques", "scenes", "devices", "metrics"};
+
+const std::vector<Named> kMetrics{
+    {"rmse", "root of the mean square difference, linear RGB clamped to [0,1]"},
+    {"mae", "mean absolute difference, linear RGB clamped to [0,1]"},
+    {"flip", "mean LDR-FLIP at 67 pixels per degree, of the pictures as displayed"},
+    {"psnr", "-20 log10 rmse in dB; none for equal pictures"},
+    {"p99", "99th percentile of the pixels' largest channel difference"},
+    {"max", "the largest channel difference and its pixel"},
+    {"nonfinite", "pixels that are NaN or infinite; any makes a row fail"},
+};
+
+std::string knob_text(const app::Knob& knob) {
+    const std::string range = knob.choices.empty()
+                                  ? fmt::format("{:.0f} to {:.0f}", knob.low, knob.high)
+                                  : fmt::format("{}", fmt::join(knob.choices, "|"));
+    return fmt::format("    {:<12} {} ({}; default {})\n", knob.name, knob.help, range, knob.value);
+}
+
+std::string techniques_text(const std::vector<app::TechniqueInfo>& techniques) {
+    std::string text;
+    for (const app::TechniqueInfo& technique : techniques) {
+        text += fmt::format("{:<12} {}\n", technique.name, technique.summary);
+        for (const app::Knob& knob : technique.knobs)
+            text += knob_text(knob);
+    }
+    return text;
+}
+
+std::string devices_text(const std::vector<app::DeviceInfo>& devices) {
+    std::string text;
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        const app::DeviceInfo& device = devices[i];
+        text += fmt::format("{}  {}  {}, Vulkan {}, {}{}\n", i, device.name, device.type,
+                            device.api, device.driver,
+                            device.missing.empty() ? "" : "; not usable, lacks " + device.missing);
+    }
+    return text;
+}
+
+std::string named_text(const std::vector<Named>& rows) {
+    std::string text;
+    for (const Named& row : rows)
+        text += fmt::format("{:<24} {}\n", row.name, row.summary);
+    return text;
+}
+
+std::vector<Named> scenes() {
+    std::vector<Named> rows;
+    for (const scene::BuiltIn& scene : scene::built_in_scenes())
+        rows.push_back({scene.name, scene.summary});
+    return rows;
+}
+
+std::string listing(const std::string& kind, bool json) {
+    if (kind == "techniques")
+        return json ? techniques_json(app::techniques()) : techniques_text(app::techniques());
+    if (kind == "devices")
+        return json ? devices_json(app::devices()) : devices_text(app::devices());
+    const std::vector<Named> rows = kind == "scenes" ? scenes() : kMetrics;
+    return json ? named_json(kind, rows) : named_text(rows);
+}
+
+} // namespace
+
+void add_list(CLI::App& program, Run& chosen) {
+    struct Options {
+        Manners manners;
+        std::string kind;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* verb = program.add_subcommand("list", "techniques, scenes, devices or metrics");
+    verb->footer(kExamples);
+    verb->add_option("WHAT", options->kind, "techniques, scenes, devices or metrics")
+        ->type_name("")
+        ->required();
+    add_manners(*verb, options->manners);
+    verb->callback([verb, options, &chosen] {
+        refuse_extras(*verb);
+        parse_choice("list", options->kind, kKinds);
+        chosen = [options] { return put(listing(options->kind, options->manners.json)), 0; };
+    });
+}
+
+} // namespace catoptric::cli

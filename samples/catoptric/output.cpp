@@ -1,0 +1,92 @@
+#include "output.hpp"
+
+#include "core/error.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace catoptric::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void line(const std::string& text) {
+    const std::string whole = text + "\n";
+    std::fwrite(whole.data(), 1, whole.size(), stderr); // nobody is left to tell of a failure
+}
+
+void check_writable(const fs::path& folder, const fs::path& path) {
+    check(::access(folder.c_str(), W_OK | X_OK) == 0, Failure::cannot_create, path.string(),
+          ": cannot be created in ", folder.string(), ": ", std::generic_category().message(errno));
+}
+
+/// The folder that a new entry `path` would lie in.
+fs::path parent_of(const fs::path& path) {
+    const fs::path named = path.has_filename() ? path : path.parent_path(); // "out/" is "out"
+    return named.has_parent_path() ? named.parent_path() : fs::path(".");
+}
+
+void check_parent(const fs::path& path) {
+    std::error_code error;
+    const fs::path parent = parent_of(path);
+    check(fs::is_directory(parent, error), Failure::cannot_create, path.string(),
+          ": cannot be created: there is no folder ", parent.string());
+    check_writable(parent, path);
+}
+
+} // namespace
+
+void prepare_streams() {
+    std::signal(SIGPIPE, SIG_IGN);
+    for (int stream = 0; stream <= 2; ++stream) {
+        if (::fcntl(stream, F_GETFD) != -1) continue;
+        // The lowest free number is this one. Open for reading, stdout still refuses to be written.
+        const int opened = ::open("/dev/null", stream == 2 ? O_WRONLY : O_RDONLY);
+        static_cast<void>(opened);
+    }
+}
+
+void put(std::string_view result) {
+    errno = 0;
+    const std::size_t written = std::fwrite(result.data(), 1, result.size(), stdout);
+    if (written == result.size() && std::fflush(stdout) == 0) return;
+    const int error = errno;
+    if (error == EPIPE) throw Error(Failure::io, "");
+    fail(Failure::io, "stdout: wanted to write ", result.size(),
+         " bytes: ", std::generic_category().message(error));
+}
+
+void note(const Manners& manners, const std::string& text) {
+    if (!manners.quiet) line(text);
+}
+
+void detail(const Manners& manners, const std::string& text) {
+    if (manners.verbose && !manners.quiet) line(text);
+}
+
+void warn(const std::string& text) {
+    line("catoptric: warning: " + text);
+}
+
+void check_file_can_be_made(const fs::path& path) {
+    std::error_code error;
+    check(!path.empty() && path.has_filename() && !fs::is_directory(path, error),
+          Failure::cannot_create, path.string(), ": wanted a file name, found a folder");
+    check_parent(path);
+}
+
+void check_folder_can_be_made(const fs::path& path) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) return check_writable(path, path);
+    check(!path.empty() && !fs::exists(path, error), Failure::cannot_create, path.string(),
+          ": wanted a folder, found a file");
+    check_parent(path);
+}
+
+} // namespace catoptric::cli

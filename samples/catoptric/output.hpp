@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace catoptric::cli {
+
+enum class ProgressMode { automatic, always, never };
+
+/// How a verb talks. The result is all that goes to stdout.
+struct Manners {
+    bool json = false;
+    bool quiet = false;
+    bool verbose = false;
+    ProgressMode progress = ProgressMode::automatic;
+};
+
+/// Makes a write to a closed pipe fail instead of killing the program, and keeps files that are
+/// opened later from becoming a closed stdin, stdout or stderr.
+void prepare_streams();
+
+/// Writes and flushes the result. Throws `Failure::io`, without text where the reader has gone.
+void put(std::string_view result);
+
+/// Lines on stderr: what may interest (not with --quiet), what only -v shows, what must be seen.
+void note(const Manners& manners, const std::string& text);
+void detail(const Manners& manners, const std::string& text);
+void warn(const std::string& text);
+
+/// Throws `cannot_create` where a file cannot be made at `path`, before work is spent on it: its
+/// folder is missing, or the name is a folder's.
+void check_file_can_be_made(const std::filesystem::path& path);
+/// The same for a folder: it is there, or its parent is.
+void check_folder_can_be_made(const std::filesystem::path& path);
+
+} // namespace catoptric::cli

@@ -1,0 +1,83 @@
+#include "progress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace catoptric::cli {
+
+namespace {
+
+bool is_terminal() {
+    const char* term = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
+}
+
+std::size_t terminal_columns() {
+    winsize size{};
+    const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+    return known ? size.ws_col : 80U;
+}
+
+} // namespace
+
+std::string duration_text(double seconds) {
+    const auto whole = static_cast<long long>(std::clamp(seconds, 0.0, 3.6e8) + 0.5);
+    const long long hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
+    return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, minutes, rest)
+                     : fmt::format("{}:{:02}", minutes, rest);
+}
+
+Progress::Progress(const Manners& manners)
+    : active_(!manners.quiet && (manners.progress == ProgressMode::always ||
+                                 (manners.progress == ProgressMode::automatic && is_terminal()))),
+      rewrites_(is_terminal()) {}
+
+Progress::~Progress() {
+    clear();
+}
+
+void Progress::row(const std::string& label, std::size_t index, std::size_t count) {
+    label_ = label;
+    index_ = index;
+    count_ = std::max<std::size_t>(count, 1);
+    shown_at_ = {};
+    if (active_ && !rewrites_) fmt::print(stderr, "[{}/{}] {}\n", index + 1, count_, label);
+}
+
+void Progress::frame(int number, int total) {
+    if (!active_ || !rewrites_) return;
+    const Clock::time_point now = Clock::now();
+    if (now - shown_at_ < std::chrono::milliseconds(100)) return;
+    shown_at_ = now;
+    // Rows take different times; the guess is good enough to decide whether to wait.
+    const double done = (static_cast<double>(index_) + static_cast<double>(number) / total) /
+                        static_cast<double>(count_);
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    const std::string place = count_ > 1 ? fmt::format("[{}/{}] ", index_ + 1, count_) : "";
+    show(fmt::format("{}{}  frame {}/{}  about {} left", place, label_, number, total,
+                     duration_text(elapsed * (1 - done) / done)));
+}
+
+void Progress::clear() {
+    if (shown_width_ == 0) return;
+    fmt::print(stderr, "\r{}\r", std::string(shown_width_, ' '));
+    std::fflush(stderr);
+    shown_width_ = 0;
+}
+
+void Progress::show(const std::string& text) {
+    const std::string cut = text.substr(0, terminal_columns() - 1);
+    const std::size_t left_over = shown_width_ > cut.size() ? shown_width_ - cut.size() : 0;
+    fmt::print(stderr, "\r{}{}", cut, std::string(left_over, ' '));
+    std::fflush(stderr);
+    shown_width_ = cut.size();
+}
+
+} // namespace catoptric::cli

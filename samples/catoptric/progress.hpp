@@ -1,0 +1,44 @@
+#pragma once
+
+#include "output.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace catoptric::cli {
+
+/// "[3/14] reuse  frame 12/28  about 0:35 left" on stderr, rewritten in place on a terminal. With
+/// --progress always elsewhere (or TERM=dumb): one line a row. No colours, no escape sequences.
+class Progress {
+public:
+    explicit Progress(const Manners& manners);
+    /// Removes the line.
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// Row `index` (from 0) of `count` begins.
+    void row(const std::string& label, std::size_t index, std::size_t count);
+    /// Frame `number` (from 1) of `total` of this row is done.
+    void frame(int number, int total);
+    /// Removes the line until the next frame, so that other text can be written.
+    void clear();
+
+private:
+    using Clock = std::chrono::steady_clock;
+    void show(const std::string& text);
+
+    bool active_ = false;
+    bool rewrites_ = false;
+    std::string label_;
+    std::size_t index_ = 0, count_ = 1;
+    std::size_t shown_width_ = 0;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point shown_at_{};
+};
+
+/// "0:07", "12:40", "3:02:10".
+std::string duration_text(double seconds);
+
+} // namespace catoptric::cli

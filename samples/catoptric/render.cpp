@@ -1,0 +1,141 @@
+// catoptric render: one picture.
+#include "app/engine.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "json.hpp"
+#include "measure/difference.hpp"
+#include "measure/picture_file.hpp"
+#include "measure/statistics.hpp"
+#include "options.hpp"
+#include "progress.hpp"
+#include "signals.hpp"
+#include "verbs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace catoptric::cli {
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  catoptric render --technique parallax -o parallax.png
+  catoptric render scene.glb --technique raytrace:depth=4,samples=16 -o truth.exr
+  catoptric render --technique reuse --animate --frames 60 --trace frame.json -o last.png
+  catoptric render --technique naive:bounces=2 -o - | display
+
+The picture is the last frame. EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
+
+struct Options {
+    Common common;
+    std::string technique;
+    std::string output;
+    std::string trace;
+};
+
+bool is_stdout(const Options& options) {
+    return options.output == "-";
+}
+bool is_exr(const Options& options) {
+    return options.output.ends_with(".exr");
+}
+
+void check_output(const Options& options) {
+    require_given(!options.output.empty(), "render", "-o OUT",
+                  "a name ending in .exr or .png, or - for stdout");
+    check(!is_stdout(options) || !options.common.manners.json, Failure::usage,
+          "-o - and --json: stdout has room for one of them");
+    if (!is_stdout(options)) {
+        check_file_can_be_made(options.output);
+        check(is_exr(options) || options.output.ends_with(".png"), Failure::usage,
+              "-o: wanted a name ending in .exr or .png, or -, found '", options.output, "'");
+    }
+    if (!options.trace.empty()) check_file_can_be_made(options.trace);
+}
+
+void write_picture(const Options& options, const app::Part& part) {
+    if (is_stdout(options)) return put(measure::png_bytes(part.display));
+    if (is_exr(options)) return measure::write_exr(part.hdr, options.output);
+    measure::write_png(part.display, options.output);
+}
+
+void describe(const Manners& manners, const app::Result& result, const std::string& output) {
+    std::vector<double> gpu_ms;
+    for (const app::Frame& frame : result.frames)
+        gpu_ms.push_back(frame.gpu_ms);
+    const measure::Summary summary = measure::summarise(gpu_ms);
+    const app::Part& part = result.parts.front();
+    const measure::Mean mean = measure::mean_of(part.hdr, measure::Range::clamped);
+    note(manners,
+         fmt::format("{}: {} scene passes, {:.4g} ms [{:.4g} - {:.4g}], mean {:.5f}, written: {}",
+                     part.label, part.scene_passes, summary.median, summary.p05, summary.p95,
+                     mean.all, output));
+    for (const app::PassTime& pass : result.frames.back().passes)
+        detail(manners, fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
+}
+
+void warn_of_nonfinite(const measure::Picture& picture) {
+    const auto broken = std::ranges::count_if(picture.pixels, [](const vec3& pixel) {
+        return !std::isfinite(pixel.x) || !std::isfinite(pixel.y) || !std::isfinite(pixel.z);
+    });
+    if (broken > 0) warn(fmt::format("{} pixels are not finite", broken));
+}
+
+int run(const Options& options) {
+    const Manners& manners = options.common.manners;
+    require_given(!options.technique.empty(), "render", "--technique T",
+                  "see 'catoptric list techniques'");
+    const app::TechniqueChoice choice = app::parse_technique(options.technique);
+    check_output(options);
+    app::Request request = make_request(options.common);
+    request.techniques = {options.technique};
+    app::Engine engine(engine_options(options.common));
+    detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
+
+    stop_on_signals();
+    Progress progress(manners);
+    progress.row(choice.label, 0, 1);
+    request.progress = [&](int number, int total) { progress.frame(number, total); };
+    const app::Result result = engine.run(request);
+    progress.clear();
+
+    warn_of_nonfinite(result.parts.front().hdr);
+    write_picture(options, result.parts.front());
+    if (!options.trace.empty())
+        write_file(options.trace,
+                   trace_json(result.frames.back(), choice.label + " on " + engine.device().name));
+    if (manners.json) put(render_json(request, engine.device(), result, options.output));
+    describe(manners, result, is_stdout(options) ? "stdout" : options.output);
+    if (options.common.validate) engine.check_validation();
+    return 0;
+}
+
+} // namespace
+
+void add_render(CLI::App& program, Run& chosen) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* verb = program.add_subcommand("render", "one picture by one technique");
+    verb->footer(kExamples);
+    verb->add_option("--technique", options->technique,
+                     "name[:knob=value,...], see 'list techniques'; required")
+        ->type_name("T");
+    verb->add_option("-o,--output", options->output,
+                     "OUT.exr, OUT.png or - for a PNG on stdout; required")
+        ->type_name("OUT");
+    verb->add_option("--trace", options->trace,
+                     "times of the last frame's passes for chrome://tracing or Perfetto")
+        ->type_name("T.json");
+    add_text(*verb, "--profile", "P.json", "not there yet", [](const std::string&) {
+        fail(Failure::usage, "--profile: is not there yet; give --technique name:knob=value,...");
+    });
+    add_common(*verb, options->common);
+    verb->callback([verb, options, &chosen] {
+        refuse_extras(*verb);
+        chosen = [options] { return run(*options); };
+    });
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,59 @@
+#include "table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::cli {
+
+namespace {
+
+std::string milliseconds(double ms) {
+    return fmt::format("{:.3f}", ms);
+}
+
+/// Five digits; what cannot be said is a dash.
+std::string figure(double value) {
+    return std::isfinite(value) ? fmt::format("{:.5f}", value) : "-";
+}
+
+std::string spread(const measure::Summary& ms) {
+    return fmt::format("[{} - {}]", milliseconds(ms.p05), milliseconds(ms.p95));
+}
+
+} // namespace
+
+std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()));
+        for (std::size_t i = 0; i < row.size(); ++i)
+            widths[i] = std::max(widths[i], row[i].size());
+    }
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            line += i == 0 ? fmt::format("{:<{}}", row[i], widths[i])
+                           : fmt::format("  {:>{}}", row[i], widths[i]);
+        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return text;
+}
+
+std::string compare_table(const report::Comparison& comparison) {
+    std::vector<std::vector<std::string>> rows{
+        {"technique", "R", "ms", "[p05 - p95]", "rmse", "flip", "mean"}};
+    for (const report::Row& row : comparison.rows)
+        rows.push_back({row.label, std::to_string(row.scene_passes),
+                        milliseconds(row.gpu_ms.median), spread(row.gpu_ms), figure(row.error.rmse),
+                        figure(row.error.flip), figure(row.mean_clamped.all)});
+    return fmt::format("{} {}x{}, {} frames after {}, {}; errors on mirrors, against {}\n",
+                       comparison.scene.name, comparison.width, comparison.height,
+                       comparison.frames, comparison.warmup, comparison.device.name,
+                       comparison.reference_label) +
+           aligned(rows);
+}
+
+} // namespace catoptric::cli

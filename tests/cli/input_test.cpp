@@ -1,0 +1,78 @@
+// Input that is not there or makes no sense: 66, 65; no device: 69.
+#include "cli/program.hpp"
+
+namespace {
+
+TEST_F(Cli, MissingFiles) {
+    for (const std::string name : {"none.glb", "none.gltf", "none.obj"})
+        expect_refused({"render", name, "--technique", "reuse", "-o", "x.png"}, 66, {name});
+    expect_refused({"diff", "none.exr", "none.png"}, 66, {"none.exr"});
+}
+
+TEST_F(Cli, GarbageScenes) {
+    write("garbage.glb", "this is no scene at all, whatever its name says");
+    expect_refused({"render", "garbage.glb", "--technique", "reuse", "-o", "x.png"}, 65,
+                   {"garbage.glb"});
+    write("empty.glb", "");
+    expect_refused({"render", "empty.glb", "--technique", "reuse", "-o", "x.png"}, 65,
+                   {"empty.glb"});
+    write("garbage.gltf", "{\"asset\": ");
+    expect_refused({"render", "garbage.gltf", "--technique", "reuse", "-o", "x.png"}, 65,
+                   {"garbage.gltf"});
+}
+
+TEST_F(Cli, TruncatedGlb) {
+    // Says that it is 4096 bytes long, and ends after its header and a piece of JSON.
+    std::string bytes = "glTF";
+    for (const unsigned word : {2U, 4096U, 2048U, 0x4E4F534AU})
+        for (int shift = 0; shift < 32; shift += 8)
+            bytes += static_cast<char>(word >> shift);
+    write("cut.glb", bytes + "{\"asset\":{\"version\":\"2.0\"}");
+    expect_refused({"render", "cut.glb", "--technique", "reuse", "-o", "x.png"}, 65, {"cut.glb"});
+}
+
+TEST_F(Cli, ObjWithoutTriangles) {
+    write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    expect_refused({"render", "points.obj", "--technique", "reuse", "-o", "x.png"}, 65,
+                   {"points.obj"});
+}
+
+TEST_F(Cli, PicturesThatAreNone) {
+    write("a.png", "no PNG");
+    write("a.exr", "no EXR");
+    expect_refused({"diff", "a.png", "a.png"}, 65, {"a.png"});
+    expect_refused({"diff", "a.exr", "a.exr"}, 65, {"a.exr"});
+}
+
+TEST_F(Cli, NoCameraIsSaidAndReplaced) {
+    write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const test::Ended ended =
+        cli(quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png"}));
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, testing::HasSubstr("no camera in file: using eye"));
+    const test::Ended quiet =
+        cli(quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png", "--quiet"}));
+    EXPECT_THAT(quiet.err, testing::Not(testing::HasSubstr("no camera")));
+}
+
+TEST_F(Cli, WithoutADriverSaysWhatToInstall) {
+    const auto without = [&](const Words& words) {
+        test::Start process = start(words);
+        for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
+            process.environment[name] = (folder / "none.json").string();
+        return test::run_process(process);
+    };
+    expect_ended(without({"render", "--technique", "reuse", "-o", "x.png"}), 69,
+                 {"mesa-vulkan-drivers"});
+    expect_ended(without({"compare", "-o", "x"}), 69, {"mesa-vulkan-drivers"});
+    expect_ended(without({"list", "devices"}), 69, {"mesa-vulkan-drivers"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "x"));
+
+    const test::Ended info = without({"info", "--json"});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    const nlohmann::json document = nlohmann::json::parse(info.out);
+    EXPECT_TRUE(document["device"].is_null());
+    EXPECT_THAT(document["no_device"], testing::HasSubstr("mesa-vulkan-drivers"));
+}
+
+} // namespace

@@ -1,0 +1,134 @@
+// Output that cannot be made: 73; that breaks off: 74, with the old file as it was; signals: 130.
+#include "cli/program.hpp"
+
+#include <cstring>
+
+#include <sys/mount.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_F(Cli, IntoAMissingFolder) {
+    expect_refused({"render", "--technique", "reuse", "-o", "none/x.png"}, 73,
+                   {"none/x.png", "no folder none"});
+    expect_refused({"render", "--technique", "reuse", "-o", "x.png", "--trace", "none/t.json"}, 73,
+                   {"none/t.json"});
+    expect_refused({"compare", "-o", "none/out"}, 73, {"none/out", "no folder none"});
+}
+
+TEST_F(Cli, NameOfAFolderOrFile) {
+    expect_refused({"render", "--technique", "reuse", "-o", folder.string()}, 73,
+                   {folder.string(), "found a folder"});
+    fs::create_directory(folder / "x.png");
+    expect_refused({"render", "--technique", "reuse", "-o", "x.png"}, 73,
+                   {"x.png", "found a folder"});
+    expect_refused({"render", "--technique", "reuse", "-o", "y.png/"}, 73, {"y.png/"});
+    write("file", "old");
+    expect_refused({"compare", "-o", "file"}, 73, {"file", "wanted a folder"});
+    EXPECT_EQ(read("file"), "old");
+}
+
+TEST_F(Cli, FullDevice) {
+    if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
+    fs::create_symlink("/dev/full", folder / "full.png");
+    const test::Ended ended =
+        cli(quick({"render", "--technique", "reuse", "-o", "full.png", "--quiet"}));
+    expect_ended(ended, 74, {"full.png"});
+
+    test::Start process = start({"list", "techniques"});
+    process.out_path = "/dev/full";
+    expect_ended(test::run_process(process), 74, {"stdout"});
+}
+
+TEST_F(Cli, FullDiskLeavesTheOldFile) {
+    const fs::path disk = folder / "disk";
+    fs::create_directory(disk);
+    if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0)
+        GTEST_SKIP() << "cannot mount a small tmpfs: " << std::strerror(errno);
+    write("disk/x.exr", "old");
+    const test::Ended ended = cli({"render", "--technique", "reuse", "-o", "disk/x.exr", "--size",
+                                   "256x256", "--frames", "1", "--warmup", "0", "--quiet"});
+    const std::string old = read("disk/x.exr");
+    const auto entries = std::distance(fs::directory_iterator(disk), fs::directory_iterator());
+    ::umount(disk.c_str());
+    expect_ended(ended, 74, {"disk/x.exr"});
+    EXPECT_EQ(old, "old");
+    EXPECT_EQ(entries, 1) << "a temporary was left behind";
+}
+
+TEST_F(Cli, ReaderThatHasGone) {
+    for (const Words& words : {Words{"list", "techniques"}, Words{"info", "--json"}}) {
+        test::Start process = start(words);
+        process.no_reader = true;
+        const test::Ended ended = test::run_process(process);
+        EXPECT_EQ(ended.exit_code, 74);
+        EXPECT_EQ(ended.err, "");
+    }
+}
+
+TEST_F(Cli, PngToStdout) {
+    const test::Ended ended = cli(quick({"render", "--technique", "reuse", "-o", "-"}));
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, testing::StartsWith("\x89PNG\r\n"));
+    EXPECT_EQ(cli(quick({"render", "--technique", "reuse", "-o", "x.png"})).exit_code, 0);
+    EXPECT_EQ(read("x.png"), ended.out);
+}
+
+TEST_F(Cli, InterruptedCompareKeepsItsRows) {
+    test::Start process = start({"compare",
+                                 "-o",
+                                 "out",
+                                 "--size",
+                                 "32x32",
+                                 "--frames",
+                                 "5",
+                                 "--warmup",
+                                 "1",
+                                 "--progress",
+                                 "always",
+                                 "--techniques",
+                                 "reuse",
+                                 "parallax",
+                                 "naive:bounces=1",
+                                 "naive:bounces=2",
+                                 "naive:bounces=3",
+                                 "naive:bounces=4",
+                                 "naive:bounces=5",
+                                 "naive:bounces=6"});
+    process.signal = SIGINT;
+    process.signal_at = "[2/8]";
+    const test::Ended ended = test::run_process(process);
+    EXPECT_EQ(ended.exit_code, 130) << ended.err;
+    EXPECT_THAT(ended.err, testing::HasSubstr("of 8 rows"));
+    const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
+    EXPECT_EQ(document["complete"], false);
+    EXPECT_GE(document["rows"].size(), 1U);
+    EXPECT_LT(document["rows"].size(), 8U);
+    EXPECT_TRUE(fs::exists(folder / "out/report.html"));
+}
+
+TEST_F(Cli, InterruptedBeforeTheFirstRow) {
+    test::Start process = start({"compare", "-o", "out", "--size", "32x32", "--frames", "1000",
+                                 "--warmup", "1", "--progress", "always", "--techniques", "reuse"});
+    process.signal = SIGTERM;
+    process.signal_at = "reference";
+    const test::Ended ended = test::run_process(process);
+    EXPECT_EQ(ended.exit_code, 143) << ended.err;
+    const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
+    EXPECT_EQ(document["complete"], false);
+    EXPECT_EQ(document["rows"].size(), 0U);
+}
+
+TEST_F(Cli, InterruptedRenderLeavesNoPicture) {
+    write("x.png", "old");
+    test::Start process = start({"render", "-o", "x.png", "--size", "32x32", "--frames", "100000",
+                                 "--technique", "reuse", "--progress", "always"});
+    process.signal = SIGINT;
+    process.signal_at = "reuse";
+    const test::Ended ended = test::run_process(process);
+    EXPECT_EQ(ended.exit_code, 130) << ended.err;
+    EXPECT_EQ(read("x.png"), "old");
+}
+
+} // namespace

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "support/process.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+
+#include <unistd.h>
+
+/// The built program in a folder of its own that is gone after the test.
+class Cli : public testing::Test {
+protected:
+    using Words = std::vector<std::string>;
+
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder = std::filesystem::temp_directory_path() /
+                 ("catoptric-cli-" + std::to_string(::getpid()) + "-" + test->name());
+        std::filesystem::create_directories(folder);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    test::Start start(const Words& words) const {
+        test::Start start{.command = {CATOPTRIC_CLI}};
+        start.command.insert(start.command.end(), words.begin(), words.end());
+        start.folder = folder;
+        return start;
+    }
+    test::Ended cli(const Words& words) const { return test::run_process(start(words)); }
+
+    /// A verb that renders, small and quick.
+    static Words quick(Words words) {
+        words.insert(words.end(), {"--size", "32x32", "--frames", "1", "--warmup", "1"});
+        return words;
+    }
+
+    /// The exit code, and stderr with every one of `parts` in it.
+    void expect_refused(const Words& words, int exit_code, const Words& parts) const {
+        expect_ended(cli(words), exit_code, parts);
+    }
+    static void expect_ended(const test::Ended& ended, int exit_code, const Words& parts) {
+        EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
+        EXPECT_EQ(ended.out, "");
+        EXPECT_THAT(ended.err, testing::StartsWith("catoptric: "));
+        for (const std::string& part : parts)
+            EXPECT_THAT(ended.err, testing::HasSubstr(part));
+    }
+
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder / name, std::ios::binary) << text;
+    }
+    std::string read(const std::string& name) const { return read_path(folder / name); }
+    static std::string read_path(const std::filesystem::path& path) {
+        std::ifstream file(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+    std::filesystem::path folder;
+};

@@ -1,0 +1,184 @@
+// What comes out when all is well.
+#include "cli/program.hpp"
+
+namespace {
+
+using nlohmann::json;
+
+TEST_F(Cli, ListsParse) {
+    for (const std::string kind : {"techniques", "scenes", "devices", "metrics"}) {
+        const test::Ended ended = cli({"list", kind, "--json"});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        const json document = json::parse(ended.out);
+        EXPECT_FALSE(document[kind].empty()) << kind;
+        const std::string text = cli({"list", kind}).out;
+        for (const json& row : document[kind])
+            EXPECT_THAT(text, testing::HasSubstr(row["name"].get<std::string>()));
+    }
+}
+
+TEST_F(Cli, InfoParses) {
+    const json document = json::parse(cli({"info", "--json"}).out);
+    EXPECT_EQ(document["version"], "0.1.0");
+    EXPECT_TRUE(document["device"]["usable"].get<bool>());
+    EXPECT_FALSE(document["features"]["techniques"].empty());
+    EXPECT_THAT(cli({"info"}).out,
+                testing::HasSubstr(document["device"]["name"].get<std::string>()));
+}
+
+TEST_F(Cli, SameCommandSameBytes) {
+    for (const std::string ending : {".png", ".exr"})
+        for (const std::string technique : {"raytrace:samples=3", "parallax"}) {
+            ASSERT_EQ(
+                cli(quick({"render", "--technique", technique, "-o", "a" + ending})).exit_code, 0);
+            ASSERT_EQ(
+                cli(quick({"render", "--technique", technique, "-o", "b" + ending})).exit_code, 0);
+            EXPECT_GT(read("a" + ending).size(), 100U);
+            EXPECT_EQ(read("a" + ending), read("b" + ending)) << technique << ending;
+        }
+}
+
+TEST_F(Cli, PlacedCameraLooksFromThere) {
+    // The built-in camera, spelt out.
+    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.png"})).exit_code, 0);
+    const std::string same = "278,273,-800:278,273,0:37.5", other = "278,273,-700:278,273,0:37.5";
+    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "b.png", "--camera", same}))
+                  .exit_code,
+              0);
+    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "c.png", "--camera", other}))
+                  .exit_code,
+              0);
+    ASSERT_EQ(
+        cli(quick({"render", "--technique", "raytrace", "-o", "d.png", "--camera", "0"})).exit_code,
+        0);
+    EXPECT_EQ(read("a.png"), read("b.png"));
+    EXPECT_NE(read("a.png"), read("c.png"));
+    EXPECT_EQ(read("a.png"), read("d.png"));
+}
+
+TEST_F(Cli, RenderJsonAndTrace) {
+    const test::Ended ended = cli(quick({"render", "--technique", "naive:bounces=1", "-o", "x.exr",
+                                         "--trace", "t.json", "--json"}));
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const json document = json::parse(ended.out);
+    EXPECT_EQ(document["label"], "naive:bounces=1");
+    EXPECT_EQ(document["settings"]["bounces"], 1);
+    EXPECT_EQ(document["scene_passes"], 6);
+    EXPECT_EQ(document["size"], json({32, 32}));
+    EXPECT_EQ(document["gpu_ms"]["n"], 1);
+    const json trace = json::parse(read("t.json"));
+    std::size_t passes = 0;
+    for (const json& event : trace["traceEvents"]) {
+        if (event["ph"] != "X") continue;
+        ++passes;
+        EXPECT_GE(event["dur"].get<double>(), 0);
+    }
+    EXPECT_EQ(passes, document["passes"].size());
+}
+
+TEST_F(Cli, PixelsThatAreNotFiniteAreTold) {
+    const Words too_bright{"--ambient", "1e300", "--quiet"};
+    Words render = quick({"render", "--technique", "raytrace", "-o", "x.exr"});
+    render.insert(render.end(), too_bright.begin(), too_bright.end());
+    EXPECT_THAT(cli(render).err, testing::HasSubstr("pixels are not finite"));
+    Words compare = quick({"compare", "-o", "out", "--techniques", "raytrace"});
+    compare.insert(compare.end(), too_bright.begin(), too_bright.end());
+    const test::Ended ended = cli(compare);
+    EXPECT_EQ(ended.exit_code, 70);
+    EXPECT_THAT(ended.err, testing::HasSubstr("'raytrace' has "));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/report.json"));
+}
+
+TEST_F(Cli, QuietSaysNothing) {
+    const test::Ended ended =
+        cli(quick({"render", "--technique", "reuse", "-o", "x.png", "--quiet"}));
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_EQ(ended.err, "");
+    EXPECT_EQ(ended.out, "");
+}
+
+TEST_F(Cli, GraphInThreeFormats) {
+    EXPECT_THAT(cli({"graph", "--technique", "reuse"}).out, testing::HasSubstr("capture"));
+    EXPECT_THAT(cli({"graph", "--technique", "reuse", "--format", "dot"}).out,
+                testing::HasSubstr("digraph"));
+    const std::string document = cli({"graph", "--technique", "reuse", "--format", "json"}).out;
+    EXPECT_TRUE(json::accept(document));
+    EXPECT_EQ(cli({"graph", "--technique", "reuse", "--json"}).out, document);
+}
+
+TEST_F(Cli, DiffOfEqualAndOtherPictures) {
+    ASSERT_EQ(cli(quick({"render", "--technique", "naive:bounces=0", "-o", "a.exr"})).exit_code, 0);
+    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "b.exr"})).exit_code, 0);
+    const json equal = json::parse(cli({"diff", "a.exr", "a.exr", "--json"}).out);
+    EXPECT_EQ(equal["rmse"], 0.0);
+    EXPECT_EQ(equal["flip"], 0.0);
+    EXPECT_TRUE(equal["psnr"].is_null());
+    EXPECT_EQ(cli({"diff", "a.exr", "a.exr", "--max-flip", "0", "--max-rmse", "0"}).exit_code, 0);
+
+    const json other = json::parse(cli({"diff", "a.exr", "b.exr", "--json"}).out);
+    EXPECT_GT(other["rmse"], 0.0);
+    EXPECT_EQ(other["pixels"], 32 * 32);
+    EXPECT_THAT(cli({"diff", "a.exr", "b.exr"}).out, testing::HasSubstr("rmse"));
+    const test::Ended flip = cli({"diff", "a.exr", "b.exr", "--max-flip", "0.0001"});
+    EXPECT_EQ(flip.exit_code, 1);
+    EXPECT_THAT(flip.err, testing::HasSubstr("over --max-flip 0.0001"));
+    const test::Ended rmse =
+        cli({"diff", "a.exr", "b.exr", "--max-rmse", "0.0001", "--max-flip", "1"});
+    EXPECT_EQ(rmse.exit_code, 1);
+    EXPECT_THAT(rmse.err, testing::HasSubstr("over --max-rmse 0.0001"));
+    EXPECT_THAT(rmse.err, testing::Not(testing::HasSubstr("--max-flip")));
+}
+
+TEST_F(Cli, DiffOfPngAndItsExr) {
+    for (const std::string name : {"a.exr", "a.png"})
+        ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", name})).exit_code, 0);
+    const json document = json::parse(cli({"diff", "a.exr", "a.png", "--json"}).out);
+    EXPECT_EQ(document["flip"], 0.0) << "a PNG shows what its EXR shows";
+    EXPECT_LT(document["max"], 0.01);
+    const json masked =
+        json::parse(cli({"diff", "a.exr", "a.png", "--mask", "a.png", "--json"}).out);
+    EXPECT_LT(masked["pixels"], 32 * 32 + 1);
+}
+
+TEST_F(Cli, DiffOfOtherSizes) {
+    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.png"})).exit_code, 0);
+    ASSERT_EQ(cli({"render", "--technique", "raytrace", "-o", "b.png", "--size", "16x32",
+                   "--frames", "1", "--warmup", "0"})
+                  .exit_code,
+              0);
+    expect_refused({"diff", "a.png", "b.png"}, 65, {"a.png is 32x32", "b.png is 16x32"});
+    expect_refused({"diff", "a.png", "a.png", "--mask", "b.png"}, 65, {"b.png"});
+    expect_refused({"diff", "a.png", "a.png", "--max-flip", "nan"}, 2, {"--max-flip", "'nan'"});
+}
+
+TEST_F(Cli, CompareWritesAndPrints) {
+    const Words words = quick(
+        {"compare", "-o", "out", "--techniques", "naive:bounces=1", "reuse", "raytrace:depth=16"});
+    const test::Ended ended = cli(words);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    for (const char* part : {"naive:bounces=1", "reuse", "raytrace:depth=16", "rmse", "flip"})
+        EXPECT_THAT(ended.out, testing::HasSubstr(part));
+    const json document = json::parse(read("out/report.json"));
+    EXPECT_EQ(document["complete"], true);
+    ASSERT_EQ(document["rows"].size(), 3U);
+    EXPECT_EQ(document["rows"][2]["error"]["rmse"], 0.0);
+    for (const char* name : {"out/report.html", "out/report.md", "out/rows.csv",
+                             "out/images/reuse.png", "out/images/reference.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+}
+
+TEST_F(Cli, CompareJsonIsTheReport) {
+    const test::Ended ended = cli(quick({"compare", "-o", "out", "--json", "--together",
+                                         "--techniques", "reuse", "raytrace:depth=1"}));
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(json::parse(ended.out), json::parse(read("out/report.json")));
+}
+
+TEST_F(Cli, WatchedByTheValidationLayer) {
+    const test::Ended ended =
+        cli(quick({"compare", "-o", "out", "--validate", "--techniques", "parallax", "raytrace"}));
+    if (ended.err.find("vulkan-validationlayers") != std::string::npos) GTEST_SKIP() << ended.err;
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+}
+
+} // namespace

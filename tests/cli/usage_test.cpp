@@ -1,0 +1,180 @@
+// What cannot be asked for: exit code 2, and a message with option, wanted and found.
+#include "cli/program.hpp"
+
+namespace {
+
+TEST_F(Cli, WithoutArgumentsShowsHelp) {
+    const test::Ended ended = cli({});
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_THAT(ended.err, testing::HasSubstr("compare"));
+}
+
+TEST_F(Cli, HelpOfEveryVerbHasExamples) {
+    EXPECT_EQ(cli({"--help"}).exit_code, 0);
+    for (const std::string verb : {"compare", "render", "diff", "graph", "list", "info"}) {
+        const test::Ended ended = cli({verb, "--help"});
+        EXPECT_EQ(ended.exit_code, 0) << verb;
+        EXPECT_EQ(ended.err, "");
+        EXPECT_THAT(ended.out, testing::HasSubstr("Example")) << verb;
+        EXPECT_THAT(ended.out, testing::HasSubstr("catoptric " + verb)) << verb;
+        EXPECT_THAT(ended.out, testing::HasSubstr("--json")) << verb;
+    }
+}
+
+TEST_F(Cli, HelpNamesEveryCommonOption) {
+    const std::string help = cli({"render", "--help"}).out;
+    for (const char* option :
+         {"--size", "--frames", "--warmup", "--time", "--animate", "--camera", "--seed",
+          "--ambient", "--exposure", "--model", "--reference", "--device", "--timing", "--validate",
+          "--json", "--quiet", "-v", "--progress", "--help"})
+        EXPECT_THAT(help, testing::HasSubstr(option));
+}
+
+TEST_F(Cli, Version) {
+    const test::Ended ended = cli({"--version"});
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.out, testing::MatchesRegex("catoptric 0\\.1\\.0 \\([0-9a-z]+\\)\n"));
+}
+
+TEST_F(Cli, UnknownVerbSuggests) {
+    expect_refused({"rendr"}, 2, {"'rendr'", "did you mean 'render'"});
+    expect_refused({"--versoin"}, 2, {"'--versoin'", "did you mean '--version'"});
+}
+
+TEST_F(Cli, UnknownOptionSuggests) {
+    expect_refused({"render", "--sizee", "32x32"}, 2,
+                   {"'render'", "'--sizee'", "did you mean '--size'"});
+    expect_refused({"compare", "-o", "x", "--tecniques", "reuse"}, 2,
+                   {"'--tecniques'", "did you mean '--techniques'"});
+    expect_refused({"info", "--jsn=1"}, 2, {"'--jsn'", "did you mean '--json'"});
+    expect_refused({"list", "scenes", "devices"}, 2, {"'devices'"});
+}
+
+TEST_F(Cli, OptionWithoutItsValue) {
+    expect_refused({"render", "--size"}, 2, {"--size", "render --help"});
+}
+
+TEST_F(Cli, UnknownTechniqueSuggests) {
+    expect_refused({"render", "--technique", "paralax", "-o", "x.png"}, 2,
+                   {"'paralax'", "did you mean 'parallax'"});
+    expect_refused({"compare", "-o", "x", "--techniques", "reuse", "naiv:bounces=1"}, 2,
+                   {"'naiv'", "did you mean 'naive'"});
+    expect_refused({"graph", "--technique", "ruse"}, 2, {"'ruse'", "did you mean 'reuse'"});
+    expect_refused({"compare", "-o", "x", "--reference", "raytracer"}, 2,
+                   {"'raytracer'", "did you mean 'raytrace'"});
+}
+
+TEST_F(Cli, SceneAfterTheTechniques) {
+    expect_refused({"compare", "-o", "x", "--techniques", "reuse", "room.glb"}, 2,
+                   {"'room.glb'", "SCENE comes before"});
+}
+
+TEST_F(Cli, UnknownKnobSuggests) {
+    expect_refused({"render", "--technique", "naive:bounce=3", "-o", "x.png"}, 2,
+                   {"naive", "'bounce'", "did you mean 'bounces'"});
+}
+
+TEST_F(Cli, KnobOutOfRangeNamesTheRange) {
+    expect_refused({"render", "--technique", "naive:bounces=9", "-o", "x.png"}, 2,
+                   {"'bounces'", "0 to 8", "9"});
+    expect_refused({"render", "--technique", "reuse:face=0", "-o", "x.png"}, 2,
+                   {"'face'", "1 to 16384", "0"});
+    expect_refused({"render", "--technique", "reuse:face=many", "-o", "x.png"}, 2,
+                   {"'face'", "whole number", "'many'"});
+}
+
+TEST_F(Cli, UnknownSceneSuggests) {
+    expect_refused({"render", "cornel-mirrors", "--technique", "reuse", "-o", "x.png"}, 2,
+                   {"'cornel-mirrors'", "did you mean 'cornell-mirrors'"});
+}
+
+TEST_F(Cli, UnknownCameraNamesTheScenesOwn) {
+    expect_refused({"render", "--camera", "nowhere", "--technique", "reuse", "-o", "x.png"}, 2,
+                   {"'nowhere'", "it has: 0 '"});
+    expect_refused({"render", "--camera", "7", "--technique", "reuse", "-o", "x.png"}, 2,
+                   {"'7'", "it has: 0 '"});
+}
+
+TEST_F(Cli, CameraThatCannotBe) {
+    const auto camera = [](const std::string& text) {
+        return Words{"render", "--camera", text, "--technique", "reuse", "-o", "x.png"};
+    };
+    expect_refused(camera("0,0,0:0,0,0:40"), 2, {"--camera", "target away from the eye"});
+    expect_refused(camera("0,0:0,0,1:40"), 2, {"--camera", "X,Y,Z", "'0,0'"});
+    expect_refused(camera("0,0,0:0,0,1:180"), 2, {"--camera", "179", "'180'"});
+    expect_refused(camera("0,0,nan:0,0,1:40"), 2, {"--camera", "finite", "'nan'"});
+    expect_refused(camera("0,0,0:0,0,1"), 2, {"--camera", "EX,EY,EZ:TX,TY,TZ:FOV"});
+}
+
+TEST_F(Cli, UnknownDeviceIsNamed) {
+    expect_refused({"info", "--device", "no such device"}, 2, {"no such device"});
+}
+
+TEST_F(Cli, UnknownKindOfListSuggests) {
+    expect_refused({"list", "scene"}, 2, {"'scene'", "did you mean 'scenes'"});
+}
+
+TEST_F(Cli, NumbersThatCannotBe) {
+    const auto refused = [&](const std::string& option, const std::string& found,
+                             const std::string& wanted) {
+        expect_refused({"render", "--technique", "reuse", "-o", "x.png", option, found}, 2,
+                       {option, wanted, "'" + found + "'"});
+    };
+    for (const std::string size :
+         {"0x0", "32", "32x", "-5x5", "32x0", "32x32x32", "nanxnan", "99999999999x1", " 32x32", ""})
+        refused("--size", size, "wanted WxH");
+    for (const std::string count : {"0", "-1", "1.5", "nan", "abc", "", "99999999999999999999"})
+        refused("--frames", count, "from 1 to");
+    for (const std::string count : {"-1", "x"})
+        refused("--warmup", count, "from 0 to");
+    for (const std::string time : {"nan", "inf", "-inf", "1e999", "soon", "1s"})
+        refused("--time", time, "finite");
+    for (const std::string light : {"nan", "-0.1", "inf"})
+        refused("--ambient", light, "at least 0");
+    for (const std::string stops : {"nan", "65", "-65"})
+        refused("--exposure", stops, "-64 to 64");
+    for (const std::string seed : {"-1", "1.5", "18446744073709551616"})
+        refused("--seed", seed, "whole number");
+}
+
+TEST_F(Cli, ChoicesThatAreNone) {
+    expect_refused({"render", "--timing", "isolate"}, 2,
+                   {"--timing", "isolated, pipelined", "did you mean 'isolated'"});
+    expect_refused({"render", "--progress", "sometimes"}, 2, {"--progress", "auto, always, never"});
+    expect_refused({"graph", "--technique", "reuse", "--format", "dott"}, 2,
+                   {"--format", "did you mean 'dot'"});
+    expect_refused({"graph", "--technique", "reuse", "--format", "dot", "--json"}, 2,
+                   {"--format", "--json"});
+}
+
+TEST_F(Cli, WhatIsNotThereYetSaysSo) {
+    expect_refused({"render", "--model", "required"}, 2, {"--model required", "not there yet"});
+    expect_refused({"render", "--profile", "p.json"}, 2, {"--profile", "not there yet"});
+    expect_refused({"render", "--model", "evrything"}, 2, {"--model", "did you mean 'everything'"});
+}
+
+TEST_F(Cli, WhatIsNeeded) {
+    expect_refused({"compare"}, 2, {"'compare'", "-o DIR"});
+    expect_refused({"render", "-o", "x.png"}, 2, {"'render'", "--technique T"});
+    expect_refused({"render", "--technique", "reuse"}, 2, {"'render'", "-o OUT"});
+    expect_refused({"graph"}, 2, {"'graph'", "--technique T"});
+    expect_refused({"diff", "a.png"}, 2, {"B is required", "diff --help"});
+    expect_refused({"list"}, 2, {"WHAT is required", "list --help"});
+}
+
+TEST_F(Cli, PictureNameWithoutAKnownEnding) {
+    expect_refused({"render", "--technique", "reuse", "-o", "x.jpg"}, 2,
+                   {"'x.jpg'", ".exr or .png"});
+}
+
+TEST_F(Cli, TwoResultsForStdout) {
+    expect_refused({"render", "--technique", "reuse", "-o", "-", "--json"}, 2, {"-o -", "--json"});
+}
+
+TEST_F(Cli, SameTechniqueTwice) {
+    expect_refused(quick({"compare", "-o", "x", "--techniques", "reuse", "reuse", "--together"}), 2,
+                   {"'reuse'", "twice"});
+}
+
+} // namespace

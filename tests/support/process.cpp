@@ -1,0 +1,72 @@
+#include "support/process.hpp"
+
+#include <csignal>
+#include <functional>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace test {
+
+namespace {
+
+/// Reads to the end; calls `seen` once, as soon as `marker` has come.
+std::string read_all(int fd, const std::string& marker = {}, std::function<void()> seen = {}) {
+    std::string text;
+    char block[1 << 16];
+    for (ssize_t count; (count = ::read(fd, block, sizeof block)) > 0;) {
+        text.append(block, static_cast<std::size_t>(count));
+        if (seen && text.find(marker) != std::string::npos) std::exchange(seen, {})();
+    }
+    ::close(fd);
+    return text;
+}
+
+/// In the child, between fork and exec.
+[[noreturn]] void become(const Start& start, int out, int err) {
+    for (const int signal : {SIGINT, SIGTERM, SIGPIPE})
+        ::signal(signal, SIG_DFL);
+    if (!start.out_path.empty())
+        out = ::open(start.out_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    ::dup2(::open("/dev/null", O_RDONLY), 0);
+    ::dup2(out, 1);
+    ::dup2(err, 2);
+    if (!start.folder.empty() && ::chdir(start.folder.c_str()) != 0) ::_exit(126);
+    for (const auto& [name, value] : start.environment)
+        ::setenv(name.c_str(), value.c_str(), 1);
+    std::vector<char*> arguments;
+    for (const std::string& word : start.command)
+        arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    ::execv(arguments[0], arguments.data());
+    ::_exit(127);
+}
+
+} // namespace
+
+Ended run_process(const Start& start) {
+    int out[2], err[2];
+    if (::pipe2(out, O_CLOEXEC) != 0 || ::pipe2(err, O_CLOEXEC) != 0) return {};
+    if (start.no_reader) ::close(out[0]);
+    const pid_t child = ::fork();
+    if (child == 0) become(start, out[1], err[1]);
+    ::close(out[1]);
+    ::close(err[1]);
+    Ended ended;
+    std::thread reader([&] {
+        if (!start.no_reader) ended.out = read_all(out[0]);
+    });
+    std::function<void()> send;
+    if (start.signal != 0) send = [&] { ::kill(child, start.signal); };
+    ended.err = read_all(err[0], start.signal_at, send);
+    reader.join();
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ended.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return ended;
+}
+
+} // namespace test
