@@ -7,6 +7,7 @@
 #include "measure/pareto.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace catoptric::app {
@@ -20,8 +21,8 @@ struct Truth {
 };
 
 std::string sample_count(const TechniqueChoice& choice) {
-    for (const auto& [name, value] : choice.settings)
-        if (choice.technique == "raytrace" && name == "samples") return value;
+    for (const auto& setting : choice.settings)
+        if (choice.technique == "raytrace" && setting.name == "samples") return setting.text;
     return "1";
 }
 
@@ -35,10 +36,8 @@ bool same(const TechniqueChoice& a, const TechniqueChoice& b) { return a.techniq
 
 std::vector<report::Setting> settings_of(const TechniqueChoice& choice) {
     std::vector<report::Setting> settings;
-    for (std::size_t i = 0; i < choice.settings.size(); ++i) {
-        const auto& [name, text] = choice.settings[i];
-        settings.push_back({name, text, choice.is_number[i] ? std::optional(std::stod(text)) : std::nullopt});
-    }
+    for (const auto& [name, text, is_number, is_default] : choice.settings)
+        settings.push_back({name, text, is_number ? std::optional(std::stod(text)) : std::nullopt, !is_default});
     return settings;
 }
 
@@ -109,9 +108,9 @@ public:
     report::Comparison run() {
         start();
         try {
-            // Masks: what the reference's one ray through each pixel centre meets.
+            // Masks: what one ray through each pixel centre meets.
             hits_ = truth("1").part.hits;
-            check(!hits_.empty(), Failure::usage, "the reference '", request_.reference, "' does not tell which pixels are mirrors; use raytrace");
+            if (hits_.empty()) hits_ = traced_hits();
             fill_reference();
             const std::vector<double> clear = engine_.clear_ms(request_.base);
             if (!clear.empty()) comparison_.clear_ms = measure::summarise(clear);
@@ -158,6 +157,13 @@ private:
         return truths_.emplace(samples, std::move(made)).first->second;
     }
 
+    /// For a reference that traces no rays of its own.
+    std::vector<std::uint32_t> traced_hits() {
+        Request request = request_.base;
+        request.techniques = {"raytrace:depth=1"};
+        return std::move(engine_.run(request).parts.front().hits);
+    }
+
     void fill_reference() {
         const TechniqueChoice choice = parse_technique(request_.reference);
         comparison_.reference_technique = choice.technique;
@@ -194,7 +200,9 @@ private:
 
     void finish() {
         std::vector<measure::Candidate> candidates;
-        for (const report::Row& row : comparison_.rows) candidates.push_back({row.gpu_ms.median, row.error.flip});
+        constexpr double kNever = std::numeric_limits<double>::quiet_NaN(); // a failed row is on no front
+        for (const report::Row& row : comparison_.rows)
+            candidates.push_back({row.gpu_ms.median, row.error_all.nonfinite ? kNever : row.error.flip});
         comparison_.pareto = measure::pareto_front(candidates);
     }
 

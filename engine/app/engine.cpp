@@ -41,7 +41,7 @@ FrameGraph declare(const Request& request, const std::vector<reflect::Choice>& c
     FrameGraph frame{graph::Graph(std::move(history)), {}};
     for (const reflect::Choice& choice : choices) {
         const std::string prefix = choices.size() > 1 ? choice.file_name() + "/" : "";
-        const render::FrameInputs inputs{scene, request.size, prefix};
+        const render::FrameInputs inputs{scene, request.size, prefix, request.seed};
         reflect::Outputs outputs = choice.technique->add(frame.graph, inputs, choice.settings);
         const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr, request.exposure);
         frame.graph.want(outputs.hdr);
@@ -195,6 +195,7 @@ std::vector<double> Engine::clear_ms(const Request& request) {
     graph::Runner runner(impl_->device, impl_->pipelines);
     std::vector<double> samples;
     for (int k = 1; k <= request.warmup + request.frames; ++k) {
+        check_stopped();
         graph::Graph graph;
         const graph::Image cubes = graph.image({"cubes.colour", Format::rgba16f, kDefaultFace, kDefaultFace, 6 * mirrors, true});
         const graph::Image depth = graph.image({"depth", Format::d32f, kDefaultFace, kDefaultFace, 6 * mirrors, true});

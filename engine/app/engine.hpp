@@ -41,6 +41,7 @@ struct Request {
     bool animate = false; ///< frame k at time + (k-1)/60 s; otherwise all at `time`
     double ambient = 0.05;
     double exposure = 0; ///< stops
+    std::uint64_t seed = 1; ///< of sample patterns that are not a regular grid
     Timing timing = Timing::isolated;
     /// Called after each frame with its number and the total; may be empty.
     std::function<void(int, int)> progress;
@@ -101,9 +102,14 @@ std::vector<TechniqueInfo> techniques();
 
 /// Checks "name[:knob=value,...]"; throws `Failure::usage` with the nearest name.
 struct TechniqueChoice {
+    struct Setting {
+        std::string name, text; ///< numbers in decimal
+        bool is_number = true;
+        bool is_default = true;
+        bool operator==(const Setting&) const = default;
+    };
     std::string technique, label, file_name;
-    std::vector<std::pair<std::string, std::string>> settings; ///< all knobs; numbers in decimal
-    std::vector<bool> is_number;                               ///< of each setting
+    std::vector<Setting> settings; ///< all knobs
 };
 TechniqueChoice parse_technique(const std::string& text);
 

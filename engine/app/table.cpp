@@ -19,11 +19,10 @@ std::vector<TechniqueInfo> techniques() {
 
 TechniqueChoice parse_technique(const std::string& text) {
     const reflect::Choice choice = reflect::parse_choice(text);
-    TechniqueChoice result{std::string(choice.technique->name), choice.label, choice.file_name(), {}, {}};
-    for (const catoptric::Knob& knob : choice.technique->knobs) {
-        result.settings.emplace_back(knob.name, choice.settings.text(knob.name));
-        result.is_number.push_back(knob.choices.empty());
-    }
+    TechniqueChoice result{std::string(choice.technique->name), choice.label, choice.file_name(), {}};
+    for (const catoptric::Knob& knob : choice.technique->knobs)
+        result.settings.push_back({std::string(knob.name), choice.settings.text(knob.name), knob.choices.empty(),
+                                   choice.settings.number(knob.name) == knob.value});
     return result;
 }
 

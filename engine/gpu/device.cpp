@@ -36,11 +36,11 @@ VkDebugUtilsMessengerEXT make_messenger(VkInstance instance, std::vector<std::st
 std::size_t find_wanted(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-    if (error == std::errc{} && end == wanted.data() + wanted.size() && index < devices.size())
-        return index;
+    const bool is_number = error == std::errc{} && end == wanted.data() + wanted.size();
+    if (is_number && index < devices.size()) return index;
     std::vector<std::string> names;
     for (const DeviceInfo& info : devices) {
-        if (info.name.find(wanted) != std::string::npos) return names.size();
+        if (!is_number && info.name.find(wanted) != std::string::npos) return names.size();
         names.push_back(info.name);
     }
     fail(Failure::usage, "no device '", wanted, "': there are ", devices.size(),

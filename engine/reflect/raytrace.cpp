@@ -20,14 +20,14 @@ constexpr Knob kKnobs[] = {
     kShadowMapEdge};
 
 /// Where sample i of n lies in the pixel: its centre, the regular grid, or one point in each of n
-/// cells of the smallest grid that holds them, jittered with the seed 1.
-std::vector<vec2> sample_offsets(int count) {
+/// cells of the smallest grid that holds them, jittered.
+std::vector<vec2> sample_offsets(int count, std::uint64_t seed) {
     const int edge = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
     const bool regular = edge * edge == count;
-    std::mt19937 random(1);
+    std::mt19937_64 random(seed);
     std::vector<vec2> offsets;
     for (int i = 0; i < count; ++i) {
-        const auto jitter = [&] { return regular ? 0.5f : static_cast<float>(random() >> 8) * 0x1p-24f; };
+        const auto jitter = [&] { return regular ? 0.5f : static_cast<float>(random() >> 40) * 0x1p-24f; };
         const float y = static_cast<float>(i / edge) + jitter(), x = static_cast<float>(i % edge) + jitter();
         offsets.push_back(vec2(x, y) / static_cast<float>(edge));
     }
@@ -54,14 +54,14 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     pass.writes(hdr, Use::storage_write)
         .writes(hits, Use::storage_write)
         .writes(counters, Use::storage)
-        .record([=, &scene = inputs.scene, samples = settings.integer("samples")](graph::Commands& commands) {
+        .record([=, &scene = inputs.scene, seed = inputs.seed, samples = settings.integer("samples")](graph::Commands& commands) {
             scene.bind(commands);
             if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, graph::Filter::compare);
             commands.bind("picture", hdr);
             commands.bind("hits", hits);
             commands.bind("counters", counters);
             commands.use(state);
-            const std::vector<vec2> offsets = sample_offsets(samples);
+            const std::vector<vec2> offsets = sample_offsets(samples, seed);
             for (std::uint32_t i = 0; i < offsets.size(); ++i) {
                 if (i > 0) commands.barrier();
                 commands.push(shared::Trace{offsets[i], i, static_cast<std::uint32_t>(samples), size});

@@ -29,7 +29,9 @@ const Technique& find_technique(std::string_view name) {
         if (row->name == name) return *row;
         names.emplace_back(row->name);
     }
-    fail(Failure::usage, "no technique '", name, "'", did_you_mean(name, names));
+    std::string all;
+    for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
+    fail(Failure::usage, "no technique '", name, "'", did_you_mean(name, names), "; there are ", all);
 }
 
 std::string Choice::file_name() const {

@@ -14,6 +14,7 @@ struct FrameInputs {
     const GpuScene& scene;
     uvec2 size{512, 512};
     std::string prefix;
+    std::uint64_t seed = 1; ///< of stratified samples
 };
 
 /// Depth around every light, one pass a light: layers [shadow_faces * l, ...) of a 2D array.

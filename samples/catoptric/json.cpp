@@ -53,10 +53,8 @@ Json passes_json(const std::vector<app::Frame>& frames) {
 
 Json settings_json(const app::TechniqueChoice& choice) {
     Json settings = Json::object();
-    for (std::size_t i = 0; i < choice.settings.size(); ++i) {
-        const auto& [name, text] = choice.settings[i];
-        settings[name] = choice.is_number[i] ? Json(std::stoll(text)) : Json(text);
-    }
+    for (const auto& setting : choice.settings)
+        settings[setting.name] = setting.is_number ? Json(std::stoll(setting.text)) : Json(setting.text);
     return settings;
 }
 

@@ -29,7 +29,7 @@ void add_numbers(CLI::App& verb, Common& common) {
              [&](const std::string& text) { common.time = parse_real("--time", text); });
     verb.add_flag("--animate", common.animate,
                   "frame k at --time + (k-1)/60 s; otherwise all frames at --time");
-    add_text(verb, "--seed", "N", "of random sample patterns (1; no other is there yet)",
+    add_text(verb, "--seed", "N", "of sample patterns that are no regular grid (1)",
              [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
     add_text(verb, "--ambient", "A", "ambient light, at least 0 (0.05)",
              [&](const std::string& text) { common.ambient = parse_real("--ambient", text, 0); });
@@ -166,9 +166,8 @@ void require_given(bool given, const std::string& verb, const std::string& optio
 }
 
 app::Request make_request(const Common& common) {
-    if (common.seed != 1)
-        warn("--seed " + std::to_string(common.seed) + ": patterns still have seed 1");
     app::Request request;
+    request.seed = common.seed;
     request.scene = scene::load(common.scene);
     for (const std::string& warning : request.scene.warnings)
         warn(warning);
