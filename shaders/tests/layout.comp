@@ -1,0 +1,46 @@
+// tests/gpu/layout_test.cpp: writes every member of the second element of an array of each shared
+// structure, word by word in order of declaration.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+
+layout(local_size_x = 1) in;
+layout(set = 0, binding = 0, scalar) readonly buffer Vertices { Vertex vertices[2]; };
+layout(set = 0, binding = 1, scalar) readonly buffer Surfaces { Surface surfaces[2]; };
+layout(set = 0, binding = 2, scalar) readonly buffer Lights { Light lights[2]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Probes { Probe probes[2]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Views { View views[2]; };
+layout(set = 0, binding = 5, scalar) readonly buffer Frames { Frame frames[2]; };
+layout(set = 0, binding = 6, scalar) readonly buffer Draws { Draw draws[2]; };
+layout(set = 0, binding = 7, scalar) readonly buffer Traces { Trace traces[2]; };
+layout(set = 0, binding = 8, scalar) readonly buffer AllCounters { Counters counters[2]; };
+layout(set = 0, binding = 9, scalar) writeonly buffer Words { uint words[]; };
+
+uint next = 0u;
+void put(uint word) { words[next++] = word; }
+void put(float number) { put(floatBitsToUint(number)); }
+void put(vec2 v) { put(v.x), put(v.y); }
+void put(uvec2 v) { put(v.x), put(v.y); }
+void put(vec3 v) { put(v.x), put(v.y), put(v.z); }
+void put(Surface s) {
+    put(s.albedo), put(s.emission), put(s.reflectance), put(s.mirror), put(s.centre), put(s.radius);
+}
+
+void main() {
+    put(vertices[1].position), put(vertices[1].normal);
+    put(surfaces[1]);
+    Light l = lights[1];
+    put(l.position), put(l.normal), put(l.intensity), put(l.right), put(l.down), put(l.forward), put(l.near);
+    put(probes[1].centre), put(probes[1].radius);
+    View v = views[1];
+    put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near);
+    Frame f = frames[1];
+    put(f.ambient), put(f.light_count), put(f.mirror_count), put(f.object_count), put(f.shadow_faces);
+    put(draws[1].first_view);
+    Surface d = draws[1].surface;
+    put(d.albedo), put(d.emission), put(d.reflectance), put(d.mirror), put(d.centre), put(d.radius), put(draws[1].probe_centre);
+    Trace t = traces[1];
+    put(t.sample_offset), put(t.sample_index), put(t.sample_count), put(t.size);
+    Counters c = counters[1];
+    put(c.primary_rays), put(c.mirror_rays), put(c.shadow_rays), put(c.longest_walk), put(c.exhausted);
+}

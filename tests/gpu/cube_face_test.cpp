@@ -1,0 +1,171 @@
+// Each face of a capture sees its wall, the right way round, at the right distance; a world direction
+// finds in the cube map what lies in that direction.
+#include "core/shader_math.hpp"
+#include "support/captures.hpp"
+#include "support/glyph_room.hpp"
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+using namespace catoptric;
+using test::GlyphRoom;
+
+constexpr std::uint32_t kFace = 64;
+// Rasterisers snap corners to 1/256 of a texel, 2^-13 of a face's half width, which a wall seen at a flat
+// angle stretches; in shares of a wall.
+constexpr double kSnap = 0.001;
+// Half the diagonal of a texel that is looked up linearly, stretched likewise.
+constexpr double kTexel = 0.03;
+
+/// Calls check(direction, face, x, y) for the centre of each texel.
+template <typename Check>
+void for_texels(const Check& check) {
+    for (int face = 0; face < 6; ++face)
+        for (std::uint32_t y = 0; y < kFace; ++y)
+            for (std::uint32_t x = 0; x < kFace; ++x) {
+                const double s = (2 * x + 1.0) / kFace - 1, t = (2 * y + 1.0) / kFace - 1;
+                check(f64::cube_direction(face, dvec3(s, t, 1)), face, x, y);
+            }
+}
+
+TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
+    const GlyphRoom room;
+    const test::Captured captured = test::capture(room.scene(), kFace, Format::r32f);
+    std::size_t wrong = 0, judged = 0, inked = 0;
+    for_texels([&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+        const GlyphRoom::Seen seen = room.look(direction);
+        if (seen.margin < kSnap) return; // the texel's centre lies on an edge
+        ++judged, inked += seen.glyph;
+        wrong += captured.colour(0, face, x, y) != room.colour(seen);
+    });
+    EXPECT_GT(judged, 6 * kFace * kFace * 95 / 100);
+    EXPECT_GT(inked, 1000u);
+    EXPECT_EQ(wrong, 0u);
+}
+
+/// The middle of each stroke, projected by the table of the specification, falls on a texel of its colour.
+TEST(CubeFace, GlyphsLieWhereTheyProject) {
+    const GlyphRoom room;
+    const test::Captured captured = test::capture(room.scene(), kFace, Format::r32f);
+    for (int wall = 0; wall < 6; ++wall)
+        for (const GlyphRoom::Stroke& stroke : GlyphRoom::kStrokes) {
+            const dvec3 middle = room.place(wall, (stroke.u0 + stroke.u1) / 2, (stroke.v0 + stroke.v1) / 2) - room.centre;
+            const int face = f32::cube_face(vec3(middle));
+            const vec3 place = f32::cube_coordinates(face, vec3(middle));
+            const auto texel = [](float coordinate) { return static_cast<std::uint32_t>((coordinate * .5f + .5f) * static_cast<float>(kFace)); };
+            EXPECT_EQ(captured.colour(0, face, texel(place.x / place.z), texel(place.y / place.z)), GlyphRoom::glyph_colour(wall))
+                << "wall " << wall << ", face " << face;
+        }
+}
+
+/// The device's own cube lookup knows nothing of our views.
+TEST(CubeFace, ALookupAlongAWorldDirectionFindsIt) {
+    const GlyphRoom room;
+    auto& [device, pipelines] = test::bench();
+    const scene::Scene scene = room.scene();
+    render::GpuScene gpu_scene(device, scene);
+    gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    std::vector<vec4> directions;
+    for (int i = 0; i < 4096; ++i) directions.emplace_back(vec3(normal(random), normal(random), normal(random)), 0.0f);
+    gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4), gpu::BufferUse::plain);
+    asked.write(std::span<const vec4>(directions));
+
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
+    render::CaptureOptions options;
+    options.face = 256, options.distance = Format::r32f;
+    const render::Cubes cubes = render::declare_cubes(graph, inputs, options);
+    render::add_captures(graph, inputs, options, cubes);
+    const graph::Buffer found = graph.buffer({"found", directions.size() * sizeof(vec4)});
+    graph.pass("look")
+        .reads(cubes.colour, graph::Use::sampled)
+        .reads(*cubes.distance, graph::Use::sampled)
+        .writes(found, graph::Use::storage_write)
+        .record([&, cubes, found](graph::Commands& commands) {
+            commands.use(gpu::ComputeState{"tests/cube_sample.comp", {}});
+            commands.bind("colour_cubes", cubes.colour, graph::Filter::linear);
+            commands.bind("distance_cubes", *cubes.distance, graph::Filter::nearest);
+            commands.bind("Directions", asked);
+            commands.bind("Found", found);
+            commands.dispatch(static_cast<std::uint32_t>((directions.size() + 63) / 64), 1);
+        });
+    graph.want(found);
+    test::run(runner, graph);
+    const std::vector<vec4> answers = test::read_as<vec4>(runner, found);
+    std::size_t judged = 0, wrong = 0;
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+        const GlyphRoom::Seen seen = room.look(dvec3(directions[i]));
+        if (seen.margin < kTexel) continue;
+        ++judged;
+        wrong += vec3(answers[i]) != room.colour(seen);
+        // Nearest texel: its centre is at most half a diagonal away, where distance changes little.
+        EXPECT_NEAR(answers[i].w, gpu_scene.space().length(seen.distance), 0.02 * gpu_scene.space().length(seen.distance));
+    }
+    EXPECT_GT(judged, 1000u);
+    EXPECT_EQ(wrong, 0u);
+}
+
+class Distances : public testing::TestWithParam<Format> {};
+INSTANTIATE_TEST_SUITE_P(Formats, Distances, testing::Values(Format::r32f, Format::r16f, Format::r8_unorm),
+                         [](const auto& info) { return std::string(name_of(info.param)); });
+
+TEST_P(Distances, AreThoseOfTheWalls) {
+    const GlyphRoom room;
+    constexpr double kRange = 5; // some walls are farther
+    const bool unorm = GetParam() == Format::r8_unorm;
+    const test::Captured captured = test::capture(room.scene(), kFace, GetParam(), kRange);
+    const double unit = unorm ? captured.space.length(kRange) : 1.0;
+    double worst = 0;
+    for_texels([&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+        const double wanted = captured.space.length(room.look(direction).distance) / unit;
+        const double found = captured.distance(0, face, x, y, GetParam());
+        worst = std::max(worst, unorm ? std::abs(found - std::min(wanted, 1.0)) : std::abs(found - wanted) / wanted);
+    });
+    // unorm8: one step. Otherwise half a step of binary16 is 2^-11; the rest is interpolation.
+    EXPECT_LE(worst, unorm ? 1.0 / 255 : 0x1p-10);
+}
+
+TEST_P(Distances, WhereNothingIsTheyAreInfiniteOrTheEndOfTheRange) {
+    scene::Scene scene{.name = "one wall"};
+    const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
+    const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
+    test::add_mesh(scene, test::wall(0, {-2, -9, -9}, {2, 9, 9}), hot); // towards +X only
+    test::add_ball(scene, "ball", mirror, {0, 0, 0}, 1);
+    scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
+    const test::Captured captured = test::capture(scene, kFace, GetParam(), 100);
+    const float nothing = GetParam() == Format::r8_unorm ? 1.0f : std::numeric_limits<float>::infinity();
+    std::size_t wrong = 0;
+    for (std::uint32_t y = 0; y < kFace; ++y)
+        for (std::uint32_t x = 0; x < kFace; ++x) {
+            wrong += captured.distance(0, 1, x, y, GetParam()) != nothing;
+            wrong += captured.colour(0, 1, x, y) != vec3(0);
+            wrong += !(captured.distance(0, 0, x, y, GetParam()) < nothing);
+        }
+    EXPECT_EQ(wrong, 0u);
+}
+
+TEST(CubeFace, AMirrorIsNotInItsOwnCaptureButInTheOthers) {
+    const test::Captured captured = test::capture(test::furnace(2), kFace, Format::r32f);
+    std::size_t black[2] = {0, 0}, hot[2] = {0, 0};
+    for (std::uint32_t mirror = 0; mirror < 2; ++mirror)
+        for_texels([&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+            const vec3 colour = captured.colour(mirror, face, x, y);
+            black[mirror] += colour == vec3(0);
+            hot[mirror] += colour == test::kFurnace;
+        });
+    // The other ball, seen from outside: radius over distance gives its share of the directions.
+    const double gap = glm::length(dvec3(-1.2, -0.3, 1) - dvec3(1.3, 0.4, 1.5)), texels = 6.0 * kFace * kFace;
+    const double radii[2] = {1.2, 1};
+    for (int mirror = 0; mirror < 2; ++mirror) {
+        EXPECT_EQ(black[mirror] + hot[mirror], 6 * kFace * kFace);
+        const double cosine = std::sqrt(1 - std::pow(radii[mirror] / gap, 2));
+        EXPECT_NEAR(static_cast<double>(black[mirror]) / texels, (1 - cosine) / 2, 0.03);
+    }
+}
+
+} // namespace

@@ -1,0 +1,56 @@
+// Choosing a device.
+#include "gpu/device.hpp"
+#include "support/device.hpp"
+
+namespace {
+
+using namespace catoptric;
+
+TEST(Device, AnIndexThatIsNoneIsRefusedWithTheirNumber) {
+    const std::size_t count = gpu::list_devices().size();
+    test::expect_refused([] { gpu::Device device({.wanted = "99"}); }, Failure::usage,
+                         {"no device '99'", "there are " + std::to_string(count), "counted from 0"});
+}
+
+TEST(Device, AnUnknownNameIsRefusedWithTheNearest) {
+    std::string name = gpu::list_devices().front().name;
+    name.front() = '?';
+    test::expect_refused([&] { gpu::Device device({.wanted = name}); }, Failure::usage,
+                         {"no device '" + name + "'", "did you mean '" + gpu::list_devices().front().name + "'"});
+}
+
+TEST(Device, PartOfANameAndAnIndexChoose) {
+    const gpu::DeviceInfo first = gpu::list_devices().front();
+    EXPECT_EQ(gpu::Device({.wanted = "0"}).info().name, first.name);
+    EXPECT_EQ(gpu::Device({.wanted = first.name.substr(0, 4)}).info().name, first.name);
+}
+
+TEST(Device, TheListSaysWhatItIs) {
+    for (const gpu::DeviceInfo& info : gpu::list_devices()) {
+        EXPECT_FALSE(info.name.empty());
+        EXPECT_FALSE(info.driver.empty());
+        EXPECT_EQ(info.api.substr(0, 2), "1.");
+        EXPECT_EQ(info.threads > 0, info.type == "cpu");
+    }
+}
+
+TEST(Device, LayeredRenderingCanBeSwitchedOff) {
+    EXPECT_FALSE(gpu::Device({.layered = false}).layered());
+}
+
+TEST(Device, MoreMemoryThanThereIsIsRefusedWithBothNumbers) {
+    auto& [device, pipelines] = test::bench();
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    // Images of 1 GiB each: more of them than the device has memory for.
+    const std::uint64_t count = device.memory_budget() / (std::uint64_t{1} << 30) + 1;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const graph::Image image = graph.image({"huge" + std::to_string(i), Format::rgba32f, 8192, 8192});
+        graph.pass("fill" + std::to_string(i)).writes(image, graph::Use::colour, graph::Clear{}).record([](graph::Commands&) {});
+        graph.want(image);
+    }
+    test::expect_refused([&] { test::run(runner, graph); }, Failure::exhausted,
+                         {std::to_string(count << 30), std::to_string(device.memory_budget())});
+}
+
+} // namespace

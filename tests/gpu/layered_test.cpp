@@ -1,0 +1,89 @@
+// Six faces in one pass, or one pass a face; objects left out of faces that cannot see them, or all
+// drawn: the same bytes.
+#include "render/views.hpp"
+#include "support/captures.hpp"
+#include "support/rendering.hpp"
+
+#include <random>
+
+namespace {
+
+using namespace catoptric;
+
+class Layered : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Techniques, Layered, testing::Values("reuse", "parallax", "naive"), [](const auto& info) { return std::string(info.param); });
+
+TEST_P(Layered, EqualsSixSinglePasses) {
+    app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {96, 96});
+    request.frames = 3;
+    const app::Part at_once = std::move(test::engine(true).run(request).parts.front());
+    const app::Part one_by_one = std::move(test::engine(false).run(request).parts.front());
+    EXPECT_TRUE(test::same_bytes(at_once.hdr, one_by_one.hdr));
+    EXPECT_TRUE(test::same_bytes(at_once.display, one_by_one.display));
+    EXPECT_EQ(at_once.scene_passes, one_by_one.scene_passes);
+}
+
+/// Captures as render::add_captures makes them, with every object drawn into every face.
+std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32_t face) {
+    auto& [device, pipelines] = test::bench();
+    render::GpuScene gpu_scene(device, scene);
+    gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    const std::uint32_t mirrors = gpu_scene.mirror_count();
+    const graph::Image colour = graph.image({"colour", Format::rgba16f, face, face, 6 * mirrors, true});
+    for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
+        const graph::Image depth = graph.image({"depth" + std::to_string(mirror), Format::d32f, face, face, 6, true});
+        graph.pass("capture" + std::to_string(mirror))
+            .writes(colour.layers(6 * mirror, 6), graph::Use::colour, graph::Clear{0, 0, 0, 1})
+            .writes(depth, graph::Use::depth, graph::Clear{0, 0, 0, 0})
+            .layers(6)
+            .record([&gpu_scene, mirror](graph::Commands& commands) {
+                gpu_scene.bind(commands);
+                for (const bool mirrors_now : {false, true}) {
+                    commands.use(gpu::RasterState{"scene.vert", mirrors_now ? "mirror_black.frag" : "diffuse.frag#unshadowed", {}});
+                    for (std::size_t i = 0; i < gpu_scene.ranges().size(); ++i) {
+                        const render::DrawRange& range = gpu_scene.ranges()[i];
+                        if (range.mirror != mirrors_now || i == gpu_scene.mirror_object(mirror)) continue;
+                        commands.push(gpu_scene.draw_of(i, gpu_scene.capture_view(mirror)));
+                        commands.draw(range.first_index, range.index_count, 0, 6);
+                    }
+                }
+            });
+    }
+    graph.want(colour);
+    test::run(runner, graph);
+    return runner.read(colour);
+}
+
+TEST(Culling, ChangesNoBit) {
+    for (const scene::Scene& scene : {scene::cornell_mirrors(), test::room(3, 2), test::furnace(2)}) {
+        const test::Captured captured = test::capture(scene, 128, Format::r32f);
+        EXPECT_EQ(captured.colour_bytes, capture_everything(scene, 128)) << scene.name;
+    }
+}
+
+TEST(Culling, ABoxThatHoldsAVisiblePointIsNeverLeftOut) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> coordinate(-1, 1), size(0, .3f), share(0, 1);
+    std::size_t left_out = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const vec3 eye(coordinate(random), coordinate(random), coordinate(random));
+        const vec3 corner(coordinate(random), coordinate(random), coordinate(random));
+        Bounds<float> box;
+        box.add(corner);
+        box.add(corner + vec3(size(random), size(random), size(random)));
+        for (const shared::View& view : render::cube_views(eye, .01f)) {
+            if (render::may_meet(view, box)) continue;
+            ++left_out;
+            for (int i = 0; i < 20; ++i) {
+                const vec3 v = box.lo + (box.hi - box.lo) * vec3(share(random), share(random), share(random)) - eye;
+                const float w = dot(view.forward, v);
+                EXPECT_FALSE(w > 0 && std::abs(dot(view.right, v)) <= w && std::abs(dot(view.down, v)) <= w);
+            }
+        }
+    }
+    EXPECT_GT(left_out, 6000u); // most boxes are seen by one or two of six faces
+}
+
+} // namespace

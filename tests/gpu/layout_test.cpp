@@ -1,0 +1,92 @@
+// C++ and GLSL see every shared structure alike: each member lies where offsetof says, each structure is
+// as long as sizeof says (the second element of an array is what is read).
+#include "gpu/shader.hpp"
+#include "shared.h"
+#include "support/device.hpp"
+
+#include <cstddef>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::shared;
+
+/// Words that a member occupies in the second element of an array of its structure.
+struct Member {
+    std::string name;
+    std::size_t offset, bytes, size_of_struct;
+};
+#define MEMBER(type, member) Member{#type "::" #member, offsetof(type, member), sizeof(type::member), sizeof(type)}
+
+/// In the order in which shaders/tests/layout.comp writes them.
+const std::vector<Member> kMembers{
+    MEMBER(Vertex, position), MEMBER(Vertex, normal),
+    MEMBER(Surface, albedo), MEMBER(Surface, emission), MEMBER(Surface, reflectance), MEMBER(Surface, mirror),
+    MEMBER(Surface, centre), MEMBER(Surface, radius),
+    MEMBER(Light, position), MEMBER(Light, normal), MEMBER(Light, intensity), MEMBER(Light, right), MEMBER(Light, down),
+    MEMBER(Light, forward), MEMBER(Light, near),
+    MEMBER(Probe, centre), MEMBER(Probe, radius),
+    MEMBER(View, eye), MEMBER(View, right), MEMBER(View, down), MEMBER(View, forward), MEMBER(View, near),
+    MEMBER(Frame, ambient), MEMBER(Frame, light_count), MEMBER(Frame, mirror_count), MEMBER(Frame, object_count),
+    MEMBER(Frame, shadow_faces),
+    MEMBER(Draw, first_view), MEMBER(Draw, surface), MEMBER(Draw, probe_centre),
+    MEMBER(Trace, sample_offset), MEMBER(Trace, sample_index), MEMBER(Trace, sample_count), MEMBER(Trace, size),
+    MEMBER(Counters, primary_rays), MEMBER(Counters, mirror_rays), MEMBER(Counters, shadow_rays),
+    MEMBER(Counters, longest_walk), MEMBER(Counters, exhausted)};
+
+/// Word i of every buffer, an ordinary number also as a float.
+constexpr std::uint32_t word(std::size_t i) { return 0x3f800000u + static_cast<std::uint32_t>(i); }
+
+TEST(Layout, EveryMemberOfEveryStructureArrives) {
+    auto& [device, pipelines] = test::bench();
+    constexpr std::size_t kWords = 64;
+    std::vector<std::uint32_t> words;
+    for (std::size_t i = 0; i < kWords; ++i) words.push_back(word(i));
+    gpu::Buffer input(device, "input", 4 * kWords, gpu::BufferUse::plain);
+    input.write(std::span<const std::uint32_t>(words));
+    std::vector<std::uint32_t> expected;
+    std::vector<std::string> names;
+    for (const Member& member : kMembers)
+        for (std::size_t i = 0; i < member.bytes / 4; ++i) {
+            expected.push_back(word((member.size_of_struct + member.offset) / 4 + i));
+            names.push_back(member.name);
+        }
+
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    const graph::Buffer output = graph.buffer({"output", 4 * expected.size()});
+    graph.pass("layout").writes(output, graph::Use::storage_write).record([&](graph::Commands& commands) {
+        for (const char* name : {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Frames", "Draws", "Traces", "AllCounters"})
+            commands.bind(name, input);
+        commands.bind("Words", output);
+        commands.use(gpu::ComputeState{"tests/layout.comp", {}});
+        commands.dispatch(1, 1);
+    });
+    graph.want(output);
+    test::run(runner, graph);
+    const std::vector<std::uint32_t> found = test::read_as<std::uint32_t>(runner, output);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], expected[i]) << names[i];
+}
+
+TEST(Layout, TheMembersAboveAreAllMembers) {
+    std::map<std::string, std::size_t> sum, size;
+    for (const Member& member : kMembers) {
+        const std::string structure = member.name.substr(0, member.name.find(':'));
+        sum[structure] += member.bytes;
+        size[structure] = member.size_of_struct;
+    }
+    EXPECT_EQ(sum, size); // scalar layout: no padding, so nothing is left over
+    EXPECT_EQ(sum.size(), 9u);
+}
+
+TEST(Layout, PushConstantsHaveTheSizeOfTheirStructure) {
+    const auto push_bytes = [](const char* shader) {
+        return gpu::reflect(shader, gpu::find_shader(shader).words).push_bytes;
+    };
+    EXPECT_EQ(push_bytes("scene.vert"), sizeof(Draw));
+    EXPECT_EQ(push_bytes("diffuse.frag"), sizeof(Draw));
+    EXPECT_EQ(push_bytes("raytrace.comp"), sizeof(Trace));
+}
+
+} // namespace

@@ -1,0 +1,125 @@
+// Last frame's images, and images that share memory, hold what they should.
+#include "support/device.hpp"
+
+namespace {
+
+using namespace catoptric;
+using graph::Use;
+
+constexpr std::uint32_t kWidth = 40, kHeight = 24;
+
+graph::Image add_image(graph::Graph& graph, const std::string& name) {
+    return graph.image({name, Format::r32f, kWidth, kHeight});
+}
+
+void add_start(graph::Graph& graph, graph::Image after, float number) {
+    graph.pass("start/" + graph.images()[after.id].name).writes(after, Use::storage_write).record([=](graph::Commands& commands) {
+        commands.use(gpu::ComputeState{"tests/start.comp", {}});
+        commands.bind("after", after);
+        commands.push(number);
+        commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
+    });
+}
+
+void add_step(graph::Graph& graph, const std::string& name, graph::Image before, graph::Image after, float number) {
+    graph.pass(name).reads(before, Use::sampled).writes(after, Use::storage_write).record([=](graph::Commands& commands) {
+        commands.use(gpu::ComputeState{"tests/step.comp", {}});
+        commands.bind("before", before);
+        commands.bind("after", after);
+        commands.push(number);
+        commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
+    });
+}
+
+/// What tests/step.comp makes of the values.
+std::vector<float> stepped(std::vector<float> values, float number) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::fmod(3 * values[i] + static_cast<float>(i) + number, 1048576.0f);
+    return values;
+}
+
+TEST(Previous, IsBlackOnceAndThenTheLastFrame) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    std::vector<float> expected(kWidth * kHeight, 0.0f);
+    for (int frame = 1; frame <= 4; ++frame) {
+        graph::Graph graph(runner.history());
+        const graph::Image image = add_image(graph, "kept");
+        EXPECT_EQ(graph.has_history(image), frame > 1);
+        add_step(graph, "step", graph.previous(image), image, static_cast<float>(frame));
+        graph.want(image);
+        test::run(runner, graph);
+        expected = stepped(expected, static_cast<float>(frame));
+        EXPECT_EQ(test::read_as<float>(runner, image), expected) << "frame " << frame;
+    }
+}
+
+TEST(Previous, BelongsToItsRunner) {
+    for (int run = 0; run < 2; ++run) {
+        graph::Runner runner(test::bench().device, test::bench().pipelines);
+        EXPECT_TRUE(runner.history().empty());
+        graph::Graph graph(runner.history());
+        const graph::Image image = add_image(graph, "kept");
+        add_step(graph, "step", graph.previous(image), image, 5);
+        graph.want(image);
+        test::run(runner, graph);
+        EXPECT_EQ(test::read_as<float>(runner, image), stepped(std::vector<float>(kWidth * kHeight, 0.0f), 5));
+    }
+}
+
+TEST(Previous, SurvivesAFrameOfAnotherShape) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    std::vector<float> expected(kWidth * kHeight, 0.0f);
+    for (int frame = 1; frame <= 3; ++frame) {
+        graph::Graph graph(runner.history());
+        if (frame == 2) { // one image more, declared first: every number changes
+            const graph::Image other = add_image(graph, "other");
+            add_start(graph, other, 1);
+            graph.want(other);
+        }
+        const graph::Image image = add_image(graph, "kept");
+        EXPECT_EQ(graph.has_history(image), frame > 1);
+        add_step(graph, "step", graph.previous(image), image, 2);
+        graph.want(image);
+        test::run(runner, graph);
+        expected = stepped(expected, 2);
+        EXPECT_EQ(test::read_as<float>(runner, image), expected) << "frame " << frame;
+    }
+}
+
+/// A chain of `length` steps; all images wanted (`apart`) share no memory, else only the last is.
+graph::Image add_chain(graph::Graph& graph, int length, bool apart) {
+    graph::Image last = add_image(graph, "image0");
+    add_start(graph, last, 7);
+    if (apart) graph.want(last);
+    for (int i = 1; i <= length; ++i) {
+        const graph::Image next = add_image(graph, "image" + std::to_string(i));
+        add_step(graph, "step" + std::to_string(i), last, next, static_cast<float>(i));
+        if (apart) graph.want(next);
+        last = next;
+    }
+    graph.want(last);
+    return last;
+}
+
+TEST(Aliasing, ImagesThatShareMemoryHoldTheSameAsImagesApart) {
+    std::vector<float> found[2];
+    std::uint64_t bytes[2];
+    for (const bool apart : {false, true}) {
+        graph::Runner runner(test::bench().device, test::bench().pipelines);
+        for (int frame = 0; frame < 3; ++frame) { // memory that was used before, too
+            graph::Graph graph;
+            const graph::Image last = add_chain(graph, 9, apart);
+            const graph::Plan plan = runner.plan(graph);
+            bytes[apart] = plan.bytes;
+            runner.run(graph, plan, frame == 1 ? graph::Timing::pipelined : graph::Timing::isolated);
+            found[apart] = test::read_as<float>(runner, last);
+        }
+    }
+    std::vector<float> expected;
+    for (std::size_t i = 0; i < kWidth * kHeight; ++i) expected.push_back(7.0f * static_cast<float>(1 + i));
+    for (int i = 1; i <= 9; ++i) expected = stepped(expected, static_cast<float>(i));
+    EXPECT_EQ(found[false], expected);
+    EXPECT_EQ(found[true], expected);
+    EXPECT_LT(2 * bytes[false], bytes[true]); // 3 images instead of 10
+}
+
+} // namespace

@@ -1,0 +1,78 @@
+// Buffers on a device whose memory cannot be mapped hold what was written, as others do.
+#include "gpu/buffer.hpp"
+#include "render/passes.hpp"
+#include "support/device.hpp"
+#include "support/scenes.hpp"
+
+#include <numeric>
+
+namespace {
+
+using namespace catoptric;
+
+class Staging : public testing::TestWithParam<bool> {
+protected:
+    gpu::Device& device() { return test::bench(GetParam()).device; }
+};
+INSTANTIATE_TEST_SUITE_P(Buffers, Staging, testing::Values(false, true), [](const auto& info) { return info.param ? "staged" : "mapped"; });
+
+TEST_P(Staging, WhatIsWrittenIsRead) {
+    ASSERT_EQ(device().staged(), GetParam());
+    std::vector<std::uint32_t> words(1000);
+    std::iota(words.begin(), words.end(), 17u);
+    gpu::Buffer buffer(device(), "words", 4 * words.size(), gpu::BufferUse::plain);
+    buffer.write(std::span<const std::uint32_t>(words));
+    const std::vector<std::uint32_t> part{1, 2, 3};
+    buffer.write(4 * 100, std::as_bytes(std::span(part)));
+    std::ranges::copy(part, words.begin() + 100);
+    const std::vector<std::byte> read = buffer.read();
+    ASSERT_EQ(read.size(), 4 * words.size());
+    EXPECT_EQ(std::memcmp(read.data(), words.data(), read.size()), 0);
+}
+
+TEST_P(Staging, AWriteBeyondTheEndIsRefused) {
+    gpu::Buffer buffer(device(), "short", 32, gpu::BufferUse::plain);
+    const std::vector<std::uint32_t> words(5);
+    test::expect_refused([&] { buffer.write(16, std::as_bytes(std::span(words))); }, Failure::internal,
+                         {"buffer 'short' has 32 bytes", "[16, 36)"});
+    buffer.write(12, std::as_bytes(std::span(words)));
+}
+
+TEST_P(Staging, AnEmptyBufferCanBeMadeAndWritten) {
+    gpu::Buffer buffer;
+    gpu::upload(device(), buffer, "empty", std::vector<float>{}, gpu::BufferUse::plain);
+    EXPECT_TRUE(buffer.handle());
+    EXPECT_GE(buffer.bytes(), 16u);
+}
+
+TEST_P(Staging, UploadGrowsTheBuffer) {
+    gpu::Buffer buffer;
+    gpu::upload(device(), buffer, "list", std::vector<std::uint32_t>(10, 5u), gpu::BufferUse::plain);
+    std::vector<std::uint32_t> longer(100, 9u);
+    gpu::upload(device(), buffer, "list", longer, gpu::BufferUse::plain);
+    ASSERT_EQ(buffer.bytes(), 400u);
+    EXPECT_EQ(std::memcmp(buffer.read().data(), longer.data(), 400), 0);
+}
+
+/// Vertices, texel buffers and read-back: a whole picture by way of staging buffers.
+TEST(StagedScene, PictureEqualsTheMappedOne) {
+    const auto picture = [](bool staged) {
+        auto& [device, pipelines] = test::bench(staged);
+        const scene::Scene room = test::room(0, 1);
+        render::GpuScene gpu_scene(device, room);
+        gpu_scene.update(room, room.cameras.front(), {48, 32}, 0.05);
+        graph::Runner runner(device, pipelines);
+        graph::Graph graph;
+        const render::FrameInputs inputs{gpu_scene, {48, 32}, ""};
+        const render::Lighting lighting{render::add_shadow(graph, inputs, 64)};
+        const graph::Image hdr = render::add_view(graph, inputs, lighting, {});
+        graph.want(hdr);
+        test::run(runner, graph);
+        return test::read_as<float>(runner, hdr);
+    };
+    const std::vector<float> mapped = picture(false);
+    EXPECT_GT(*std::ranges::max_element(mapped), 0.0f);
+    EXPECT_EQ(mapped, picture(true));
+}
+
+} // namespace

@@ -1,0 +1,92 @@
+// Time stamps are true: passes add up to the frame, in order, and four times the work takes about four
+// times as long. Only ratios are asserted, never a time.
+#include "measure/statistics.hpp"
+#include "support/rendering.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+void expect_in_order(const app::Frame& frame) {
+    ASSERT_FALSE(frame.passes.empty());
+    double last = 0;
+    for (const app::PassTime& pass : frame.passes) {
+        EXPECT_GE(pass.begin_ms, last) << pass.name;
+        EXPECT_GE(pass.end_ms, pass.begin_ms) << pass.name;
+        last = pass.begin_ms;
+    }
+    EXPECT_DOUBLE_EQ(frame.passes.front().begin_ms, 0);
+    EXPECT_DOUBLE_EQ(frame.passes.back().end_ms, frame.gpu_ms);
+    EXPECT_GT(frame.wall_ms, 0);
+    EXPECT_GT(frame.record_ms, 0);
+}
+
+class Closing : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Frames, Closing, testing::Values("raytrace", "reuse"), [](const auto& info) { return std::string(info.param); });
+
+TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
+    app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {384, 384});
+    request.warmup = 2, request.frames = 7;
+    const app::Result result = test::engine().run(request);
+    const bool cpu = test::engine().device().type == "cpu";
+    std::vector<double> shares, walls;
+    for (const app::Frame& frame : result.frames) {
+        expect_in_order(frame);
+        double sum = 0;
+        for (const app::PassTime& pass : frame.passes) sum += pass.ms();
+        shares.push_back(sum / (cpu ? frame.wall_ms : frame.gpu_ms));
+        walls.push_back(frame.wall_ms);
+    }
+    const double share = measure::summarise(shares).median;
+    std::cout << "[ MEASURED ] passes are " << 100 * share << " % of a frame of " << measure::summarise(walls).median << " ms\n";
+    if (cpu && measure::summarise(walls).median < 20) GTEST_SKIP() << "frames below 20 ms: the cost of a submit is not small beside them";
+    EXPECT_GE(share, .95);
+    EXPECT_LE(share, 1.01);
+}
+
+TEST(Timing, PipelinedSpansAreInOrderToo) {
+    app::Request request = test::request(test::room(2, 1), {"reuse"}, {64, 64});
+    request.timing = app::Timing::pipelined;
+    request.frames = 3;
+    for (const app::Frame& frame : test::engine().run(request).frames)
+        for (const app::PassTime& pass : frame.passes) {
+            EXPECT_GE(pass.begin_ms, 0) << pass.name;
+            EXPECT_GE(pass.ms(), 0) << pass.name;
+            EXPECT_LE(pass.end_ms, frame.gpu_ms) << pass.name;
+        }
+}
+
+TEST(Timing, FourTimesTheWorkReadsAboutFourTimes) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    constexpr std::uint32_t kGroups = 256;
+    std::vector<double> one, four;
+    for (int frame = 0; frame < 9; ++frame) {
+        graph::Graph graph;
+        const graph::Buffer counts = graph.buffer({"counts", 4 * 4 * kGroups});
+        graph.pass("clear").writes(counts, graph::Use::copy_to).record([=](graph::Commands& commands) { commands.fill(counts, 0); });
+        for (int i = 0; i < 4; ++i) {
+            const std::uint32_t groups = i % 2 ? 4 * kGroups : kGroups;
+            graph.pass((i % 2 ? "four/" : "one/") + std::to_string(i)).writes(counts, graph::Use::storage).record([=](graph::Commands& commands) {
+                commands.use(gpu::ComputeState{"tests/spin.comp", {}});
+                commands.bind("Counts", counts);
+                commands.push(4000u);
+                commands.dispatch(groups, 1);
+            });
+        }
+        graph.want(counts);
+        const graph::FrameTimes times = test::run(runner, graph);
+        if (frame < 2) continue;
+        for (const graph::PassTime& pass : times.passes) {
+            if (pass.name.starts_with("one")) one.push_back(pass.ms());
+            if (pass.name.starts_with("four")) four.push_back(pass.ms());
+        }
+    }
+    const double ratio = measure::summarise(four).median / measure::summarise(one).median;
+    std::cout << "[ MEASURED ] 4x the work: " << ratio << "x (" << measure::summarise(one).median << " ms)\n";
+    EXPECT_GE(ratio, 2.5);
+    EXPECT_LE(ratio, 6);
+}
+
+} // namespace

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "measure/difference.hpp"
+#include "measure/masks.hpp"
+#include "support/device.hpp"
+#include "support/scenes.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Rendering a picture in one line, and comparing two.
+namespace test {
+
+/// One measured frame without warm-up, seen by the scene's first camera.
+inline app::Request request(const scene::Scene& scene, const std::vector<std::string>& techniques, uvec2 size) {
+    return {.scene = scene,
+            .techniques = techniques,
+            .camera = scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front(),
+            .size = size,
+            .frames = 1,
+            .warmup = 0};
+}
+
+inline app::Part render(const scene::Scene& scene, const std::string& technique, uvec2 size, int frames = 1) {
+    app::Request asked = request(scene, {technique}, size);
+    asked.warmup = frames - 1;
+    return std::move(engine().run(asked).parts.front());
+}
+
+/// "name:knob=value,..." of those wanted settings that the technique has a knob for.
+inline std::string with(const app::TechniqueInfo& technique, const std::vector<std::pair<std::string, std::string>>& settings) {
+    std::string text = technique.name;
+    char separator = ':';
+    for (const auto& [knob, value] : settings) {
+        if (std::ranges::find(technique.knobs, knob, &app::Knob::name) == technique.knobs.end()) continue;
+        text += separator + knob + "=" + value;
+        separator = ',';
+    }
+    return text;
+}
+
+inline double rmse(const measure::Picture& a, const measure::Picture& b, const measure::Mask& mask = {}) {
+    const std::vector<float> no_flip(a.pixels.size(), 0.0f);
+    const measure::Difference difference = measure::difference(a, b, mask, no_flip);
+    EXPECT_EQ(difference.nonfinite, 0u);
+    return difference.rmse;
+}
+
+inline bool same_bytes(const measure::Picture& a, const measure::Picture& b) {
+    return a.width == b.width && a.height == b.height &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
+}
+
+/// Pixels of the picture that are not finite numbers.
+inline std::size_t nonfinite(const measure::Picture& picture) {
+    return static_cast<std::size_t>(std::ranges::count_if(picture.pixels, [](const vec3& c) {
+        return !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z));
+    }));
+}
+
+} // namespace test

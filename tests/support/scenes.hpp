@@ -1,0 +1,93 @@
+#pragma once
+
+#include "scene/load.hpp"
+#include "scene/scene.hpp"
+#include "scene/shapes.hpp"
+
+#include <array>
+#include <string>
+
+/// Small scenes whose pictures are known without rendering them.
+namespace test {
+
+using namespace catoptric;
+
+/// Index of a new material.
+inline std::size_t add_material(scene::Scene& scene, scene::Material material) {
+    scene.materials.push_back(std::move(material));
+    return scene.materials.size() - 1;
+}
+
+inline void add_mesh(scene::Scene& scene, scene::Mesh mesh, std::size_t material) {
+    scene.objects.push_back({.name = mesh.name, .mesh = scene.meshes.size(), .material = material});
+    scene.meshes.push_back(std::move(mesh));
+}
+
+inline void add_quad(scene::Scene& scene, const std::string& name, std::size_t material, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
+    add_mesh(scene, scene::quad(name, a, b, c, d), material);
+}
+
+/// A ball of 4^(levels+1) triangles that stands for an exact sphere.
+inline void add_ball(scene::Scene& scene, const std::string& name, std::size_t material, dvec3 centre, double radius, int levels = 3) {
+    dmat4 world_from_object(radius);
+    world_from_object[3] = dvec4(centre, 1);
+    scene.objects.push_back({.name = name,
+                             .mesh = scene.meshes.size(),
+                             .material = material,
+                             .world_from_object = world_from_object,
+                             .sphere = scene::Sphere{centre, radius}});
+    scene.meshes.push_back(scene::ball(name, levels));
+}
+
+/// The wall of the box [lo, hi] in direction +X -X +Y -Y +Z -Z (as the faces of a cube map), facing in.
+inline scene::Mesh wall(int face, dvec3 lo, dvec3 hi) {
+    const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    std::array<dvec3, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) {
+        corners[i][axis] = face % 2 ? lo[axis] : hi[axis];
+        corners[i][u] = i == 1 || i == 2 ? hi[u] : lo[u];
+        corners[i][v] = i >= 2 ? hi[v] : lo[v];
+    }
+    // (a b c d) counter-clockwise seen from +axis: right for the wall on the low side.
+    if (face % 2) return scene::quad("wall" + std::to_string(face), corners[0], corners[1], corners[2], corners[3]);
+    return scene::quad("wall" + std::to_string(face), corners[3], corners[2], corners[1], corners[0]);
+}
+
+/// What every wall of a furnace emits: exact in binary16.
+constexpr vec3 kFurnace{0.5f, 0.25f, 0.75f};
+
+/// A closed box, every point of which emits kFurnace and reflects nothing, with one or two mirror balls.
+inline scene::Scene furnace(int mirrors) {
+    scene::Scene scene{.name = "furnace"};
+    const std::size_t hot = add_material(scene, {.name = "hot", .emission = kFurnace});
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+    for (int face = 0; face < 6; ++face) add_mesh(scene, wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
+    add_ball(scene, "ball1", mirror, {-1.2, -0.3, 1}, 1);
+    if (mirrors > 1) add_ball(scene, "ball2", mirror, {1.3, 0.4, 1.5}, 1.2);
+    scene.cameras.push_back({.name = "inside", .eye = {0.2, 0.1, -4.5}, .target = {0, 0, 1}, .vertical_fov_degrees = 50});
+    return scene;
+}
+
+/// White room with coloured side walls, `lights` lamps under the ceiling and `mirrors` (0 to 3) balls.
+inline scene::Scene room(int mirrors, int lights) {
+    scene::Scene scene{.name = "room"};
+    const std::size_t white = add_material(scene, {.name = "white", .albedo = {.7f, .7f, .7f}});
+    const std::size_t red = add_material(scene, {.name = "red", .albedo = {.6f, .1f, .1f}});
+    const std::size_t green = add_material(scene, {.name = "green", .albedo = {.1f, .5f, .1f}});
+    const std::size_t lamp = add_material(scene, {.name = "lamp", .emission = {9, 8, 6}});
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+    for (int face = 0; face < 6; ++face)
+        add_mesh(scene, wall(face, {-2, -2, -3}, {2, 2, 2}), face == 0 ? red : face == 1 ? green : white);
+    for (int i = 0; i < lights; ++i) {
+        const double x = lights == 1 ? 0 : -1 + 2.0 * i / (lights - 1);
+        add_quad(scene, "lamp" + std::to_string(i + 1), lamp, {x - .3, 1.99, -.4}, {x + .3, 1.99, -.4}, {x + .3, 1.99, .2}, {x - .3, 1.99, .2});
+    }
+    const std::array<dvec3, 3> places{{{-.9, -1.2, .3}, {.8, -.9, .9}, {.3, .3, -.4}}};
+    const std::array<double, 3> radii{.7, .9, .4};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(mirrors); ++i)
+        add_ball(scene, "ball" + std::to_string(i + 1), mirror, places[i], radii[i]);
+    scene.cameras.push_back({.name = "inside", .eye = {.1, .2, -2.9}, .target = {0, -.2, 0}, .vertical_fov_degrees = 70});
+    return scene;
+}
+
+} // namespace test
