@@ -46,8 +46,10 @@ const uint kMaxLights = 128u; // the smallest uniform buffer that every device h
 
 // Where a mirror's surroundings are captured from: layers [6 n, 6 n + 6) of the cubes, n from 0.
 struct Probe {
-    vec3 centre;
-    float radius; // of the mirror's bounds around the centre
+    vec3 centre;      // of the mirror's bounds
+    vec3 sphere;      // centre of the exact sphere that the mirror stands for
+    float radius;     // of that sphere; 0: the mirror stands for none
+    vec3 reflectance; // of the mirror
 };
 
 // One projection: clip = (dot(right, v), dot(down, v), near, dot(forward, v)) with v = position - eye.
@@ -97,7 +99,7 @@ struct Counters {
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
 static_assert(sizeof(Light) == 76);
-static_assert(sizeof(Probe) == 16);
+static_assert(sizeof(Probe) == 40);
 static_assert(sizeof(View) == 52);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(Draw) == 72);

@@ -18,6 +18,7 @@
     using uint = std::uint32_t;                                                                    \
     using glm::abs, glm::cross, glm::dot, glm::length, glm::max, glm::min, glm::normalize,         \
         glm::pow, glm::sqrt;                                                                       \
+    using std::isnan;                                                                              \
     const real kUnitRoundoff = std::numeric_limits<real>::epsilon() / 2;                           \
     const real kSplitter = splitter;                                                               \
     inline real next_up(real x) {                                                                  \

@@ -30,18 +30,32 @@ render::MirrorLook look_into(std::string fragment, const render::Cubes& cubes, c
     return look;
 }
 
-Outputs add_with_feedback(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                          const std::string& fragment) {
-    const render::Lighting lighting = add_lighting(graph, inputs, settings);
-    render::CaptureOptions options = capture_options(inputs, settings, lighting);
-    if (inputs.scene.mirror_count() == 0) return {render::add_view(graph, inputs, lighting, {}), {}, {}};
-    const render::Cubes cubes = render::declare_cubes(graph, inputs, options);
-    render::Cubes last{graph.previous(cubes.colour), {}};
-    if (cubes.distance) last.distance = graph.previous(*cubes.distance);
-    options.look = look_into(fragment, last, options);
-    options.look.blank = !graph.has_history(cubes.colour);
-    render::add_captures(graph, inputs, options, cubes);
-    return {render::add_view(graph, inputs, lighting, look_into(fragment, cubes, options)), {}, {}};
+Captured add_feedback(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+                      const std::string& fragment) {
+    Captured captured;
+    captured.lighting = add_lighting(graph, inputs, settings);
+    captured.options = capture_options(inputs, settings, captured.lighting);
+    if (inputs.scene.mirror_count() == 0) return captured;
+    captured.cubes = render::declare_cubes(graph, inputs, captured.options);
+    render::Cubes last{graph.previous(captured.cubes->colour), {}};
+    if (captured.cubes->distance) last.distance = graph.previous(*captured.cubes->distance);
+    captured.options.look = look_into(fragment, last, captured.options);
+    captured.options.look.blank = !graph.has_history(captured.cubes->colour);
+    render::add_captures(graph, inputs, captured.options, *captured.cubes);
+    return captured;
+}
+
+render::MirrorLook view_look(const Captured& captured, const Settings& settings, const std::string& fragment) {
+    if (!captured.cubes) return {};
+    render::MirrorLook look = look_into(fragment, *captured.cubes, captured.options);
+    if (settings.has("continue")) look.constants.emplace_back("hops", static_cast<std::uint32_t>(settings.integer("continue")));
+    return look;
+}
+
+Outputs add_view_of(graph::Graph& graph, const render::FrameInputs& inputs, const Captured& captured,
+                    const render::MirrorLook& look) {
+    const render::View view = render::add_view(graph, inputs, captured.lighting, look);
+    return {view.hdr, {}, {}, view.lookup};
 }
 
 } // namespace catoptric::reflect

@@ -19,6 +19,9 @@ inline constexpr Knob kDistance{
 inline constexpr Knob kRange{
     .name = "range", .help = "world units of a stored 1 with distance=unorm8", .low = 1, .high = 1000000, .value = 200};
 
+inline constexpr Knob kContinue{
+    .name = "continue", .help = "mirrors the reflected ray is followed through before it is looked up", .low = 0, .high = 8, .value = 4};
+
 /// The shadow pass that the knobs ask for.
 render::Lighting add_lighting(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings);
 
@@ -32,9 +35,26 @@ render::CaptureOptions capture_options(const render::FrameInputs& inputs, const 
 /// A mirror that looks into `cubes` with the technique's fragment shader.
 render::MirrorLook look_into(std::string fragment, const render::Cubes& cubes, const render::CaptureOptions& options);
 
-/// The frame of part two and its followers: every mirror captured once, seeing last frame's captures,
-/// then the view.
-Outputs add_with_feedback(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                          const std::string& fragment);
+/// The captures of part two and its followers.
+struct Captured {
+    render::Lighting lighting;
+    render::CaptureOptions options;
+    std::optional<render::Cubes> cubes; ///< none without mirrors
+};
+
+/// Shadow pass, then every mirror captured once. In a capture the other mirrors look into last frame's
+/// captures with `fragment`.
+Captured add_feedback(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+                      const std::string& fragment);
+
+/// The view of what was captured, mirrors drawn with `fragment`; hops are set where there is a `continue`.
+render::MirrorLook view_look(const Captured& captured, const Settings& settings, const std::string& fragment);
+Outputs add_view_of(graph::Graph& graph, const render::FrameInputs& inputs, const Captured& captured,
+                    const render::MirrorLook& look);
+
+/// R = N + 2 with one light.
+inline int feedback_passes(int mirrors, int lights, const Settings& settings) {
+    return mirrors + shadow_passes(lights, settings) + 1;
+}
 
 } // namespace catoptric::reflect

@@ -21,7 +21,8 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
         render::add_captures(graph, inputs, options, cubes);
         options.look = look_into("reflect/naive.frag", cubes, options);
     }
-    return {render::add_view(graph, inputs, lighting, options.look), {}, {}};
+    const render::View view = render::add_view(graph, inputs, lighting, options.look);
+    return {view.hdr, {}, {}, view.lookup};
 }
 
 constexpr Technique kNaive{

@@ -6,6 +6,7 @@ namespace catoptric::reflect {
 
 namespace {
 
+constexpr const char* kFragment = "reflect/parallax.frag";
 constexpr Knob kKnobs[] = {kFace, kDistance, kRange, kShadow, kShadowMapEdge};
 
 constexpr Technique kParallax{
@@ -13,11 +14,10 @@ constexpr Technique kParallax{
     .summary = "As reuse, with the reflected direction corrected by one step from the captured distance.",
     .order = 3,
     .knobs = kKnobs,
-    .scene_passes = [](int mirrors, int lights, const Settings& settings) {
-        return mirrors + shadow_passes(lights, settings) + 1;
-    },
+    .scene_passes = feedback_passes,
     .add = [](graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-        return add_with_feedback(graph, inputs, settings, "reflect/parallax.frag");
+        const Captured captured = add_feedback(graph, inputs, settings, kFragment);
+        return add_view_of(graph, inputs, captured, view_look(captured, settings, kFragment));
     }};
 const Row kRow{kParallax};
 

@@ -68,7 +68,7 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
                 commands.dispatch((size.x + 7) / 8 * ((size.y + 7) / 8), 1);
             }
         });
-    return {hdr, hits, counters};
+    return {hdr, hits, counters, {}};
 }
 
 constexpr Technique kRaytrace{

@@ -6,6 +6,7 @@ namespace catoptric::reflect {
 
 namespace {
 
+constexpr const char* kFragment = "reflect/naive.frag";
 constexpr Knob kKnobs[] = {kFace, kShadow, kShadowMapEdge};
 
 constexpr Technique kReuse{
@@ -13,11 +14,10 @@ constexpr Technique kReuse{
     .summary = "One capture per mirror and frame; deeper bounces arrive from the frame before.",
     .order = 2,
     .knobs = kKnobs,
-    .scene_passes = [](int mirrors, int lights, const Settings& settings) {
-        return mirrors + shadow_passes(lights, settings) + 1;
-    },
+    .scene_passes = feedback_passes,
     .add = [](graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-        return add_with_feedback(graph, inputs, settings, "reflect/naive.frag");
+        const Captured captured = add_feedback(graph, inputs, settings, kFragment);
+        return add_view_of(graph, inputs, captured, view_look(captured, settings, kFragment));
     }};
 const Row kRow{kReuse};
 

@@ -17,6 +17,7 @@ struct Outputs {
     graph::Image hdr;                       ///< linear radiance, rgba32f
     std::optional<graph::Image> hits;       ///< r32ui: mirror of the first hit, second hit << 16 (0: none)
     std::optional<graph::Buffer> counters;  ///< shared::Counters
+    std::optional<graph::Image> lookup;     ///< rgba32f: where mirrors looked, if the inputs ask for it
 };
 
 struct Technique {

@@ -89,7 +89,8 @@ void GpuScene::fill_views(const scene::Scene& now, const scene::Camera& camera, 
     for (const std::size_t object : mirror_objects_) {
         const Bounds<double> bounds = scene::bounds(now, now.objects[object]);
         const vec3 centre = space_.point(bounds.centre());
-        probes_.push_back({centre, space_.length(glm::length(bounds.extent()) / 2)});
+        const shared::Surface& surface = surfaces_[object];
+        probes_.push_back({centre, surface.centre, surface.radius, surface.reflectance});
         const float gap = nearest_distance(geometry_, centre, [&](std::size_t i, const DrawRange&) { return i == object; });
         std::ranges::copy(cube_views(centre, gap), std::back_inserter(views_));
     }

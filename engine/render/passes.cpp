@@ -51,6 +51,8 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
             commands.bind("distance_cubes", *look.cubes->distance, Filter::linear);
             commands.bind("distance_cubes_nearest", *look.cubes->distance, Filter::nearest);
         }
+        for (const auto& [name, image] : look.images) commands.bind(name, image);
+        for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
     }
     commands.use(mirrors);
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
@@ -62,6 +64,8 @@ void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const
     if (!look.cubes) return;
     pass.reads(look.cubes->colour, Use::sampled);
     if (look.cubes->distance) pass.reads(*look.cubes->distance, Use::sampled);
+    for (const auto& [name, image] : look.images) pass.reads(image, Use::sampled);
+    for (const auto& [name, buffer] : look.buffers) pass.reads(buffer, Use::storage_read);
 }
 
 } // namespace
@@ -116,17 +120,26 @@ void add_captures(graph::Graph& graph, const FrameInputs& inputs, const CaptureO
     }
 }
 
-Image add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, const MirrorLook& look) {
+View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, const MirrorLook& look,
+              bool with_lookup) {
     const uvec2 size = inputs.size;
     const Image hdr = graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
     const Image depth = graph.image({inputs.prefix + "view.depth", Format::d32f, size.x, size.y});
     graph::PassBuilder pass = graph.pass(inputs.prefix + "view", Tag::scene);
     read_surroundings(pass, lighting, look);
-    pass.writes(hdr, Use::colour, kBlack).writes(depth, Use::depth, kFarthest).record([&scene = inputs.scene, lighting, look](Commands& commands) {
+    View view{hdr, {}};
+    pass.writes(hdr, Use::colour, kBlack);
+    if (with_lookup || inputs.with_lookup) {
+        // Attachments have the locations of the shaders: the distance's, which nobody reads here, then the lookup's.
+        const Image distance = graph.image({inputs.prefix + "view.distance", Format::r32f, size.x, size.y});
+        view.lookup = graph.image({inputs.prefix + "lookup", Format::rgba32f, size.x, size.y});
+        pass.writes(distance, Use::colour, Clear{}).writes(*view.lookup, Use::colour, Clear{});
+    }
+    pass.writes(depth, Use::depth, kFarthest).record([&scene = inputs.scene, lighting, look](Commands& commands) {
         draw_scene(commands, scene, GpuScene::kCameraView, 1, lighting, look, 1,
                    [&](std::size_t object) { return !scene.ranges()[object].seen_by_camera; });
     });
-    return hdr;
+    return view;
 }
 
 Image add_compose(graph::Graph& graph, const FrameInputs& inputs, Image hdr, double exposure_stops) {

@@ -15,6 +15,7 @@ struct FrameInputs {
     uvec2 size{512, 512};
     std::string prefix;
     std::uint64_t seed = 1; ///< of stratified samples
+    bool with_lookup = false; ///< also say where mirrors looked: for measuring, costs an attachment
 };
 
 /// Depth around every light, one pass a light: layers [shadow_faces * l, ...) of a 2D array.
@@ -32,6 +33,8 @@ struct MirrorLook {
     std::string fragment = "mirror_black.frag";
     gpu::Constants constants;
     std::optional<Cubes> cubes;
+    std::vector<std::pair<std::string, graph::Image>> images;   ///< what else it samples (nearest), by shader name
+    std::vector<std::pair<std::string, graph::Buffer>> buffers; ///< what else it reads
     bool blank = false; ///< the cubes are last frame's and there was none: black
 };
 
@@ -55,8 +58,13 @@ Cubes declare_cubes(graph::Graph& graph, const FrameInputs& inputs, const Captur
 /// One pass a mirror, six faces at once.
 void add_captures(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options, const Cubes& cubes);
 
-/// The camera's picture: linear radiance, rgba32f.
-graph::Image add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, const MirrorLook& look);
+/// The camera's picture.
+struct View {
+    graph::Image hdr;                   ///< linear radiance, rgba32f
+    std::optional<graph::Image> lookup; ///< rgba32f, where each mirror pixel looked: see shaders/lib/mirror.glsl; else 0
+};
+View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, const MirrorLook& look,
+              bool with_lookup = false);
 
 /// Exposure in stops, clamp, sRGB curve: rgba8_unorm.
 graph::Image add_compose(graph::Graph& graph, const FrameInputs& inputs, graph::Image hdr, double exposure_stops);

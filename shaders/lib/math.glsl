@@ -26,12 +26,13 @@ INLINE real gamma_bound(int n) {
     return real(n) * kUnitRoundoff / (real(1) - real(n) * kUnitRoundoff);
 }
 
-INLINE bool is_finite(real x) { return abs(x) <= kLargest; }
+// isnan is asked for by name: shader compilers may turn !(a <= b) into a > b, which NaN answers otherwise.
+INLINE bool is_finite(real x) { return !isnan(x) && abs(x) <= kLargest; }
 INLINE bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 INLINE real largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 // Distances of a capture: "nothing there" is +infinity.
-INLINE bool is_miss(real distance) { return !(distance <= kLargest); }
+INLINE bool is_miss(real distance) { return isnan(distance) || distance > kLargest; }
 
 // ---- Light -------------------------------------------------------------------------------------
 
@@ -287,7 +288,7 @@ INLINE vec3 parallax_direction(vec3 offset, vec3 dir, real distance) {
     if (is_miss(distance)) return dir;
     vec3 p = offset + dir * (distance - dot(offset, dir));
     real size = largest(abs(p));
-    if (!(size > real(0) && size <= kLargest)) return dir;
+    if (!is_finite(size) || size <= real(0)) return dir;
     return normalize(p / size);
 }
 

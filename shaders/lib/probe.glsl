@@ -1,4 +1,4 @@
-// Looking into a capture.
+// Looking into a capture: colour, distance, and what a search for the right direction returns.
 #ifndef CATOPTRIC_PROBE_GLSL
 #define CATOPTRIC_PROBE_GLSL
 
@@ -6,6 +6,18 @@
 
 // Scene units of a stored 1: 1 for float formats, the range for unorm8.
 layout(constant_id = 2) const float stored_unit = 1.0;
+
+// A hit: the search ended on a captured surface. Unknown: the ray went behind something that hides
+// the rest of it from the capture's centre. A miss: the ray leaves without meeting anything captured.
+const uint kHit = 0u, kUnknown = 1u, kMiss = 2u;
+
+// Where in a capture the radiance that arrives along a ray is to be found.
+struct Lookup {
+    vec3 direction; // from the capture's centre, unit
+    uint state;
+    float residual; // relative distance between the found point and the captured surface there
+    float layer;    // 0: the nearest surface; 1: the one behind it, where captures have two
+};
 
 vec3 captured_colour(uint mirror, vec3 direction) {
     return textureLod(colour_cubes, vec4(direction, mirror), 0).rgb;
@@ -15,7 +27,7 @@ vec3 captured_colour(uint mirror, vec3 direction) {
 // (+infinity), the sum is not finite and the nearest texel decides.
 float captured_distance(uint mirror, vec3 direction) {
     float d = textureLod(distance_cubes, vec4(direction, mirror), 0).r;
-    if (is_miss(d) || isnan(d)) d = textureLod(distance_cubes_nearest, vec4(direction, mirror), 0).r;
+    if (is_miss(d)) d = textureLod(distance_cubes_nearest, vec4(direction, mirror), 0).r;
     return d * stored_unit;
 }
 

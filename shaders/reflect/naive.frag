@@ -4,5 +4,5 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/probe.glsl"
 
-vec3 reflected(uint mirror, vec3 offset, vec3 direction) { return captured_colour(mirror, direction); }
+Lookup search(uint mirror, vec3 offset, vec3 direction) { return Lookup(direction, kHit, 0.0, 0.0); }
 #include "lib/mirror.glsl"

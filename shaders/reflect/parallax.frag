@@ -5,8 +5,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/probe.glsl"
 
-vec3 reflected(uint mirror, vec3 offset, vec3 direction) {
+Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float distance = captured_distance(mirror, direction);
-    return captured_colour(mirror, parallax_direction(offset, direction, distance));
+    return Lookup(parallax_direction(offset, direction, distance), is_miss(distance) ? kMiss : kHit, 0.0, 0.0);
 }
 #include "lib/mirror.glsl"

@@ -1,0 +1,31 @@
+// A march along the reflected ray in steps of equal angle, then refinement: finds the first crossing,
+// where the secant finds any.
+#include "reflect/knobs.hpp"
+
+namespace catoptric::reflect {
+
+namespace {
+
+constexpr Knob kKnobs[] = {
+    {.name = "steps", .help = "steps of equal angle along the reflected ray", .low = 1, .high = 256, .value = 16},
+    kFace, kDistance, kRange, kContinue, kShadow, kShadowMapEdge};
+
+Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
+    const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
+    render::MirrorLook look = view_look(captured, settings, "reflect/march.frag");
+    look.constants.emplace_back("steps", static_cast<std::uint32_t>(settings.integer("steps")));
+    return add_view_of(graph, inputs, captured, look);
+}
+
+constexpr Technique kMarch{
+    .name = "march",
+    .summary = "Marches along the reflected ray in steps of equal angle and refines the first crossing.",
+    .order = 12,
+    .knobs = kKnobs,
+    .scene_passes = feedback_passes,
+    .add = add};
+const Row kRow{kMarch};
+
+} // namespace
+
+} // namespace catoptric::reflect

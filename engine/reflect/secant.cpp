@@ -1,0 +1,31 @@
+// The search that the report's one step begins: it goes on until the reflected ray meets what was
+// captured. steps=0 is `parallax`.
+#include "reflect/knobs.hpp"
+
+namespace catoptric::reflect {
+
+namespace {
+
+constexpr Knob kKnobs[] = {
+    {.name = "steps", .help = "secant steps after the first; 0 equals parallax", .low = 0, .high = 8, .value = 2},
+    kFace, kDistance, kRange, kContinue, kShadow, kShadowMapEdge};
+
+Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
+    const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
+    render::MirrorLook look = view_look(captured, settings, "reflect/secant.frag");
+    look.constants.emplace_back("steps", static_cast<std::uint32_t>(settings.integer("steps")));
+    return add_view_of(graph, inputs, captured, look);
+}
+
+constexpr Technique kSecant{
+    .name = "secant",
+    .summary = "Searches the captured distance for the point that the reflected ray meets, by secant steps.",
+    .order = 11,
+    .knobs = kKnobs,
+    .scene_passes = feedback_passes,
+    .add = add};
+const Row kRow{kSecant};
+
+} // namespace
+
+} // namespace catoptric::reflect
