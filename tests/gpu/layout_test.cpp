@@ -25,7 +25,7 @@ const std::vector<Member> kMembers{
     MEMBER(Surface, centre), MEMBER(Surface, radius),
     MEMBER(Light, position), MEMBER(Light, normal), MEMBER(Light, intensity), MEMBER(Light, right), MEMBER(Light, down),
     MEMBER(Light, forward), MEMBER(Light, near),
-    MEMBER(Probe, centre), MEMBER(Probe, radius),
+    MEMBER(Probe, centre), MEMBER(Probe, sphere), MEMBER(Probe, radius), MEMBER(Probe, reflectance),
     MEMBER(View, eye), MEMBER(View, right), MEMBER(View, down), MEMBER(View, forward), MEMBER(View, near),
     MEMBER(Frame, ambient), MEMBER(Frame, light_count), MEMBER(Frame, mirror_count), MEMBER(Frame, object_count),
     MEMBER(Frame, shadow_faces),
