@@ -112,7 +112,7 @@ TEST(CubeFace, ALookupAlongAWorldDirectionFindsIt) {
 
 class Distances : public testing::TestWithParam<Format> {};
 INSTANTIATE_TEST_SUITE_P(Formats, Distances, testing::Values(Format::r32f, Format::r16f, Format::r8_unorm),
-                         [](const auto& info) { return std::string(name_of(info.param)); });
+                         [](const auto& instance) { return std::string(name_of(instance.param)); });
 
 TEST_P(Distances, AreThoseOfTheWalls) {
     const GlyphRoom room;

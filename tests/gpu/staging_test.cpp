@@ -14,7 +14,7 @@ class Staging : public testing::TestWithParam<bool> {
 protected:
     gpu::Device& device() { return test::bench(GetParam()).device; }
 };
-INSTANTIATE_TEST_SUITE_P(Buffers, Staging, testing::Values(false, true), [](const auto& info) { return info.param ? "staged" : "mapped"; });
+INSTANTIATE_TEST_SUITE_P(Buffers, Staging, testing::Values(false, true), [](const auto& instance) { return instance.param ? "staged" : "mapped"; });
 
 TEST_P(Staging, WhatIsWrittenIsRead) {
     ASSERT_EQ(device().staged(), GetParam());
@@ -65,7 +65,7 @@ TEST(StagedScene, PictureEqualsTheMappedOne) {
         graph::Graph graph;
         const render::FrameInputs inputs{gpu_scene, {48, 32}, ""};
         const render::Lighting lighting{render::add_shadow(graph, inputs, 64)};
-        const graph::Image hdr = render::add_view(graph, inputs, lighting, {});
+        const graph::Image hdr = render::add_view(graph, inputs, lighting, {}).hdr;
         graph.want(hdr);
         test::run(runner, graph);
         return test::read_as<float>(runner, hdr);

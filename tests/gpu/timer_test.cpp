@@ -24,7 +24,7 @@ void expect_in_order(const app::Frame& frame) {
 }
 
 class Closing : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Frames, Closing, testing::Values("raytrace", "reuse"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Frames, Closing, testing::Values("raytrace", "reuse"), [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
     app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {384, 384});

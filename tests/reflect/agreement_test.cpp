@@ -1,0 +1,31 @@
+// Where no mirror is seen, raster and ray tracing are the same picture.
+#include "support/rendering.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+struct Sides {
+    const char *name, *raster, *traced;
+    double most; ///< rmse
+};
+class Agreement : public testing::TestWithParam<Sides> {};
+INSTANTIATE_TEST_SUITE_P(Shadows, Agreement,
+                         testing::Values(Sides{"map_and_ray", "naive:bounces=0", "raytrace:depth=16", .003},
+                                         Sides{"none", "naive:bounces=0,shadow=none", "raytrace:depth=16,shadow=none", 5e-4},
+                                         Sides{"map_on_both", "naive:bounces=0", "raytrace:depth=16,shadow=map", 5e-4}),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST_P(Agreement, OfRasterAndRayTracing) {
+    const auto& [name, raster, traced, most] = GetParam();
+    for (const scene::Scene& scene : {scene::cornell_mirrors(), test::room(2, 2)}) {
+        const app::Part truth = test::render(scene, traced, {512, 512});
+        const double error = test::rmse(test::render(scene, raster, {512, 512}).hdr, truth.hdr, measure::non_mirror(truth.hits));
+        std::cout << "[ MEASURED ] " << scene.name << ", shadows " << name << ": rmse " << error << " on non-mirror pixels\n";
+        EXPECT_LE(error, most) << scene.name;
+    }
+}
+
+} // namespace

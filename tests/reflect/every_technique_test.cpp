@@ -1,0 +1,165 @@
+// The promises of every row of the table. A new technique is tested by being there.
+#include "core/knob.hpp"
+#include "reflect/technique.hpp"
+#include "support/rendering.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr uvec2 kSize{48, 48};
+
+class EveryTechnique : public testing::TestWithParam<app::TechniqueInfo> {
+protected:
+    /// With small captures and shadow maps where it has any.
+    std::string small(std::vector<std::pair<std::string, std::string>> settings = {}) const {
+        for (const auto& cheap : std::vector<std::pair<std::string, std::string>>{{"face", "32"}, {"shadow_map", "64"}})
+            if (std::ranges::find(settings, cheap.first, &std::pair<std::string, std::string>::first) == settings.end())
+                settings.push_back(cheap);
+        return test::with(GetParam(), settings);
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Table, EveryTechnique, testing::ValuesIn(app::techniques()), [](const auto& instance) { return instance.param.name; });
+
+/// What a picture of a furnace may be off by: colours are exact in binary16, weights of a filter add up
+/// to 1 within one rounding of it.
+constexpr float kSlack = 0x1p-10f;
+
+TEST_P(EveryTechnique, OneMirrorInAFurnaceShowsTheFurnace) {
+    const measure::Picture picture = test::render(test::furnace(1), small(), kSize, 3).hdr;
+    for (const vec3& pixel : picture.pixels)
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(pixel[c], test::kFurnace[c], kSlack * test::kFurnace[c]);
+}
+
+/// Share of pixels that are darker than the furnace; none may be brighter than 1.002 times that.
+double dark_share(const scene::Scene& furnace, const std::string& technique, int frames) {
+    app::Request request = test::request(furnace, {technique}, kSize);
+    request.warmup = frames - 1;
+    request.ambient = 0;
+    const measure::Picture picture = test::engine().run(request).parts.front().hdr;
+    std::size_t dark = 0, bright = 0;
+    for (const vec3& pixel : picture.pixels) {
+        dark += !glm::all(glm::greaterThanEqual(pixel, test::kFurnace * (1 - kSlack)));
+        bright += !glm::all(glm::lessThanEqual(pixel, test::kFurnace * 1.002f));
+    }
+    EXPECT_EQ(bright, 0u) << technique << ", frame " << frames;
+    return static_cast<double>(dark) / static_cast<double>(picture.pixels.size());
+}
+
+TEST_P(EveryTechnique, TwoMirrorsInAFurnaceNeverGrowDarker) {
+    const scene::Scene furnace = test::furnace(2);
+    const auto expect_falling = [&](const std::string& what, const std::function<double(int)>& share_at) {
+        double last = 1;
+        for (int i = 0; i <= 4; ++i) {
+            const double share = share_at(i);
+            EXPECT_LE(share, last) << GetParam().name << " at " << what << " " << i;
+            last = share;
+        }
+        EXPECT_LT(last, .1) << GetParam().name << ": most of the picture is box";
+    };
+    expect_falling("frame", [&](int i) { return dark_share(furnace, small(), i + 1); });
+    for (const std::string knob : {"bounces", "depth"})
+        if (std::ranges::find(GetParam().knobs, knob, &app::Knob::name) != GetParam().knobs.end())
+            expect_falling(knob, [&](int i) { return dark_share(furnace, small({{knob, std::to_string(i)}}), 1); });
+}
+
+TEST_P(EveryTechnique, RendersTheSceneAsOftenAsItsRowSays) {
+    for (const auto& [mirrors, lights] : {std::pair{0, 1}, {1, 0}, {1, 1}, {2, 3}, {3, 1}})
+        for (const app::Knob& knob : GetParam().knobs) {
+            // Each choice, and a number between the ends: whatever a row's count may depend on.
+            std::vector<std::string> values = knob.choices;
+            if (values.empty() && (knob.name == "bounces" || knob.name == "depth" || knob.name == "continue")) values = {"0", "2"};
+            if (values.empty()) values = {knob.value};
+            for (const std::string& value : values) {
+                if (knob.name == "samples" || (knob.name == "face" && value == knob.value)) continue;
+                const std::string text = small({{knob.name, knob.name == "shadow_map" ? "64" : value}});
+                const reflect::Choice choice = reflect::parse_choice(text);
+                const app::Part part = test::render(test::room(mirrors, lights), text, {16, 16});
+                EXPECT_EQ(part.scene_passes, choice.technique->scene_passes(mirrors, lights, choice.settings))
+                    << text << " with " << mirrors << " mirrors and " << lights << " lights";
+            }
+        }
+}
+
+/// The ends of a knob, where they would not take too much memory or time.
+std::vector<std::string> extremes(const app::Knob& knob) {
+    if (!knob.choices.empty()) return knob.choices;
+    double high = knob.high;
+    if (knob.name == "face" || knob.name == "shadow_map") high = 64; // 16384 wants gigabytes
+    if (knob.name == "samples") high = 16;                          // 65536 takes minutes
+    const auto text = [](double value) {
+        const bool whole = value == std::floor(value);
+        return whole ? std::to_string(static_cast<long long>(value)) : std::to_string(value);
+    };
+    return {text(knob.low), text(high)};
+}
+
+TEST_P(EveryTechnique, MakesOnlyNumbersAtTheEndsOfEachKnob) {
+    const scene::Scene room = test::room(2, 1);
+    for (const app::Knob& knob : GetParam().knobs)
+        for (const std::string& value : extremes(knob)) {
+            const std::string text = small({{knob.name, value}});
+            const app::Part part = test::render(room, text, {32, 24}, 3);
+            EXPECT_EQ(test::nonfinite(part.hdr), 0u) << text;
+            EXPECT_EQ(std::ranges::count_if(part.hdr.pixels, [](const vec3& c) { return c.x < 0 || c.y < 0 || c.z < 0; }), 0) << text;
+        }
+}
+
+TEST_P(EveryTechnique, MakesTheSameBytesTwice) {
+    app::Request request = test::request(scene::cornell_mirrors(), {small()}, kSize);
+    for (const bool animate : {false, true}) {
+        request.animate = animate;
+        request.frames = 3;
+        const app::Part first = std::move(test::engine().run(request).parts.front());
+        const app::Part second = std::move(test::engine().run(request).parts.front());
+        EXPECT_TRUE(test::same_bytes(first.hdr, second.hdr));
+        EXPECT_TRUE(test::same_bytes(first.display, second.display));
+        EXPECT_EQ(first.hits, second.hits);
+    }
+}
+
+TEST_P(EveryTechnique, HasOneTimeForEachPassAndNoneBesides) {
+    app::Request request = test::request(test::room(2, 2), {small()}, kSize);
+    request.frames = 3;
+    const auto plan = nlohmann::json::parse(test::engine().plan(request, app::PlanFormat::json));
+    for (const app::Frame& frame : test::engine().run(request).frames) {
+        ASSERT_EQ(frame.passes.size(), plan["passes"].size());
+        double time = 0;
+        for (std::size_t i = 0; i < frame.passes.size(); ++i) {
+            const app::PassTime& pass = frame.passes[i];
+            EXPECT_EQ(pass.name, plan["passes"][i]["name"]);
+            EXPECT_EQ(pass.begin_ms, time) << pass.name << " begins where the one before it ended";
+            EXPECT_GE(pass.end_ms, pass.begin_ms) << pass.name;
+            time = pass.end_ms;
+        }
+        EXPECT_EQ(time, frame.gpu_ms);
+    }
+}
+
+TEST_P(EveryTechnique, RendersASceneWithoutMirrorsAndOneWithoutLight) {
+    for (const auto& [mirrors, lights] : {std::pair{0, 1}, {2, 0}, {0, 0}}) {
+        const app::Part part = test::render(test::room(mirrors, lights), small(), {24, 24}, 2);
+        EXPECT_EQ(test::nonfinite(part.hdr), 0u);
+        EXPECT_GT(measure::mean_of(part.hdr, measure::Range::unclamped).all, 0.0) << "ambient light is left";
+    }
+}
+
+TEST(Table, IsAsLongAsTheFolder) {
+    std::size_t rows = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(CATOPTRIC_SOURCE_DIR "/engine/reflect")) {
+        if (entry.path().extension() != ".cpp") continue;
+        std::ifstream file(entry.path());
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        const std::regex row(R"((^|\n)const Row \w+\{)");
+        rows += static_cast<std::size_t>(std::distance(std::sregex_iterator(text.begin(), text.end(), row), {}));
+    }
+    EXPECT_EQ(app::techniques().size(), rows);
+    EXPECT_GE(rows, 4u);
+}
+
+} // namespace

@@ -1,0 +1,81 @@
+// Part two of the report gives what part one gives, a bounce a frame: byte for byte.
+#include "support/rendering.hpp"
+
+#include <cmath>
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr uvec2 kSize{512, 512};
+
+TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
+    const scene::Scene scene = scene::cornell_mirrors();
+    measure::Picture last;
+    for (int k = 1; k <= 8; ++k) {
+        const app::Part reuse = test::render(scene, "reuse", kSize, k);
+        const app::Part naive = test::render(scene, "naive:bounces=" + std::to_string(k), kSize);
+        EXPECT_TRUE(test::same_bytes(reuse.hdr, naive.hdr)) << "frame " << k;
+        EXPECT_TRUE(test::same_bytes(reuse.display, naive.display)) << "frame " << k;
+        EXPECT_EQ(reuse.scene_passes, 6);
+        EXPECT_EQ(naive.scene_passes, 4 * k + 2);
+        if (k <= 5) {
+            EXPECT_FALSE(test::same_bytes(reuse.hdr, last)) << "bounce " << k << " must show";
+        }
+        last = reuse.hdr;
+    }
+}
+
+/// Sums of squared differences, both clamped to [0, 1], where the mask says.
+struct Change {
+    double sum = 0, largest_pixel = 0;
+    std::size_t pixels = 0;
+    double rmse(bool without_largest) const {
+        return std::sqrt((sum - (without_largest ? largest_pixel : 0)) / (3.0 * static_cast<double>(pixels)));
+    }
+};
+
+Change change(const measure::Picture& a, const measure::Picture& b, const measure::Mask& mask) {
+    Change result;
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        if (!mask[i]) continue;
+        const vec3 d = glm::clamp(a.pixels[i], vec3(0), vec3(1)) - glm::clamp(b.pixels[i], vec3(0), vec3(1));
+        const double square = dot(d, d);
+        result.sum += square, ++result.pixels;
+        result.largest_pixel = std::max(result.largest_pixel, square);
+    }
+    return result;
+}
+
+/// From the fourth bounce on, the difference is a handful of pixels, and the one in which the lamp appears
+/// last (0 to 1 in a single pixel of ball 4) outweighs all others: the steps are judged without the pixel
+/// that changes most, all of them together with it.
+TEST(Naive, EachBounceChangesLess) {
+    const scene::Scene scene = scene::cornell_mirrors();
+    const measure::Mask mirrors = measure::mirrors(test::render(scene, "raytrace", kSize).hits);
+    measure::Picture last = test::render(scene, "naive:bounces=0", kSize).hdr;
+    std::vector<Change> steps;
+    for (int k = 0; k <= 4; ++k) {
+        const measure::Picture next = test::render(scene, "naive:bounces=" + std::to_string(k + 1), kSize).hdr;
+        steps.push_back(change(last, next, mirrors));
+        std::cout << "[ MEASURED ] naive:" << k << " to naive:" << k + 1 << ": rmse " << steps.back().rmse(false) << ", "
+                  << steps.back().rmse(true) << " without the pixel that changes most\n";
+        EXPECT_GT(steps.back().rmse(false), 0);
+        if (k > 0) {
+            EXPECT_GE(steps[static_cast<std::size_t>(k) - 1].rmse(true), 2.5 * steps.back().rmse(true)) << k;
+        }
+        last = next;
+    }
+    EXPECT_GE(steps.front().rmse(false), std::pow(2.5, 4) * steps.back().rmse(false));
+}
+
+TEST(Naive, RendersTheSceneAsOftenAsTheReportCounts) {
+    const int expected[] = {2, 6, 10, 14, 18};
+    for (int i = 0; i <= 4; ++i)
+        EXPECT_EQ(test::render(scene::cornell_mirrors(), "naive:face=16,bounces=" + std::to_string(i), {16, 16}).scene_passes, expected[i]);
+    for (const char* technique : {"reuse:face=16", "parallax:face=16"})
+        EXPECT_EQ(test::render(scene::cornell_mirrors(), technique, {16, 16}).scene_passes, 6);
+}
+
+} // namespace

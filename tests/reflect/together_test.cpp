@@ -1,0 +1,58 @@
+// Several techniques in one frame: the pictures of separate runs, on one timeline.
+#include "support/rendering.hpp"
+
+#include <set>
+
+namespace {
+
+using namespace catoptric;
+
+TEST(Together, PicturesEqualThoseOfSeparateRuns) {
+    std::vector<std::string> techniques;
+    for (const app::TechniqueInfo& technique : app::techniques()) techniques.push_back(technique.name);
+    techniques.push_back("naive:bounces=1,face=64"); // the same technique twice
+    app::Request request = test::request(scene::cornell_mirrors(), techniques, {96, 80});
+    request.warmup = 1, request.frames = 2;
+    request.animate = true;
+    const app::Result together = test::engine().run(request);
+    ASSERT_EQ(together.parts.size(), techniques.size());
+    for (std::size_t i = 0; i < techniques.size(); ++i) {
+        request.techniques = {techniques[i]};
+        const app::Part alone = std::move(test::engine().run(request).parts.front());
+        const app::Part& part = together.parts[i];
+        EXPECT_TRUE(test::same_bytes(part.hdr, alone.hdr)) << techniques[i];
+        EXPECT_TRUE(test::same_bytes(part.display, alone.display)) << techniques[i];
+        EXPECT_EQ(part.hits, alone.hits) << techniques[i];
+        EXPECT_EQ(part.scene_passes, alone.scene_passes) << techniques[i];
+        EXPECT_EQ(part.rays.has_value(), alone.rays.has_value());
+        if (part.rays && alone.rays) {
+            EXPECT_EQ(part.rays->mirror, alone.rays->mirror);
+        }
+    }
+}
+
+TEST(Together, AllPassesLieOnOneTimeline) {
+    app::Request request = test::request(scene::cornell_mirrors(), {"reuse:face=64", "raytrace"}, {64, 64});
+    const app::Result result = test::engine().run(request);
+    ASSERT_EQ(result.frames.size(), 1u);
+    std::set<std::string> names;
+    double time = 0;
+    for (const app::PassTime& pass : result.frames.front().passes) {
+        EXPECT_TRUE(names.insert(pass.name).second) << pass.name;
+        EXPECT_GE(pass.begin_ms, time) << pass.name;
+        time = pass.end_ms;
+    }
+    const std::string reuse = result.parts[0].prefix, traced = result.parts[1].prefix;
+    EXPECT_NE(reuse, traced);
+    for (const std::string& name : {reuse + "shadow", reuse + "capture/1", reuse + "capture/4", reuse + "view", reuse + "compose",
+                                    traced + "raytrace", traced + "compose"})
+        EXPECT_TRUE(names.contains(name)) << name;
+    EXPECT_DOUBLE_EQ(time, result.frames.front().gpu_ms);
+}
+
+TEST(Together, TheSameTechniqueTwiceIsRefused) {
+    test::expect_refused([] { test::engine().run(test::request(test::room(1, 1), {"reuse", "reuse:face=256"}, {16, 16})); },
+                         Failure::usage, {"'reuse:face=256'", "asked for twice"});
+}
+
+} // namespace
