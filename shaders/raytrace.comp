@@ -1,180 +1,15 @@
-// Whitted ray tracing: camera, shadow and mirror rays; one sample of each pixel a dispatch.
+// Whitted ray tracing: one sample of each pixel a dispatch.
 // Builds: default; #shadow_map asks the raster world's shadow map instead of tracing; #naive is the
 // plain form that the benchmark compares with (see lib/trace.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "lib/bindings.glsl"
-#include "lib/trace.glsl"
-#ifdef SHADOW_MAP
-#include "lib/shadow.glsl"
-#endif
+#include "lib/whitted.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = PICTURE_BINDING, rgba32f) uniform image2D picture;
 layout(set = 0, binding = HITS_BINDING, r32ui) writeonly uniform uimage2D hits;
-layout(set = 0, binding = COUNTERS_BINDING, scalar) buffer CountersBuffer { Counters value; } counters;
-#ifdef NAIVE
-layout(set = 0, binding = NORMALS_BINDING, std430) readonly buffer Normals { vec4 normals[]; };
-#define NORMAL(i) normals[i].xyz
-#else
-layout(set = 0, binding = NORMALS_BINDING) uniform samplerBuffer normals;
-#define NORMAL(i) texelFetch(normals, int(i)).xyz
-#endif
 layout(push_constant, scalar) uniform Push { Trace trace; };
-
-layout(constant_id = 0) const uint max_depth = 8u;
-layout(constant_id = 1) const uint shadow = 2u; // kShadowNone, kShadowMap, kShadowRay
-layout(constant_id = 2) const uint exact_spheres = 0u;
-
-uint mirror_rays = 0u;
-uint shadow_rays = 0u;
-
-// A place on a surface, and the bound of its error (see triangle_point).
-struct Point {
-    vec3 position;
-    vec3 error;
-    vec3 normal; // interpolated, unit
-    vec3 facet;  // geometric, unit
-    uint object;
-    uint leaves; // for the rays that start here (see Ray)
-};
-Point point; // what is being shaded
-
-// Triangles that stand for an exact sphere are passed by when spheres are exact.
-uint passed_by() { return exact_spheres != 0u ? kBvhSphere : 0u; }
-
-bool nearest_sphere(Ray ray, inout float t, out uint object) {
-    bool found = false;
-    for (uint i = 0u; i < frame.value.object_count; ++i) {
-        float t_sphere;
-        if (surfaces[i].radius > 0.0 && sphere_test(surfaces[i].centre, surfaces[i].radius, ray, t, t_sphere)) {
-            t = t_sphere;
-            object = i;
-            found = true;
-        }
-    }
-    return found;
-}
-
-Point on_triangle(Hit hit) {
-    vec3 a, b, c;
-    triangle_corners(hit.place, a, b, c);
-    vec3 w = hit.barycentric;
-    Point p;
-    p.position = triangle_point(a, b, c, w, p.error);
-    p.facet = facet_normal(a, b, c);
-    p.normal = normalize(w.x * NORMAL(3u * hit.triangle) + w.y * NORMAL(3u * hit.triangle + 1u) +
-                         w.z * NORMAL(3u * hit.triangle + 2u));
-    p.object = hit.object;
-    p.leaves = hit.triangle + 1u;
-    return p;
-}
-
-Point on_sphere(Ray ray, float t, uint object) {
-    Point p;
-    p.position = sphere_point(surfaces[object].centre, surfaces[object].radius, ray, t, p.error);
-    p.normal = p.facet = (p.position - surfaces[object].centre) / surfaces[object].radius;
-    p.object = object;
-    p.leaves = 0u;
-    return p;
-}
-
-bool trace_ray(Ray ray, uint skipped, out Point p) {
-    Hit hit;
-    bool found = closest_hit(ray, kLargest, skipped | passed_by(), hit);
-    if (exact_spheres != 0u) {
-        float t = found ? hit.t : kLargest;
-        uint object = 0u;
-        if (nearest_sphere(ray, t, object)) {
-            p = on_sphere(ray, t, object);
-            return true;
-        }
-    }
-    if (found) p = on_triangle(hit);
-    return found;
-}
-
-float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
-    if (shadow == kShadowNone) return 1.0;
-#ifdef SHADOW_MAP
-    return shadow_map_visible(light, position, normal);
-#else
-    ++shadow_rays;
-    vec3 origin = spawn_origin(position, point.error, point.facet, direction);
-    Ray ray = Ray(origin, lights[light].position - origin, point.leaves);
-    if (any_hit(ray, kShadowRayEnd, kBvhShadowless | passed_by())) return 0.0;
-    float t = kShadowRayEnd;
-    uint object;
-    return exact_spheres != 0u && nearest_sphere(ray, t, object) ? 0.0 : 1.0;
-#endif
-}
-#include "lib/lighting.glsl"
-
-Ray camera_ray(vec2 place) {
-    View view = views[0];
-    vec2 ndc = place / vec2(trace.size) * 2.0 - 1.0;
-    return Ray(view.eye, normalize(view.forward + ndc.x * view.right / dot(view.right, view.right) +
-                                   ndc.y * view.down / dot(view.down, view.down)), 0u);
-}
-
-// Radiance along the ray; `met` = number of the first mirror, and of the second << 16.
-vec3 radiance(Ray ray, out uint met) {
-    vec3 weight = vec3(1);
-    vec3 result = vec3(0);
-    met = 0u;
-    uint skipped = kBvhHidden;
-    bool done = false;
-    for (uint bounce = 0u; !done; ++bounce) {
-        if (!trace_ray(ray, skipped, point)) {
-            done = true;
-            continue;
-        }
-        Surface surface = surfaces[point.object];
-        if (bounce < 2u) met |= surface.mirror << (16u * bounce);
-        if (surface.mirror == 0u) {
-            result = weight * shade(surface, point.position, point.normal);
-            done = true;
-        } else if (bounce == max_depth) {
-            done = true;
-        } else {
-            weight *= surface.reflectance;
-            vec3 direction = mirror_direction(ray.direction, point.normal, point.facet);
-            ray = Ray(spawn_origin(point.position, point.error, point.facet, direction), direction, point.leaves);
-            skipped = 0u;
-            ++mirror_rays;
-        }
-    }
-    // A driver that stopped the walk's loops stops this one too, without a word.
-    trace_exhausted = trace_exhausted || !done;
-    return result;
-}
-
-// Neighbouring work groups cost alike, and a software driver gives each of its threads one contiguous
-// run of them: scattered, the threads finish together.
-uint work_group() {
-#ifdef NAIVE
-    return gl_WorkGroupID.x;
-#else
-    const uint kPrime = 2531u;
-    uint count = gl_NumWorkGroups.x;
-    return count % kPrime == 0u || count > 0xffffffffu / kPrime ? gl_WorkGroupID.x : gl_WorkGroupID.x * kPrime % count;
-#endif
-}
-
-void count(bool inside) {
-    uint primary = subgroupAdd(inside ? 1u : 0u);
-    uint mirrors = subgroupAdd(mirror_rays);
-    uint shadows = subgroupAdd(shadow_rays);
-    uint exhausted = subgroupAdd(trace_exhausted ? 1u : 0u);
-    uint longest = subgroupMax(trace_steps);
-    if (!subgroupElect()) return;
-    atomicAdd(counters.value.primary_rays, primary);
-    atomicAdd(counters.value.mirror_rays, mirrors);
-    atomicAdd(counters.value.shadow_rays, shadows);
-    if (exhausted > 0u) atomicAdd(counters.value.exhausted, exhausted);
-    atomicMax(counters.value.longest_walk, longest);
-}
 
 void main() {
     uint across = (trace.size.x + 7u) / 8u;
@@ -183,7 +18,7 @@ void main() {
     bool inside = all(lessThan(pixel, trace.size));
     if (inside) {
         uint met;
-        vec3 sum = radiance(camera_ray(vec2(pixel) + trace.sample_offset), met);
+        vec3 sum = radiance(camera_ray(vec2(pixel) + trace.sample_offset, trace.size), met);
         if (trace.sample_index == 0u)
             imageStore(hits, ivec2(pixel), uvec4(met));
         else

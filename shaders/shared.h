@@ -86,13 +86,15 @@ struct Trace {
     uvec2 size;         // of the picture
 };
 
-// What the ray tracer counts, over all dispatches of the frame.
+// What ray tracing counts, over all dispatches of the frame.
 struct Counters {
     uint primary_rays;
     uint mirror_rays;
     uint shadow_rays;
-    uint longest_walk; // steps of the busiest invocation in one dispatch
-    uint exhausted;    // invocations that gave up: their pixels are wrong
+    uint longest_walk;  // steps of the busiest invocation in one dispatch
+    uint exhausted;     // invocations that gave up: their pixels are wrong
+    uint mirror_pixels; // drawn by a search that may list some of them for tracing; 0 in the ray tracer
+    uint listed;        // of them
 };
 
 #ifdef __cplusplus
@@ -104,7 +106,7 @@ static_assert(sizeof(View) == 52);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(Draw) == 72);
 static_assert(sizeof(Trace) == 24);
-static_assert(sizeof(Counters) == 20);
+static_assert(sizeof(Counters) == 28);
 } // namespace catoptric::shared
 #endif
 #endif

@@ -81,6 +81,14 @@ void Commands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     vkCmdDispatch(commands_, x, y, z);
 }
 
+void Commands::dispatch_indirect(Buffer arguments, std::uint64_t offset) {
+    const auto same = [&](const BufferUse& use) { return use.buffer.id == arguments.id && use.use == Use::indirect; };
+    check(std::ranges::any_of(pass_.buffers, same), Failure::internal, "pass '", pass_.name, "' dispatches what buffer '",
+          graph_.buffers()[arguments.id].name, "' says but does not declare it as indirect");
+    flush();
+    vkCmdDispatchIndirect(commands_, runner_.buffer(arguments), offset);
+}
+
 void Commands::barrier() {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;

@@ -46,6 +46,8 @@ public:
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
               std::uint32_t layer_count = 1);
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
+    /// Group counts x, y, z are read from the buffer, which the pass declares as indirect, at `offset` bytes.
+    void dispatch_indirect(Buffer arguments, std::uint64_t offset = 0);
     /// Makes what the dispatches so far wrote visible to the following ones of this pass.
     void barrier();
     /// Both declared by the pass; same size and format, all layers of the handles.

@@ -43,4 +43,5 @@ void main() {
     put(t.sample_offset), put(t.sample_index), put(t.sample_count), put(t.size);
     Counters c = counters[1];
     put(c.primary_rays), put(c.mirror_rays), put(c.shadow_rays), put(c.longest_walk), put(c.exhausted);
+    put(c.mirror_pixels), put(c.listed);
 }

@@ -32,7 +32,7 @@ const std::vector<Member> kMembers{
     MEMBER(Draw, first_view), MEMBER(Draw, surface), MEMBER(Draw, probe_centre),
     MEMBER(Trace, sample_offset), MEMBER(Trace, sample_index), MEMBER(Trace, sample_count), MEMBER(Trace, size),
     MEMBER(Counters, primary_rays), MEMBER(Counters, mirror_rays), MEMBER(Counters, shadow_rays),
-    MEMBER(Counters, longest_walk), MEMBER(Counters, exhausted)};
+    MEMBER(Counters, longest_walk), MEMBER(Counters, exhausted), MEMBER(Counters, mirror_pixels), MEMBER(Counters, listed)};
 
 /// Word i of every buffer, an ordinary number also as a float.
 constexpr std::uint32_t word(std::size_t i) { return 0x3f800000u + static_cast<std::uint32_t>(i); }
