@@ -13,4 +13,9 @@ float light_visible(uint light, vec3 at, vec3 n, vec3 direction, float distance)
 #endif
 #include "lib/lighting.glsl"
 
-void main() { write_surface(shade(draw.surface, position, normalize(normal))); }
+void main() {
+#ifdef PEEL
+    if (is_peeled()) discard;
+#endif
+    write_surface(shade(draw.surface, position, normalize(normal)));
+}

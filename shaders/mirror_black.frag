@@ -3,4 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/surface.glsl"
 
-void main() { write_surface(vec3(0)); }
+void main() {
+#ifdef PEEL
+    if (is_peeled()) discard;
+#endif
+    write_surface(vec3(0));
+}

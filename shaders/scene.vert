@@ -13,6 +13,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_from_eye;
+layout(location = 3) flat out uint out_layer;
 
 invariant gl_Position;
 
@@ -26,4 +27,5 @@ void main() {
     out_position = position;
     out_normal = normal;
     out_from_eye = v;
+    out_layer = uint(gl_InstanceIndex);
 }

@@ -31,10 +31,11 @@ render::MirrorLook look_into(std::string fragment, const render::Cubes& cubes, c
 }
 
 Captured add_feedback(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                      const std::string& fragment) {
+                      const std::string& fragment, bool second_layer) {
     Captured captured;
     captured.lighting = add_lighting(graph, inputs, settings);
     captured.options = capture_options(inputs, settings, captured.lighting);
+    captured.options.second_layer = second_layer;
     if (inputs.scene.mirror_count() == 0) return captured;
     captured.cubes = render::declare_cubes(graph, inputs, captured.options);
     render::Cubes last{graph.previous(captured.cubes->colour), {}};

@@ -42,10 +42,10 @@ struct Captured {
     std::optional<render::Cubes> cubes; ///< none without mirrors
 };
 
-/// Shadow pass, then every mirror captured once. In a capture the other mirrors look into last frame's
-/// captures with `fragment`.
+/// Shadow pass, then every mirror captured once (twice with a second layer). In a capture the other
+/// mirrors look into last frame's captures with `fragment`.
 Captured add_feedback(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                      const std::string& fragment);
+                      const std::string& fragment, bool second_layer = false);
 
 /// The view of what was captured, mirrors drawn with `fragment`; hops are set where there is a `continue`.
 render::MirrorLook view_look(const Captured& captured, const Settings& settings, const std::string& fragment);

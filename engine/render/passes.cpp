@@ -32,19 +32,26 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object, 
     }
 }
 
-/// Everything that is no mirror, then the mirrors, except where `skip` says so.
+/// Everything that is no mirror, then the mirrors, except where `skip` says so. With `peeled`, the
+/// distances of a first layer: only what lies behind them.
 template <typename Skip>
 void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_view, std::uint32_t layers,
-                const Lighting& lighting, const MirrorLook& look, float stored_unit, Skip&& skip) {
-    const std::pair<std::string, std::variant<std::uint32_t, float>> store{"distance_scale", 1 / stored_unit};
+                const Lighting& lighting, const MirrorLook& look, float stored_unit, std::optional<Image> peeled, Skip&& skip) {
+    gpu::Constants store{{"distance_scale", 1 / stored_unit}};
+    std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed", black = "mirror_black.frag";
     scene.bind(commands);
     if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
-    commands.use(gpu::RasterState{"scene.vert", lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed", {store}});
+    if (peeled) {
+        diffuse += lighting.shadow_map ? "#peel" : "_peel", black += "#peel";
+        commands.bind("first_layer", *peeled);
+        if (stored_unit != 1) store.emplace_back("half_step", 0.5f / 255);
+    }
+    commands.use(gpu::RasterState{"scene.vert", diffuse, store});
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
         if (!scene.ranges()[i].mirror && !skip(i)) draw_object(commands, scene, i, first_view, layers);
-    gpu::RasterState mirrors{"scene.vert", "mirror_black.frag", {store}};
+    gpu::RasterState mirrors{"scene.vert", black, store};
     if (look.cubes && !look.blank) {
-        mirrors.fragment = look.fragment;
+        mirrors.fragment = look.fragment + (peeled ? "#peel" : "");
         mirrors.constants.insert(mirrors.constants.end(), look.constants.begin(), look.constants.end());
         commands.bind("colour_cubes", look.cubes->colour, Filter::linear);
         if (look.cubes->distance) {
@@ -66,6 +73,27 @@ void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const
     if (look.cubes->distance) pass.reads(*look.cubes->distance, Use::sampled);
     for (const auto& [name, image] : look.images) pass.reads(image, Use::sampled);
     for (const auto& [name, buffer] : look.buffers) pass.reads(buffer, Use::storage_read);
+}
+
+/// A mirror's six faces; with `peeled`, of what lies behind these distances.
+void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options, std::uint32_t mirror,
+                 const std::string& pass_name, Image colour, std::optional<Image> distance, std::optional<Image> peeled) {
+    // "Nothing there" is +infinity; unorm8 has none, so there it is the end of the range.
+    const float nothing = options.distance == Format::r8_unorm ? 1.0f : std::numeric_limits<float>::infinity();
+    const std::string name = inputs.prefix + pass_name;
+    const Image depth = graph.image({name + ".depth", Format::d32f, options.face, options.face, 6, true});
+    graph::PassBuilder pass = graph.pass(name, Tag::scene);
+    read_surroundings(pass, options.lighting, options.look);
+    if (peeled) pass.reads(*peeled, Use::sampled);
+    pass.writes(colour, Use::colour, kBlack);
+    if (distance) pass.writes(*distance, Use::colour, Clear{nothing, 0, 0, 0});
+    pass.writes(depth, Use::depth, kFarthest)
+        .layers(6)
+        .record([&scene = inputs.scene, mirror, lighting = options.lighting, look = options.look, unit = options.stored_unit,
+                 peeled](Commands& commands) {
+            draw_scene(commands, scene, scene.capture_view(mirror), 6, lighting, look, unit, peeled,
+                       [&](std::size_t object) { return object == scene.mirror_object(mirror); });
+        });
 }
 
 } // namespace
@@ -97,26 +125,23 @@ Cubes declare_cubes(graph::Graph& graph, const FrameInputs& inputs, const Captur
     cubes.colour = graph.image({name + "colour", Format::rgba16f, options.face, options.face, layers, true});
     if (options.distance)
         cubes.distance = graph.image({name + "distance", *options.distance, options.face, options.face, layers, true});
+    if (options.second_layer) {
+        check(options.distance.has_value(), Failure::internal, "captures '", options.name,
+              "' want a second layer, which needs the distance of the first");
+        cubes.colour2 = graph.image({name + "colour2", Format::rgba16f, options.face, options.face, layers, true});
+        cubes.distance2 = graph.image({name + "distance2", *options.distance, options.face, options.face, layers, true});
+    }
     return cubes;
 }
 
 void add_captures(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options, const Cubes& cubes) {
-    // "Nothing there" is +infinity; unorm8 has none, so there it is the end of the range.
-    const float nothing = options.distance == Format::r8_unorm ? 1.0f : std::numeric_limits<float>::infinity();
     for (std::uint32_t mirror = 0; mirror < inputs.scene.mirror_count(); ++mirror) {
-        const std::string name = inputs.prefix + options.name + "/" + std::to_string(mirror + 1);
-        const Image depth = graph.image({name + ".depth", Format::d32f, options.face, options.face, 6, true});
-        graph::PassBuilder pass = graph.pass(name, Tag::scene);
-        read_surroundings(pass, options.lighting, options.look);
-        pass.writes(cubes.colour.layers(6 * mirror, 6), Use::colour, kBlack);
-        if (cubes.distance) pass.writes(cubes.distance->layers(6 * mirror, 6), Use::colour, Clear{nothing, 0, 0, 0});
-        pass.writes(depth, Use::depth, kFarthest)
-            .layers(6)
-            .record([&scene = inputs.scene, mirror, lighting = options.lighting, look = options.look,
-                     unit = options.stored_unit](Commands& commands) {
-                draw_scene(commands, scene, scene.capture_view(mirror), 6, lighting, look, unit,
-                           [&](std::size_t object) { return object == scene.mirror_object(mirror); });
-            });
+        const auto part_of = [&](std::optional<Image> image) { return image ? std::optional(image->layers(6 * mirror, 6)) : image; };
+        const std::string number = "/" + std::to_string(mirror + 1);
+        add_capture(graph, inputs, options, mirror, options.name + number, *part_of(cubes.colour), part_of(cubes.distance), {});
+        if (cubes.colour2)
+            add_capture(graph, inputs, options, mirror, options.name + "2" + number, *part_of(cubes.colour2), part_of(cubes.distance2),
+                        part_of(cubes.distance));
     }
 }
 
@@ -136,7 +161,7 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
         pass.writes(distance, Use::colour, Clear{}).writes(*view.lookup, Use::colour, Clear{});
     }
     pass.writes(depth, Use::depth, kFarthest).record([&scene = inputs.scene, lighting, look](Commands& commands) {
-        draw_scene(commands, scene, GpuScene::kCameraView, 1, lighting, look, 1,
+        draw_scene(commands, scene, GpuScene::kCameraView, 1, lighting, look, 1, {},
                    [&](std::size_t object) { return !scene.ranges()[object].seen_by_camera; });
     });
     return view;

@@ -22,10 +22,12 @@ struct FrameInputs {
 /// Nothing when the scene has no light.
 std::optional<graph::Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t edge);
 
-/// Colour (rgba16f) and, where asked for, radial distance: cube arrays of 6 layers a mirror.
+/// Colour (rgba16f) and, where asked for, radial distance: cube arrays of 6 layers a mirror. The second
+/// pair holds, in the same directions, the next surface behind that faces the centre.
 struct Cubes {
     graph::Image colour;
     std::optional<graph::Image> distance;
+    std::optional<graph::Image> colour2, distance2;
 };
 
 /// How a mirror is drawn: a fragment shader and the cubes that it looks into. Without cubes: black.
@@ -48,6 +50,7 @@ struct CaptureOptions {
     std::string name = "capture"; ///< passes are called name/1, name/2, ...
     std::uint32_t face = 256;     ///< cube edge in texels
     std::optional<Format> distance;
+    bool second_layer = false; ///< with distance: another pass a mirror, name2/1, name2/2, ...; fragment#peel exists
     float stored_unit = 1; ///< scene units of a stored 1 (unorm8: the range)
     Lighting lighting;
     MirrorLook look; ///< of the other mirrors; mirror n is left out of its own capture
@@ -55,7 +58,7 @@ struct CaptureOptions {
 
 /// Declares the cubes; what a row's `previous` needs before the captures exist.
 Cubes declare_cubes(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options);
-/// One pass a mirror, six faces at once.
+/// One pass a mirror, six faces at once; two with a second layer.
 void add_captures(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options, const Cubes& cubes);
 
 /// The camera's picture.

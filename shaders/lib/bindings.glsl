@@ -22,6 +22,7 @@ layout(set = 0, binding = 8) uniform samplerCubeArray distance_cubes_nearest;
 #define HITS_BINDING 13
 #define COUNTERS_BINDING 14
 #define HDR_BINDING 15
+#define FIRST_LAYER_BINDING 16
 
 const uint kShadowNone = 0u, kShadowMap = 1u, kShadowRay = 2u;
 

@@ -38,6 +38,9 @@ vec3 lookup_colour(uint mirror, Lookup lookup) { return captured_colour(mirror, 
 void main() {
     uint mirror = draw.surface.mirror - 1u;
     vec3 facet = normalize(cross(dFdx(from_eye), dFdy(from_eye)));
+#ifdef PEEL
+    if (is_peeled()) discard; // not before the derivatives
+#endif
     vec3 direction = mirror_direction(normalize(from_eye), normalize(normal), facet);
     vec3 weight = draw.surface.reflectance;
     vec3 at = position;

@@ -15,6 +15,19 @@ layout(location = 1) out float out_distance; // only captures that hold distance
 // 1 stores scene units; unorm8 stores distance / range.
 layout(constant_id = 0) const float distance_scale = 1.0;
 
+#ifdef PEEL
+layout(location = 3) flat in uint view_layer;
+layout(constant_id = 1) const float half_step = 0.0; // rounding of a stored distance, beside the relative one
+layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_layer; // distances of this capture
+
+// Depth peeling keeps only what faces the capture's centre behind the first layer. 2^-10 lies above the
+// relative rounding of a binary16 and of an interpolated distance.
+bool is_peeled() {
+    float first = texelFetch(first_layer, ivec3(gl_FragCoord.xy, view_layer), 0).r;
+    return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + half_step) || !(dot(normal, from_eye) < 0.0);
+}
+#endif
+
 const float kLargestHalf = 65504.0;
 
 // Colour saturates below the largest half, so that no capture ever holds an infinity.
