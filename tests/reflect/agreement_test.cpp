@@ -10,6 +10,7 @@ using namespace catoptric;
 struct Sides {
     const char *name, *raster, *traced;
     double most; ///< rmse
+    friend void PrintTo(const Sides& sides, std::ostream* out) { *out << sides.name; }
 };
 class Agreement : public testing::TestWithParam<Sides> {};
 INSTANTIATE_TEST_SUITE_P(Shadows, Agreement,

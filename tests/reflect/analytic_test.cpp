@@ -11,6 +11,7 @@ using namespace catoptric;
 struct Case {
     const char* name;
     int mirrors, lights;
+    friend void PrintTo(const Case& test_case, std::ostream* out) { *out << test_case.name; }
 };
 class Analytic : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Rooms, Analytic, testing::Values(Case{"one_ball", 1, 1}, Case{"three_balls_two_lamps", 3, 2}),

@@ -6,7 +6,15 @@
 #include "support/scenes.hpp"
 
 #include <cstring>
+#include <ostream>
 #include <vector>
+
+namespace catoptric {
+
+/// How a test's parameter is shown.
+inline void PrintTo(Format format, std::ostream* out) { *out << name_of(format); }
+
+} // namespace catoptric
 
 /// Cube captures as numbers.
 namespace test {

@@ -7,9 +7,17 @@
 
 #include <algorithm>
 #include <cstring>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
+
+namespace catoptric::app {
+
+/// How a test's parameter is shown.
+inline void PrintTo(const TechniqueInfo& technique, std::ostream* out) { *out << technique.name; }
+
+} // namespace catoptric::app
 
 /// Rendering a picture in one line, and comparing two.
 namespace test {
