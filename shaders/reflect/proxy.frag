@@ -1,0 +1,46 @@
+// The surroundings taken for one box (Lagarde and Zanuttini 2012) or one sphere (Brennan 2002) around
+// the capture's centre. The box is exact where a room has six walls across the axes and nothing in it.
+// From outside the proxy the ray is taken to where it enters.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define CONTINUE
+#include "lib/probe.glsl"
+#include "reflect/proxy.glsl"
+
+layout(set = 0, binding = 20, scalar) readonly buffer Proxies { Proxy proxies[]; };
+const uint kBox = 0u, kSphere = 1u;
+layout(constant_id = 4) const uint shape = kBox;
+// A captured surface further than this from the proxy is something else.
+const float kTolerance = 0.05;
+
+bool meets_box(vec3 lo, vec3 hi, vec3 offset, vec3 direction, out float t) {
+    float enter = 0.0, leave = kLargest;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (direction[axis] == 0.0) {
+            if (offset[axis] < lo[axis] || offset[axis] > hi[axis]) return false;
+            continue;
+        }
+        float a = (lo[axis] - offset[axis]) / direction[axis];
+        float b = (hi[axis] - offset[axis]) / direction[axis];
+        enter = max(enter, min(a, b));
+        leave = min(leave, max(a, b));
+    }
+    t = enter > 0.0 ? enter : leave;
+    return leave > 0.0 && leave <= kLargest && enter <= leave;
+}
+
+Lookup search(uint mirror, vec3 offset, vec3 direction) {
+    Proxy proxy = proxies[mirror];
+    float t = 0.0;
+    bool met = proxy.radius > 0.0 &&
+               (shape == kBox ? meets_box(proxy.lo, proxy.hi, offset, direction, t)
+                              : sphere_test(vec3(0), proxy.radius, Ray(offset, direction, 0u), kLargest, t));
+    vec3 p = offset + direction * t;
+    float size = length(p);
+    if (!met || !(size > 0.0 && size <= kLargest)) return Lookup(direction, kMiss, 0.0, 0.0);
+    float captured = captured_distance(mirror, p / size);
+    if (is_miss(captured)) return Lookup(p / size, kMiss, 0.0, 0.0);
+    float residual = min(abs(captured - size) / size, 1.0);
+    return Lookup(p / size, residual <= kTolerance ? kHit : kUnknown, residual, 0.0);
+}
+#include "lib/mirror.glsl"
