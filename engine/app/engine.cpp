@@ -112,6 +112,7 @@ void read_counters(const std::vector<std::byte>& bytes, Part& part) {
           " pixels met more triangles and boxes than one invocation may (", counters.longest_walk,
           " steps); lower the depth");
     part.rays = RayCounts{counters.primary_rays, counters.mirror_rays, counters.shadow_rays, counters.longest_walk};
+    if (counters.mirror_pixels > 0) part.traced_fraction = static_cast<double>(counters.listed) / counters.mirror_pixels;
 }
 
 Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const Declared& declared, uvec2 size) {

@@ -77,6 +77,7 @@ struct Part {
     measure::Picture display; ///< what the screen shows: multiples of 1/255
     std::vector<std::uint32_t> hits; ///< ray tracing only: first mirror | second mirror << 16
     std::optional<RayCounts> rays;   ///< ray tracing only
+    std::optional<double> traced_fraction; ///< of its mirror pixels, where a search leaves some to tracing
 };
 
 struct Result {

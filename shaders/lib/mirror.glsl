@@ -9,8 +9,6 @@
 #include "lib/probe.glsl"
 #include "lib/surface.glsl"
 
-layout(location = 2) out vec4 out_lookup; // direction; 1 + state + 4 layer + 8 mirror, as a number
-
 // Mirrors that the reflected ray is followed through before the search: only those that are exact
 // spheres, where a test of the ray costs no fetch.
 layout(constant_id = 3) const uint hops = 0u;

@@ -11,6 +11,8 @@ layout(location = 2) in vec3 from_eye; // position - eye
 
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out float out_distance; // only captures that hold distances keep it
+// Only views keep it. Where a mirror looked: direction; 1 + state + 4 layer + 8 mirror, as a number; else 0.
+layout(location = 2) out vec4 out_lookup;
 
 // 1 stores scene units; unorm8 stores distance / range.
 layout(constant_id = 0) const float distance_scale = 1.0;
@@ -34,6 +36,7 @@ const float kLargestHalf = 65504.0;
 void write_surface(vec3 colour) {
     out_colour = vec4(min(colour, vec3(kLargestHalf)), 1);
     out_distance = length(from_eye) * distance_scale;
+    out_lookup = vec4(0); // an output that is not written is not zero, it is undefined
 }
 
 #endif
