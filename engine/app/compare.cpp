@@ -1,5 +1,6 @@
 #include "app/compare.hpp"
 
+#include "app/oracle.hpp"
 #include "core/error.hpp"
 #include "measure/difference.hpp"
 #include "measure/flip.hpp"
@@ -174,8 +175,24 @@ private:
         comparison_.reference_display = truth("1").part.display;
     }
 
+    /// Where the row's mirrors looked, against what rays meet: a run of its own, since saying so costs
+    /// time. Nothing for rows that do not search.
+    std::optional<measure::LookupError> judge_lookup(const std::string& text) {
+        Request request = request_.base;
+        request.techniques = {text};
+        request.frames = 1;
+        request.warmup = 1;
+        request.animate = false;
+        request.with_lookup = true;
+        const Result result = engine_.run(request);
+        if (result.parts.front().lookup.empty()) return std::nullopt;
+        if (!oracle_) oracle_.emplace(request);
+        return measure::lookup_error(oracle_->judge(result.parts.front().lookup));
+    }
+
     void add(const std::string& text, const Part& part, const std::vector<Frame>& frames) {
         report::Row row = make_row(text, part, frames);
+        if (!part.rays || part.traced_fraction) row.lookup = judge_lookup(text);
         const std::string samples = sample_count(parse_technique(text));
         fill_errors(row, part, truth(samples).part, hits_, mirrors_);
         row.is_reference = same(parse_technique(text), parse_technique(reference_at(request_.reference, samples)));
@@ -212,6 +229,7 @@ private:
     std::size_t mirrors_ = 0;
     std::map<std::string, Truth> truths_;
     std::vector<std::uint32_t> hits_;
+    std::optional<Oracle> oracle_;
     report::Comparison comparison_;
 };
 

@@ -41,13 +41,14 @@ FrameGraph declare(const Request& request, const std::vector<reflect::Choice>& c
     FrameGraph frame{graph::Graph(std::move(history)), {}};
     for (const reflect::Choice& choice : choices) {
         const std::string prefix = choices.size() > 1 ? choice.file_name() + "/" : "";
-        const render::FrameInputs inputs{scene, request.size, prefix, request.seed};
+        const render::FrameInputs inputs{scene, request.size, prefix, request.seed, request.with_lookup};
         reflect::Outputs outputs = choice.technique->add(frame.graph, inputs, choice.settings);
         const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr, request.exposure);
         frame.graph.want(outputs.hdr);
         frame.graph.want(display);
         if (outputs.hits) frame.graph.want(*outputs.hits);
         if (outputs.counters) frame.graph.want(*outputs.counters);
+        if (outputs.lookup) frame.graph.want(*outputs.lookup);
         frame.parts.push_back({choice, prefix, outputs, display});
     }
     return frame;
@@ -105,6 +106,13 @@ measure::Picture to_picture(const std::vector<std::byte>& texels, uvec2 size, Fo
     return picture;
 }
 
+template <typename Value>
+std::vector<Value> values_of(const std::vector<std::byte>& bytes) {
+    std::vector<Value> values(bytes.size() / sizeof(Value));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+}
+
 void read_counters(const std::vector<std::byte>& bytes, Part& part) {
     shared::Counters counters;
     std::memcpy(&counters, bytes.data(), sizeof counters);
@@ -124,11 +132,8 @@ Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan
     if (declared.outputs.counters) read_counters(runner.read(*declared.outputs.counters), part);
     part.hdr = to_picture(runner.read(declared.outputs.hdr), size, Format::rgba32f);
     part.display = to_picture(runner.read(declared.display), size, Format::rgba8_unorm);
-    if (declared.outputs.hits) {
-        const std::vector<std::byte> words = runner.read(*declared.outputs.hits);
-        part.hits.resize(words.size() / 4);
-        std::memcpy(part.hits.data(), words.data(), words.size());
-    }
+    if (declared.outputs.hits) part.hits = values_of<std::uint32_t>(runner.read(*declared.outputs.hits));
+    if (declared.outputs.lookup) part.lookup = values_of<vec4>(runner.read(*declared.outputs.lookup));
     return part;
 }
 

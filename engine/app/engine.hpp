@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/math.hpp"
 #include "measure/picture.hpp"
 #include "scene/load.hpp"
 #include "scene/scene.hpp"
@@ -43,6 +44,7 @@ struct Request {
     double exposure = 0; ///< stops
     std::uint64_t seed = 1; ///< of sample patterns that are not a regular grid
     Timing timing = Timing::isolated;
+    bool with_lookup = false; ///< also say where mirrors looked (Part::lookup); costs time
     /// Called after each frame with its number and the total; may be empty.
     std::function<void(int, int)> progress;
 };
@@ -75,6 +77,7 @@ struct Part {
     std::uint64_t memory_bytes = 0; ///< of the whole frame's images
     measure::Picture hdr;     ///< linear radiance
     measure::Picture display; ///< what the screen shows: multiples of 1/255
+    std::vector<vec4> lookup; ///< with `with_lookup`, techniques that search: see shaders/lib/mirror.glsl
     std::vector<std::uint32_t> hits; ///< ray tracing only: first mirror | second mirror << 16
     std::optional<RayCounts> rays;   ///< ray tracing only
     std::optional<double> traced_fraction; ///< of its mirror pixels, where a search leaves some to tracing

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measure/difference.hpp"
+#include "measure/lookup.hpp"
 #include "measure/picture.hpp"
 #include "measure/statistics.hpp"
 
@@ -60,6 +61,7 @@ struct Row {
     std::vector<measure::Difference> error_per_mirror; ///< entry n-1 is mirror n
     std::uint64_t memory_bytes = 0; ///< of the frame's images
     std::optional<Rays> rays;       ///< of ray tracing, one frame
+    std::optional<measure::LookupError> lookup; ///< first-order pixels: where mirrors looked
     std::optional<double> traced_fraction;
     measure::Mean mean, mean_clamped;
     measure::Picture hdr;           ///< the last frame, linear

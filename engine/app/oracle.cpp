@@ -1,0 +1,112 @@
+#include "app/oracle.hpp"
+
+#include "bvh/closest_hit.hpp"
+#include "render/views.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace catoptric::app {
+
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::max();
+
+bvh::Bvh build_without(const render::Geometry& geometry, std::size_t left_out) {
+    std::vector<bvh::Triangle> triangles;
+    for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
+        const render::DrawRange& range = geometry.ranges[object];
+        if (object == left_out) continue;
+        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
+            const auto corner = [&](std::uint32_t j) { return geometry.vertices[geometry.indices[k + j]].position; };
+            triangles.push_back({corner(0), corner(1), corner(2), static_cast<std::uint32_t>(object),
+                                 range.seen_by_camera ? 0 : bvh::kHidden});
+        }
+    }
+    return bvh::build(triangles);
+}
+
+f32::Ray camera_ray(const shared::View& view, uvec2 size, std::size_t pixel) {
+    const vec2 place(static_cast<float>(pixel % size.x) + 0.5f, static_cast<float>(pixel / size.x) + 0.5f);
+    const vec2 ndc = place / vec2(size) * 2.0f - 1.0f;
+    return {view.eye, normalize(view.forward + ndc.x * view.right / dot(view.right, view.right) +
+                                ndc.y * view.down / dot(view.down, view.down)), 0};
+}
+
+/// The ray that a mirror sends on from where `ray` met it, as shaders/lib/whitted.glsl does.
+f32::Ray reflected(const render::Geometry& geometry, const f32::Ray& ray, const bvh::Hit<float>& hit) {
+    const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& {
+        return geometry.vertices[geometry.indices[3 * hit.triangle + j]];
+    };
+    const vec3 a = vertex(0).position, b = vertex(1).position, c = vertex(2).position, w = hit.barycentric;
+    vec3 error;
+    const vec3 point = f32::triangle_point(a, b, c, w, error);
+    const vec3 facet = f32::facet_normal(a, b, c);
+    const vec3 normal = normalize(w.x * vertex(0).normal + w.y * vertex(1).normal + w.z * vertex(2).normal);
+    const vec3 direction = f32::mirror_direction(ray.direction, normal, facet);
+    return {f32::spawn_origin(point, error, facet, direction), direction, hit.triangle + 1};
+}
+
+} // namespace
+
+Oracle::Oracle(const Request& request) {
+    const scene::Scene now = scene::at(request.scene, request.time);
+    const render::Space space = render::space_of(request.scene);
+    geometry_ = render::make_geometry(now, space);
+    mirror_objects_ = scene::mirrors(now);
+    everything_ = build_without(geometry_, geometry_.ranges.size());
+    for (const std::size_t object : mirror_objects_) {
+        centres_.push_back(space.point(scene::bounds(now, now.objects[object]).centre()));
+        without_.push_back(build_without(geometry_, object));
+    }
+    trace(request);
+}
+
+void Oracle::trace(const Request& request) {
+    const render::Space space = render::space_of(request.scene);
+    const shared::View view = render::camera_view(request.camera, space, request.size, 0);
+    const auto mirror_of = [&](std::uint32_t object) {
+        return static_cast<std::uint32_t>(std::ranges::find(mirror_objects_, object) - mirror_objects_.begin());
+    };
+    for (std::size_t pixel = 0; pixel < std::size_t{request.size.x} * request.size.y; ++pixel) {
+        const f32::Ray ray = camera_ray(view, request.size, pixel);
+        const auto hit = bvh::closest_hit<float>(everything_, ray, kFar, bvh::kHidden);
+        if (!hit || mirror_of(hit->object) == mirror_objects_.size()) continue;
+        const f32::Ray onward = reflected(geometry_, ray, *hit);
+        const auto met = bvh::closest_hit<float>(everything_, onward, kFar);
+        if (met && mirror_of(met->object) < mirror_objects_.size()) continue;
+        Target target{pixel, mirror_of(hit->object), met ? static_cast<int>(met->object) : kNothing, dvec3(onward.direction)};
+        if (met) target.direction = dvec3(onward.origin) + double{met->t} * dvec3(onward.direction) - dvec3(centres_[target.mirror]);
+        targets_.push_back(target);
+    }
+}
+
+int Oracle::captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer) const {
+    f32::Ray ray{centres_[mirror], direction, 0};
+    auto hit = bvh::closest_hit<float>(without_[mirror], ray, kFar);
+    // The second layer is the next surface that faces the centre.
+    while (second_layer && hit) {
+        ray.origin += ray.direction * hit->t;
+        ray.leaves = hit->triangle + 1;
+        hit = bvh::closest_hit<float>(without_[mirror], ray, kFar);
+        if (!hit) break;
+        const vec4* corner = &without_[mirror].triangles[3 * hit->place];
+        if (dot(f32::facet_normal(vec3(corner[0]), vec3(corner[1]), vec3(corner[2])), ray.direction) < 0) break;
+    }
+    return hit ? static_cast<int>(hit->object) : kNothing;
+}
+
+std::vector<measure::LookedUp> Oracle::judge(const std::vector<vec4>& lookup) const {
+    std::vector<measure::LookedUp> judged;
+    for (const Target& target : targets_) {
+        const vec4& pixel = lookup[target.pixel];
+        const int code = static_cast<int>(pixel.w) - 1;
+        if (code < 0 || static_cast<std::uint32_t>(code / 8) != target.mirror) continue;
+        const vec3 direction = normalize(vec3(pixel));
+        judged.push_back({measure::angle_degrees(dvec3(direction), target.direction),
+                          captured_object(target.mirror, direction, (code & 4) != 0) != target.object, code & 3});
+    }
+    return judged;
+}
+
+} // namespace catoptric::app
