@@ -1,20 +1,20 @@
 // Search first, trace only what the search cannot know. Pixels whose search ends UNKNOWN go into a list
 // as long as need be; an indirect dispatch traces just those from the camera with the ray tracer's own
 // function. A pixel is either found or traced: weights 1 and 0, so they always add up to 1.
-#include "reflect/knobs.hpp"
+#include "reflect/pyramid.hpp"
 
 namespace catoptric::reflect {
 
 namespace {
 
-/// What the view searches with.
-constexpr const char* kSearch = "reflect/march.frag";
+/// What the view searches with: of the searches, the one with the fewest wrong answers that call themselves
+/// right (`march` misses what is thinner than its step).
+constexpr const char* kSearch = "reflect/pyramid.frag";
 /// As deep as the reference goes.
 constexpr std::uint32_t kDepth = 16;
 
 constexpr std::array<std::string_view, 2> kForceChoices{"search", "unknown"};
 constexpr Knob kKnobs[] = {
-    {.name = "steps", .help = "steps of equal angle along the reflected ray", .low = 1, .high = 256, .value = 32},
     kFace, kDistance, kRange, kContinue, kShadow, kShadowMapEdge,
     {.name = "force", .help = "trace what the search does not know, or take every answer as unknown", .high = 1, .choices = kForceChoices}};
 
@@ -77,11 +77,11 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
     render::MirrorLook look = view_look(captured, settings, kSearch);
     if (!captured.cubes) return add_view_of(graph, inputs, captured, look);
-    look.constants.emplace_back("steps", static_cast<std::uint32_t>(settings.integer("steps")));
+    look.images.emplace_back("bounds", add_pyramid(graph, inputs, captured));
     const render::View view = render::add_view(graph, inputs, captured.lighting, look, true);
     const List list = add_list(graph, inputs, settings, *view.lookup);
     add_trace(graph, inputs, settings, list, view.hdr);
-    return {view.hdr, {}, list.counters, view.lookup};
+    return {view.hdr, {}, list.counters, inputs.with_lookup ? view.lookup : std::nullopt};
 }
 
 constexpr Technique kHybrid{

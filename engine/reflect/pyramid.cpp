@@ -1,6 +1,6 @@
 // Least and largest distance of ever larger cells of the captures, and a search that passes a cell in one
 // step wherever these bounds allow it: exact to the texel, where a march takes its chances.
-#include "reflect/knobs.hpp"
+#include "reflect/pyramid.hpp"
 
 #include <bit>
 
@@ -14,7 +14,8 @@ constexpr Knob kKnobs[] = {kFace, kDistance, kRange, kContinue, kShadow, kShadow
 std::uint32_t top_level(std::uint32_t face) { return face <= 2 ? 1 : static_cast<std::uint32_t>(std::bit_width(face - 1)); }
 std::uint32_t level_edge(std::uint32_t face, std::uint32_t level) { return (face + (1u << level) - 1) >> level; }
 
-/// All levels of all faces, one layer a face: a dispatch a level.
+} // namespace
+
 graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs, const Captured& captured) {
     const std::uint32_t face = captured.options.face, layers = 6 * inputs.scene.mirror_count(), top = top_level(face);
     const graph::Image distance = *captured.cubes->distance;
@@ -36,6 +37,8 @@ graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
         });
     return bounds;
 }
+
+namespace {
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
     const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "reflect/knobs.hpp"
+
+/// The bounds that `reflect/pyramid.frag` searches in, for other rows that search with it.
+namespace catoptric::reflect {
+
+/// All levels of all faces, one layer a face: a dispatch a level. To be bound as "bounds".
+graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs, const Captured& captured);
+
+} // namespace catoptric::reflect
