@@ -14,7 +14,8 @@ struct CompareRequest {
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
 };
 
-/// The seed report's rows: naive 0..4, reuse, parallax, ray tracing at depths 0..4 and 8, exact spheres.
+/// The seed report's rows and what goes beyond them: naive 0..4, reuse, parallax, every search there is, ray
+/// tracing at depths 0..4 and 8, exact spheres.
 std::vector<std::string> default_techniques();
 
 /// Renders every row and the reference, measures speed and error. A row with `samples` is judged

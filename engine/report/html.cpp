@@ -24,6 +24,7 @@ std::string cell(const Column& column, const char* tag, const char* scope,
 
 /// `linked`: the first cell of row i leads to the pictures of row i.
 std::string to_html(const Table& table, const std::string& look, bool linked) {
+    if (table.rows.empty()) return "";
     const std::string title = html_escaped(table.title);
     std::string html =
         fmt::format("<section><h2>{0}</h2><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
@@ -205,7 +206,8 @@ std::string to_html(const Comparison& comparison) {
         html += "<section><h2>What this says of the seed report</h2>" + list_of(sentences) +
                 "</section>\n";
     html += to_html(rows_table(comparison), "all", true) +
-            to_html(mirror_table(comparison), "mirrors", true) + pictures(comparison) +
+            to_html(mirror_table(comparison), "mirrors", true) +
+            to_html(lookup_table(comparison), "lookups", true) + pictures(comparison) +
             circumstances(comparison);
     return html + "</main></body></html>\n";
 }

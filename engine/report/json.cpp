@@ -87,6 +87,18 @@ Json to_json(const std::optional<Rays>& rays) {
     return {{"primary", rays->primary}, {"mirror", rays->mirror}, {"shadow", rays->shadow}};
 }
 
+Json to_json(const std::optional<measure::LookupError>& lookup) {
+    if (!lookup) return nullptr;
+    return {{"mask", "first_order"},
+            {"pixels", lookup->pixels},
+            {"mean_degrees", number(lookup->mean_degrees)},
+            {"p95_degrees", number(lookup->p95_degrees)},
+            {"p99_degrees", number(lookup->p99_degrees)},
+            {"wrong_object", number(lookup->wrong_object)},
+            {"unknown", number(lookup->unknown)},
+            {"miss", number(lookup->miss)}};
+}
+
 Json to_json(const measure::Mean& mean) {
     return Json::array({number(mean.rgb.x), number(mean.rgb.y), number(mean.rgb.z)});
 }
@@ -115,6 +127,7 @@ Json to_json(const Row& row) {
     json["memory_bytes"] = row.memory_bytes;
     json["traced_fraction"] = number_or_null(row.traced_fraction);
     json["rays"] = to_json(row.rays);
+    json["lookup"] = to_json(row.lookup);
     json["mean"] = to_json(row.mean);
     json["mean_clamped"] = to_json(row.mean_clamped);
     json["image"] = "images/" + row.image + ".png";

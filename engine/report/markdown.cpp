@@ -41,6 +41,7 @@ std::string line_of(const std::vector<std::string>& cells, const std::vector<std
 
 /// A pipe table whose columns line up as plain text, too.
 std::string to_text(const Table& table) {
+    if (table.rows.empty()) return "";
     std::vector<std::vector<std::string>> lines(1);
     for (const Column& column : table.columns)
         lines[0].push_back(escaped(column.name));
@@ -81,7 +82,7 @@ std::string to_markdown(const Comparison& comparison) {
     for (const std::string& caution : cautions(comparison))
         text += "> " + escaped(caution) + "\n>\n";
     text += "\n" + to_text(seed_table(comparison)) + to_text(rows_table(comparison)) +
-            to_text(mirror_table(comparison));
+            to_text(mirror_table(comparison)) + to_text(lookup_table(comparison));
     text += "## The Pareto front: time against FLIP\n\n" + list_of(front_in_words(comparison));
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty()) text += "## What this says of the seed report\n\n" + list_of(sentences);

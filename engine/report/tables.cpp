@@ -5,6 +5,7 @@
 #include "report/text.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace catoptric::report {
 
@@ -173,6 +174,28 @@ Table mirror_table(const Comparison& comparison) {
             cells.push_back(error_text(error.rmse));
         cells.resize(mirrors + 1, nothing());
         table.rows.push_back(std::move(cells));
+    }
+    return table;
+}
+
+Table lookup_table(const Comparison& comparison) {
+    Table table{"Where mirrors looked",
+                {{"Row", false}, {"Pixels"}, {"Mean, degrees"}, {"95 %"}, {"99 %"}, {"Wrong object, %"},
+                 {"Unknown, %"}, {"Miss, %"}, {"Traced, %"}},
+                {},
+                {},
+                "Angle between the looked-up and the true direction from the capture's centre, over mirror pixels "
+                "whose reflected ray meets no second mirror and that the row did not follow into one; wrong object: "
+                "the capture shows another one there; unknown and miss: what the search says of itself; traced: of "
+                "all mirror pixels."};
+    const auto percent = [](double share) { return fmt::format("{:.2f}", 100 * share); };
+    for (const Row& row : comparison.rows) {
+        if (!row.lookup) continue;
+        const measure::LookupError& error = *row.lookup;
+        table.rows.push_back({row.label, std::to_string(error.pixels), fmt::format("{:.3f}", error.mean_degrees),
+                              fmt::format("{:.2f}", error.p95_degrees), fmt::format("{:.2f}", error.p99_degrees),
+                              percent(error.wrong_object), percent(error.unknown), percent(error.miss),
+                              row.traced_fraction ? percent(*row.traced_fraction) : nothing()});
     }
     return table;
 }

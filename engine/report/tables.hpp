@@ -27,6 +27,8 @@ Table seed_table(const Comparison& comparison);
 Table rows_table(const Comparison& comparison);
 /// rmse by mirror.
 Table mirror_table(const Comparison& comparison);
+/// Where mirrors looked, for rows that search; no rows when none does.
+Table lookup_table(const Comparison& comparison);
 
 /// What was measured where: name and value.
 struct Fact {
