@@ -10,6 +10,7 @@ namespace catoptric::app {
 
 namespace {
 
+constexpr int kUnknown = 1, kMiss = 2; // Lookup::state
 constexpr float kFar = std::numeric_limits<float>::max();
 
 bvh::Bvh build_without(const render::Geometry& geometry, std::size_t left_out) {
@@ -103,8 +104,11 @@ std::vector<measure::LookedUp> Oracle::judge(const std::vector<vec4>& lookup) co
         const int code = static_cast<int>(pixel.w) - 1;
         if (code < 0 || static_cast<std::uint32_t>(code / 8) != target.mirror) continue;
         const vec3 direction = normalize(vec3(pixel));
-        judged.push_back({measure::angle_degrees(dvec3(direction), target.direction),
-                          captured_object(target.mirror, direction, (code & 4) != 0) != target.object, code & 3});
+        const int state = code & 3;
+        const bool second = (code & 4) != 0;
+        const bool leaves = state == kMiss || (state == kUnknown && second); // see kLeaves in shaders/lib/probe.glsl
+        const int object = leaves ? kNothing : captured_object(target.mirror, direction, second);
+        judged.push_back({measure::angle_degrees(dvec3(direction), target.direction), object != target.object, state});
     }
     return judged;
 }

@@ -30,7 +30,7 @@ bool next_mirror(uint mirror, vec3 at, vec3 direction, out uint next, out float 
 }
 
 #ifndef OWN_LOOKUP_COLOUR // the including shader's own, where captures hold more than one colour
-vec3 lookup_colour(uint mirror, Lookup lookup) { return captured_colour(mirror, lookup.direction); }
+vec3 lookup_colour(uint mirror, Lookup lookup) { return found_colour(mirror, lookup); }
 #endif
 
 void main() {

@@ -16,11 +16,21 @@ struct Lookup {
     vec3 direction; // from the capture's centre, unit
     uint state;
     float residual; // relative distance between the found point and the captured surface there
-    float layer;    // 0: the nearest surface; 1: the one behind it, where captures have two
+    float layer;    // 0: the nearest surface; 1: the one behind it, where captures have two; see kLeaves
 };
+
+// Lookup::layer of an unknown whose best guess is that the ray leaves: it went behind a silhouette beside
+// which nothing was captured. Its direction is the ray's own, and it sees nothing.
+const float kLeaves = 1.0;
 
 vec3 captured_colour(uint mirror, vec3 direction) {
     return textureLod(colour_cubes, vec4(direction, mirror), 0).rgb;
+}
+
+// What a search that captures one layer found: nothing where it takes the ray to leave.
+vec3 found_colour(uint mirror, Lookup lookup) {
+    if (lookup.state == kUnknown && lookup.layer == kLeaves) return vec3(0);
+    return captured_colour(mirror, lookup.direction);
 }
 
 // Distance from the capture's centre, bilinear. Where one of the four texels holds nothing

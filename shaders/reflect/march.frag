@@ -1,13 +1,14 @@
 // Equal-angle march: the reflected ray, seen from the capture's centre, is an arc; equal steps along it
 // are equal steps in texels, where equal steps along the ray waste themselves near by and skip far away.
-// The first crossing is refined by bisection and secant in turn. Nothing wider than arc / steps is skipped.
+// The first crossing is refined by bisection, then by secant and bisection in turn. Nothing wider than arc / steps is skipped.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
 #include "lib/probe.glsl"
 
 layout(constant_id = 4) const uint steps = 16u;
-const uint kRefinements = 6u;
+const uint kRefinements = 8u;
+const uint kBisections = 4u; // of them first: they notice what lies between the samples
 // A crossing wider than this after refinement is a silhouette: what lies behind it was never captured.
 const float kTolerance = 0.05;
 
@@ -31,7 +32,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         }
         float t_behind = t, f_behind = f;
         for (uint i = 0u; i < kRefinements; ++i) {
-            bool secant = (i & 1u) == 0u && f_front > -kLargest;
+            bool secant = i >= kBisections && (i & 1u) == 0u && f_front > -kLargest;
             float share = secant ? f_front / (f_front - f_behind) : 0.5;
             t = mix(t_front, t_behind, share);
             p = offset + direction * t;
@@ -44,6 +45,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         }
         float gap = (f_behind - f_front) / length(p);
         bool jump = !(gap <= kTolerance);
+        if (jump && f_front == -kLargest) return Lookup(direction, kUnknown, 1.0, kLeaves);
         // Of a jump the far side is where the ray goes on: the hidden surface lies behind what is seen there.
         vec3 found = offset + direction * (jump ? t_front : mix(t_front, t_behind, f_front / (f_front - f_behind)));
         return Lookup(normalize(found), jump ? kUnknown : kHit, min(gap, 1.0), 0.0);

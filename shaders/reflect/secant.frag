@@ -1,6 +1,6 @@
 // Secant search (Szirmay-Kalos, Aszodi, Lazanyi, Premecz 2005; GPU Gems 3, chapter 17): the point of the
 // reflected ray where its distance from the capture's centre equals what was captured in that direction.
-// steps + 2 fetches; order about 1.6 where the distance is smooth. Picks any of several crossings, and
+// steps + 3 fetches; order about 1.6 where the distance is smooth. Picks any of several crossings, and
 // oscillates at silhouettes, where no bracket exists.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -42,8 +42,13 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         t = max(t + move, 0.0);
     }
     vec3 p = offset + direction * t;
-    float size = length(p);
+    q = depth_ratio(mirror, p);
     float residual = abs(q - 1.0);
-    return Lookup(size > 0.0 ? p / size : direction, residual <= kTolerance ? kHit : kUnknown, residual, 0.0);
+    if (residual <= kTolerance) return Lookup(normalize(p), kHit, residual, 0.0);
+    // Not found, and there is nothing here or nothing in front: it went out beside a silhouette.
+    bool leaves = q == 0.0 || (has_front && q_front == 0.0 && q > 1.0);
+    if (leaves) return Lookup(direction, kUnknown, residual, kLeaves);
+    float size = length(p);
+    return Lookup(size > 0.0 ? p / size : direction, kUnknown, residual, 0.0);
 }
 #include "lib/mirror.glsl"
