@@ -1,0 +1,43 @@
+// How many work groups run is what the buffer says when the dispatch runs.
+#include "support/device.hpp"
+
+namespace {
+
+using namespace catoptric;
+
+constexpr std::uint32_t kTurns = 7;
+
+/// What each of four work groups counted, of those that ran: `groups` in each dimension.
+std::vector<std::uint32_t> counts_of(std::uint32_t groups, bool declared = true) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::Graph graph;
+    const graph::Buffer counts = graph.buffer({"counts", 16}), arguments = graph.buffer({"arguments", 16});
+    graph.pass("fill").writes(counts, graph::Use::copy_to).writes(arguments, graph::Use::copy_to).record([=](graph::Commands& commands) {
+        commands.fill(counts, 0);
+        commands.fill(arguments, groups);
+    });
+    graph.pass("spin")
+        .reads(arguments, declared ? graph::Use::indirect : graph::Use::storage_read)
+        .writes(counts, graph::Use::storage)
+        .record([=](graph::Commands& commands) {
+            commands.use(gpu::ComputeState{"tests/spin.comp", {}});
+            commands.bind("Counts", counts);
+            commands.push(kTurns);
+            commands.dispatch_indirect(arguments, 4);
+        });
+    graph.want(counts);
+    test::run(runner, graph);
+    return test::read_as<std::uint32_t>(runner, counts);
+}
+
+TEST(Indirect, DispatchesWhatTheBufferSays) {
+    EXPECT_EQ(counts_of(0), (std::vector<std::uint32_t>{0, 0, 0, 0}));
+    EXPECT_EQ(counts_of(1), (std::vector<std::uint32_t>{kTurns, 0, 0, 0}));
+    EXPECT_EQ(counts_of(3), (std::vector<std::uint32_t>{kTurns, kTurns, kTurns, 0}));
+}
+
+TEST(Indirect, ABufferThatIsNotDeclaredSoIsRefused) {
+    test::expect_refused([] { counts_of(1, false); }, Failure::internal, {"'spin'", "'arguments'", "indirect"});
+}
+
+} // namespace

@@ -1,0 +1,130 @@
+// Only what the search does not know is traced, as the ray tracer would; how much that is, and what it is worth.
+#include "support/rendering.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr uvec2 kSize{512, 512};
+constexpr int kFrames = 8; // deeper bounces have arrived
+/// The number in the fourth channel of a lookup is 1 + state + 4 layer + 8 mirror; 0: no mirror.
+constexpr std::uint32_t kUnknown = 1;
+
+/// Rendered with its lookups.
+app::Part hybrid(const scene::Scene& scene, const std::string& technique, uvec2 size) {
+    app::Request request = test::request(scene, {technique}, size);
+    request.with_lookup = true;
+    return std::move(test::engine().run(request).parts.front());
+}
+
+struct Counted {
+    std::size_t mirror = 0, unknown = 0;
+};
+Counted count(const std::vector<vec4>& lookup) {
+    Counted counted;
+    for (const vec4& pixel : lookup) {
+        const auto code = static_cast<std::uint32_t>(pixel.w);
+        counted.mirror += code != 0;
+        counted.unknown += code != 0 && code % 4 == 1 + kUnknown;
+    }
+    return counted;
+}
+
+/// What was listed and traced is what the lookups call UNKNOWN, or every mirror pixel.
+void expect_counted(const app::Part& part, bool every_mirror) {
+    ASSERT_TRUE(part.rays.has_value());
+    const Counted counted = count(part.lookup);
+    const std::size_t wanted = every_mirror ? counted.mirror : counted.unknown;
+    EXPECT_EQ(part.rays->primary, wanted) << part.label;
+    EXPECT_EQ(part.traced_fraction.has_value(), counted.mirror > 0) << part.label;
+    const double share = counted.mirror > 0 ? static_cast<double>(wanted) / static_cast<double>(counted.mirror) : 0;
+    EXPECT_DOUBLE_EQ(part.traced_fraction.value_or(0), share) << part.label;
+}
+
+/// With every answer unknown, the ray tracer's bytes wherever both see a mirror.
+void expect_traced(const scene::Scene& scene, const std::string& settings, const std::string& reference, uvec2 size) {
+    const app::Part traced = test::render(scene, reference, size);
+    const app::Part part = hybrid(scene, "hybrid:force=unknown" + settings, size);
+    expect_counted(part, true);
+    const measure::Mask mirrors = measure::mirrors(traced.hits);
+    std::size_t both = 0, one = 0, different = 0;
+    for (std::size_t i = 0; i < mirrors.size(); ++i) {
+        const bool here = part.lookup[i].w != 0, there = mirrors[i];
+        both += here && there, one += here != there;
+        different += here && there && std::memcmp(&part.hdr.pixels[i], &traced.hdr.pixels[i], sizeof(vec3)) != 0;
+    }
+    std::cout << "[ MEASURED ] " << part.label << ", " << scene.name << ": " << different << " of " << both
+              << " mirror pixels differ, " << one << " are a mirror to one of the two\n";
+    EXPECT_GT(both, 0u);
+    EXPECT_EQ(different, 0u);
+    EXPECT_LE(static_cast<double>(one), .001 * static_cast<double>(both));
+}
+
+TEST(Hybrid, WithEveryAnswerUnknownItIsTheRayTracer) {
+    expect_traced(scene::cornell_mirrors(), ",face=64", "raytrace:depth=16", kSize);
+    expect_traced(scene::cornell_mirrors(), ",face=64,shadow=none", "raytrace:depth=16,shadow=none", kSize);
+    expect_traced(test::room(3, 2), ",face=32", "raytrace:depth=16", kSize);
+}
+
+TEST(Hybrid, TracesThePixelsThatTheSearchCallsUnknown) {
+    for (const uvec2 size : {uvec2{1, 1}, uvec2{33, 17}, uvec2{200, 177}})
+        for (const std::string force : {"search", "unknown"})
+            expect_counted(hybrid(scene::cornell_mirrors(), "hybrid:face=32,force=" + force, size), force == "unknown");
+}
+
+TEST(Hybrid, ChangesOnlyWhatItTraces) {
+    constexpr uvec2 kOdd{201, 177};
+    const scene::Scene scene = scene::cornell_mirrors();
+    const measure::Picture searched = test::render(scene, "pyramid:face=64", kOdd).hdr;
+    const measure::Picture traced = test::render(scene, "raytrace:depth=16", kOdd).hdr;
+    const app::Part part = hybrid(scene, "hybrid:face=64", kOdd);
+    ASSERT_GT(part.rays->primary, 64u) << "more than one work group";
+    for (std::size_t i = 0; i < part.lookup.size(); ++i) {
+        const auto code = static_cast<std::uint32_t>(part.lookup[i].w);
+        const vec3 wanted = (code != 0 && code % 4 == 1 + kUnknown ? traced : searched).pixels[i];
+        ASSERT_EQ(part.hdr.pixels[i], wanted) << "pixel " << i;
+    }
+}
+
+TEST(Hybrid, AnEmptyListTracesNothing) {
+    const app::Part one = hybrid(test::furnace(1), "hybrid:face=32", {48, 48}); // nothing hides anything
+    EXPECT_EQ(one.rays->primary, 0u);
+    EXPECT_EQ(one.traced_fraction, 0.0);
+    scene::Scene away = test::furnace(1);
+    std::swap(away.cameras.front().eye.z, away.cameras.front().target.z);
+    away.cameras.front().eye.z = 4.5, away.cameras.front().target.z = 9;
+    const app::Part none = hybrid(away, "hybrid:face=32,force=unknown", {48, 48});
+    EXPECT_EQ(none.rays->primary, 0u);
+    EXPECT_FALSE(none.traced_fraction.has_value()) << "of no mirror pixels at all";
+}
+
+struct Look {
+    scene::Camera camera;
+    double time = 0;
+};
+std::vector<Look> looks() {
+    return {{scene::cornell_mirrors().cameras.front(), 0},
+            {{.name = "side", .eye = {400, 330, -760}, .target = {400, 330, 0}, .vertical_fov_degrees = 37.5}, 1.3},
+            {{.name = "above", .eye = {120, 420, -500}, .target = {330, 120, 300}, .vertical_fov_degrees = 45}, 2.6}};
+}
+
+TEST(Hybrid, HalvesTheErrorOfOneStepByTracingLittle) {
+    for (const auto& [scene, most] : {std::pair{scene::cornell_mirrors(), .06}, {scene::cornell_mirrors_closed(), .02}})
+        for (const Look& look : looks()) {
+            app::Request request = test::request(scene, {"raytrace:depth=16", "parallax:face=512", "hybrid:face=512"}, kSize);
+            request.camera = look.camera;
+            request.time = look.time;
+            request.warmup = kFrames - 1;
+            const std::vector<app::Part> parts = test::engine().run(request).parts;
+            const measure::Mask mirrors = measure::mirrors(parts[0].hits);
+            const double one_step = test::rmse(parts[1].hdr, parts[0].hdr, mirrors), hybrid = test::rmse(parts[2].hdr, parts[0].hdr, mirrors);
+            std::cout << "[ MEASURED ] " << scene.name << ", t = " << look.time << " s: rmse " << hybrid << ", share of parallax "
+                      << hybrid / one_step << ", traced " << 100 * *parts[2].traced_fraction << " %\n";
+            EXPECT_LE(hybrid, .50 * one_step);
+            EXPECT_LE(*parts[2].traced_fraction, most);
+        }
+}
+
+} // namespace
