@@ -11,7 +11,7 @@ namespace {
 using namespace catoptric;
 
 class Layered : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Techniques, Layered, testing::Values("reuse", "parallax", "naive"), [](const auto& instance) { return std::string(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Techniques, Layered, testing::Values("reuse", "parallax", "naive", "layered"), [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Layered, EqualsSixSinglePasses) {
     app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {96, 96});
