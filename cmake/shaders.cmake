@@ -12,7 +12,7 @@ function(compile_shader path name)
         list(APPEND defines -D${define})
     endforeach()
     add_custom_command(OUTPUT ${output}
-        COMMAND Vulkan::glslangValidator --quiet -V --target-env vulkan1.3 -gVS ${defines}
+        COMMAND Vulkan::glslangValidator --quiet -V --target-env vulkan1.3 ${defines}
                 -I${CATOPTRIC_SHADER_FOLDER} --vn ${identifier} --depfile ${output}.d
                 -o ${output} ${CATOPTRIC_SHADER_FOLDER}/${path}
         MAIN_DEPENDENCY ${CATOPTRIC_SHADER_FOLDER}/${path} DEPFILE ${output}.d
