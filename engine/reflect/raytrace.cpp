@@ -19,6 +19,9 @@ constexpr Knob kKnobs[] = {
     {.name = "sphere", .help = "balls as triangles or as exact spheres", .high = 1, .choices = kSphereChoices},
     kShadowMapEdge};
 
+/// Work groups in one row of a dispatch: every device allows 65535.
+constexpr std::uint32_t kMostAcross = 32768;
+
 /// Where sample i of n lies in the pixel: its centre, the regular grid, or one point in each of n
 /// cells of the smallest grid that holds them, jittered.
 std::vector<vec2> sample_offsets(int count, std::uint64_t seed) {
@@ -61,11 +64,12 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
             commands.bind("hits", hits);
             commands.bind("counters", counters);
             commands.use(state);
+            const std::uint32_t groups = (size.x + 7) / 8 * ((size.y + 7) / 8), rows = (groups + kMostAcross - 1) / kMostAcross;
             const std::vector<vec2> offsets = sample_offsets(samples, seed);
             for (std::uint32_t i = 0; i < offsets.size(); ++i) {
                 if (i > 0) commands.barrier();
                 commands.push(shared::Trace{offsets[i], i, static_cast<std::uint32_t>(samples), size});
-                commands.dispatch((size.x + 7) / 8 * ((size.y + 7) / 8), 1);
+                commands.dispatch((groups + rows - 1) / rows, rows);
             }
         });
     return {hdr, hits, counters, {}};

@@ -148,14 +148,15 @@ vec3 radiance(Ray ray, out uint met) {
 }
 
 // Neighbouring work groups cost alike, and a software driver gives each of its threads one contiguous
-// run of them: scattered, the threads finish together.
+// run of them: scattered, the threads finish together. Rows of work groups follow each other.
 uint work_group() {
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 #ifdef NAIVE
-    return gl_WorkGroupID.x;
+    return group;
 #else
     const uint kPrime = 2531u;
-    uint count = gl_NumWorkGroups.x;
-    return count % kPrime == 0u || count > 0xffffffffu / kPrime ? gl_WorkGroupID.x : gl_WorkGroupID.x * kPrime % count;
+    uint count = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
+    return count % kPrime == 0u || count > 0xffffffffu / kPrime ? group : group * kPrime % count;
 #endif
 }
 

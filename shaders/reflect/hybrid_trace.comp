@@ -11,7 +11,7 @@ layout(set = 0, binding = LIST_BINDING, scalar) readonly buffer List { uint list
 layout(push_constant, scalar) uniform Push { uvec2 size; };
 
 void main() {
-    uint place = (gl_WorkGroupID.y * kListGroups + work_group()) * kListGroup + gl_LocalInvocationIndex;
+    uint place = work_group() * kListGroup + gl_LocalInvocationIndex;
     bool inside = place < counters.value.listed;
     if (inside) {
         uvec2 pixel = uvec2(list[place] % size.x, list[place] / size.x);

@@ -68,6 +68,12 @@ TEST(Hybrid, WithEveryAnswerUnknownItIsTheRayTracer) {
     expect_traced(test::room(3, 2), ",face=32", "raytrace:depth=16", kSize);
 }
 
+TEST(Hybrid, MoreWorkGroupsThanOneRowHolds) {
+    scene::Scene close = test::room(1, 1);
+    close.cameras = {{.name = "close", .eye = {-.9, -1.2, -.9}, .target = {-.9, -1.2, .3}, .vertical_fov_degrees = 50}};
+    expect_traced(close, ",face=32", "raytrace:depth=16", {2056, 2056}); // 66049 of 65535, and all of them mirror
+}
+
 TEST(Hybrid, TracesThePixelsThatTheSearchCallsUnknown) {
     for (const uvec2 size : {uvec2{1, 1}, uvec2{33, 17}, uvec2{200, 177}})
         for (const std::string force : {"search", "unknown"})
