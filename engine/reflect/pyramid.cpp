@@ -25,11 +25,11 @@ graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
         .reads(distance, graph::Use::sampled)
         .writes(bounds, graph::Use::storage_write)
         .record([=](graph::Commands& commands) {
-            commands.use(gpu::ComputeState{"reflect/pyramid.comp", {}});
-            commands.bind("distance_faces", distance);
+            commands.bind("distance_cubes", distance);
             commands.bind("bounds", bounds);
             for (std::uint32_t level = 1; level <= top; ++level) {
                 if (level > 1) commands.barrier();
+                commands.use(gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
                 commands.push(static_cast<std::int32_t>(level));
                 const std::uint32_t groups = (level_edge(face, level) + 7) / 8;
                 commands.dispatch(groups, groups, layers);

@@ -29,6 +29,12 @@ bool meets_box(vec3 lo, vec3 hi, vec3 offset, vec3 direction, out float t) {
     return leave > 0.0 && leave <= kLargest && enter <= leave;
 }
 
+// Past the proxy, or through it where nothing was captured: the ray leaves.
+Lookup outward(uint mirror, vec3 direction) {
+    bool empty = is_miss(captured_distance(mirror, direction));
+    return Lookup(direction, empty ? kMiss : kUnknown, 0.0, empty ? 0.0 : kLeaves);
+}
+
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     Proxy proxy = proxies[mirror];
     float t = 0.0;
@@ -37,9 +43,9 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
                               : sphere_test(vec3(0), proxy.radius, Ray(offset, direction, 0u), kLargest, t));
     vec3 p = offset + direction * t;
     float size = length(p);
-    if (!met || !(size > 0.0 && size <= kLargest)) return Lookup(direction, kMiss, 0.0, 0.0);
+    if (!met || !(size > 0.0 && size <= kLargest)) return outward(mirror, direction);
     float captured = captured_distance(mirror, p / size);
-    if (is_miss(captured)) return Lookup(p / size, kMiss, 0.0, 0.0);
+    if (is_miss(captured)) return outward(mirror, direction);
     float residual = min(abs(captured - size) / size, 1.0);
     return Lookup(p / size, residual <= kTolerance ? kHit : kUnknown, residual, 0.0);
 }

@@ -5,69 +5,45 @@
 #include "reflect/pyramid.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 20) uniform sampler2DArray distance_faces;
 layout(set = 0, binding = 21, r32ui) uniform uimage2DArray bounds;
 layout(push_constant, scalar) uniform Push { int level; };
+layout(constant_id = 0) const uint from_cells = 0u;
 
-const int kTile = 18; // texels under a work group's cells, and the ring around them
-shared float tile[kTile * kTile];
+// Least and largest of no distance at all.
+vec2 no_bounds() { return vec2(uintBitsToFloat(0x7f800000u), 0); }
 
-// A texel of the layer's face, or beyond one of its edges the texel that a seamless lookup takes there:
-// on the face next to it, the same number along the common edge. Beyond a corner there is none.
-float texel(ivec2 at, int layer, int face) {
-    bvec2 inside = equal(at, clamp(at, ivec2(0), ivec2(face - 1)));
-    if (all(inside)) return texelFetch(distance_faces, ivec3(at, layer), 0).r;
-    vec2 place = (vec2(2 * at) + 1.0) / float(face) - 1.0;
-    // Stretched along the edge, so that the seen point lies on the other face at the same place.
-    float out_by = 1.0 + 1.0 / float(face);
-    if (inside.x) place.x *= out_by;
-    if (inside.y) place.y *= out_by;
-    vec3 direction = cube_direction(layer % 6, vec3(place, 1));
-    int other = cube_face(direction);
-    vec3 there = cube_coordinates(other, direction);
-    ivec2 found = ivec2(floor((there.xy / there.z * 0.5 + 0.5) * float(face)));
-    return texelFetch(distance_faces, ivec3(clamp(found, ivec2(0), ivec2(face - 1)), layer - layer % 6 + other), 0).r;
-}
-
-bool is_corner(ivec2 at, int face) {
-    bvec2 outside = notEqual(at, clamp(at, ivec2(0), ivec2(face - 1)));
-    return all(outside);
-}
-
-// Reads the tile whose first texel is `first`; what does not exist repeats a texel that does.
-void read_tile(ivec2 first, int layer, int face) {
-    for (uint i = gl_LocalInvocationIndex; i < uint(kTile * kTile); i += 64u) {
-        ivec2 at = min(first + ivec2(int(i) % kTile, int(i) / kTile), ivec2(face));
-        if (is_corner(at, face)) at.x = clamp(at.x, 0, face - 1);
-        tile[i] = texel(at, layer, face);
+// The 4x4 texels of the cell and its ring, by four gathers. What those take across the edges of faces is
+// what bilinear lookups take there; beyond a corner of the cube there is no texel, and whatever stands for
+// it only widens the bounds.
+vec2 bounds_of_texels(ivec2 cell, int layer, int face) {
+    vec2 bound = no_bounds();
+    for (int i = 0; i < 4; ++i) {
+        ivec2 corner = min(2 * cell + 2 * ivec2(i & 1, i >> 1), ivec2(face));
+        vec2 place = vec2(2 * corner) / float(face) - 1.0;
+        vec4 d = textureGather(distance_cubes, vec4(cube_direction(layer % 6, vec3(place, 1)), layer / 6));
+        bound.x = min(bound.x, min(min(d.x, d.y), min(d.z, d.w)));
+        bound.y = max(bound.y, max(max(d.x, d.y), max(d.z, d.w)));
     }
-    barrier();
+    return bound;
+}
+
+// The 2x2 cells of the level below; where the face ends, the last ones again.
+vec2 bounds_of_cells(ivec2 cell, int layer, int face) {
+    vec2 bound = no_bounds();
+    int below = level_edge(face, level - 1), column = level_column(face, level - 1);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x) {
+            ivec2 child = min(2 * cell + ivec2(x, y), ivec2(below - 1));
+            vec2 d = unpackHalf2x16(imageLoad(bounds, ivec3(column + child.x, child.y, layer)).r);
+            bound = vec2(min(bound.x, d.x), max(bound.y, d.y));
+        }
+    return bound;
 }
 
 void main() {
-    int face = textureSize(distance_faces, 0).x, layer = int(gl_WorkGroupID.z);
+    int face = textureSize(distance_cubes, 0).x, layer = int(gl_WorkGroupID.z);
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    float low = uintBitsToFloat(0x7f800000u), high = 0.0;
-    if (level == 1) {
-        read_tile(2 * 8 * ivec2(gl_WorkGroupID.xy) - 1, layer, face);
-        ivec2 corner = 2 * ivec2(gl_LocalInvocationID.xy);
-        for (int y = 0; y < 4; ++y)
-            for (int x = 0; x < 4; ++x) {
-                float d = tile[(corner.y + y) * kTile + corner.x + x];
-                low = min(low, d);
-                high = max(high, d);
-            }
-    } else {
-        int below = level_edge(face, level - 1), column = level_column(face, level - 1);
-        for (int y = 0; y < 2; ++y)
-            for (int x = 0; x < 2; ++x) {
-                ivec2 child = 2 * cell + ivec2(x, y);
-                if (max(child.x, child.y) >= below) continue;
-                vec2 d = unpackHalf2x16(imageLoad(bounds, ivec3(column + child.x, child.y, layer)).r);
-                low = min(low, d.x);
-                high = max(high, d.y);
-            }
-    }
+    vec2 bound = from_cells == 0u ? bounds_of_texels(cell, layer, face) : bounds_of_cells(cell, layer, face);
     if (max(cell.x, cell.y) < level_edge(face, level))
-        imageStore(bounds, ivec3(level_column(face, level) + cell.x, cell.y, layer), uvec4(pack_bounds(low, high)));
+        imageStore(bounds, ivec3(level_column(face, level) + cell.x, cell.y, layer), uvec4(pack_bounds(bound.x, bound.y)));
 }

@@ -11,8 +11,9 @@
 //   bilinear lookups mix in, across the edges of faces too. Two changes inside one texel cancel unseen.
 // - A MISS is a ray that stays in sight of the centre and leaves where nothing was captured.
 // - Everything else is UNKNOWN: the ray went behind a silhouette, began behind something, or took more than
-//   kMaxVisits cells. The direction is then that of a later crossing, if it came back into sight, else of
-//   its last point in sight.
+//   kMaxVisits cells. If it came back into sight, the direction is that of a later crossing. Otherwise what
+//   was last seen beside the silhouette is taken to go on behind it: a surface is looked up there, and
+//   where nothing was, the ray leaves along its own direction and sees nothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
@@ -24,6 +25,7 @@ layout(set = 0, binding = 20) uniform usampler2DArray bounds;
 // A driver that stops an invocation's loops does it after 65,535 turns.
 const int kMaxVisits = 4096;
 const int kRefinements = 3;
+const int kBelowTop = 3; // where it begins; measured, one level more or less costs little
 // A surface steeper than this against the directions from the centre (tangent of the angle at which it is
 // seen) is a silhouette: two surfaces that bilinear lookup joins.
 const float kSteepest = 4.0;
@@ -164,41 +166,46 @@ Lookup refined(uint mirror, Arc arc, float before, float behind, float depth_bef
     return Lookup(direction, state, min(residual, 1.0), 0.0);
 }
 
-Lookup search(uint mirror, vec3 offset, vec3 direction) {
+Arc arc_of(vec3 offset, vec3 direction) {
     Arc arc;
     arc.size = length(offset);
     arc.from = arc.size > 0.0 ? offset / arc.size : direction;
     arc.bend = direction - arc.from;
+    float t = max(-dot(offset, direction), 0.0);
+    arc.turn = arc.size > 0.0 ? t / (arc.size + t) : 0.0;
+    arc.least = length(offset + direction * t);
+    return arc;
+}
+
+// Past cells in which nothing can happen, up to a texel or to the arc's end.
+void pass_cells(inout Walk walk, inout int visits, Arc arc, uint mirror, int face) {
+    while (walk.level > 0 && walk.s < 1.0 && visits < kMaxVisits) {
+        ++visits;
+        vec2 leave = leaves(walk.line, cell_first(walk), cell_end(walk, face), face, walk.s);
+        float end = min(min(leave.x, leave.y), 1.0);
+        if (is_passed(arc, cell_bounds(walk, mirror, face), walk.s, end))
+            advance(walk, arc, leave, face);
+        else
+            --walk.level;
+    }
+}
+
+Lookup search(uint mirror, vec3 offset, vec3 direction) {
+    Arc arc = arc_of(offset, direction);
     // Straight away from the centre, or through it.
     if (!(length(arc.bend) > kOneDirection && length(direction + arc.from) > kOneDirection))
         return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kMiss : kHit, 0.0, 0.0);
-    float t = max(-dot(offset, direction), 0.0);
-    arc.turn = t / (arc.size + t);
-    arc.least = length(offset + direction * t);
-
     int face = textureSize(distance_cubes, 0).x;
-    Walk walk;
-    walk.line = line_on(cube_face(arc.from), arc);
-    walk.texel = texel_at(walk.line, 0.0, face);
-    walk.level = max(top_level(face) - 2, 1);
-    walk.s = 0.0;
+    Line line = line_on(cube_face(arc.from), arc);
+    Walk walk = Walk(line, texel_at(line, 0.0, face), max(top_level(face) - kBelowTop, 1), 0.0);
     bool in_sight = depth_at(arc, 0.0, captured_distance(mirror, arc.from)) < 0.0;
     uint state = in_sight ? kHit : kUnknown;
     float last_in_sight = in_sight ? 0.0 : 1.0;
+    bool nothing_beside = false; // the last silhouette
     int visits = 0;
     while (walk.s < 1.0 && visits < kMaxVisits) {
-        // Cells that are passed, or opened.
-        while (walk.level > 0 && walk.s < 1.0 && visits < kMaxVisits) {
-            vec2 leave = leaves(walk.line, cell_first(walk), cell_end(walk, face), face, walk.s);
-            float end = min(min(leave.x, leave.y), 1.0);
-            if (is_passed(arc, cell_bounds(walk, mirror, face), walk.s, end))
-                advance(walk, arc, leave, face);
-            else
-                --walk.level;
-            ++visits;
-        }
+        pass_cells(walk, visits, arc, mirror, face);
         if (walk.s >= 1.0) break;
-        // One texel.
         ++visits;
         vec2 leave = leaves(walk.line, walk.texel, walk.texel + 1, face, walk.s);
         float end = min(min(leave.x, leave.y), 1.0);
@@ -206,17 +213,19 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         float depth_end = depth_at(arc, end, captured_end);
         if (in_sight && depth_end >= 0.0) {
             float captured = captured_distance(mirror, direction_at(arc, walk.s));
-            float depth = depth_at(arc, walk.s, captured);
+            float depth = min(depth_at(arc, walk.s, captured), 0.0);
             if (!is_silhouette(arc, walk.s, end, captured, captured_end))
-                return refined(mirror, arc, walk.s, end, min(depth, 0.0), depth_end, state);
+                return refined(mirror, arc, walk.s, end, depth, depth_end, state);
             state = kUnknown;
-            last_in_sight = walk.s;
+            nothing_beside = is_miss(captured);
+            last_in_sight = max(walk.s - 2.0 / (float(face) * length(arc.bend)), 0.0); // a texel before its ramp
         }
         in_sight = depth_end < 0.0;
         advance(walk, arc, leave, face);
     }
-    if (visits >= kMaxVisits) return Lookup(normalize(direction_at(arc, walk.s)), kUnknown, 0.0, 0.0);
+    if (walk.s < 1.0) return Lookup(normalize(direction_at(arc, walk.s)), kUnknown, 0.0, 0.0);
     if (in_sight) return Lookup(direction, state == kHit ? kMiss : kUnknown, 0.0, 0.0);
+    if (nothing_beside) return Lookup(direction, kUnknown, 0.0, kLeaves);
     return Lookup(normalize(direction_at(arc, last_in_sight)), kUnknown, 0.0, 0.0);
 }
 #include "lib/mirror.glsl"

@@ -1,0 +1,24 @@
+// The secant search: its first step is the report's, the next ones are worth far larger captures.
+#include "support/searches.hpp"
+
+namespace {
+
+using namespace catoptric;
+
+TEST(Secant, WithoutStepsIsParallax) {
+    const scene::Scene scene = scene::cornell_mirrors();
+    for (const std::string settings : {"face=64", "face=37,distance=r16f", "face=64,distance=unorm8,shadow=none"}) {
+        const app::Part parallax = test::render(scene, "parallax:" + settings, {160, 120}, 3);
+        const app::Part secant = test::render(scene, "secant:steps=0,continue=0," + settings, {160, 120}, 3);
+        EXPECT_TRUE(test::same_bytes(secant.hdr, parallax.hdr)) << settings;
+    }
+}
+
+TEST(Secant, IsWorthItsSteps) { test::expect_worth("secant", {.first_order = .75, .all = .70, .angle = .06}); }
+
+TEST(Secant, NeedsSmallerCapturesThanParallax) {
+    EXPECT_LE(test::colour_error("secant:face=256,continue=0").first_order, test::colour_error("parallax:face=512").first_order);
+    EXPECT_LE(test::lookup_error("secant:face=64,continue=0").mean_degrees, .06 * test::lookup_error("parallax:face=512").mean_degrees);
+}
+
+} // namespace
