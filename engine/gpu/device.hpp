@@ -62,7 +62,8 @@ public:
     void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
     bool has_labels() const { return has_debug_utils_; }
 
-    /// Records with `record`, submits and waits. For uploads and read-back, never inside a timed frame.
+    /// Records copies with `record`, submits and waits; what they wrote is visible to the host and to all
+    /// later commands. For uploads and read-back, never inside a timed frame.
     template <typename Record>
     void submit_now(Record&& record) {
         begin_one_shot();

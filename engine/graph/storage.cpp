@@ -223,14 +223,6 @@ std::vector<std::byte> Runner::read(Image image) {
         vkCmdCopyImageToBuffer(commands, source.image, layout_of(Use::copy_from), target.handle(), 1, &region);
         std::swap(barrier.oldLayout, barrier.newLayout);
         if (kept) vkCmdPipelineBarrier2(commands, &dependency);
-        VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-        memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, memory.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        memory.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT | VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        memory.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT | VK_ACCESS_2_MEMORY_READ_BIT;
-        VkDependencyInfo host{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        host.memoryBarrierCount = 1;
-        host.pMemoryBarriers = &memory;
-        vkCmdPipelineBarrier2(commands, &host);
     });
     std::vector<std::byte> data = target.read();
     data.resize(bytes);
@@ -243,14 +235,6 @@ std::vector<std::byte> Runner::read(Buffer buffer) {
     device_.submit_now([&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, bytes};
         vkCmdCopyBuffer(commands, buffers_[buffer.id], target.handle(), 1, &region);
-        VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-        memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, memory.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        memory.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT | VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        memory.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT | VK_ACCESS_2_MEMORY_READ_BIT;
-        VkDependencyInfo host{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        host.memoryBarrierCount = 1;
-        host.pMemoryBarriers = &memory;
-        vkCmdPipelineBarrier2(commands, &host);
     });
     std::vector<std::byte> data = target.read();
     data.resize(bytes);
