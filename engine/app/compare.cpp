@@ -61,6 +61,11 @@ void fill_times(report::Row& row, const std::vector<Frame>& frames, const std::s
     });
     row.cpu_record_ms = over_frames(frames, [](const Frame& frame) { return frame.record_ms; });
     row.wall_ms = over_frames(frames, [](const Frame& frame) { return frame.wall_ms; });
+    row.closure = over_frames(frames, [](const Frame& frame) {
+        double sum = 0;
+        for (const PassTime& pass : frame.passes) sum += pass.ms();
+        return sum / frame.wall_ms;
+    });
     const std::vector<PassTime>& passes = frames.front().passes;
     for (std::size_t i = 0; i < passes.size(); ++i)
         if (mine(passes[i]))

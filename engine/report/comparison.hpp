@@ -53,6 +53,8 @@ struct Row {
     int scene_draws = 0;   ///< the same with every cube face counted
     measure::Summary gpu_ms, cpu_record_ms, wall_ms;
     std::vector<PassFacts> passes; ///< in order of execution
+    /// Sum of all the frame's passes over wall_ms, frame by frame: near 1 where stamps tell the truth.
+    measure::Summary closure;
     measure::Difference error;                  ///< over the pixels whose first hit is a mirror
     measure::Difference error_first_order;      ///< ... whose reflected ray meets no second mirror
     measure::Difference error_mirror_in_mirror; ///< ... whose reflected ray does

@@ -122,6 +122,7 @@ Json to_json(const Row& row) {
     json["cpu_record_ms"] = to_json(row.cpu_record_ms);
     json["wall_ms"] = to_json(row.wall_ms);
     json["passes"] = to_json(row.passes);
+    json["closure"] = to_json(row.closure);
     add_errors(json, row);
     if (failed(row)) json["failed"] = true;
     json["memory_bytes"] = row.memory_bytes;
