@@ -3,5 +3,5 @@
 extern "C" int dlclose(void*) { return 0; }
 
 extern "C" const char* __lsan_default_suppressions() {
-    return "leak:libvulkan_lvp.so\nleak:libVkLayer_khronos_validation.so\nleak:libLLVM\nleak:libvulkan.so\n";
+    return "leak:libvulkan_lvp.so\nleak:libVkLayer_khronos_validation.so\nleak:libLLVM\nleak:libvulkan.so\nleak:libOpenImageIO\n";
 }

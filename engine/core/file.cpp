@@ -32,7 +32,7 @@ fs::path destination(fs::path path) {
 
 /// Writes, flushes and closes; throws `io` naming `path`, not the temporary.
 void write_all(File file, std::string_view content, const fs::path& path) {
-    const std::size_t written = std::fwrite(content.data(), 1, content.size(), file.get());
+    const std::size_t written = content.empty() ? 0 : std::fwrite(content.data(), 1, content.size(), file.get());
     const bool whole = written == content.size() && std::fflush(file.get()) == 0;
     const int error = errno;
     check(whole, Failure::io, path.string(), ": wanted to write ", content.size(), " bytes: ",
