@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "lib/whitted.glsl"
+#include "lib/ray_counts.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = PICTURE_BINDING, rgba32f) uniform image2D picture;
@@ -18,7 +18,7 @@ void main() {
     bool inside = all(lessThan(pixel, trace.size));
     if (inside) {
         uint met;
-        vec3 sum = radiance(camera_ray(vec2(pixel) + trace.sample_offset, trace.size), met);
+        vec3 sum = radiance(camera_ray(vec2(pixel) + trace.sample_offset, trace.size), 0u, met);
         if (trace.sample_index == 0u)
             imageStore(hits, ivec2(pixel), uvec4(met));
         else

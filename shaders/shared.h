@@ -76,7 +76,18 @@ struct Draw {
     uint first_view;   // the view of gl_InstanceIndex 0
     Surface surface;   // of what is drawn
     vec3 probe_centre; // of a mirror's capture
+    uint object;       // what is drawn
+    uint mended;       // causes of error to take away: kMend..., in builds that can (lib/mend.glsl)
 };
+
+// Causes of error, in the order in which a chain of renderings takes them away.
+const uint kMendDistance = 1u;   // captured distance -> exact
+const uint kMendDirection = 2u;  // looked-up direction -> that of what the ray really meets
+const uint kMendHidden = 4u;     // what the capture's centre does not see -> its true colour
+const uint kMendTexels = 8u;     // texels -> the captured surface at the very point
+const uint kMendMirrors = 16u;   // a mirror's picture in a capture -> what that mirror really shows here
+const uint kMendOwn = 32u;       // the mirror's own reflection in itself, which its capture leaves out
+const uint kMendShadows = 64u;   // shadow map -> shadow ray
 
 // Push constants of one dispatch of the ray tracer.
 struct Trace {
@@ -104,7 +115,7 @@ static_assert(sizeof(Light) == 76);
 static_assert(sizeof(Probe) == 40);
 static_assert(sizeof(View) == 52);
 static_assert(sizeof(Frame) == 20);
-static_assert(sizeof(Draw) == 72);
+static_assert(sizeof(Draw) == 80);
 static_assert(sizeof(Trace) == 24);
 static_assert(sizeof(Counters) == 28);
 } // namespace catoptric::shared

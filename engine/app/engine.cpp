@@ -37,11 +37,11 @@ struct FrameGraph {
 
 /// Life of a frame, step 3: every technique's passes and its compose, and what is wanted of them.
 FrameGraph declare(const Request& request, const std::vector<reflect::Choice>& choices,
-                   const render::GpuScene& scene, graph::History history) {
+                   const render::GpuScene& scene, graph::History history, std::uint32_t mended = 0) {
     FrameGraph frame{graph::Graph(std::move(history)), {}};
     for (const reflect::Choice& choice : choices) {
         const std::string prefix = choices.size() > 1 ? choice.file_name() + "/" : "";
-        const render::FrameInputs inputs{scene, request.size, prefix, request.seed, request.with_lookup};
+        const render::FrameInputs inputs{scene, request.size, prefix, request.seed, mended, request.with_lookup};
         reflect::Outputs outputs = choice.technique->add(frame.graph, inputs, choice.settings);
         const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr, request.exposure);
         frame.graph.want(outputs.hdr);
@@ -137,6 +137,19 @@ Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan
     return part;
 }
 
+/// The frame rendered once more for each set of causes that is taken away: entry i belongs to part i.
+std::vector<std::vector<measure::Picture>> render_mended(graph::Runner& runner, const Request& request,
+                                                         const std::vector<reflect::Choice>& choices, const render::GpuScene& scene) {
+    std::vector<std::vector<measure::Picture>> pictures(choices.size());
+    for (const std::uint32_t mended : request.mended) {
+        const FrameGraph frame = declare(request, choices, scene, runner.history(), mended);
+        runner.run(frame.graph, runner.plan(frame.graph), graph::Timing::pipelined, true);
+        for (std::size_t i = 0; i < choices.size(); ++i)
+            pictures[i].push_back(to_picture(runner.read(frame.parts[i].outputs.hdr), request.size, Format::rgba32f));
+    }
+    return pictures;
+}
+
 } // namespace
 
 struct Engine::Impl {
@@ -167,12 +180,15 @@ Result Engine::run(const Request& request) {
             const double time = request.time + (request.animate ? (k - 1) / 60.0 : 0.0);
             scene.update(scene::at(request.scene, time), request.camera, request.size, request.ambient);
         }
+        auto mended = k == total ? render_mended(runner, request, choices, scene) : std::vector<std::vector<measure::Picture>>();
         const FrameGraph frame = declare(request, choices, scene, runner.history());
         const graph::Plan plan = runner.plan(frame.graph);
         const graph::FrameTimes times = runner.run(frame.graph, plan, timing);
         if (k > request.warmup) result.frames.push_back(to_frame(times));
-        if (k == total)
-            for (const Declared& part : frame.parts) result.parts.push_back(read_part(runner, frame, plan, part, request.size));
+        for (std::size_t i = 0; k == total && i < frame.parts.size(); ++i) {
+            result.parts.push_back(read_part(runner, frame, plan, frame.parts[i], request.size));
+            result.parts.back().mended = std::move(mended[i]);
+        }
         if (request.progress) request.progress(k, total);
     }
     return result;

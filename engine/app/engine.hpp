@@ -44,6 +44,9 @@ struct Request {
     double exposure = 0; ///< stops
     std::uint64_t seed = 1; ///< of sample patterns that are not a regular grid
     Timing timing = Timing::isolated;
+    /// Renderings of the last frame beside the row's own, each with causes of error taken away:
+    /// sums of shared::kMend... (shaders/shared.h). Filled into Part::mended.
+    std::vector<std::uint32_t> mended;
     bool with_lookup = false; ///< also say where mirrors looked (Part::lookup); costs time
     /// Called after each frame with its number and the total; may be empty.
     std::function<void(int, int)> progress;
@@ -78,6 +81,7 @@ struct Part {
     measure::Picture hdr;     ///< linear radiance
     measure::Picture display; ///< what the screen shows: multiples of 1/255
     std::vector<vec4> lookup; ///< with `with_lookup`, techniques that search: see shaders/lib/mirror.glsl
+    std::vector<measure::Picture> mended; ///< one for each Request::mended, linear radiance
     std::vector<std::uint32_t> hits; ///< ray tracing only: first mirror | second mirror << 16
     std::optional<RayCounts> rays;   ///< ray tracing only
     std::optional<double> traced_fraction; ///< of its mirror pixels, where a search leaves some to tracing

@@ -72,7 +72,7 @@ Runner::Runner(gpu::Device& device, gpu::Pipelines& pipelines) : device_(device)
 
 Runner::~Runner() { vkDeviceWaitIdle(device_.handle()); }
 
-FrameTimes Runner::run(const Graph& graph, const Plan& plan, Timing timing) {
+FrameTimes Runner::run(const Graph& graph, const Plan& plan, Timing timing, bool stays) {
     prepare(graph, plan);
     const auto start = Clock::now();
     record(graph, plan, timing);
@@ -81,6 +81,7 @@ FrameTimes Runner::run(const Graph& graph, const Plan& plan, Timing timing) {
     FrameTimes times = read_times(graph, plan, timing);
     times.record_ms = record_ms;
     times.wall_ms = wall_ms;
+    if (stays) return times;
     for (const std::uint32_t id : kept_ids_) {
         Kept& kept = kept_.at(graph.images()[id].name);
         kept.last = 1 - kept.last;

@@ -47,7 +47,8 @@ public:
     Plan plan(const Graph& graph) const { return graph::plan(graph, limits(), sizer()); }
 
     /// Records, submits and waits. Throws `exhausted`, `device_lost` (naming the frame's passes).
-    FrameTimes run(const Graph& graph, const Plan& plan, Timing timing);
+    /// `stays`: a frame beside the sequence; the next one has the history that this one had.
+    FrameTimes run(const Graph& graph, const Plan& plan, Timing timing, bool stays = false);
 
     /// Texels of a wanted image of the graph that ran last: rows top down, layers one after the other.
     std::vector<std::byte> read(Image image);

@@ -10,8 +10,6 @@ namespace {
 /// What the view searches with: of the searches, the one with the fewest wrong answers that call themselves
 /// right (`march` misses what is thinner than its step).
 constexpr const char* kSearch = "reflect/pyramid.frag";
-/// As deep as the reference goes.
-constexpr std::uint32_t kDepth = 16;
 
 constexpr std::array<std::string_view, 2> kForceChoices{"search", "unknown"};
 constexpr Knob kKnobs[] = {
@@ -67,7 +65,7 @@ void add_trace(graph::Graph& graph, const render::FrameInputs& inputs, const Set
             commands.bind("picture", hdr);
             commands.bind("counters", list.counters);
             commands.bind("List", list.pixels);
-            commands.use(gpu::ComputeState{"reflect/hybrid_trace.comp", {{"max_depth", kDepth}, {"shadow", shadow_rays}}});
+            commands.use(gpu::ComputeState{"reflect/hybrid_trace.comp", {{"max_depth", render::kReferenceDepth}, {"shadow", shadow_rays}}});
             commands.push(size);
             commands.dispatch_indirect(list.arguments);
         });

@@ -76,7 +76,7 @@ void GpuScene::fill_lights(const scene::Scene& now) {
 
 shared::Draw GpuScene::draw_of(std::size_t object, std::uint32_t first_view) const {
     const shared::Surface& surface = surfaces_[object];
-    return {first_view, surface, surface.mirror ? probes_[surface.mirror - 1].centre : vec3(0)};
+    return {first_view, surface, surface.mirror ? probes_[surface.mirror - 1].centre : vec3(0), static_cast<std::uint32_t>(object), 0};
 }
 
 /// Camera, then six for each mirror, then the shadow faces of each light.

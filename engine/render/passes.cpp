@@ -21,9 +21,11 @@ constexpr Clear kFarthest{0, 0, 0, 0}; // reversed depth
 
 /// One object in the layers whose view it may meet; neighbouring layers in one draw.
 void draw_object(Commands& commands, const GpuScene& scene, std::size_t object, std::uint32_t first_view,
-                 std::uint32_t layers) {
+                 std::uint32_t layers, std::uint32_t mended = 0) {
     const DrawRange& range = scene.ranges()[object];
-    commands.push(scene.draw_of(object, first_view));
+    shared::Draw draw = scene.draw_of(object, first_view);
+    draw.mended = mended;
+    commands.push(draw);
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
         while (end < layers && may_meet(scene.views()[first_view + end], range.bounds)) ++end;
@@ -51,7 +53,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
         if (!scene.ranges()[i].mirror && !skip(i)) draw_object(commands, scene, i, first_view, layers);
     gpu::RasterState mirrors{"scene.vert", black, store};
     if (look.cubes && !look.blank) {
-        mirrors.fragment = look.fragment + (peeled ? "#peel" : "");
+        mirrors.fragment = look.fragment + (peeled ? "#peel" : !look.mended ? "" : lighting.shadow_map ? "#mend" : "#mend_unshadowed");
         mirrors.constants.insert(mirrors.constants.end(), look.constants.begin(), look.constants.end());
         commands.bind("colour_cubes", look.cubes->colour, Filter::linear);
         if (look.cubes->distance) {
@@ -63,7 +65,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
     }
     commands.use(mirrors);
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
-        if (scene.ranges()[i].mirror && !skip(i)) draw_object(commands, scene, i, first_view, layers);
+        if (scene.ranges()[i].mirror && !skip(i)) draw_object(commands, scene, i, first_view, layers, look.mended);
 }
 
 void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const MirrorLook& look) {
@@ -94,6 +96,16 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
             draw_scene(commands, scene, scene.capture_view(mirror), 6, lighting, look, unit, peeled,
                        [&](std::size_t object) { return object == scene.mirror_object(mirror); });
         });
+}
+
+/// The same look with causes of error taken away.
+MirrorLook mended(MirrorLook look, const FrameInputs& inputs, const Lighting& lighting) {
+    if (!inputs.mended) return look;
+    look.mended = inputs.mended;
+    for (const auto& [name, value] : {std::pair{"picture_width", inputs.size.x}, {"picture_height", inputs.size.y},
+                                      {"max_depth", kReferenceDepth}, {"shadow", lighting.shadow_map ? 1u : 0u}})
+        look.constants.emplace_back(name, value);
+    return look;
 }
 
 } // namespace
@@ -160,7 +172,7 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
         view.lookup = graph.image({inputs.prefix + "lookup", Format::rgba32f, size.x, size.y});
         pass.writes(distance, Use::colour, Clear{}).writes(*view.lookup, Use::colour, Clear{});
     }
-    pass.writes(depth, Use::depth, kFarthest).record([&scene = inputs.scene, lighting, look](Commands& commands) {
+    pass.writes(depth, Use::depth, kFarthest).record([&scene = inputs.scene, lighting, look = mended(look, inputs, lighting)](Commands& commands) {
         draw_scene(commands, scene, GpuScene::kCameraView, 1, lighting, look, 1, {},
                    [&](std::size_t object) { return !scene.ranges()[object].seen_by_camera; });
     });

@@ -10,11 +10,15 @@
 /// `prefix` keeps the names of several techniques in one frame apart.
 namespace catoptric::render {
 
+/// Mirror bounces of the reference, and of whatever stands in for it.
+inline constexpr std::uint32_t kReferenceDepth = 16;
+
 struct FrameInputs {
     const GpuScene& scene;
     uvec2 size{512, 512};
     std::string prefix;
     std::uint64_t seed = 1; ///< of stratified samples
+    std::uint32_t mended = 0; ///< causes of error to take away in the view: shared::kMend...
     bool with_lookup = false; ///< also say where mirrors looked: for measuring, costs an attachment
 };
 
@@ -38,6 +42,7 @@ struct MirrorLook {
     std::vector<std::pair<std::string, graph::Image>> images;   ///< what else it samples (nearest), by shader name
     std::vector<std::pair<std::string, graph::Buffer>> buffers; ///< what else it reads
     bool blank = false; ///< the cubes are last frame's and there was none: black
+    std::uint32_t mended = 0; ///< causes of error that its fragment#mend takes away
 };
 
 /// How captures and view are lit; no map: light without shadows.

@@ -13,14 +13,24 @@
 // spheres, where a test of the ray costs no fetch.
 layout(constant_id = 3) const uint hops = 0u;
 
+// The reflected ray that is looked up: it leaves mirror `mirror` (from 0) at `at`.
+struct Path {
+    uint mirror;
+    vec3 at;
+    vec3 direction; // unit
+    vec3 centre;    // of the mirror's capture
+    vec3 weight;    // reflectances on the way from the eye
+    uint hops;      // mirrors met after the one that is drawn
+};
+
 // The nearest other mirror along the ray, if it is an exact sphere.
-bool next_mirror(uint mirror, vec3 at, vec3 direction, out uint next, out float t) {
+bool next_mirror(Path path, out uint next, out float t) {
     bool found = false;
     t = kLargest;
     for (uint i = 0u; i < frame.value.mirror_count; ++i) {
         float t_sphere;
-        if (i != mirror && probes[i].radius > 0.0 &&
-            sphere_test(probes[i].sphere, probes[i].radius, Ray(at, direction, 0u), t, t_sphere)) {
+        if (i != path.mirror && probes[i].radius > 0.0 &&
+            sphere_test(probes[i].sphere, probes[i].radius, Ray(path.at, path.direction, 0u), t, t_sphere)) {
             t = t_sphere;
             next = i;
             found = true;
@@ -29,41 +39,48 @@ bool next_mirror(uint mirror, vec3 at, vec3 direction, out uint next, out float 
     return found;
 }
 
+// On from the exact sphere that the ray meets next, if there is one in sight.
+bool follow_sphere(inout Path path) {
+    uint next;
+    float t;
+    if (!next_mirror(path, next, t)) return false;
+    vec3 error;
+    vec3 met = sphere_point(probes[next].sphere, probes[next].radius, Ray(path.at, path.direction, 0u), t, error);
+    // Something that stands more than the sphere's radius in front of it hides it.
+    vec3 seen = met - path.centre;
+    if (captured_distance(path.mirror, normalize(seen)) + probes[next].radius < length(seen)) return false;
+    vec3 n = (met - probes[next].sphere) / probes[next].radius;
+    path = Path(next, met, mirror_direction(path.direction, n, n), probes[next].centre,
+                path.weight * probes[next].reflectance, path.hops + 1u);
+    return true;
+}
+
 #ifndef OWN_LOOKUP_COLOUR // the including shader's own, where captures hold more than one colour
 vec3 lookup_colour(uint mirror, Lookup lookup) { return found_colour(mirror, lookup); }
+void look_at(float distance) {}
+#endif
+
+#ifdef MEND
+#include "lib/mend.glsl"
 #endif
 
 void main() {
-    uint mirror = draw.surface.mirror - 1u;
     vec3 facet = normalize(cross(dFdx(from_eye), dFdy(from_eye)));
 #ifdef PEEL
     if (is_peeled()) discard; // not before the derivatives
 #endif
-    vec3 direction = mirror_direction(normalize(from_eye), normalize(normal), facet);
-    vec3 weight = draw.surface.reflectance;
-    vec3 at = position;
-    vec3 centre = draw.probe_centre;
+    Path path = Path(draw.surface.mirror - 1u, position, mirror_direction(normalize(from_eye), normalize(normal), facet),
+                     draw.probe_centre, draw.surface.reflectance, 0u);
 #ifdef CONTINUE
-    for (uint hop = 0u; hop < hops; ++hop) {
-        uint next;
-        float t;
-        if (!next_mirror(mirror, at, direction, next, t)) break;
-        vec3 error;
-        vec3 met = sphere_point(probes[next].sphere, probes[next].radius, Ray(at, direction, 0u), t, error);
-        // Something that stands more than the sphere's radius in front of it hides it.
-        vec3 seen = met - centre;
-        if (captured_distance(mirror, normalize(seen)) + probes[next].radius < length(seen)) break;
-        vec3 n = (met - probes[next].sphere) / probes[next].radius;
-        weight *= probes[next].reflectance;
-        direction = mirror_direction(direction, n, n);
-        at = met;
-        mirror = next;
-        centre = probes[next].centre;
-    }
+    while (path.hops < hops && follow_sphere(path)) {}
 #endif
-    Lookup lookup = search(mirror, at - centre, direction);
-    write_surface(weight * lookup_colour(mirror, lookup));
-    out_lookup = vec4(lookup.direction, float(1u + lookup.state) + 4.0 * lookup.layer + 8.0 * float(mirror));
+    Lookup lookup = search(path.mirror, path.at - path.centre, path.direction);
+#ifdef MEND
+    write_surface(mended_radiance(path, lookup));
+#else
+    write_surface(path.weight * lookup_colour(path.mirror, lookup));
+#endif
+    out_lookup = vec4(lookup.direction, float(1u + lookup.state) + 4.0 * lookup.layer + 8.0 * float(path.mirror));
 }
 
 #endif

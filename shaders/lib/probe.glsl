@@ -33,9 +33,17 @@ vec3 found_colour(uint mirror, Lookup lookup) {
     return captured_colour(mirror, lookup.direction);
 }
 
+#ifdef MEND // see lib/mend.glsl
+bool mends(uint cause);
+float exact_distance(uint mirror, vec3 direction);
+#endif
+
 // Distance from the capture's centre, bilinear. Where one of the four texels holds nothing
 // (+infinity), the sum is not finite and the nearest texel decides.
 float captured_distance(uint mirror, vec3 direction) {
+#ifdef MEND
+    if (mends(kMendDistance)) return exact_distance(mirror, direction);
+#endif
     float d = textureLod(distance_cubes, vec4(direction, mirror), 0).r;
     if (is_miss(d)) d = textureLod(distance_cubes_nearest, vec4(direction, mirror), 0).r;
     return d * stored_unit;

@@ -1,6 +1,8 @@
 // Ray tracing in compute shaders: a walk over the two-child hierarchy of engine/bvh/bvh.hpp.
 // The including shader defines BVH_NODES_BINDING and BVH_TRIANGLES_BINDING (set 0), and
 // TRACE_LOCAL_SIZE where its work group has not 64 invocations.
+// TRACE_PRIVATE_STACK: for stages that have no shared memory. TRACE_SEES(object): false for objects that
+// rays pass through.
 // What makes it fast on a processor: uniform texel buffers, the stack in shared memory, lanes that
 // diverge. NAIVE is what one would write first, kept for the benchmark that shows it: storage
 // buffers, the stack in a private array.
@@ -12,6 +14,12 @@
 #ifndef TRACE_LOCAL_SIZE
 #define TRACE_LOCAL_SIZE 64
 #endif
+#ifndef TRACE_SEES
+#define TRACE_SEES(object) true
+#endif
+#ifdef NAIVE
+#define TRACE_PRIVATE_STACK
+#endif
 
 #ifdef NAIVE
 layout(set = 0, binding = BVH_NODES_BINDING, std430) readonly buffer BvhNodes { vec4 bvh_nodes[]; };
@@ -20,13 +28,16 @@ layout(set = 0, binding = BVH_TRIANGLES_BINDING, std430) readonly buffer BvhTria
 };
 #define NODE_TEXEL(i) bvh_nodes[i]
 #define TRIANGLE_TEXEL(i) bvh_triangles[i]
-#define STACK(i) stack[i]
 #else
 layout(set = 0, binding = BVH_NODES_BINDING) uniform samplerBuffer bvh_nodes;
 layout(set = 0, binding = BVH_TRIANGLES_BINDING) uniform samplerBuffer bvh_triangles;
-shared uint trace_stack[(kBvhMaxDepth + 2) * TRACE_LOCAL_SIZE];
 #define NODE_TEXEL(i) texelFetch(bvh_nodes, int(i))
 #define TRIANGLE_TEXEL(i) texelFetch(bvh_triangles, int(i))
+#endif
+#ifdef TRACE_PRIVATE_STACK
+#define STACK(i) stack[i]
+#else
+shared uint trace_stack[(kBvhMaxDepth + 2) * TRACE_LOCAL_SIZE];
 #define STACK(i) trace_stack[(i) * TRACE_LOCAL_SIZE + gl_LocalInvocationIndex]
 #endif
 
@@ -65,10 +76,11 @@ void trace_triangle(uint place, Ray ray, RayShear shear, uint skipped_flags, ino
     vec3 weights;
     bool hit = triangle_test(a.xyz, b.xyz, c.xyz, ray.origin, shear, t, weights);
     uint triangle = floatBitsToUint(b.w) & kBvhIdMask;
-    bool seen = (floatBitsToUint(c.w) & skipped_flags) == 0u && triangle + 1u != ray.leaves;
+    uint object = floatBitsToUint(a.w) & kBvhIdMask;
+    bool seen = (floatBitsToUint(c.w) & skipped_flags) == 0u && triangle + 1u != ray.leaves && TRACE_SEES(object);
     bool nearer = t < best.t || (found && t == best.t && triangle < best.triangle);
     if (hit && seen && nearer) {
-        best = Hit(t, weights, triangle, floatBitsToUint(a.w) & kBvhIdMask, place);
+        best = Hit(t, weights, triangle, object, place);
         found = true;
     }
 }
@@ -95,7 +107,7 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
     vec4 header_hi = NODE_TEXEL(1u);
     bool empty = (floatBitsToUint(header_lo.w) & kBvhIdMask) == 0u;
     if (empty || !is_valid(ray) || !(t_max > 0.0)) return false;
-#ifdef NAIVE
+#ifdef TRACE_PRIVATE_STACK
     uint stack[kBvhMaxDepth + 2];
 #endif
     BoxRay boxes = box_ray(ray, header_lo.xyz, header_hi.xyz);

@@ -1,6 +1,6 @@
-// Whitted ray tracing of one pixel: camera, shadow and mirror rays, and the counting of them. What the
-// reference traces and what others trace where they know nothing is this one function.
-// Builds: SHADOW_MAP asks the raster world's shadow map instead of tracing; NAIVE see lib/trace.glsl.
+// Whitted ray tracing of one pixel: camera, shadow and mirror rays. What the reference traces and what others
+// trace where they know nothing is this one function.
+// Builds: SHADOW_MAP can also ask the raster world's shadow map; NAIVE see lib/trace.glsl.
 #ifndef CATOPTRIC_WHITTED_GLSL
 #define CATOPTRIC_WHITTED_GLSL
 
@@ -10,7 +10,6 @@
 #include "lib/shadow.glsl"
 #endif
 
-layout(set = 0, binding = COUNTERS_BINDING, scalar) buffer CountersBuffer { Counters value; } counters;
 #ifdef NAIVE
 layout(set = 0, binding = NORMALS_BINDING, std430) readonly buffer Normals { vec4 normals[]; };
 #define NORMAL(i) normals[i].xyz
@@ -19,9 +18,12 @@ layout(set = 0, binding = NORMALS_BINDING) uniform samplerBuffer normals;
 #define NORMAL(i) texelFetch(normals, int(i)).xyz
 #endif
 
-layout(constant_id = 0) const uint max_depth = 8u;
-layout(constant_id = 1) const uint shadow = 2u; // kShadowNone, kShadowMap, kShadowRay
-layout(constant_id = 2) const uint exact_spheres = 0u;
+layout(constant_id = 10) const uint max_depth = 8u;
+layout(constant_id = 11) const uint shadow = 2u; // kShadowNone, kShadowMap, kShadowRay
+layout(constant_id = 12) const uint exact_spheres = 0u;
+#ifndef SHADOW_BY // what shadows are made by, where that changes
+#define SHADOW_BY shadow
+#endif
 
 uint mirror_rays = 0u;
 uint shadow_rays = 0u;
@@ -92,10 +94,10 @@ bool trace_ray(Ray ray, uint skipped, out Point p) {
 }
 
 float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
-    if (shadow == kShadowNone) return 1.0;
+    if (SHADOW_BY == kShadowNone) return 1.0;
 #ifdef SHADOW_MAP
-    return shadow_map_visible(light, position, normal);
-#else
+    if (SHADOW_BY == kShadowMap) return shadow_map_visible(light, position, normal);
+#endif
     ++shadow_rays;
     vec3 origin = spawn_origin(position, point.error, point.facet, direction);
     Ray ray = Ray(origin, lights[light].position - origin, point.leaves);
@@ -103,7 +105,6 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
     float t = kShadowRayEnd;
     uint object;
     return exact_spheres != 0u && nearest_sphere(ray, t, object) ? 0.0 : 1.0;
-#endif
 }
 #include "lib/lighting.glsl"
 
@@ -115,20 +116,21 @@ Ray camera_ray(vec2 place, uvec2 size) {
                                    ndc.y * view.down / dot(view.down, view.down)), 0u);
 }
 
-// Radiance along the ray; `met` = number of the first mirror, and of the second << 16.
-vec3 radiance(Ray ray, out uint met) {
+// Radiance along a ray that has met `first` mirrors before; `met` = number of the first that it meets, and
+// of the second << 16. Camera rays, which have met none, do not see what is hidden from them.
+vec3 radiance(Ray ray, uint first, out uint met) {
     vec3 weight = vec3(1);
     vec3 result = vec3(0);
     met = 0u;
-    uint skipped = kBvhHidden;
+    uint skipped = first == 0u ? kBvhHidden : 0u;
     bool done = false;
-    for (uint bounce = 0u; !done; ++bounce) {
+    for (uint bounce = first; !done; ++bounce) {
         if (!trace_ray(ray, skipped, point)) {
             done = true;
             continue;
         }
         Surface surface = surfaces[point.object];
-        if (bounce < 2u) met |= surface.mirror << (16u * bounce);
+        if (bounce < first + 2u) met |= surface.mirror << (16u * (bounce - first));
         if (surface.mirror == 0u) {
             result = weight * shade(surface, point.position, point.normal);
             done = true;
@@ -145,34 +147,6 @@ vec3 radiance(Ray ray, out uint met) {
     // A driver that stopped the walk's loops stops this one too, without a word.
     trace_exhausted = trace_exhausted || !done;
     return result;
-}
-
-// Neighbouring work groups cost alike, and a software driver gives each of its threads one contiguous
-// run of them: scattered, the threads finish together. Rows of work groups follow each other.
-uint work_group() {
-    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-#ifdef NAIVE
-    return group;
-#else
-    const uint kPrime = 2531u;
-    uint count = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-    return count % kPrime == 0u || count > 0xffffffffu / kPrime ? group : group * kPrime % count;
-#endif
-}
-
-// Once for every invocation, at its end; `inside`: it traced a camera ray.
-void count(bool inside) {
-    uint primary = subgroupAdd(inside ? 1u : 0u);
-    uint mirrors = subgroupAdd(mirror_rays);
-    uint shadows = subgroupAdd(shadow_rays);
-    uint exhausted = subgroupAdd(trace_exhausted ? 1u : 0u);
-    uint longest = subgroupMax(trace_steps);
-    if (!subgroupElect()) return;
-    atomicAdd(counters.value.primary_rays, primary);
-    atomicAdd(counters.value.mirror_rays, mirrors);
-    atomicAdd(counters.value.shadow_rays, shadows);
-    if (exhausted > 0u) atomicAdd(counters.value.exhausted, exhausted);
-    atomicMax(counters.value.longest_walk, longest);
 }
 
 #endif

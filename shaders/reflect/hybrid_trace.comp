@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "lib/whitted.glsl"
+#include "lib/ray_counts.glsl"
 #include "reflect/hybrid.glsl"
 
 layout(local_size_x = 64) in; // kListGroup
@@ -16,7 +16,7 @@ void main() {
     if (inside) {
         uvec2 pixel = uvec2(list[place] % size.x, list[place] / size.x);
         uint met;
-        vec3 colour = radiance(camera_ray(vec2(pixel) + 0.5, size), met);
+        vec3 colour = radiance(camera_ray(vec2(pixel) + 0.5, size), 0u, met);
         // Weight 1 for what was traced, 0 for what was found: nothing in between.
         imageStore(picture, ivec2(pixel), vec4(colour, 1));
     }

@@ -116,6 +116,8 @@ float surface_distance(uint mirror, vec3 direction, float distance) {
 
 float found_distance; // of the lookup; 0: nothing was found. Without initial value, on which -gVS of glslang 12 trips
 
+void look_at(float distance) { found_distance = distance; }
+
 vec3 lookup_colour(uint mirror, Lookup lookup) {
     if (!(found_distance > 0.0)) return vec3(0);
     Taps taps = taps_at(mirror, lookup.direction);

@@ -39,6 +39,7 @@ void main() {
     put(draws[1].first_view);
     Surface d = draws[1].surface;
     put(d.albedo), put(d.emission), put(d.reflectance), put(d.mirror), put(d.centre), put(d.radius), put(draws[1].probe_centre);
+    put(draws[1].object), put(draws[1].mended);
     Trace t = traces[1];
     put(t.sample_offset), put(t.sample_index), put(t.sample_count), put(t.size);
     Counters c = counters[1];

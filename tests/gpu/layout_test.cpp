@@ -30,6 +30,7 @@ const std::vector<Member> kMembers{
     MEMBER(Frame, ambient), MEMBER(Frame, light_count), MEMBER(Frame, mirror_count), MEMBER(Frame, object_count),
     MEMBER(Frame, shadow_faces),
     MEMBER(Draw, first_view), MEMBER(Draw, surface), MEMBER(Draw, probe_centre),
+    MEMBER(Draw, object), MEMBER(Draw, mended),
     MEMBER(Trace, sample_offset), MEMBER(Trace, sample_index), MEMBER(Trace, sample_count), MEMBER(Trace, size),
     MEMBER(Counters, primary_rays), MEMBER(Counters, mirror_rays), MEMBER(Counters, shadow_rays),
     MEMBER(Counters, longest_walk), MEMBER(Counters, exhausted), MEMBER(Counters, mirror_pixels), MEMBER(Counters, listed)};

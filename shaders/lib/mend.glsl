@@ -1,0 +1,132 @@
+// A mirror as it would be with single causes of error taken away: in place of what the technique has, what
+// the reference's rays find. draw.mended says which. For measuring: it traces up to a dozen rays a pixel.
+// A pixel whose rays took more steps than the driver allows is NaN.
+#ifndef CATOPTRIC_MEND_GLSL
+#define CATOPTRIC_MEND_GLSL
+
+#include "lib/bindings.glsl"
+
+// A mirror that rays pass through, from 1: a capture does not show its own. 0: none.
+uint left_out;
+bool is_seen(uint object) { return left_out == 0u || surfaces[object].mirror != left_out; }
+// Shadows as the row makes them, or by rays.
+uint shadow_by;
+
+#define TRACE_PRIVATE_STACK
+#define TRACE_SEES(object) is_seen(object)
+#define SHADOW_BY shadow_by
+#include "lib/whitted.glsl"
+
+layout(constant_id = 13) const uint picture_width = 1u;
+layout(constant_id = 14) const uint picture_height = 1u;
+
+// What stands nearer to a capture's centre by no more than this part is not in the way.
+const float kInTheWay = 1.0 / 16384.0;
+
+bool mends(uint cause) { return (draw.mended & cause) != 0u; }
+
+// Distance of what capture `mirror` shows in a direction of any length; +infinity: nothing.
+float exact_distance(uint mirror, vec3 direction) {
+    left_out = mirror + 1u;
+    Hit hit;
+    bool found = closest_hit(Ray(probes[mirror].centre, direction, 0u), kLargest, 0u, hit);
+    left_out = 0u;
+    return found ? hit.t * length(direction) : uintBitsToFloat(0x7f800000u);
+}
+
+// Where a ray ends.
+struct End {
+    bool meets; // false: it leaves
+    Point point;
+    uint mirror; // that it meets, from 1; 0: none
+};
+
+End end_of(Ray ray, uint skipped) {
+    End end;
+    end.meets = trace_ray(ray, skipped, end.point);
+    end.mirror = end.meets ? surfaces[end.point.object].mirror : 0u;
+    return end;
+}
+
+Ray reflected(Ray ray, Point at) {
+    vec3 direction = mirror_direction(ray.direction, at.normal, at.facet);
+    return Ray(spawn_origin(at.position, at.error, at.facet, direction), direction, at.leaves);
+}
+
+// What capture `mirror` shows in the looked-up direction: in the second layer the next surface behind
+// that faces the centre.
+End captured_end(uint mirror, Lookup lookup) {
+    left_out = mirror + 1u;
+    Ray ray = Ray(probes[mirror].centre, lookup.direction, 0u);
+    End end = end_of(ray, 0u);
+    bool second = lookup.layer != 0.0 && end.meets;
+    while (second) {
+        ray = Ray(spawn_origin(end.point.position, end.point.error, end.point.facet, ray.direction), ray.direction, end.point.leaves);
+        end = end_of(ray, 0u);
+        second = end.meets && dot(end.point.facet, ray.direction) >= 0.0;
+    }
+    left_out = 0u;
+    return end;
+}
+
+vec3 shaded(Point at, uint by) {
+    shadow_by = by;
+    point = at; // whose shadow rays start there
+    return shade(surfaces[at.object], at.position, at.normal);
+}
+
+// Of what the search looked up, with texels or shadows mended.
+vec3 looked_up(Path path, Lookup lookup, End target, bool is_target) {
+    vec3 colour = lookup_colour(path.mirror, lookup);
+    bool sees_nothing = lookup.state == kUnknown && lookup.layer == kLeaves;
+    if (sees_nothing || !(mends(kMendTexels) || mends(kMendShadows))) return colour;
+    End captured = target;
+    if (!is_target) captured = captured_end(path.mirror, lookup);
+    if (captured.mirror != 0u) return colour; // its picture in the capture stays as it is
+    if (!captured.meets) return mends(kMendTexels) ? vec3(0) : colour;
+    uint by = mends(kMendShadows) ? kShadowRay : shadow;
+    vec3 truth = shaded(captured.point, by);
+    // The texels were lit through the map: what a ray would have changed.
+    return mends(kMendTexels) ? truth : colour + truth - shaded(captured.point, shadow);
+}
+
+vec3 mended_radiance(Path path, Lookup lookup) {
+    left_out = 0u;
+    shadow_by = mends(kMendShadows) ? kShadowRay : shadow;
+    Ray camera = camera_ray(gl_FragCoord.xy, uvec2(picture_width, picture_height));
+    End first = end_of(camera, kBvhHidden);
+    // The rasteriser and the ray disagree on what is seen here: another cause.
+    if (first.mirror != draw.surface.mirror) return path.weight * lookup_colour(path.mirror, lookup);
+    Ray search_ray = reflected(camera, first.point);
+    End target = end_of(search_ray, 0u);
+    bool is_own = target.mirror == draw.surface.mirror;
+    bool is_mirrored = !is_own && (target.mirror != 0u || path.hops > 0u);
+    bool from_camera = is_own ? mends(kMendOwn) : is_mirrored && mends(kMendMirrors);
+    if (path.hops > 0u) {
+        search_ray = Ray(path.at, path.direction, 0u);
+        left_out = path.mirror + 1u;
+        target = end_of(search_ray, 0u);
+        left_out = 0u;
+    }
+    vec3 to_target = target.meets ? target.point.position - path.centre : search_ray.direction;
+    float distance = target.meets ? length(to_target) : uintBitsToFloat(0x7f800000u);
+    bool in_capture = target.mirror != path.mirror + 1u;
+    bool is_hidden = in_capture && exact_distance(path.mirror, to_target) < distance * (1.0 - kInTheWay);
+    bool along_search = is_hidden && mends(kMendHidden);
+    vec3 result;
+    if (from_camera || along_search) {
+        bool whole = from_camera || path.hops == 0u;
+        if (!whole) camera = search_ray;
+        uint met;
+        result = (whole ? vec3(1) : path.weight) * radiance(camera, whole ? 0u : 1u + path.hops, met);
+    } else {
+        if (mends(kMendDirection)) {
+            lookup = Lookup(normalize(to_target), kHit, 0.0, 0.0);
+            look_at(target.meets ? distance : 0.0);
+        }
+        result = path.weight * looked_up(path, lookup, target, mends(kMendDirection) && in_capture && !is_hidden);
+    }
+    return trace_exhausted ? vec3(uintBitsToFloat(0x7fc00000u)) : result;
+}
+
+#endif
