@@ -1,5 +1,6 @@
 #include "app/compare.hpp"
 
+#include "app/causes.hpp"
 #include "app/oracle.hpp"
 #include "core/error.hpp"
 #include "measure/difference.hpp"
@@ -34,6 +35,10 @@ std::string reference_at(const std::string& reference, const std::string& sample
 }
 
 bool same(const TechniqueChoice& a, const TechniqueChoice& b) { return a.technique == b.technique && a.settings == b.settings; }
+
+bool is_set(const report::Row& row, std::string_view knob, std::string_view text) {
+    return std::ranges::any_of(row.settings, [&](const report::Setting& setting) { return setting.name == knob && setting.text == text; });
+}
 
 std::vector<report::Setting> settings_of(const TechniqueChoice& choice) {
     std::vector<report::Setting> settings;
@@ -180,26 +185,45 @@ private:
         comparison_.reference_display = truth("1").part.display;
     }
 
-    /// Where the row's mirrors looked, against what rays meet: a run of its own, since saying so costs
-    /// time. Nothing for rows that do not search.
-    std::optional<measure::LookupError> judge_lookup(const std::string& text) {
+    /// Where the row's mirrors looked: a run of its own, since saying so costs time. Empty for rows that
+    /// do not look into captures.
+    std::vector<vec4> looked_up(const std::string& text) {
         Request request = request_.base;
         request.techniques = {text};
         request.frames = 1;
         request.warmup = 1;
+        request.time = last_time(request_.base);
         request.animate = false;
         request.with_lookup = true;
-        const Result result = engine_.run(request);
-        if (result.parts.front().lookup.empty()) return std::nullopt;
+        std::vector<vec4> lookup = std::move(engine_.run(request).parts.front().lookup);
+        const bool looks = std::ranges::any_of(lookup, [](const vec4& pixel) { return pixel.w > 0; });
+        if (!looks) return {};
         if (!oracle_) oracle_.emplace(request);
-        return measure::lookup_error(oracle_->judge(result.parts.front().lookup));
+        return lookup;
+    }
+
+    /// Splits the row's error by cause.
+    report::Causes causes_of(const std::string& text, const report::Row& row, const std::vector<vec4>& lookup) {
+        if (!finder_) finder_.emplace(engine_, request_.base, truth("1").part.hdr, hits_);
+        report::Causes causes = finder_->find(text);
+        const auto face = std::ranges::find(row.settings, "face", &report::Setting::name);
+        measure::Mask at_edges = oracle_->at_light_edges(lookup, static_cast<std::uint32_t>(face->number.value()));
+        for (std::size_t i = 0; i < at_edges.size(); ++i)
+            if (measure::first_mirror(hits_[i]) == 0) at_edges[i] = 0;
+        const measure::Difference there = measure::difference(row.hdr, truth("1").part.hdr, at_edges, row.flip_map);
+        const auto sum = [](const measure::Difference& error) { return error.pixels > 0 ? error.rmse * error.rmse * static_cast<double>(error.pixels) : 0; };
+        causes.at_light_edges = sum(row.error) > 0 ? sum(there) / sum(row.error) : 0;
+        return causes;
     }
 
     void add(const std::string& text, const Part& part, const std::vector<Frame>& frames) {
         report::Row row = make_row(text, part, frames);
-        if (!part.rays || part.traced_fraction) row.lookup = judge_lookup(text);
+        const std::vector<vec4> lookup = !part.rays || part.traced_fraction ? looked_up(text) : std::vector<vec4>();
+        if (!lookup.empty()) row.lookup = measure::lookup_error(oracle_->judge(lookup, is_set(row, "mirrors", "left_out")));
         const std::string samples = sample_count(parse_technique(text));
         fill_errors(row, part, truth(samples).part, hits_, mirrors_);
+        if (!lookup.empty() && request_.causes && same(parse_technique(request_.reference), parse_technique(kReference)))
+            row.causes = causes_of(text, row, lookup);
         row.is_reference = same(parse_technique(text), parse_technique(reference_at(request_.reference, samples)));
         comparison_.rows.push_back(std::move(row));
     }
@@ -235,6 +259,7 @@ private:
     std::map<std::string, Truth> truths_;
     std::vector<std::uint32_t> hits_;
     std::optional<Oracle> oracle_;
+    std::optional<CauseFinder> finder_;
     report::Comparison comparison_;
 };
 

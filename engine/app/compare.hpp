@@ -5,10 +5,13 @@
 
 namespace catoptric::app {
 
+inline constexpr const char* kReference = "raytrace:depth=16";
+
 struct CompareRequest {
     Request base; ///< its `techniques` are the rows; empty = default_techniques()
-    std::string reference = "raytrace:depth=16";
+    std::string reference = kReference;
     bool together = false; ///< all rows in one frame
+    bool causes = true;    ///< split each row's error by cause; only against the default reference
     std::vector<std::string> command; ///< for the record
     /// Called before each row with its label, number from 0 and the count; may be empty.
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;

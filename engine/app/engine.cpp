@@ -18,6 +18,8 @@ std::string commit() { return CATOPTRIC_COMMIT; }
 
 namespace {
 
+double time_of(const Request& request, int frame) { return request.time + (request.animate ? (frame - 1) / 60.0 : 0.0); }
+
 DeviceInfo to_info(const gpu::DeviceInfo& info) {
     return {info.name, info.driver, info.api, info.type, info.threads, info.missing};
 }
@@ -152,6 +154,8 @@ std::vector<std::vector<measure::Picture>> render_mended(graph::Runner& runner, 
 
 } // namespace
 
+double last_time(const Request& request) { return time_of(request, request.warmup + request.frames); }
+
 struct Engine::Impl {
     explicit Impl(const EngineOptions& options)
         : device({options.device, options.validate, options.layered, false}), pipelines(device, options.shader_variants), info(to_info(device.info())) {}
@@ -177,8 +181,7 @@ Result Engine::run(const Request& request) {
     for (int k = 1; k <= total; ++k) {
         check_stopped();
         if (k == 1 || request.animate) {
-            const double time = request.time + (request.animate ? (k - 1) / 60.0 : 0.0);
-            scene.update(scene::at(request.scene, time), request.camera, request.size, request.ambient);
+            scene.update(scene::at(request.scene, time_of(request, k)), request.camera, request.size, request.ambient);
         }
         auto mended = k == total ? render_mended(runner, request, choices, scene) : std::vector<std::vector<measure::Picture>>();
         const FrameGraph frame = declare(request, choices, scene, runner.history());

@@ -52,6 +52,9 @@ struct Request {
     std::function<void(int, int)> progress;
 };
 
+/// Seconds into the scene's motion at the last frame.
+double last_time(const Request& request);
+
 struct PassTime {
     std::string name;
     double begin_ms = 0, end_ms = 0; ///< from the frame's first stamp

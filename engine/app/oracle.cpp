@@ -4,6 +4,7 @@
 #include "render/views.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace catoptric::app {
@@ -55,6 +56,7 @@ Oracle::Oracle(const Request& request) {
     const render::Space space = render::space_of(request.scene);
     geometry_ = render::make_geometry(now, space);
     mirror_objects_ = scene::mirrors(now);
+    for (const scene::Object& object : now.objects) emits_.push_back(now.materials[object.material].emission != vec3(0));
     everything_ = build_without(geometry_, geometry_.ranges.size());
     for (const std::size_t object : mirror_objects_) {
         centres_.push_back(space.point(scene::bounds(now, now.objects[object]).centre()));
@@ -77,40 +79,68 @@ void Oracle::trace(const Request& request) {
         const auto met = bvh::closest_hit<float>(everything_, onward, kFar);
         if (met && mirror_of(met->object) < mirror_objects_.size()) continue;
         Target target{pixel, mirror_of(hit->object), met ? static_cast<int>(met->object) : kNothing, dvec3(onward.direction)};
-        if (met) target.direction = dvec3(onward.origin) + double{met->t} * dvec3(onward.direction) - dvec3(centres_[target.mirror]);
+        if (met) target.place = dvec3(onward.origin) + double{met->t} * dvec3(onward.direction);
         targets_.push_back(target);
     }
 }
 
-int Oracle::captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer) const {
+int Oracle::captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer, bool left_out) const {
+    const bvh::Bvh& tree = without_[mirror];
     f32::Ray ray{centres_[mirror], direction, 0};
-    auto hit = bvh::closest_hit<float>(without_[mirror], ray, kFar);
-    // The second layer is the next surface that faces the centre.
-    while (second_layer && hit) {
+    // The second layer is the next surface behind the first that faces the centre.
+    bool behind_first = !second_layer;
+    for (auto hit = bvh::closest_hit<float>(tree, ray, kFar); hit; hit = bvh::closest_hit<float>(tree, ray, kFar)) {
+        const vec4* corner = &tree.triangles[3 * hit->place];
+        const bool faces = dot(f32::facet_normal(vec3(corner[0]), vec3(corner[1]), vec3(corner[2])), ray.direction) < 0;
+        const render::DrawRange& range = geometry_.ranges[hit->object];
+        if (!(left_out && range.mirror && range.exact_sphere)) {
+            if (behind_first && (!second_layer || faces)) return static_cast<int>(hit->object);
+            behind_first = true;
+        }
         ray.origin += ray.direction * hit->t;
         ray.leaves = hit->triangle + 1;
-        hit = bvh::closest_hit<float>(without_[mirror], ray, kFar);
-        if (!hit) break;
-        const vec4* corner = &without_[mirror].triangles[3 * hit->place];
-        if (dot(f32::facet_normal(vec3(corner[0]), vec3(corner[1]), vec3(corner[2])), ray.direction) < 0) break;
     }
-    return hit ? static_cast<int>(hit->object) : kNothing;
+    return kNothing;
 }
 
-std::vector<measure::LookedUp> Oracle::judge(const std::vector<vec4>& lookup) const {
+std::vector<measure::LookedUp> Oracle::judge(const std::vector<vec4>& lookup, bool left_out) const {
     std::vector<measure::LookedUp> judged;
     for (const Target& target : targets_) {
         const vec4& pixel = lookup[target.pixel];
         const int code = static_cast<int>(pixel.w) - 1;
-        if (code < 0 || static_cast<std::uint32_t>(code / 8) != target.mirror) continue;
+        if (code < 0) continue;
+        const auto capture = static_cast<std::uint32_t>(code / 8);
         const vec3 direction = normalize(vec3(pixel));
         const int state = code & 3;
         const bool second = (code & 4) != 0;
         const bool leaves = state == kMiss || (state == kUnknown && second); // see kLeaves in shaders/lib/probe.glsl
-        const int object = leaves ? kNothing : captured_object(target.mirror, direction, second);
-        judged.push_back({measure::angle_degrees(dvec3(direction), target.direction), object != target.object, state});
+        const int object = leaves ? kNothing : captured_object(capture, direction, second, left_out);
+        const dvec3 wanted = target.object == kNothing ? target.place : target.place - dvec3(centres_[capture]);
+        judged.push_back({measure::angle_degrees(dvec3(direction), wanted), object != target.object, state, double{pixel.w} - std::floor(double{pixel.w})});
     }
     return judged;
+}
+
+measure::Mask Oracle::at_light_edges(const std::vector<vec4>& lookup, std::uint32_t face) const {
+    const float texel = 2.0f / static_cast<float>(face);
+    measure::Mask found(lookup.size(), 0);
+    for (std::size_t pixel = 0; pixel < lookup.size(); ++pixel) {
+        if (!(lookup[pixel].w > 0)) continue;
+        const auto mirror = static_cast<std::uint32_t>(lookup[pixel].w - 1) / 8;
+        const vec3 size = abs(vec3(lookup[pixel]));
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const vec3 place = vec3(lookup[pixel]) / size[axis]; // on the face, whose edge is 2
+        int lights = 0;
+        for (int i = 0; i < 9; ++i) {
+            vec3 beside = place;
+            beside[(axis + 1) % 3] += texel * static_cast<float>(i % 3 - 1);
+            beside[(axis + 2) % 3] += texel * static_cast<float>(i / 3 - 1);
+            const int object = captured_object(mirror, normalize(beside), false, false);
+            lights += object != kNothing && emits_[static_cast<std::size_t>(object)];
+        }
+        found[pixel] = lights > 0 && lights < 9 ? 255 : 0;
+    }
+    return found;
 }
 
 } // namespace catoptric::app

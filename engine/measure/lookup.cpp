@@ -23,6 +23,10 @@ LookupError lookup_error(std::span<const LookedUp> pixels) {
     error.wrong_object = share([](const LookedUp& pixel) { return pixel.wrong_object; });
     error.unknown = share([](const LookedUp& pixel) { return pixel.state == 1; });
     error.miss = share([](const LookedUp& pixel) { return pixel.state == 2; });
+    std::vector<double> residuals;
+    for (const LookedUp& pixel : pixels)
+        if (pixel.state == 0) residuals.push_back(pixel.residual);
+    if (!residuals.empty()) error.p95_residual = percentile(std::move(residuals), 0.95);
     return error;
 }
 

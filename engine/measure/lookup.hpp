@@ -12,6 +12,7 @@ struct LookedUp {
     double angle_degrees = 0; ///< between the two directions, 0..180
     bool wrong_object = false; ///< the capture shows another object in the looked-up direction
     int state = 0;             ///< 0 hit, 1 unknown, 2 miss
+    double residual = 0;       ///< relative distance between what the search found and what was captured there
 };
 
 /// How well a search found its directions.
@@ -19,6 +20,7 @@ struct LookupError {
     std::size_t pixels = 0;
     double mean_degrees = 0, p95_degrees = 0, p99_degrees = 0;
     double wrong_object = 0, unknown = 0, miss = 0; ///< shares of the pixels, 0..1
+    double p95_residual = 0; ///< of hits
 };
 
 /// All zero for an empty list.

@@ -12,9 +12,11 @@ namespace {
 constexpr const char* kSearch = "reflect/pyramid.frag";
 
 constexpr std::array<std::string_view, 2> kForceChoices{"search", "unknown"};
-constexpr Knob kKnobs[] = {
-    kFace, kDistance, kRange, kContinue, kShadow, kShadowMapEdge,
-    {.name = "force", .help = "trace what the search does not know, or take every answer as unknown", .high = 1, .choices = kForceChoices}};
+constexpr auto kKnobs = [] {
+    auto knobs = search_knobs(std::array{Knob{.name = "force", .help = "trace what the search does not know, or take every answer as unknown", .high = 1, .choices = kForceChoices}});
+    std::ranges::find(knobs, "captures", &Knob::name)->value = 1; // before anything is traced
+    return knobs;
+}();
 
 /// Pixels to trace, and how many work groups they are.
 struct List {

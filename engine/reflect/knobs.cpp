@@ -19,6 +19,10 @@ render::CaptureOptions capture_options(const render::FrameInputs& inputs, const 
     options.distance = kFormats[settings.integer("distance")];
     if (options.distance == Format::r8_unorm)
         options.stored_unit = inputs.scene.space().length(settings.number("range"));
+    const bool continues = settings.has("continue") && settings.integer("continue") > 0;
+    const auto chosen = [&](const char* knob, const char* choice) { return settings.has(knob) && settings.choice(knob) == choice; };
+    options.surfaces = chosen("lookup", "object") || chosen("captures", "all") || (continues && inputs.scene.has_other_mirrors());
+    options.leaves_out_spheres = continues && chosen("mirrors", "left_out");
     return options;
 }
 
@@ -49,7 +53,10 @@ Captured add_feedback(graph::Graph& graph, const render::FrameInputs& inputs, co
 render::MirrorLook view_look(const Captured& captured, const Settings& settings, const std::string& fragment) {
     if (!captured.cubes) return {};
     render::MirrorLook look = look_into(fragment, *captured.cubes, captured.options);
-    if (settings.has("continue")) look.constants.emplace_back("hops", static_cast<std::uint32_t>(settings.integer("continue")));
+    const auto set = [&](const char* constant, int value) { look.constants.emplace_back(constant, static_cast<std::uint32_t>(value)); };
+    for (const auto& [knob, constant] : {std::pair{"continue", "hops"}, {"lookup", "by_object"}, {"captures", "asks_others"}, {"show", "show"}})
+        if (settings.has(knob)) set(constant, settings.integer(knob));
+    if (captured.cubes->surfaces) set("has_surfaces", 1);
     return look;
 }
 

@@ -2,6 +2,7 @@
 
 #include "reflect/technique.hpp"
 
+#include <algorithm>
 #include <array>
 
 /// Knobs that the techniques with cube maps share, and what they mean for the shared passes.
@@ -21,6 +22,26 @@ inline constexpr Knob kRange{
 
 inline constexpr Knob kContinue{
     .name = "continue", .help = "mirrors the reflected ray is followed through before it is looked up", .low = 0, .high = 8, .value = 4};
+
+inline constexpr std::array<std::string_view, 2> kLookupChoices{"bilinear", "object"};
+inline constexpr std::array<std::string_view, 2> kCapturesChoices{"own", "all"};
+inline constexpr std::array<std::string_view, 2> kMirrorsChoices{"captured", "left_out"};
+inline constexpr std::array<std::string_view, 3> kShowChoices{"colour", "state", "residual"};
+
+/// Knobs of every search, after its own.
+template <std::size_t N>
+constexpr std::array<Knob, N + 10> search_knobs(const std::array<Knob, N>& own) {
+    const std::array<Knob, 10> shared{
+        kFace, kDistance, kRange, kContinue,
+        Knob{.name = "lookup", .help = "mix the colours of four texels, or only of those that show one object", .high = 1, .choices = kLookupChoices},
+        Knob{.name = "captures", .help = "captures asked where the search knows no answer: the mirror's own, or then the others", .high = 1, .choices = kCapturesChoices},
+        Knob{.name = "mirrors", .help = "left_out: captures without mirrors that are exact spheres, which rays are followed through anyway", .high = 1, .choices = kMirrorsChoices},
+        Knob{.name = "show", .help = "what mirrors show: their colour, whether the search ended in a hit (green), unknown (red) or a miss (blue), or its residual", .high = 2, .choices = kShowChoices},
+        kShadow, kShadowMapEdge};
+    std::array<Knob, N + 10> knobs{};
+    std::ranges::copy(shared, std::ranges::copy(own, knobs.begin()).out);
+    return knobs;
+}
 
 /// The shadow pass that the knobs ask for.
 render::Lighting add_lighting(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings);

@@ -6,9 +6,8 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kKnobs[] = {
-    {.name = "steps", .help = "steps of equal angle along the reflected ray", .low = 1, .high = 256, .value = 16},
-    kFace, kDistance, kRange, kContinue, kShadow, kShadowMapEdge};
+constexpr auto kKnobs = search_knobs(std::array{
+    Knob{.name = "steps", .help = "steps of equal angle along the reflected ray", .low = 1, .high = 256, .value = 16}});
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
     const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag", true);

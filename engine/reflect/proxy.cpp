@@ -7,14 +7,11 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr std::array<std::string_view, 2> kShapes{"box", "sphere"};
-constexpr Knob kContinueOff = [] {
-    Knob knob = kContinue;
-    knob.value = 0;
-    return knob;
+constexpr auto kKnobs = [] {
+    auto knobs = search_knobs(std::array{Knob{.name = "shape", .help = "what stands for the surroundings", .high = 1, .choices = kShapes}});
+    std::ranges::find(knobs, "continue", &Knob::name)->value = 0; // as it was known
+    return knobs;
 }();
-constexpr Knob kKnobs[] = {
-    {.name = "shape", .help = "what stands for the surroundings", .high = 1, .choices = kShapes},
-    kFace, kDistance, kRange, kContinueOff, kShadow, kShadowMapEdge};
 constexpr std::uint64_t kProxyBytes = 28; // Proxy of shaders/reflect/proxy.glsl
 
 /// One proxy a mirror.

@@ -8,7 +8,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kKnobs[] = {kFace, kDistance, kRange, kContinue, kShadow, kShadowMapEdge};
+constexpr auto kKnobs = search_knobs(std::array<Knob, 0>{});
 
 /// The topmost level, one cell a face; level_edge and top_level of shaders/reflect/pyramid.glsl.
 std::uint32_t top_level(std::uint32_t face) { return face <= 2 ? 1 : static_cast<std::uint32_t>(std::bit_width(face - 1)); }

@@ -6,12 +6,13 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kKnobs[] = {
-    {.name = "steps", .help = "secant steps after the first; 0 equals parallax", .low = 0, .high = 8, .value = 2},
-    kFace, kDistance, kRange, kContinue, kShadow, kShadowMapEdge};
+constexpr auto kKnobs = search_knobs(std::array{
+    Knob{.name = "steps", .help = "secant steps after the first; 0 equals parallax", .low = 0, .high = 8, .value = 2}});
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
     const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
+    if (settings.integer("steps") == 0 && captured.cubes) // parallax has no other knobs
+        return add_view_of(graph, inputs, captured, look_into("reflect/parallax.frag", *captured.cubes, captured.options));
     render::MirrorLook look = view_look(captured, settings, "reflect/secant.frag");
     look.constants.emplace_back("steps", static_cast<std::uint32_t>(settings.integer("steps")));
     return add_view_of(graph, inputs, captured, look);

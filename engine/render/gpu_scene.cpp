@@ -74,6 +74,10 @@ void GpuScene::fill_lights(const scene::Scene& now) {
           shared::kMaxLights, " are allowed");
 }
 
+bool GpuScene::has_other_mirrors() const {
+    return std::ranges::any_of(geometry_.ranges, [](const DrawRange& range) { return range.mirror && !range.exact_sphere; });
+}
+
 shared::Draw GpuScene::draw_of(std::size_t object, std::uint32_t first_view) const {
     const shared::Surface& surface = surfaces_[object];
     return {first_view, surface, surface.mirror ? probes_[surface.mirror - 1].centre : vec3(0), static_cast<std::uint32_t>(object), 0};

@@ -18,6 +18,8 @@ public:
     void update(const scene::Scene& now, const scene::Camera& camera, uvec2 size, double ambient);
 
     std::uint32_t mirror_count() const { return mirror_count_; }
+    /// Whether some mirror is no exact sphere.
+    bool has_other_mirrors() const;
     std::uint32_t light_count() const { return light_count_; }
     std::uint32_t shadow_faces() const { return shadow_faces_; }
     const Space& space() const { return space_; }

@@ -35,18 +35,16 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object, 
 }
 
 /// Everything that is no mirror, then the mirrors, except where `skip` says so. With `peeled`, the
-/// distances of a first layer: only what lies behind them.
+/// distances of a first layer: only what lies behind them. `store`: how distances are kept, and what else.
 template <typename Skip>
 void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_view, std::uint32_t layers,
-                const Lighting& lighting, const MirrorLook& look, float stored_unit, std::optional<Image> peeled, Skip&& skip) {
-    gpu::Constants store{{"distance_scale", 1 / stored_unit}};
+                const Lighting& lighting, const MirrorLook& look, gpu::Constants store, std::optional<Image> peeled, Skip&& skip) {
     std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed", black = "mirror_black.frag";
     scene.bind(commands);
     if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
     if (peeled) {
         diffuse += lighting.shadow_map ? "#peel" : "_peel", black += "#peel";
         commands.bind("first_layer", *peeled);
-        if (stored_unit != 1) store.emplace_back("half_step", 0.5f / 255);
     }
     commands.use(gpu::RasterState{"scene.vert", diffuse, store});
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
@@ -56,6 +54,8 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
         mirrors.fragment = look.fragment + (peeled ? "#peel" : !look.mended ? "" : lighting.shadow_map ? "#mend" : "#mend_unshadowed");
         mirrors.constants.insert(mirrors.constants.end(), look.constants.begin(), look.constants.end());
         commands.bind("colour_cubes", look.cubes->colour, Filter::linear);
+        // The shader has the binding either way; without surfaces nothing reads it.
+        commands.bind("surface_cubes", look.cubes->surfaces.value_or(look.cubes->colour), Filter::nearest);
         if (look.cubes->distance) {
             commands.bind("distance_cubes", *look.cubes->distance, Filter::linear);
             commands.bind("distance_cubes_nearest", *look.cubes->distance, Filter::nearest);
@@ -73,13 +73,14 @@ void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const
     if (!look.cubes) return;
     pass.reads(look.cubes->colour, Use::sampled);
     if (look.cubes->distance) pass.reads(*look.cubes->distance, Use::sampled);
+    if (look.cubes->surfaces) pass.reads(*look.cubes->surfaces, Use::sampled);
     for (const auto& [name, image] : look.images) pass.reads(image, Use::sampled);
     for (const auto& [name, buffer] : look.buffers) pass.reads(buffer, Use::storage_read);
 }
 
 /// A mirror's six faces; with `peeled`, of what lies behind these distances.
 void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options, std::uint32_t mirror,
-                 const std::string& pass_name, Image colour, std::optional<Image> distance, std::optional<Image> peeled) {
+                 const std::string& pass_name, const Cubes& cubes, std::optional<Image> peeled) {
     // "Nothing there" is +infinity; unorm8 has none, so there it is the end of the range.
     const float nothing = options.distance == Format::r8_unorm ? 1.0f : std::numeric_limits<float>::infinity();
     const std::string name = inputs.prefix + pass_name;
@@ -87,14 +88,20 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
     graph::PassBuilder pass = graph.pass(name, Tag::scene);
     read_surroundings(pass, options.lighting, options.look);
     if (peeled) pass.reads(*peeled, Use::sampled);
-    pass.writes(colour, Use::colour, kBlack);
-    if (distance) pass.writes(*distance, Use::colour, Clear{nothing, 0, 0, 0});
+    pass.writes(cubes.colour, Use::colour, kBlack);
+    if (cubes.distance) pass.writes(*cubes.distance, Use::colour, Clear{nothing, 0, 0, 0});
+    if (cubes.surfaces) pass.writes(*cubes.surfaces, Use::colour, Clear{});
+    gpu::Constants store{{"distance_scale", 1 / options.stored_unit}};
+    if (cubes.surfaces) store.emplace_back("keeps_surface", 1u);
+    if (peeled && options.stored_unit != 1) store.emplace_back("half_step", 0.5f / 255);
     pass.writes(depth, Use::depth, kFarthest)
         .layers(6)
-        .record([&scene = inputs.scene, mirror, lighting = options.lighting, look = options.look, unit = options.stored_unit,
-                 peeled](Commands& commands) {
-            draw_scene(commands, scene, scene.capture_view(mirror), 6, lighting, look, unit, peeled,
-                       [&](std::size_t object) { return object == scene.mirror_object(mirror); });
+        .record([&scene = inputs.scene, mirror, lighting = options.lighting, look = options.look, store,
+                 leaves_out = options.leaves_out_spheres, peeled](Commands& commands) {
+            draw_scene(commands, scene, scene.capture_view(mirror), 6, lighting, look, store, peeled, [&](std::size_t object) {
+                const DrawRange& range = scene.ranges()[object];
+                return object == scene.mirror_object(mirror) || (leaves_out && range.mirror && range.exact_sphere);
+            });
         });
 }
 
@@ -137,6 +144,10 @@ Cubes declare_cubes(graph::Graph& graph, const FrameInputs& inputs, const Captur
     cubes.colour = graph.image({name + "colour", Format::rgba16f, options.face, options.face, layers, true});
     if (options.distance)
         cubes.distance = graph.image({name + "distance", *options.distance, options.face, options.face, layers, true});
+    if (options.surfaces) {
+        check(options.distance.has_value(), Failure::internal, "captures '", options.name, "' want surfaces, which follow the distance");
+        cubes.surfaces = graph.image({name + "surfaces", Format::rgba16f, options.face, options.face, layers, true});
+    }
     if (options.second_layer) {
         check(options.distance.has_value(), Failure::internal, "captures '", options.name,
               "' want a second layer, which needs the distance of the first");
@@ -150,10 +161,11 @@ void add_captures(graph::Graph& graph, const FrameInputs& inputs, const CaptureO
     for (std::uint32_t mirror = 0; mirror < inputs.scene.mirror_count(); ++mirror) {
         const auto part_of = [&](std::optional<Image> image) { return image ? std::optional(image->layers(6 * mirror, 6)) : image; };
         const std::string number = "/" + std::to_string(mirror + 1);
-        add_capture(graph, inputs, options, mirror, options.name + number, *part_of(cubes.colour), part_of(cubes.distance), {});
+        const Cubes first{*part_of(cubes.colour), part_of(cubes.distance), {}, {}, part_of(cubes.surfaces)};
+        add_capture(graph, inputs, options, mirror, options.name + number, first, {});
         if (cubes.colour2)
-            add_capture(graph, inputs, options, mirror, options.name + "2" + number, *part_of(cubes.colour2), part_of(cubes.distance2),
-                        part_of(cubes.distance));
+            add_capture(graph, inputs, options, mirror, options.name + "2" + number, {*part_of(cubes.colour2), part_of(cubes.distance2), {}, {}, {}},
+                        first.distance);
     }
 }
 
@@ -173,7 +185,7 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
         pass.writes(distance, Use::colour, Clear{}).writes(*view.lookup, Use::colour, Clear{});
     }
     pass.writes(depth, Use::depth, kFarthest).record([&scene = inputs.scene, lighting, look = mended(look, inputs, lighting)](Commands& commands) {
-        draw_scene(commands, scene, GpuScene::kCameraView, 1, lighting, look, 1, {},
+        draw_scene(commands, scene, GpuScene::kCameraView, 1, lighting, look, {}, {},
                    [&](std::size_t object) { return !scene.ranges()[object].seen_by_camera; });
     });
     return view;

@@ -32,6 +32,7 @@ struct Cubes {
     graph::Image colour;
     std::optional<graph::Image> distance;
     std::optional<graph::Image> colour2, distance2;
+    std::optional<graph::Image> surfaces; ///< rgba16f: number and normal, see shaders/lib/surface.glsl
 };
 
 /// How a mirror is drawn: a fragment shader and the cubes that it looks into. Without cubes: black.
@@ -56,6 +57,8 @@ struct CaptureOptions {
     std::uint32_t face = 256;     ///< cube edge in texels
     std::optional<Format> distance;
     bool second_layer = false; ///< with distance: another pass a mirror, name2/1, name2/2, ...; fragment#peel exists
+    bool surfaces = false; ///< with distance: also keep which object is seen, and its normal
+    bool leaves_out_spheres = false; ///< no mirror that is an exact sphere is drawn
     float stored_unit = 1; ///< scene units of a stored 1 (unorm8: the range)
     Lighting lighting;
     MirrorLook look; ///< of the other mirrors; mirror n is left out of its own capture

@@ -4,6 +4,7 @@
 #include "measure/lookup.hpp"
 #include "measure/picture.hpp"
 #include "measure/statistics.hpp"
+#include "report/causes.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -64,6 +65,7 @@ struct Row {
     std::uint64_t memory_bytes = 0; ///< of the frame's images
     std::optional<Rays> rays;       ///< of ray tracing, one frame
     std::optional<measure::LookupError> lookup; ///< first-order pixels: where mirrors looked
+    std::optional<Causes> causes;               ///< of rows that look into captures
     std::optional<double> traced_fraction;
     measure::Mean mean, mean_clamped;
     measure::Picture hdr;           ///< the last frame, linear

@@ -207,7 +207,8 @@ std::string to_html(const Comparison& comparison) {
                 "</section>\n";
     html += to_html(rows_table(comparison), "all", true) +
             to_html(mirror_table(comparison), "mirrors", true) +
-            to_html(lookup_table(comparison), "lookups", true) + pictures(comparison) +
+            to_html(lookup_table(comparison), "lookups", true) +
+            to_html(cause_table(comparison), "causes", false) + pictures(comparison) +
             circumstances(comparison);
     return html + "</main></body></html>\n";
 }

@@ -96,7 +96,31 @@ Json to_json(const std::optional<measure::LookupError>& lookup) {
             {"p99_degrees", number(lookup->p99_degrees)},
             {"wrong_object", number(lookup->wrong_object)},
             {"unknown", number(lookup->unknown)},
-            {"miss", number(lookup->miss)}};
+            {"miss", number(lookup->miss)},
+            {"p95_residual", number(lookup->p95_residual)}};
+}
+
+Json numbers(const std::vector<double>& values) {
+    Json list = Json::array();
+    for (const double value : values)
+        list.push_back(number(value));
+    return list;
+}
+
+Json to_json(const std::optional<Causes>& causes) {
+    if (!causes) return nullptr;
+    Json json{{"mask", "mirrors"},
+              {"squared_error", number(causes->squared_error)},
+              {"squared_error_per_mirror", numbers(causes->squared_error_per_mirror)},
+              {"rest_rmse", number(causes->rest_rmse)},
+              {"at_light_edges", number(causes->at_light_edges)}};
+    for (const Cause& cause : causes->list)
+        json["list"].push_back({{"cause", cause.name},
+                                {"in_turn", number(cause.in_turn)},
+                                {"alone", number(cause.alone)},
+                                {"in_turn_per_mirror", numbers(cause.in_turn_per_mirror)},
+                                {"alone_per_mirror", numbers(cause.alone_per_mirror)}});
+    return json;
 }
 
 Json to_json(const measure::Mean& mean) {
@@ -129,6 +153,7 @@ Json to_json(const Row& row) {
     json["traced_fraction"] = number_or_null(row.traced_fraction);
     json["rays"] = to_json(row.rays);
     json["lookup"] = to_json(row.lookup);
+    json["causes"] = to_json(row.causes);
     json["mean"] = to_json(row.mean);
     json["mean_clamped"] = to_json(row.mean_clamped);
     json["image"] = "images/" + row.image + ".png";

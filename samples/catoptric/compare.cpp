@@ -28,6 +28,7 @@ struct Options {
     std::string folder;
     std::vector<std::string> techniques;
     bool together = false;
+    bool no_causes = false;
     std::vector<std::string> command;
 };
 
@@ -50,6 +51,7 @@ app::CompareRequest make_compare_request(const Options& options) {
     request.base.techniques = options.techniques;
     request.reference = options.common.reference;
     request.together = options.together;
+    request.causes = !options.no_causes;
     request.command = options.command;
     return request;
 }
@@ -126,6 +128,8 @@ void add_compare(CLI::App& program, Run& chosen, std::vector<std::string> comman
         ->type_name("T");
     verb->add_flag("--together", options->together,
                    "all rows in one command buffer, on one timeline");
+    verb->add_flag("--no-causes", options->no_causes,
+                   "leave out the split of each row's error by cause");
     add_common(*verb, options->common);
     verb->callback([verb, options, &chosen] {
         refuse_extras(*verb);

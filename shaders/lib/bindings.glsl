@@ -23,6 +23,7 @@ layout(set = 0, binding = 8) uniform samplerCubeArray distance_cubes_nearest;
 #define COUNTERS_BINDING 14
 #define HDR_BINDING 15
 #define FIRST_LAYER_BINDING 16
+layout(set = 0, binding = 17) uniform samplerCubeArray surface_cubes; // number and normal, see lib/surface.glsl
 
 const uint kShadowNone = 0u, kShadowMap = 1u, kShadowRay = 2u;
 

@@ -114,17 +114,19 @@ vec3 mended_radiance(Path path, Lookup lookup) {
     bool is_hidden = in_capture && exact_distance(path.mirror, to_target) < distance * (1.0 - kInTheWay);
     bool along_search = is_hidden && mends(kMendHidden);
     vec3 result;
+    // What is hidden or left out has no direction that shows it.
+    bool is_shown = in_capture && !is_hidden;
     if (from_camera || along_search) {
         bool whole = from_camera || path.hops == 0u;
         if (!whole) camera = search_ray;
         uint met;
         result = (whole ? vec3(1) : path.weight) * radiance(camera, whole ? 0u : 1u + path.hops, met);
     } else {
-        if (mends(kMendDirection)) {
+        if (mends(kMendDirection) && is_shown) {
             lookup = Lookup(normalize(to_target), kHit, 0.0, 0.0);
             look_at(target.meets ? distance : 0.0);
         }
-        result = path.weight * looked_up(path, lookup, target, mends(kMendDirection) && in_capture && !is_hidden);
+        result = path.weight * looked_up(path, lookup, target, mends(kMendDirection) && is_shown);
     }
     return trace_exhausted ? vec3(uintBitsToFloat(0x7fc00000u)) : result;
 }

@@ -9,9 +9,15 @@
 #include "lib/probe.glsl"
 #include "lib/surface.glsl"
 
-// Mirrors that the reflected ray is followed through before the search: only those that are exact
-// spheres, where a test of the ray costs no fetch.
+// Other mirrors that the reflected ray is followed through. Exact spheres are met before the search, where a
+// test of the ray costs no fetch; those of any other shape where a search ends on them.
 layout(constant_id = 3) const uint hops = 0u;
+// 1: captures keep number and normal of their surfaces; always where some mirror is no exact sphere.
+layout(constant_id = 7) const uint has_surfaces = 0u;
+// 1: where a mirror's own capture does not know, those of the others are asked.
+layout(constant_id = 8) const uint asks_others = 0u;
+const uint kShowColour = 0u, kShowState = 1u, kShowResidual = 2u;
+layout(constant_id = 9) const uint show = kShowColour;
 
 // The reflected ray that is looked up: it leaves mirror `mirror` (from 0) at `at`.
 struct Path {
@@ -22,6 +28,9 @@ struct Path {
     vec3 weight;    // reflectances on the way from the eye
     uint hops;      // mirrors met after the one that is drawn
 };
+
+bool is_mirror(vec4 surface) { return surface.x > 0.0; }
+vec4 captured_surface(uint mirror, vec3 direction) { return textureLod(surface_cubes, vec4(direction, mirror), 0); }
 
 // The nearest other mirror along the ray, if it is an exact sphere.
 bool next_mirror(Path path, out uint next, out float t) {
@@ -55,6 +64,60 @@ bool follow_sphere(inout Path path) {
     return true;
 }
 
+// On from a mirror of any shape that the search ended on: from where the ray meets its tangent plane.
+bool follow_captured(inout Path path, Lookup lookup) {
+    vec4 surface = captured_surface(path.mirror, lookup.direction);
+    if (lookup.state != kHit || lookup.layer != 0.0 || !is_mirror(surface)) return false;
+    uint next = uint(surface.x) - 1u;
+    vec3 n = normalize(surface.yzw);
+    vec3 seen = path.centre + lookup.direction * captured_distance(path.mirror, lookup.direction);
+    float t = dot(seen - path.at, n) / dot(path.direction, n);
+    if (!(is_finite(t) && t > 0.0)) return false;
+    path = Path(next, path.at + path.direction * t, mirror_direction(path.direction, n, n), probes[next].centre,
+                path.weight * probes[next].reflectance, path.hops + 1u);
+    return true;
+}
+
+// Where another capture knows how the ray ends, if one does. What a mirror shows there is for another eye.
+void ask_others(inout Path path, inout Lookup lookup) {
+    for (uint i = 0u; i < frame.value.mirror_count; ++i) {
+        if (i == path.mirror) continue;
+        Lookup other = search(i, path.at - probes[i].centre, path.direction);
+        if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction))) continue;
+        path.mirror = i;
+        path.centre = probes[i].centre;
+        lookup = other;
+        return;
+    }
+}
+
+// The path's end and where it is to be looked up.
+Lookup follow(inout Path path) {
+    Lookup lookup;
+    bool goes_on = true;
+    while (goes_on) {
+#ifdef CONTINUE
+        while (path.hops < hops && follow_sphere(path)) {}
+#endif
+        lookup = search(path.mirror, path.at - path.centre, path.direction);
+        goes_on = false;
+#ifdef CONTINUE
+        if (has_surfaces != 0u && path.hops < hops) goes_on = follow_captured(path, lookup);
+#endif
+    }
+#ifdef CONTINUE
+    if (asks_others != 0u && lookup.state == kUnknown) ask_others(path, lookup);
+#endif
+    return lookup;
+}
+
+vec3 shown(vec3 colour, Lookup lookup) {
+    if (show == kShowResidual) return vec3(lookup.residual);
+    if (show == kShowState)
+        return lookup.state == kHit ? vec3(0.1, 0.6, 0.2) : lookup.state == kUnknown ? vec3(0.9, 0.3, 0.1) : vec3(0.1, 0.2, 0.8);
+    return colour;
+}
+
 #ifndef OWN_LOOKUP_COLOUR // the including shader's own, where captures hold more than one colour
 vec3 lookup_colour(uint mirror, Lookup lookup) { return found_colour(mirror, lookup); }
 void look_at(float distance) {}
@@ -71,16 +134,16 @@ void main() {
 #endif
     Path path = Path(draw.surface.mirror - 1u, position, mirror_direction(normalize(from_eye), normalize(normal), facet),
                      draw.probe_centre, draw.surface.reflectance, 0u);
-#ifdef CONTINUE
-    while (path.hops < hops && follow_sphere(path)) {}
-#endif
-    Lookup lookup = search(path.mirror, path.at - path.centre, path.direction);
+    Lookup lookup = follow(path);
 #ifdef MEND
-    write_surface(mended_radiance(path, lookup));
+    vec3 colour = mended_radiance(path, lookup);
 #else
-    write_surface(path.weight * lookup_colour(path.mirror, lookup));
+    vec3 colour = path.weight * lookup_colour(path.mirror, lookup);
 #endif
-    out_lookup = vec4(lookup.direction, float(1u + lookup.state) + 4.0 * lookup.layer + 8.0 * float(path.mirror));
+    write_surface(shown(colour, lookup));
+    if (keeps_surface == 0u)
+        out_more = vec4(lookup.direction, float(1u + lookup.state) + 4.0 * lookup.layer + 8.0 * float(path.mirror) +
+                                              clamp(lookup.residual, 0.0, 0.996)); // below one at 8 bits of mirror
 }
 
 #endif

@@ -23,8 +23,31 @@ struct Lookup {
 // which nothing was captured. Its direction is the ray's own, and it sees nothing.
 const float kLeaves = 1.0;
 
+// 1: colours are mixed only from texels of one object.
+layout(constant_id = 6) const uint by_object = 0u;
+
+vec3 bilinear_colour(uint mirror, vec3 direction) { return textureLod(colour_cubes, vec4(direction, mirror), 0).rgb; }
+
+// Of the objects in the four texels around a direction the one with the greatest weight, from its texels only.
+vec3 colour_of_object(uint mirror, vec3 direction) {
+    vec4 at = vec4(direction, mirror);
+    vec4 numbers = textureGather(surface_cubes, at, 0);
+    if (all(equal(numbers, numbers.xxxx))) return bilinear_colour(mirror, direction);
+    vec3 place = cube_coordinates(cube_face(direction), direction);
+    vec2 share = fract((place.xy / place.z * 0.5 + 0.5) * float(textureSize(surface_cubes, 0).x) - 0.5);
+    vec4 weights = vec4(1.0 - share.x, share.x, share.x, 1.0 - share.x) * vec4(share.yy, 1.0 - share.yy);
+    vec4 best = vec4(0);
+    for (int i = 0; i < 4; ++i) {
+        vec4 of_object = weights * vec4(equal(numbers, vec4(numbers[i])));
+        if (dot(of_object, vec4(1)) > dot(best, vec4(1))) best = of_object;
+    }
+    best /= dot(best, vec4(1));
+    return vec3(dot(best, textureGather(colour_cubes, at, 0)), dot(best, textureGather(colour_cubes, at, 1)),
+                dot(best, textureGather(colour_cubes, at, 2)));
+}
+
 vec3 captured_colour(uint mirror, vec3 direction) {
-    return textureLod(colour_cubes, vec4(direction, mirror), 0).rgb;
+    return by_object != 0u ? colour_of_object(mirror, direction) : bilinear_colour(mirror, direction);
 }
 
 // What a search that captures one layer found: nothing where it takes the ray to leave.

@@ -11,11 +11,14 @@ layout(location = 2) in vec3 from_eye; // position - eye
 
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out float out_distance; // only captures that hold distances keep it
-// Only views keep it. Where a mirror looked: direction; 1 + state + 4 layer + 8 mirror, as a number; else 0.
-layout(location = 2) out vec4 out_lookup;
+// Views keep where a mirror looked: direction; 1 + state + 4 layer + 8 mirror + residual, as a number; else 0.
+// Some captures keep the surface: mirror n as n, from 1, any other object as a negative number; its normal.
+layout(location = 2) out vec4 out_more;
 
 // 1 stores scene units; unorm8 stores distance / range.
 layout(constant_id = 0) const float distance_scale = 1.0;
+
+layout(constant_id = 5) const uint keeps_surface = 0u;
 
 #ifdef PEEL
 layout(location = 3) flat in uint view_layer;
@@ -30,13 +33,19 @@ bool is_peeled() {
 }
 #endif
 
+// Exact as a half; objects that far apart in the scene's list may share one.
+float surface_number() {
+    return draw.surface.mirror != 0u ? float(draw.surface.mirror) : -1.0 - float(draw.object % 2047u);
+}
+
 const float kLargestHalf = 65504.0;
 
 // Colour saturates below the largest half, so that no capture ever holds an infinity.
 void write_surface(vec3 colour) {
     out_colour = vec4(min(colour, vec3(kLargestHalf)), 1);
     out_distance = length(from_eye) * distance_scale;
-    out_lookup = vec4(0); // an output that is not written is not zero, it is undefined
+    out_more = vec4(0); // an output that is not written is not zero, it is undefined
+    if (keeps_surface != 0u) out_more = vec4(surface_number(), normalize(normal));
 }
 
 #endif

@@ -90,4 +90,25 @@ inline scene::Scene room(int mirrors, int lights) {
     return scene;
 }
 
+/// The room with one lamp, a mirror ball, a mirrored block and a flat mirror on the wall behind them: mirrors in
+/// mirrors, of which only the ball is an exact sphere.
+inline scene::Scene hall() {
+    scene::Scene scene = room(0, 1);
+    scene.name = "hall";
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+    add_ball(scene, "ball", mirror, {-.9, -1.2, -.2}, .7);
+    scene::Mesh block{.name = "block"};
+    for (int face = 0; face < 6; ++face) {
+        // Walls of the box turned outwards: low and high exchanged.
+        const scene::Mesh side = wall(face, {1.5, -.7, .9}, {.5, -1.9, -.1});
+        const auto first = static_cast<std::uint32_t>(block.positions.size());
+        block.positions.insert(block.positions.end(), side.positions.begin(), side.positions.end());
+        block.normals.insert(block.normals.end(), side.normals.begin(), side.normals.end());
+        for (const auto& triangle : side.triangles) block.triangles.push_back(triangle + first);
+    }
+    add_mesh(scene, block, mirror);
+    add_quad(scene, "panel", mirror, {-1.5, -1, 1.9}, {1.5, -1, 1.9}, {1.5, 1.2, 1.9}, {-1.5, 1.2, 1.9});
+    return scene;
+}
+
 } // namespace test

@@ -1,0 +1,89 @@
+// Mirror in mirror for mirrors of any shape, and what several captures know together.
+#include "app/compare.hpp"
+#include "support/searches.hpp"
+
+namespace {
+
+using namespace catoptric;
+
+constexpr uvec2 kSize{192, 144};
+constexpr int kFrames = 8;
+
+test::ColourError error_of(const scene::Scene& scene, const std::string& technique) {
+    const app::Part truth = test::render(scene, app::kReference, kSize);
+    const measure::Picture picture = test::render(scene, technique, kSize, kFrames).hdr;
+    const auto of = [&](const measure::Mask& mask) { return test::rmse(picture, truth.hdr, mask); };
+    const test::ColourError error{of(measure::mirrors(truth.hits)), of(measure::first_order(truth.hits)), of(measure::mirror_in_mirror(truth.hits))};
+    std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": rmse " << error.all << ", first order " << error.first_order
+              << ", mirror in mirror " << error.mirror_in_mirror << "\n";
+    return error;
+}
+
+// A ball, a block and a flat mirror: two of three are followed through what captures know of surfaces.
+TEST(Continue, FollowsMirrorsOfAnyShape) {
+    for (const std::string search : {"secant", "march", "pyramid", "layered", "hybrid"}) {
+        const test::ColourError without = error_of(test::hall(), search + ":continue=0"), with = error_of(test::hall(), search);
+        EXPECT_LE(with.mirror_in_mirror, .25 * without.mirror_in_mirror) << search;
+        EXPECT_LE(with.first_order, 1.05 * without.first_order) << search;
+    }
+}
+
+// A reflectance of half a mirror shows once for each mirror on the way.
+TEST(Continue, DimsByEachMirrorOnTheWay) {
+    scene::Scene furnace = test::furnace(0);
+    const std::size_t half = test::add_material(furnace, {.name = "half", .mirror = true, .reflectance = {.5f, .5f, .5f}});
+    test::add_quad(furnace, "left", half, {-3, -2, 0}, {-3, -2, 4}, {-3, 2, 4}, {-3, 2, 0});
+    test::add_quad(furnace, "right", half, {3, -2, 0}, {3, 2, 0}, {3, 2, 4}, {3, -2, 4});
+    for (const std::string search : {"march", "pyramid", "layered"}) {
+        const measure::Picture picture = test::render(furnace, search + ":face=64,continue=8", kSize).hdr; // one frame: no history helps
+        std::array<std::size_t, 4> met{};
+        for (const vec3& pixel : picture.pixels)
+            for (std::size_t k = 0; k < met.size(); ++k) met[k] += std::abs(pixel.x - std::exp2(-float(k)) * test::kFurnace.x) < 1e-3f;
+        EXPECT_GT(met[1], 200u) << search;
+        EXPECT_GT(met[2], 20u) << search << ": both mirrors";
+    }
+}
+
+TEST(Captures, OfOtherMirrorsKnowWhatTheOwnDoesNot) {
+    for (const std::string search : {"pyramid", "march", "secant"}) {
+        const measure::LookupError own = test::lookup_error(search + ":face=128"), all = test::lookup_error(search + ":face=128,captures=all");
+        EXPECT_LE(all.unknown, .75 * own.unknown) << search;
+        EXPECT_LE(all.wrong_object, own.wrong_object) << search << ": an answer from elsewhere is no guess";
+    }
+}
+
+// Where rays are followed through all other mirrors, captures need not hold them.
+TEST(Mirrors, MayBeLeftOutOfCapturesWhereRaysAreFollowed) {
+    for (const std::string search : {"secant", "pyramid", "layered"}) {
+        const test::ColourError with = error_of(scene::cornell_mirrors(), search + ":continue=4"),
+                                without = error_of(scene::cornell_mirrors(), search + ":continue=4,mirrors=left_out");
+        EXPECT_LE(without.all, 1.05 * with.all) << search;
+    }
+    // Nothing in them depends on the frame before: the first picture is the last.
+    const std::string settled = "pyramid:face=64,continue=8,mirrors=left_out";
+    EXPECT_TRUE(test::same_bytes(test::render(scene::cornell_mirrors(), settled, kSize, 1).hdr, test::render(scene::cornell_mirrors(), settled, kSize, 5).hdr));
+}
+
+TEST(Show, PaintsWhatTheSearchSaysOfItself) {
+    app::Request request = test::request(scene::cornell_mirrors(), {"pyramid:face=64,captures=own,show=state"}, kSize);
+    request.with_lookup = true;
+    const app::Part part = std::move(test::engine().run(request).parts.front());
+    const std::array<vec3, 3> paint{{{.1f, .6f, .2f}, {.9f, .3f, .1f}, {.1f, .2f, .8f}}}; // hit, unknown, miss
+    std::array<std::size_t, 3> count{};
+    for (std::size_t i = 0; i < part.lookup.size(); ++i) {
+        if (!(part.lookup[i].w > 0)) continue;
+        const auto state = static_cast<std::size_t>(static_cast<int>(part.lookup[i].w) - 1) & 3u;
+        ++count[state];
+        ASSERT_EQ(part.hdr.pixels[i], paint[state]) << "pixel " << i;
+    }
+    for (const std::size_t pixels : count) EXPECT_GT(pixels, 10u);
+    request.techniques = {"pyramid:face=64,show=residual"};
+    const app::Part residual = std::move(test::engine().run(request).parts.front());
+    for (std::size_t i = 0; i < residual.lookup.size(); ++i) {
+        const float code = residual.lookup[i].w;
+        if (!(code > 0)) continue;
+        ASSERT_NEAR(residual.hdr.pixels[i].x, code - std::floor(code), .005f) << "pixel " << i;
+    }
+}
+
+} // namespace
