@@ -16,8 +16,6 @@ struct Split {
 
     double in_turn(const std::string& name) const { return find(name).in_turn / causes.squared_error; }
     double alone(const std::string& name) const { return find(name).alone / causes.squared_error; }
-
-private:
     const report::Cause& find(const std::string& name) const {
         const auto found = std::ranges::find(causes.list, name, &report::Cause::name);
         if (found == causes.list.end()) throw std::runtime_error("no cause '" + name + "'");
@@ -51,15 +49,12 @@ class EveryCause : public testing::TestWithParam<app::TechniqueInfo> {};
 INSTANTIATE_TEST_SUITE_P(Table, EveryCause, testing::ValuesIn(that_capture()), [](const auto& instance) { return instance.param.name; });
 
 TEST_P(EveryCause, IsThere) {
-    for (const scene::Scene& scene : {scene::cornell_mirrors(), test::hall()}) {
-        const Split found = split(scene, test::with(GetParam(), {{"face", "64"}, {"shadow_map", "256"}}));
-        std::cout << "[ MEASURED ] " << GetParam().name << ", " << scene.name << ": rmse " << std::sqrt(found.causes.squared_error) << ", left "
-                  << found.causes.rest_rmse << "\n";
-        EXPECT_GT(found.causes.squared_error, 1e-6) << "something to split";
-        EXPECT_LE(found.causes.rest_rmse, 1e-3);
-        EXPECT_LE(std::abs(found.in_turn("silhouettes")), .03) << "the last step takes what is true: it must be next to nothing";
-        EXPECT_EQ(found.causes.squared_error_per_mirror.size(), scene::mirrors(scene).size());
-    }
+    const Split found = split(scene::cornell_mirrors(), test::with(GetParam(), {{"face", "64"}, {"shadow_map", "256"}}));
+    std::cout << "[ MEASURED ] " << GetParam().name << ": rmse " << std::sqrt(found.causes.squared_error) << ", left " << found.causes.rest_rmse << "\n";
+    EXPECT_GT(found.causes.squared_error, 1e-6) << "something to split";
+    EXPECT_LE(found.causes.rest_rmse, 1e-3);
+    EXPECT_LE(std::abs(found.in_turn("silhouettes")), .03) << "the last step takes what is true: it must be next to nothing";
+    EXPECT_EQ(found.causes.squared_error_per_mirror.size(), 4u);
 }
 
 TEST(Causes, AreThereForEveryFormatAndKindOfShadow) {
@@ -67,6 +62,7 @@ TEST(Causes, AreThereForEveryFormatAndKindOfShadow) {
                                         "hybrid:face=32,captures=own,continue=0", "march:face=32,mirrors=left_out,lookup=object"})
         EXPECT_LE(split(scene::cornell_mirrors_closed(), technique).causes.rest_rmse, 1e-3) << technique;
     EXPECT_LE(split(test::room(2, 3), "secant:face=32").causes.rest_rmse, 1e-3) << "three lights";
+    EXPECT_LE(split(test::hall(), "pyramid:face=32").causes.rest_rmse, 1e-3) << "mirrors of any shape";
 }
 
 // What eight bits lose is blamed on them, whichever way one looks.
@@ -85,9 +81,8 @@ TEST(Causes, LookingUpThePlainDirectionIsSearchDirection) {
 
 TEST(Causes, MissingShadowsAreShadowMap) {
     const Split dark = split(test::room(1, 1), "pyramid:face=128,shadow=none"), lit = split(test::room(1, 1), "pyramid:face=128");
-    EXPECT_GT(dark.in_turn("shadow map"), .05);
-    EXPECT_GT(dark.alone("shadow map"), .05);
-    EXPECT_LT(std::abs(lit.in_turn("shadow map")), .01);
+    EXPECT_GT(dark.find("shadow map").in_turn, 10 * std::abs(lit.find("shadow map").in_turn));
+    EXPECT_GT(dark.find("shadow map").alone, 10 * std::abs(lit.find("shadow map").alone));
 }
 
 TEST(Causes, CoarseTexelsAreTexels) { EXPECT_GT(split(test::room(1, 1), "pyramid:face=16").alone("texels"), .5); }
