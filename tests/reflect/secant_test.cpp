@@ -14,11 +14,16 @@ TEST(Secant, WithoutStepsIsParallax) {
     }
 }
 
-TEST(Secant, IsWorthItsSteps) { test::expect_worth("secant", {.first_order = .75, .all = .70, .angle = .06}); }
+TEST(Secant, IsWorthItsSteps) { test::expect_worth("secant", {.first_order = .75, .all = .70, .angle = .04}); }
 
 TEST(Secant, NeedsSmallerCapturesThanParallax) {
-    EXPECT_LE(test::colour_error("secant:face=256,continue=0").first_order, test::colour_error("parallax:face=512").first_order);
-    EXPECT_LE(test::lookup_error("secant:face=64,continue=0").mean_degrees, .06 * test::lookup_error("parallax:face=512").mean_degrees);
+    for (const test::Look& look : test::looks()) {
+        SCOPED_TRACE(look.camera.name);
+        const auto judged = test::judge(scene::cornell_mirrors(), look,
+                                        {"parallax:face=512", "secant:face=256,continue=0", "secant:face=64,continue=0"});
+        EXPECT_LE(judged[1].first_order, judged[0].first_order);
+        EXPECT_LE(judged[2].lookup.mean_degrees, .05 * judged[0].lookup.mean_degrees);
+    }
 }
 
 } // namespace
