@@ -97,6 +97,7 @@ report::Row make_row(const std::string& text, const Part& part, const std::vecto
     row.memory_bytes = part.memory_bytes;
     if (part.rays) row.rays = report::Rays{part.rays->primary, part.rays->mirror, part.rays->shadow};
     row.traced_fraction = part.traced_fraction;
+    if (part.auto_face) row.auto_face = report::AutoFace{part.auto_face->edge, part.auto_face->needs};
     row.hdr = part.hdr;
     row.display = part.display;
     fill_times(row, frames, part.prefix);

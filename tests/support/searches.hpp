@@ -32,8 +32,9 @@ struct Judged {
 };
 
 /// Techniques that search, rendered in one frame.
-inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look, const std::vector<std::string>& techniques) {
-    app::Request asked = request(scene, {"raytrace:depth=16"}, kContractSize);
+inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look, const std::vector<std::string>& techniques,
+                                 const std::string& reference = "raytrace:depth=16") {
+    app::Request asked = request(scene, {reference}, kContractSize);
     asked.camera = look.camera;
     asked.time = look.time;
     const app::Part truth = std::move(engine().run(asked).parts.front());
