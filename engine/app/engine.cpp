@@ -123,8 +123,8 @@ void read_counters(const std::vector<std::byte>& bytes, Part& part) {
     if (counters.mirror_pixels > 0) part.traced_fraction = static_cast<double>(counters.listed) / counters.mirror_pixels;
 }
 
-Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const Declared& declared, const render::GpuScene& scene,
-               uvec2 size) {
+Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const Declared& declared,
+               const render::GpuScene& scene, uvec2 size) {
     Part part;
     part.label = declared.choice.label;
     part.prefix = declared.prefix;

@@ -47,8 +47,8 @@ void take_model(const std::string& text) {
 
 void add_choices(CLI::App& verb, Common& common) {
     add_text(verb, "--camera", "C",
-             "name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV, or seeded: drawn from --seed so that a mirror "
-             "is in view (the file's first)",
+             "name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV, or seeded: drawn from --seed, a mirror in "
+             "view (the file's first)",
              [&](const std::string& text) { common.camera = text; });
     add_text(verb, "--model", "M",
              "everything: each mirror, six faces, every frame. required: not there yet",
@@ -99,10 +99,13 @@ scene::Camera placed_camera(const std::string& text) {
 }
 
 scene::Camera choose_camera(const Common& common, const scene::Scene& scene) {
-    const bool is_name = std::ranges::find(scene.cameras, common.camera, &scene::Camera::name) != scene.cameras.end();
-    if (common.camera == "seeded" && !is_name) {
-        const scene::Camera camera = app::seeded_camera(scene, common.time, common.seed);
-        note(common.manners, "camera drawn from seed " + std::to_string(common.seed) + ": " + camera.name);
+    const auto is_called_so = [&](const scene::Camera& camera) {
+        return camera.name == common.camera;
+    };
+    if (common.camera == "seeded" && std::ranges::none_of(scene.cameras, is_called_so)) {
+        scene::Camera camera = app::seeded_camera(scene, common.time, common.seed);
+        note(common.manners,
+             "camera drawn from seed " + std::to_string(common.seed) + ": " + camera.name);
         return camera;
     }
     if (!common.camera.empty()) return parse_camera(common.camera, scene);

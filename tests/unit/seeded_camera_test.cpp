@@ -38,7 +38,8 @@ scene::Scene moved_room(int mirrors, double scale, dvec3 by) {
 }
 
 TEST(SeededCamera, SeesTheFrontOfAMirrorWhereverTheSceneIs) {
-    for (const auto& [mirrors, scale, by] : {std::tuple{1, 1.0, dvec3(0)}, {3, 1.0, dvec3(0)}, {2, 1e4, dvec3(3e6, -2e6, 1e6)}, {2, 1e-3, dvec3(1, 2, 3)}}) {
+    for (const auto& [mirrors, scale, by] :
+         {std::tuple{1, 1.0, dvec3(0)}, {3, 1.0, dvec3(0)}, {2, 1e4, dvec3(3e6, -2e6, 1e6)}, {2, 1e-3, dvec3(1, 2, 3)}}) {
         const scene::Scene scene = moved_room(mirrors, scale, by);
         std::set<std::string> drawn;
         for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
