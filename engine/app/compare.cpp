@@ -102,6 +102,7 @@ report::Row make_row(const std::string& text, const Part& part, const std::vecto
     row.memory_bytes = part.memory_bytes;
     if (part.rays) row.rays = report::Rays{part.rays->primary, part.rays->mirror, part.rays->shadow};
     row.traced_fraction = part.traced_fraction;
+    if (part.auto_face) row.auto_face = report::AutoFace{part.auto_face->edge, part.auto_face->needs};
     row.hdr = part.hdr;
     row.display = part.display;
     fill_times(row, frames, part.prefix);
@@ -207,7 +208,8 @@ private:
         if (!finder_) finder_.emplace(engine_, request_.base, truth("1").part.hdr, hits_);
         report::Causes causes = finder_->find(text);
         const auto face = std::ranges::find(row.settings, "face", &report::Setting::name);
-        measure::Mask at_edges = oracle_->at_light_edges(lookup, static_cast<std::uint32_t>(face->number.value()));
+        const double edge = row.auto_face ? row.auto_face->edge : face->number.value();
+        measure::Mask at_edges = oracle_->at_light_edges(lookup, static_cast<std::uint32_t>(edge));
         for (std::size_t i = 0; i < at_edges.size(); ++i)
             if (measure::first_mirror(hits_[i]) == 0) at_edges[i] = 0;
         const measure::Difference there = measure::difference(row.hdr, truth("1").part.hdr, at_edges, row.flip_map);

@@ -125,12 +125,15 @@ void read_counters(const std::vector<std::byte>& bytes, Part& part) {
     if (counters.mirror_pixels > 0) part.traced_fraction = static_cast<double>(counters.listed) / counters.mirror_pixels;
 }
 
-Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const Declared& declared, uvec2 size) {
+Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const Declared& declared,
+               const render::GpuScene& scene, uvec2 size) {
     Part part;
     part.label = declared.choice.label;
     part.prefix = declared.prefix;
     part.memory_bytes = plan.bytes;
     count_scene_passes(frame.graph, plan, part);
+    const Settings& settings = declared.choice.settings;
+    if (settings.has("face") && settings.is_special("face")) part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
     if (declared.outputs.counters) read_counters(runner.read(*declared.outputs.counters), part);
     part.hdr = to_picture(runner.read(declared.outputs.hdr), size, Format::rgba32f);
     part.display = to_picture(runner.read(declared.display), size, Format::rgba8_unorm);
@@ -189,7 +192,7 @@ Result Engine::run(const Request& request) {
         const graph::FrameTimes times = runner.run(frame.graph, plan, timing);
         if (k > request.warmup) result.frames.push_back(to_frame(times));
         for (std::size_t i = 0; k == total && i < frame.parts.size(); ++i) {
-            result.parts.push_back(read_part(runner, frame, plan, frame.parts[i], request.size));
+            result.parts.push_back(read_part(runner, frame, plan, frame.parts[i], scene, request.size));
             result.parts.back().mended = std::move(mended[i]);
         }
         if (request.progress) request.progress(k, total);

@@ -74,6 +74,12 @@ struct RayCounts {
     std::uint32_t longest_walk = 0; ///< hierarchy steps of the busiest invocation
 };
 
+/// The cube edge that face=auto stands for in one run.
+struct AutoFace {
+    std::uint32_t edge = 0;    ///< used for every mirror's capture, texels
+    std::vector<double> needs; ///< texels along an edge, entry n-1 of mirror n; 0: it is not in view
+};
+
 /// What one technique made in the last frame.
 struct Part {
     std::string label;   ///< as it was asked for
@@ -88,6 +94,7 @@ struct Part {
     std::vector<std::uint32_t> hits; ///< ray tracing only: first mirror | second mirror << 16
     std::optional<RayCounts> rays;   ///< ray tracing only
     std::optional<double> traced_fraction; ///< of its mirror pixels, where a search leaves some to tracing
+    std::optional<AutoFace> auto_face; ///< where it was left to choose the cube edge (face=auto)
 };
 
 struct Result {
@@ -103,6 +110,7 @@ struct Knob {
     double low = 0, high = 1;
     std::string value;                ///< default
     std::vector<std::string> choices; ///< empty for a number
+    std::string special;              ///< a word allowed in place of the number; empty: none
 };
 struct TechniqueInfo {
     std::string name, summary;
@@ -115,7 +123,7 @@ std::vector<TechniqueInfo> techniques();
 struct TechniqueChoice {
     struct Setting {
         std::string name, text; ///< numbers in decimal
-        bool is_number = true;
+        bool is_number = true; ///< false for a choice and for a special word
         bool is_default = true;
         bool operator==(const Setting&) const = default;
     };

@@ -1,5 +1,6 @@
 #include "app/oracle.hpp"
 
+#include "app/rays.hpp"
 #include "bvh/closest_hit.hpp"
 #include "render/views.hpp"
 
@@ -13,27 +14,6 @@ namespace {
 
 constexpr int kUnknown = 1, kMiss = 2; // Lookup::state
 constexpr float kFar = std::numeric_limits<float>::max();
-
-bvh::Bvh build_without(const render::Geometry& geometry, std::size_t left_out) {
-    std::vector<bvh::Triangle> triangles;
-    for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
-        const render::DrawRange& range = geometry.ranges[object];
-        if (object == left_out) continue;
-        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
-            const auto corner = [&](std::uint32_t j) { return geometry.vertices[geometry.indices[k + j]].position; };
-            triangles.push_back({corner(0), corner(1), corner(2), static_cast<std::uint32_t>(object),
-                                 range.seen_by_camera ? 0 : bvh::kHidden});
-        }
-    }
-    return bvh::build(triangles);
-}
-
-f32::Ray camera_ray(const shared::View& view, uvec2 size, std::size_t pixel) {
-    const vec2 place(static_cast<float>(pixel % size.x) + 0.5f, static_cast<float>(pixel / size.x) + 0.5f);
-    const vec2 ndc = place / vec2(size) * 2.0f - 1.0f;
-    return {view.eye, normalize(view.forward + ndc.x * view.right / dot(view.right, view.right) +
-                                ndc.y * view.down / dot(view.down, view.down)), 0};
-}
 
 /// The ray that a mirror sends on from where `ray` met it, as shaders/lib/whitted.glsl does.
 f32::Ray reflected(const render::Geometry& geometry, const f32::Ray& ray, const bvh::Hit<float>& hit) {
@@ -57,10 +37,10 @@ Oracle::Oracle(const Request& request) {
     geometry_ = render::make_geometry(now, space);
     mirror_objects_ = scene::mirrors(now);
     for (const scene::Object& object : now.objects) emits_.push_back(now.materials[object.material].emission != vec3(0));
-    everything_ = build_without(geometry_, geometry_.ranges.size());
+    everything_ = hierarchy_without(geometry_, geometry_.ranges.size());
     for (const std::size_t object : mirror_objects_) {
         centres_.push_back(space.point(scene::bounds(now, now.objects[object]).centre()));
-        without_.push_back(build_without(geometry_, object));
+        without_.push_back(hierarchy_without(geometry_, object));
     }
     trace(request);
 }

@@ -11,7 +11,7 @@ std::vector<TechniqueInfo> techniques() {
         const Settings defaults(row->knobs);
         for (const catoptric::Knob& knob : row->knobs)
             info.knobs.push_back({std::string(knob.name), std::string(knob.help), knob.low, knob.high,
-                                  defaults.text(knob.name), {knob.choices.begin(), knob.choices.end()}});
+                                  defaults.text(knob.name), {knob.choices.begin(), knob.choices.end()}, std::string(knob.special)});
         infos.push_back(std::move(info));
     }
     return infos;
@@ -20,9 +20,11 @@ std::vector<TechniqueInfo> techniques() {
 TechniqueChoice parse_technique(const std::string& text) {
     const reflect::Choice choice = reflect::parse_choice(text);
     TechniqueChoice result{std::string(choice.technique->name), choice.label, choice.file_name(), {}};
+    const Settings defaults(choice.technique->knobs);
     for (const catoptric::Knob& knob : choice.technique->knobs)
-        result.settings.push_back({std::string(knob.name), choice.settings.text(knob.name), knob.choices.empty(),
-                                   choice.settings.number(knob.name) == knob.value});
+        result.settings.push_back({std::string(knob.name), choice.settings.text(knob.name),
+                                   knob.choices.empty() && !choice.settings.is_special(knob.name),
+                                   choice.settings.text(knob.name) == defaults.text(knob.name)});
     return result;
 }
 

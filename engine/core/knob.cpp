@@ -47,13 +47,19 @@ bool Settings::has(std::string_view knob) const {
     return std::ranges::find(knobs_, knob, &Knob::name) != knobs_.end();
 }
 
-double Settings::number(std::string_view knob) const { return values_[index(knob)]; }
+double Settings::number(std::string_view knob) const {
+    const std::size_t i = index(knob);
+    check(values_[i].has_value(), Failure::internal, "knob '", knob, "' is '", knobs_[i].special, "', no number");
+    return *values_[i];
+}
 
 std::string_view Settings::choice(std::string_view knob) const {
     const std::size_t i = index(knob);
     check(!knobs_[i].choices.empty(), Failure::internal, "knob '", knob, "' is not a choice");
-    return knobs_[i].choices[static_cast<std::size_t>(values_[i])];
+    return knobs_[i].choices[static_cast<std::size_t>(number(knob))];
 }
+
+bool Settings::is_special(std::string_view knob) const { return !values_[index(knob)].has_value(); }
 
 void Settings::set(std::string_view knob, double value) { values_[index(knob)] = value; }
 
@@ -73,18 +79,24 @@ void Settings::set(std::string_view owner, std::string_view name, std::string_vi
         values_[index(name)] = static_cast<double>(found - knob.choices.begin());
         return;
     }
+    if (!knob.special.empty() && text == knob.special) {
+        values_[index(name)] = std::nullopt;
+        return;
+    }
+    const std::string range = format(knob.low) + " to " + format(knob.high) + (knob.special.empty() ? "" : " or " + std::string(knob.special));
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     check(error == std::errc{} && end == text.data() + text.size() && value == std::floor(value),
-          Failure::usage, "knob '", name, "' of '", owner, "' takes a whole number from ",
-          format(knob.low), " to ", format(knob.high), ", not '", text, "'");
+          Failure::usage, "knob '", name, "' of '", owner, "' takes a whole number from ", range, ", not '", text, "'",
+          did_you_mean(text, std::vector{std::string(knob.special)}));
     check(value >= knob.low && value <= knob.high, Failure::usage, "knob '", name, "' of '", owner,
-          "' takes ", format(knob.low), " to ", format(knob.high), ", not ", text);
+          "' takes ", range, ", not ", text);
     values_[index(name)] = value;
 }
 
 std::string Settings::text(std::string_view knob) const {
     const Knob& row = knobs_[index(knob)];
+    if (is_special(knob)) return std::string(row.special);
     return row.choices.empty() ? format(number(knob)) : std::string(choice(knob));
 }
 

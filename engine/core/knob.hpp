@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@ struct Knob {
     double high = 1;
     double value = 0; ///< default; for a choice the index into `choices`
     std::span<const std::string_view> choices = {}; ///< names, when the knob is a choice
+    std::string_view special = {}; ///< a word allowed in place of the number, as "auto"; empty: none
 };
 
 /// A value for each of a technique's knobs.
@@ -25,10 +27,13 @@ class Settings {
 public:
     explicit Settings(std::span<const Knob> knobs);
 
-    /// The knob's number; a choice gives its index. A name that is no knob is `Failure::internal`.
+    /// The knob's number; a choice gives its index. A name that is no knob is `Failure::internal`, and so
+    /// is a knob whose special word stands in place of a number.
     double number(std::string_view knob) const;
     int integer(std::string_view knob) const { return static_cast<int>(number(knob)); }
     std::string_view choice(std::string_view knob) const;
+    /// The knob's special word stands in place of a number.
+    bool is_special(std::string_view knob) const;
     bool has(std::string_view knob) const;
 
     /// Sets a knob from text. Throws `Failure::usage` naming the nearest knob or the range.
@@ -45,7 +50,7 @@ public:
 private:
     std::size_t index(std::string_view knob) const;
     std::span<const Knob> knobs_;
-    std::vector<double> values_;
+    std::vector<std::optional<double>> values_; ///< nothing: the special word
 };
 
 /// The name with the smallest edit distance to `word`, or empty when none is near

@@ -12,7 +12,7 @@ int shadow_passes(int lights, const Settings& settings) { return settings.choice
 render::CaptureOptions capture_options(const render::FrameInputs& inputs, const Settings& settings,
                                        const render::Lighting& lighting) {
     render::CaptureOptions options;
-    options.face = static_cast<std::uint32_t>(settings.integer("face"));
+    options.face = settings.is_special("face") ? inputs.scene.common_face() : static_cast<std::uint32_t>(settings.integer("face"));
     options.lighting = lighting;
     if (!settings.has("distance")) return options;
     constexpr Format kFormats[] = {Format::r32f, Format::r16f, Format::r8_unorm};

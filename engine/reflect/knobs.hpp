@@ -11,7 +11,12 @@ namespace catoptric::reflect {
 inline constexpr std::array<std::string_view, 3> kDistanceChoices{"r32f", "r16f", "unorm8"};
 inline constexpr std::array<std::string_view, 2> kShadowChoices{"map", "none"};
 
-inline constexpr Knob kFace{.name = "face", .help = "cube face edge in texels", .low = 1, .high = 16384, .value = 256};
+inline constexpr Knob kFace{.name = "face",
+                            .help = "cube face edge in texels; auto: as many as the picture can show",
+                            .low = 1,
+                            .high = 16384,
+                            .value = 256,
+                            .special = "auto"};
 inline constexpr Knob kShadow{.name = "shadow", .help = "shadow map or none", .high = 1, .choices = kShadowChoices};
 inline constexpr Knob kShadowMapEdge{
     .name = "shadow_map", .help = "shadow map edge in texels", .low = 1, .high = 16384, .value = 1024};

@@ -1,6 +1,7 @@
 #include "render/gpu_scene.hpp"
 
 #include "bvh/bvh.hpp"
+#include "render/footprint.hpp"
 #include "render/views.hpp"
 
 #include <algorithm>
@@ -39,6 +40,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     }
     fill_lights(now);
     fill_views(now, camera, size);
+    if (face_needs_.empty()) find_face_needs(camera, size);
     const std::vector<shared::Frame> frame{{static_cast<float>(ambient), light_count_, mirror_count_,
                                             static_cast<std::uint32_t>(now.objects.size()), shadow_faces_}};
     std::vector<shared::Light> lights = lights_;
@@ -105,6 +107,24 @@ void GpuScene::fill_views(const scene::Scene& now, const scene::Camera& camera, 
         std::ranges::copy(faces, std::back_inserter(views_));
     }
 }
+
+void GpuScene::find_face_needs(const scene::Camera& camera, uvec2 size) {
+    const shared::View& view = views_[kCameraView];
+    const double angle = pixel_angle(camera.vertical_fov_degrees, size.y);
+    for (std::uint32_t mirror = 0; mirror < mirror_count_; ++mirror) {
+        const DrawRange& range = geometry_.ranges[mirror_objects_[mirror]];
+        const shared::Probe& probe = probes_[mirror];
+        if (!range.seen_by_camera || !may_meet(view, range.bounds))
+            face_needs_.push_back(0);
+        else if (probe.radius > 0)
+            face_needs_.push_back(sphere_need(angle, glm::distance(dvec3(view.eye), dvec3(probe.sphere)), double{probe.radius}));
+        else
+            face_needs_.push_back(mesh_need(angle, view.eye, geometry_.vertices,
+                                            std::span(geometry_.indices).subspan(range.first_index, range.index_count)));
+    }
+}
+
+std::uint32_t GpuScene::common_face() const { return common_edge(face_needs_, device_.limits().maxImageDimensionCube); }
 
 void GpuScene::fill_tracing() {
     std::vector<bvh::Triangle> triangles;

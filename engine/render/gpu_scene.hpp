@@ -27,6 +27,11 @@ public:
     const std::vector<shared::View>& views() const { return views_; }
     /// Index of the object that is mirror n, n from 0.
     std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
+    /// Texels that the edge of each mirror's cube needs (render/footprint.hpp); 0 for a mirror that is not in
+    /// the picture. Found at the first update and kept: cubes that change their size lose what the frame before left.
+    const std::vector<double>& face_needs() const { return face_needs_; }
+    /// One edge for all: the largest need, as far as the device allows.
+    std::uint32_t common_face() const;
     /// Push constants that draw an object into the views from `first_view` on.
     shared::Draw draw_of(std::size_t object, std::uint32_t first_view) const;
 
@@ -41,6 +46,7 @@ private:
     void fill_lights(const scene::Scene& now);
     void fill_views(const scene::Scene& now, const scene::Camera& camera, uvec2 size);
     void fill_tracing();
+    void find_face_needs(const scene::Camera& camera, uvec2 size);
 
     gpu::Device& device_;
     Space space_;
@@ -50,6 +56,7 @@ private:
     std::vector<shared::Probe> probes_;
     std::vector<shared::Light> lights_;
     std::vector<std::size_t> mirror_objects_;
+    std::vector<double> face_needs_;
     std::uint32_t mirror_count_ = 0, light_count_ = 0, shadow_faces_ = 6;
     gpu::Buffer vertex_buffer_, index_buffer_, frame_, view_buffer_, surface_buffer_, light_buffer_, probe_buffer_;
     gpu::Buffer bvh_nodes_, bvh_triangles_, normals_;

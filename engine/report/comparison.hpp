@@ -44,6 +44,12 @@ struct Rays {
     std::uint64_t primary = 0, mirror = 0, shadow = 0;
 };
 
+/// What face=auto stood for.
+struct AutoFace {
+    std::uint32_t edge = 0;    ///< of every mirror's cube, texels
+    std::vector<double> needs; ///< entry n-1: what mirror n alone needs; 0: not in view
+};
+
 /// One technique with its settings: what it cost and what it got wrong.
 struct Row {
     std::string technique;         ///< "naive"
@@ -67,6 +73,7 @@ struct Row {
     std::optional<measure::LookupError> lookup; ///< first-order pixels: where mirrors looked
     std::optional<Causes> causes;               ///< of rows that look into captures
     std::optional<double> traced_fraction;
+    std::optional<AutoFace> auto_face;
     measure::Mean mean, mean_clamped;
     measure::Picture hdr;           ///< the last frame, linear
     measure::Picture display;       ///< the same as shown

@@ -123,6 +123,14 @@ Json to_json(const std::optional<Causes>& causes) {
     return json;
 }
 
+Json to_json(const std::optional<AutoFace>& face) {
+    if (!face) return nullptr;
+    Json needs = Json::array();
+    for (const double need : face->needs)
+        needs.push_back(number(need));
+    return {{"edge", face->edge}, {"needs", std::move(needs)}};
+}
+
 Json to_json(const measure::Mean& mean) {
     return Json::array({number(mean.rgb.x), number(mean.rgb.y), number(mean.rgb.z)});
 }
@@ -151,6 +159,7 @@ Json to_json(const Row& row) {
     if (failed(row)) json["failed"] = true;
     json["memory_bytes"] = row.memory_bytes;
     json["traced_fraction"] = number_or_null(row.traced_fraction);
+    json["auto_face"] = to_json(row.auto_face);
     json["rays"] = to_json(row.rays);
     json["lookup"] = to_json(row.lookup);
     json["causes"] = to_json(row.causes);

@@ -156,6 +156,7 @@ std::string techniques_json(const std::vector<app::TechniqueInfo>& techniques) {
                 row["default"] = std::stoll(knob.value);
             else
                 row["choices"] = knob.choices;
+            if (!knob.special.empty()) row["special"] = knob.special;
             knobs.push_back(row);
         }
         rows.push_back(

@@ -33,7 +33,8 @@ const std::vector<Named> kMetrics{
 
 std::string knob_text(const app::Knob& knob) {
     const std::string range = knob.choices.empty()
-                                  ? fmt::format("{:.0f} to {:.0f}", knob.low, knob.high)
+                                  ? fmt::format("{:.0f} to {:.0f}{}", knob.low, knob.high,
+                                              knob.special.empty() ? "" : " or " + knob.special)
                                   : fmt::format("{}", fmt::join(knob.choices, "|"));
     return fmt::format("    {:<12} {} ({}; default {})\n", knob.name, knob.help, range, knob.value);
 }

@@ -1,8 +1,11 @@
 #include "options.hpp"
 
+#include "app/seeded_camera.hpp"
 #include "core/error.hpp"
 #include "core/knob.hpp"
 #include "parse.hpp"
+
+#include <algorithm>
 
 namespace catoptric::cli {
 
@@ -29,7 +32,7 @@ void add_numbers(CLI::App& verb, Common& common) {
              [&](const std::string& text) { common.time = parse_real("--time", text); });
     verb.add_flag("--animate", common.animate,
                   "frame k at --time + (k-1)/60 s; otherwise all frames at --time");
-    add_text(verb, "--seed", "N", "of sample patterns that are no regular grid (1)",
+    add_text(verb, "--seed", "N", "of --camera seeded and of sample patterns that are no regular grid (1)",
              [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
     add_text(verb, "--ambient", "A", "ambient light, at least 0 (0.05)",
              [&](const std::string& text) { common.ambient = parse_real("--ambient", text, 0); });
@@ -44,7 +47,8 @@ void take_model(const std::string& text) {
 
 void add_choices(CLI::App& verb, Common& common) {
     add_text(verb, "--camera", "C",
-             "name, index from 0, or EX,EY,EZ:TX,TY,TZ:FOV (the file's first)",
+             "name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV, or seeded: drawn from --seed, a mirror in "
+             "view (the file's first)",
              [&](const std::string& text) { common.camera = text; });
     add_text(verb, "--model", "M",
              "everything: each mirror, six faces, every frame. required: not there yet",
@@ -95,6 +99,15 @@ scene::Camera placed_camera(const std::string& text) {
 }
 
 scene::Camera choose_camera(const Common& common, const scene::Scene& scene) {
+    const auto is_called_so = [&](const scene::Camera& camera) {
+        return camera.name == common.camera;
+    };
+    if (common.camera == "seeded" && std::ranges::none_of(scene.cameras, is_called_so)) {
+        scene::Camera camera = app::seeded_camera(scene, common.time, common.seed);
+        note(common.manners,
+             "camera drawn from seed " + std::to_string(common.seed) + ": " + camera.name);
+        return camera;
+    }
     if (!common.camera.empty()) return parse_camera(common.camera, scene);
     if (!scene.cameras.empty()) return scene.cameras.front();
     const scene::Camera camera = scene::default_camera(scene);
@@ -198,8 +211,9 @@ scene::Camera parse_camera(const std::string& text, const scene::Scene& scene) {
         text.find_first_not_of("0123456789") == std::string::npos && text.size() < 10;
     if (is_index && !text.empty() && std::stoul(text) < scene.cameras.size())
         return scene.cameras[std::stoul(text)];
+    names.emplace_back("seeded");
     fail(Failure::usage, "--camera: scene '", scene.name, "' has no camera '", text,
-         "'; it has: ", camera_list(scene), "; or EX,EY,EZ:TX,TY,TZ:FOV",
+         "'; it has: ", camera_list(scene), "; or seeded, or EX,EY,EZ:TX,TY,TZ:FOV",
          did_you_mean(text, names));
 }
 

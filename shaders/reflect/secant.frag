@@ -1,7 +1,10 @@
 // Secant search (Szirmay-Kalos, Aszodi, Lazanyi, Premecz 2005; GPU Gems 3, chapter 17): the point of the
 // reflected ray where its distance from the capture's centre equals what was captured in that direction.
 // steps + 3 fetches; order about 1.6 where the distance is smooth. Picks any of several crossings, and
-// oscillates at silhouettes, where no bracket exists.
+// oscillates at silhouettes, where no bracket exists. Where nothing was captured the ray is in front, but no
+// distance says by how much: the secant needs two samples that have one. From one alone the step is
+// first * (1 - q), as at the start: along the ray q is linear on a plane, and 1 / first is its slope on the
+// plane that the ray's own direction meets. A ray that passes outside its edge is led back into the void.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
@@ -21,7 +24,6 @@ float depth_ratio(uint mirror, vec3 p) {
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float first = captured_distance(mirror, direction);
     if (is_miss(first)) return Lookup(direction, kMiss, 0.0, 0.0);
-    if (steps == 0u) return Lookup(parallax_direction(offset, direction, first), kHit, 0.0, 0.0);
     float t = first - dot(offset, direction);
     float q = depth_ratio(mirror, offset + direction * t);
     bool has_front = q < 1.0, has_behind = !has_front;
@@ -37,7 +39,8 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
             behind = t, q_behind = q, has_behind = true;
             from = front, q_from = q_front;
         }
-        float move = has_front && has_behind ? (t - from) * (1.0 - q) / (q - q_from) : first * (1.0 - q);
+        bool is_bracket = has_front && has_behind && q_front > 0.0;
+        float move = is_bracket ? (t - from) * (1.0 - q) / (q - q_from) : first * (1.0 - q);
         if (!is_finite(move)) break;
         t = max(t + move, 0.0);
     }

@@ -56,6 +56,28 @@ TEST_F(Cli, PlacedCameraLooksFromThere) {
     EXPECT_EQ(read("a.png"), read("d.png"));
 }
 
+TEST_F(Cli, SeededCameraCanBeTypedAgain) {
+    const auto render = [&](const std::string& picture, const Words& more) {
+        Words words{"render", "--technique", "parallax:face=32", "-o", picture};
+        words.insert(words.end(), more.begin(), more.end());
+        const test::Ended ended = cli(quick(words));
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return ended.err;
+    };
+    const std::string said = render("a.exr", {"--camera", "seeded", "--seed", "7", "--time", "1.5"});
+    const std::string words = "camera drawn from seed 7: ";
+    ASSERT_THAT(said, testing::HasSubstr(words));
+    const std::string from = said.substr(said.find(words) + words.size());
+    const std::string camera = from.substr(0, from.find('\n'));
+    render("b.exr", {"--camera", "seeded", "--seed", "7", "--time", "1.5"});
+    render("c.exr", {"--camera", camera, "--time", "1.5"});
+    render("d.exr", {"--camera", "seeded", "--seed", "8", "--time", "1.5"});
+    EXPECT_EQ(read("a.exr"), read("b.exr"));
+    EXPECT_EQ(read("a.exr"), read("c.exr")) << camera;
+    EXPECT_NE(read("a.exr"), read("d.exr"));
+    EXPECT_EQ(render("e.exr", {"--camera", "seeded", "--quiet"}), "");
+}
+
 TEST_F(Cli, RenderJsonAndTrace) {
     const test::Ended ended = cli(quick({"render", "--technique", "naive:bounces=1", "-o", "x.exr",
                                          "--trace", "t.json", "--json"}));

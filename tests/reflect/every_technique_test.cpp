@@ -96,7 +96,9 @@ std::vector<std::string> extremes(const app::Knob& knob) {
         const bool whole = value == std::floor(value);
         return whole ? std::to_string(static_cast<long long>(value)) : std::to_string(value);
     };
-    return {text(knob.low), text(high)};
+    std::vector<std::string> values{text(knob.low), text(high)};
+    if (!knob.special.empty()) values.push_back(knob.special);
+    return values;
 }
 
 TEST_P(EveryTechnique, MakesOnlyNumbersAtTheEndsOfEachKnob) {

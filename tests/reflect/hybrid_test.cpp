@@ -1,14 +1,11 @@
 // Only what the search does not know is traced, as the ray tracer would; how much that is, and what it is worth.
-#include "support/rendering.hpp"
-
-#include <iostream>
+#include "support/searches.hpp"
 
 namespace {
 
 using namespace catoptric;
 
 constexpr uvec2 kSize{512, 512};
-constexpr int kFrames = 8; // deeper bounces have arrived
 /// The number in the fourth channel of a lookup is 1 + state + 4 layer + 8 mirror; 0: no mirror.
 constexpr std::uint32_t kUnknown = 1;
 
@@ -106,30 +103,16 @@ TEST(Hybrid, AnEmptyListTracesNothing) {
     EXPECT_FALSE(none.traced_fraction.has_value()) << "of no mirror pixels at all";
 }
 
-struct Look {
-    scene::Camera camera;
-    double time = 0;
-};
-std::vector<Look> looks() {
-    return {{scene::cornell_mirrors().cameras.front(), 0},
-            {{.name = "side", .eye = {400, 330, -760}, .target = {400, 330, 0}, .vertical_fov_degrees = 37.5}, 1.3},
-            {{.name = "above", .eye = {120, 420, -500}, .target = {330, 120, 300}, .vertical_fov_degrees = 45}, 2.6}};
-}
-
 TEST(Hybrid, HalvesTheErrorOfOneStepByTracingLittle) {
     for (const auto& [scene, most] : {std::pair{scene::cornell_mirrors(), .06}, {scene::cornell_mirrors_closed(), .02}})
-        for (const Look& look : looks()) {
-            app::Request request = test::request(scene, {"raytrace:depth=16", "parallax:face=512", "hybrid:face=512"}, kSize);
-            request.camera = look.camera;
-            request.time = look.time;
-            request.warmup = kFrames - 1;
-            const std::vector<app::Part> parts = test::engine().run(request).parts;
-            const measure::Mask mirrors = measure::mirrors(parts[0].hits);
-            const double one_step = test::rmse(parts[1].hdr, parts[0].hdr, mirrors), hybrid = test::rmse(parts[2].hdr, parts[0].hdr, mirrors);
-            std::cout << "[ MEASURED ] " << scene.name << ", t = " << look.time << " s: rmse " << hybrid << ", share of parallax "
-                      << hybrid / one_step << ", traced " << 100 * *parts[2].traced_fraction << " %\n";
-            EXPECT_LE(hybrid, .50 * one_step);
-            EXPECT_LE(*parts[2].traced_fraction, most);
+        for (const test::Look& look : test::looks()) {
+            SCOPED_TRACE(scene.name + ", " + look.camera.name);
+            const auto judged = test::judge(scene, look, {"parallax:face=512", "hybrid:face=512", "hybrid:face=512,continue=0", "hybrid:face=256"});
+            const test::Judged &parallax = judged[0], &followed = judged[1], &alone = judged[2], &coarse = judged[3];
+            EXPECT_LE(followed.all, .50 * parallax.all);
+            EXPECT_LE(coarse.all, .80 * parallax.all);
+            EXPECT_LE(followed.mirror_in_mirror, .55 * alone.mirror_in_mirror);
+            EXPECT_LE(followed.traced_fraction, most);
         }
 }
 

@@ -1,7 +1,7 @@
 // Two layers: what a small ball hides from a capture's centre is in the second, and the search finds it.
 #include "core/shader_math.hpp"
 #include "support/captures.hpp"
-#include "support/rendering.hpp"
+#include "support/searches.hpp"
 
 #include <cmath>
 #include <iostream>
@@ -149,23 +149,8 @@ TEST(Layered, RendersTheSceneTwiceAMirror) {
     EXPECT_EQ(part.scene_passes, 2 * 4 + 2);
 }
 
-TEST(Layered, ShareOfParallaxErrorInTheBuiltInScene) {
-    constexpr uvec2 kSize{512, 512};
-    constexpr int kFrames = 8;
-    const scene::Scene scene = scene::cornell_mirrors();
-    const app::Part truth = test::render(scene, "raytrace:depth=16", kSize);
-    const measure::Mask all = measure::mirrors(truth.hits), first = measure::first_order(truth.hits), deep = measure::mirror_in_mirror(truth.hits);
-    const auto picture = [&](const std::string& technique) { return test::render(scene, technique, kSize, kFrames).hdr; };
-    const auto expect_share = [&](const std::string& what, double error, double of, double most) {
-        std::cout << "[ MEASURED ] " << what << ": rmse " << error << ", share " << error / of << "\n";
-        EXPECT_LE(error, most * of) << what;
-    };
-    const measure::Picture parallax256 = picture("parallax"), parallax512 = picture("parallax:face=512");
-    const measure::Picture layered256 = picture("layered"), layered512 = picture("layered:face=512"), alone512 = picture("layered:face=512,continue=0");
-    expect_share("first order, 512", test::rmse(alone512, truth.hdr, first), test::rmse(parallax512, truth.hdr, first), .65);
-    expect_share("all mirrors, 512, continue=4", test::rmse(layered512, truth.hdr, all), test::rmse(parallax512, truth.hdr, all), .55);
-    expect_share("all mirrors, 256, continue=4", test::rmse(layered256, truth.hdr, all), test::rmse(parallax256, truth.hdr, all), .80);
-    expect_share("mirror in mirror, continue=4 of continue=0", test::rmse(layered512, truth.hdr, deep), test::rmse(alone512, truth.hdr, deep), .55);
+TEST(Layered, IsWorthItsSecondLayer) {
+    test::expect_worth("layered", {.first_order = .65, .all = .55, .angle = .01, .wrong_object = .005});
 }
 
 } // namespace

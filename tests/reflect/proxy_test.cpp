@@ -81,9 +81,9 @@ TEST(Proxy, WithoutSurroundingsAllRaysLeave) {
 
 /// Followed through the other balls, its box leaves only these as an error: what stands in the room.
 TEST(Proxy, TheBoxOfTheBuiltInRoomIsWorthIt) {
-    const double parallax = test::colour_error("parallax").all;
-    EXPECT_LE(test::colour_error("proxy:continue=4").all, .80 * parallax);
-    EXPECT_LE(test::lookup_error("proxy").mean_degrees, .05 * test::lookup_error("parallax").mean_degrees);
+    const auto judged = test::judge(scene::cornell_mirrors(), test::looks().front(), {"parallax", "proxy", "proxy:continue=4"});
+    EXPECT_LE(judged[2].all, .80 * judged[0].all);
+    EXPECT_LE(judged[1].lookup.mean_degrees, .05 * judged[0].lookup.mean_degrees);
 }
 
 } // namespace

@@ -103,6 +103,16 @@ TEST(ReportJson, WritesNullWhereThereIsNoNumber) {
     EXPECT_TRUE(document["reference"]["gpu_ms"].is_null());
 }
 
+TEST(ReportJson, SaysWhatAnAutomaticFaceStoodFor) {
+    Comparison made = usual();
+    made.rows[1].settings = {choice("face", "auto", true)};
+    made.rows[1].auto_face = {.edge = 64, .needs = {39.5, 0}};
+    const json document = json::parse(catoptric::report::to_json(made));
+    EXPECT_EQ(document["rows"][1]["settings"]["face"], "auto");
+    EXPECT_EQ(document["rows"][1]["auto_face"], json::parse(R"({"edge": 64, "needs": [39.5, 0]})"));
+    EXPECT_TRUE(document["rows"][0]["auto_face"].is_null());
+}
+
 TEST(ReportJson, MarksRowsThatFailedAndKeepsItsManners) {
     Comparison made = usual();
     made.rows[1].error.nonfinite = 2;

@@ -1,0 +1,59 @@
+// A knob's text to its value and back.
+#include "core/error.hpp"
+#include "core/knob.hpp"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr Knob kKnobs[] = {{.name = "steps", .help = "", .low = 0, .high = 8, .value = 2},
+                           {.name = "face", .help = "", .low = 1, .high = 64, .value = 16, .special = "auto"}};
+
+std::string refusal(std::string_view knob, std::string_view text) {
+    Settings settings(kKnobs);
+    try {
+        settings.set("row", knob, text);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::usage);
+        return error.what();
+    }
+    return "not refused";
+}
+
+TEST(Knob, ASpecialWordStandsInPlaceOfANumber) {
+    Settings settings(kKnobs);
+    EXPECT_FALSE(settings.is_special("face"));
+    settings.set("row", "face", "auto");
+    EXPECT_TRUE(settings.is_special("face"));
+    EXPECT_EQ(settings.text("face"), "auto");
+    EXPECT_FALSE(settings == Settings(kKnobs));
+    settings.set("row", "face", "16");
+    EXPECT_EQ(settings.number("face"), 16);
+    EXPECT_TRUE(settings == Settings(kKnobs));
+}
+
+TEST(Knob, ASpecialWordIsNoNumber) {
+    Settings settings(kKnobs);
+    settings.set("row", "face", "auto");
+    try {
+        settings.number("face");
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::internal);
+        EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("face"), testing::HasSubstr("auto")));
+    }
+}
+
+TEST(Knob, EveryRefusalNamesWhatIsAllowed) {
+    for (const std::string_view text : {"0", "65", "2.5", "atuo", "", "automatic", "nan"})
+        EXPECT_THAT(refusal("face", text), testing::AllOf(testing::HasSubstr("'face' of 'row'"), testing::HasSubstr("1 to 64 or auto"),
+                                                          testing::HasSubstr(std::string(text))));
+    EXPECT_THAT(refusal("face", "atuo"), testing::HasSubstr("did you mean 'auto'?"));
+    EXPECT_THAT(refusal("steps", "a"), testing::Not(testing::HasSubstr("did you mean")));
+    for (const std::string_view text : {"9", "auto"}) // a knob without such a word
+        EXPECT_THAT(refusal("steps", text), testing::AllOf(testing::HasSubstr("0 to 8"), testing::Not(testing::HasSubstr("or auto")))) << text;
+}
+
+} // namespace
