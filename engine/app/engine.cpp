@@ -7,7 +7,9 @@
 #include "measure/masks.hpp"
 #include "reflect/technique.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <optional>
 
 namespace catoptric::app {
 
@@ -72,6 +74,12 @@ void check_request(const Request& request) {
           request.frames, " and ", request.warmup);
 }
 
+/// Where frame k, from 1, stands in the scene's motion.
+double instant_of(const Request& request, int k) {
+    if (request.clock) return request.clock(k);
+    return request.time + (request.animate ? (k - 1) / 60.0 : 0.0);
+}
+
 void check_stopped() {
     const int signal = stop_signal.load();
     check(signal == 0, signal == 15 ? Failure::terminated : Failure::interrupted, "stopped by signal ", signal);
@@ -91,6 +99,14 @@ void count_scene_passes(const graph::Graph& graph, const graph::Plan& plan, Part
         ++part.scene_passes;
         part.scene_draws += static_cast<int>(pass.layer_count);
     }
+}
+
+bool reads_previous(const graph::Graph& graph, const graph::Plan& plan, const std::string& prefix) {
+    return std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
+        const graph::Pass& pass = graph.passes()[planned.pass];
+        return pass.name.starts_with(prefix) &&
+               std::ranges::any_of(pass.images, [](const graph::ImageUse& use) { return use.image.previous; });
+    });
 }
 
 measure::Picture to_picture(const std::vector<std::byte>& texels, uvec2 size, Format format) {
@@ -128,6 +144,7 @@ Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan
     part.label = declared.choice.label;
     part.prefix = declared.prefix;
     part.memory_bytes = plan.bytes;
+    part.remembers = reads_previous(frame.graph, plan, part.prefix);
     count_scene_passes(frame.graph, plan, part);
     if (declared.outputs.counters) read_counters(runner.read(*declared.outputs.counters), part);
     part.hdr = to_picture(runner.read(declared.outputs.hdr), size, Format::rgba32f);
@@ -135,6 +152,12 @@ Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan
     if (declared.outputs.hits) part.hits = values_of<std::uint32_t>(runner.read(*declared.outputs.hits));
     if (declared.outputs.lookup) part.lookup = values_of<vec4>(runner.read(*declared.outputs.lookup));
     return part;
+}
+
+std::vector<Part> read_parts(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, uvec2 size) {
+    std::vector<Part> parts;
+    for (const Declared& part : frame.parts) parts.push_back(read_part(runner, frame, plan, part, size));
+    return parts;
 }
 
 } // namespace
@@ -161,19 +184,22 @@ Result Engine::run(const Request& request) {
     const auto timing = request.timing == Timing::isolated ? graph::Timing::isolated : graph::Timing::pipelined;
     const int total = request.warmup + request.frames;
     Result result;
+    std::optional<double> shown;
     for (int k = 1; k <= total; ++k) {
         check_stopped();
-        if (k == 1 || request.animate) {
-            const double time = request.time + (request.animate ? (k - 1) / 60.0 : 0.0);
-            scene.update(scene::at(request.scene, time), request.camera, request.size, request.ambient);
+        if (const double instant = instant_of(request, k); shown != instant) {
+            scene.update(scene::at(request.scene, instant), request.camera, request.size, request.ambient);
+            shown = instant;
         }
         const FrameGraph frame = declare(request, choices, scene, runner.history());
         const graph::Plan plan = runner.plan(frame.graph);
         const graph::FrameTimes times = runner.run(frame.graph, plan, timing);
         if (k > request.warmup) result.frames.push_back(to_frame(times));
-        if (k == total)
-            for (const Declared& part : frame.parts) result.parts.push_back(read_part(runner, frame, plan, part, request.size));
+        const ReadParts read = [&] { return read_parts(runner, frame, plan, request.size); };
+        const bool last = k == total || (request.watch && !request.watch(k, read));
+        if (last) result.parts = read();
         if (request.progress) request.progress(k, total);
+        if (last) break;
     }
     return result;
 }
