@@ -196,7 +196,8 @@ Result Engine::run(const Request& request) {
         const graph::FrameTimes times = runner.run(frame.graph, plan, timing);
         if (k > request.warmup) result.frames.push_back(to_frame(times));
         const ReadParts read = [&] { return read_parts(runner, frame, plan, request.size); };
-        const bool last = k == total || (request.watch && !request.watch(k, read));
+        const bool enough = request.watch && !request.watch(k, read);
+        const bool last = enough || k == total;
         if (last) result.parts = read();
         if (request.progress) request.progress(k, total);
         if (last) break;

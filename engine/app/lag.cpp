@@ -4,10 +4,12 @@
 #include "measure/difference.hpp"
 #include "measure/masks.hpp"
 #include "measure/settling.hpp"
+#include "measure/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace catoptric::app {
 
@@ -81,18 +83,21 @@ bool same_bytes(const measure::Picture& a, const measure::Picture& b) {
     return a.pixels.size() == b.pixels.size() && std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
 }
 
-/// Of the instants at which a mirror is in view; NaN when it is at none.
-double mean_of(const std::vector<double>& errors) {
-    double sum = 0, count = 0;
-    for (const double error : errors)
-        if (!std::isnan(error)) sum += error, count += 1;
-    return sum / count;
+// Over the instants at which a mirror is in view; NaN when it is at none.
+
+std::vector<double> judged(std::vector<double> errors) {
+    std::erase_if(errors, [](double error) { return std::isnan(error); });
+    return errors;
 }
 
-double largest_of(const std::vector<double>& errors) {
-    double largest = measure::Difference::kNone;
-    for (const double error : errors) largest = std::fmax(largest, error); // of NaN and a number, the number
-    return largest;
+double mean_of(const std::vector<double>& errors) {
+    const std::vector<double> those = judged(errors);
+    return std::accumulate(those.begin(), those.end(), 0.0) / static_cast<double>(those.size());
+}
+
+double percentile_of(const std::vector<double>& errors, double share) {
+    const std::vector<double> those = judged(errors);
+    return those.empty() ? measure::Difference::kNone : measure::percentile(those, share);
 }
 
 /// A technique's picture of an instant once nothing changes any more.
@@ -243,7 +248,8 @@ private:
         };
         run(std::move(request));
         lag.mean_rmse = mean_of(lag.rmse);
-        lag.max_rmse = largest_of(lag.rmse);
+        lag.median_rmse = percentile_of(lag.rmse, 0.5);
+        lag.max_rmse = percentile_of(lag.rmse, 1);
         lag.mean_reference_rmse = mean_of(lag.reference_rmse);
         return lag;
     }

@@ -26,6 +26,7 @@ Json to_json(const Settling& settling) {
 Json to_json(const LagAtSpeed& at) {
     return {{"speed", number(at.speed)},
             {"rmse_mean", number(at.mean_rmse)},
+            {"rmse_median", number(at.median_rmse)},
             {"rmse_max", number(at.max_rmse)},
             {"reference_rmse_mean", number(at.mean_reference_rmse)},
             {"rmse", numbers(at.rmse)},

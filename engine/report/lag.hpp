@@ -16,7 +16,8 @@ struct LagAtSpeed {
     double speed = 1;                   ///< seconds of the scene's time in 60 frames
     std::vector<double> rmse;           ///< against the still picture, one an instant
     std::vector<double> reference_rmse; ///< against the reference, one an instant
-    double mean_rmse = 0, max_rmse = 0, mean_reference_rmse = 0; ///< over the instants
+    double mean_rmse = 0, median_rmse = 0, max_rmse = 0; ///< over the instants
+    double mean_reference_rmse = 0;
 };
 
 /// The frames after a cut against the still picture; entry k-1 is frame k.

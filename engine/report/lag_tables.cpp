@@ -30,7 +30,7 @@ std::string lag_note(const Lag& lag) {
         "The scene's time runs at so many times the clock's, 60 frames a second, over a path of "
         "{:.3g} s. "
         "rmse over the mirrors between the moving picture and the still one of the same row and "
-        "instant (the scene stands until nothing changes any more), mean and largest of {} "
+        "instant (the scene stands until nothing changes any more), mean, median and largest of {} "
         "instants; s: when it is largest. Right: against the reference, moving and still.",
         lag.path, lag.seconds.size());
     for (const LagRow& row : lag.rows)
@@ -40,12 +40,11 @@ std::string lag_note(const Lag& lag) {
     return note;
 }
 
-/// "reuse is 0.0012 (largest 0.0034) behind at 1x, ...".
 std::string behind(const LagRow& row) {
     std::vector<std::string> parts;
     for (const LagAtSpeed& at : row.speeds)
-        parts.push_back(fmt::format("{} (largest {}) at {}", error_text(at.mean_rmse),
-                                    error_text(at.max_rmse), speed_text(at.speed)));
+        parts.push_back(fmt::format("{} (median {}, largest {}) at {}", error_text(at.mean_rmse),
+                                    error_text(at.median_rmse), error_text(at.max_rmse), speed_text(at.speed)));
     return row.label + " is behind its own still picture by an rmse of " + joined(parts, ", ");
 }
 
@@ -67,6 +66,7 @@ Table lag_table(const Comparison& comparison) {
                 {{"Row", false},
                  {"Speed"},
                  {"rmse, mean"},
+                 {"rmse, median"},
                  {"rmse, largest"},
                  {"s"},
                  {"to reference, moving"},
@@ -79,7 +79,8 @@ Table lag_table(const Comparison& comparison) {
     for (const LagRow& row : comparison.lag->rows)
         for (const LagAtSpeed& at : row.speeds)
             table.rows.push_back({row.label, speed_text(at.speed), error_text(at.mean_rmse),
-                                  error_text(at.max_rmse), worst_instant(*comparison.lag, at),
+                                  error_text(at.median_rmse), error_text(at.max_rmse),
+                                  worst_instant(*comparison.lag, at),
                                   error_text(at.mean_reference_rmse),
                                   error_text(row.mean_still_reference_rmse)});
     return table;
