@@ -15,8 +15,8 @@ using svg::grid_line, svg::kLine, svg::Scale, svg::text;
 
 namespace {
 
-constexpr double kWidth = 460, kHeight = 300;
-constexpr double kLeft = 58, kRight = 340, kTop = 12, kLane = 226, kBottom = 250; // lane: 0
+constexpr double kWidth = 500, kHeight = 300;
+constexpr double kLeft = 66, kRight = 340, kTop = 12, kLane = 226, kBottom = 250; // lane: 0
 constexpr double kZero = (kLane + kBottom) / 2;
 constexpr std::size_t kMostTicks = 8;
 

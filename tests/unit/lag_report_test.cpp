@@ -143,14 +143,14 @@ TEST(LinePlot, PutsZeroInItsLaneAndLeavesGapsOut) {
     plot.lines = {{"a", {0, 0.1, 0}}, {"b", {kNaN, 0.01, 0.1}}};
     const std::string drawn = line_plot(plot);
     EXPECT_TRUE(std::regex_search(
-        drawn, std::regex(R"(d="M58\.0 238\.0L199\.0 [0-9.]+L340\.0 238\.0")")))
+        drawn, std::regex(R"(d="M66\.0 238\.0L203\.0 [0-9.]+L340\.0 238\.0")")))
         << drawn;
-    EXPECT_TRUE(std::regex_search(drawn, std::regex(R"(d="M199\.0 [0-9.]+L340\.0 [0-9.]+")")));
+    EXPECT_TRUE(std::regex_search(drawn, std::regex(R"(d="M203\.0 [0-9.]+L340\.0 [0-9.]+")")));
     plot.lines = {{"a", {kNaN}}};
     EXPECT_EQ(line_plot(plot), "");
     plot.x = {1, 10, 100}, plot.log_x = true;
     plot.lines = {{"a", {0.1, 0.1, 0.1}}};
-    EXPECT_TRUE(std::regex_search(line_plot(plot), std::regex(R"(d="M58\.0 .*L199\.0 .*L340\.0)")));
+    EXPECT_TRUE(std::regex_search(line_plot(plot), std::regex(R"(d="M66\.0 .*L203\.0 .*L340\.0)")));
 }
 
 } // namespace
