@@ -147,7 +147,7 @@ private:
     }
 
     /// Runs of one row count as one for who watches the progress.
-    void run(Request request) {
+    void run_in_row(Request request) {
         const int first = frames_done_, most = request.frames;
         if (request_.base.progress)
             request.progress = [&, first](int k, int) { request_.base.progress(first + k, frames_expected_); };
@@ -178,7 +178,7 @@ private:
             still.rests = !still.part.remembers || unchanged >= mirrors_;
             return !still.rests;
         };
-        run(std::move(request));
+        run_in_row(std::move(request));
         return still;
     }
 
@@ -227,7 +227,7 @@ private:
             settling.max.push_back(error.max);
             return true;
         };
-        run(std::move(request));
+        run_in_row(std::move(request));
         settling.rmse_settled = measure::settled_from(settling.rmse, report::kLagBound);
         settling.max_settled = measure::settled_from(settling.max, report::kLagBound);
         return settling;
@@ -246,7 +246,7 @@ private:
             lag.reference_rmse.push_back(apart(picture, instants_[i].reference).rmse);
             return true;
         };
-        run(std::move(request));
+        run_in_row(std::move(request));
         lag.mean_rmse = mean_of(lag.rmse);
         lag.median_rmse = percentile_of(lag.rmse, 0.5);
         lag.max_rmse = percentile_of(lag.rmse, 1);

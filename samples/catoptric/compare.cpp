@@ -132,7 +132,7 @@ void add_compare(CLI::App& program, Run& chosen, std::vector<std::string> comman
                    "all rows in one command buffer, on one timeline");
     verb->add_flag("--lag", options->lag,
                    "also how far the rows that read last frame's captures are behind a moving "
-                   "scene: about 2500 frames a row");
+                   "scene: about 2300 frames a row");
     add_common(*verb, options->common);
     verb->callback([verb, options, &chosen] {
         refuse_extras(*verb);
