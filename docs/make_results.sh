@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes docs/results.md, its pictures and the README's table anew from one run. Called by ./dev results.
+# Writes docs/results.md, its pictures, the README's table and that of docs/lag.md anew. Called by ./dev results.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=$1
@@ -41,9 +41,14 @@ sheet ladder 3 $balls $i/parallax.png $i/secant.png $i/march.png $i/pyramid.png 
     cat $out/report.md
 } >docs/results.md
 
-table=$(awk '/^\| Implementation/ {on = 1} on && !/^\|/ {exit} on' $out/report.md)
-awk -v table="$table" '
-    /<!-- \/results -->/ {skip = 0}
-    !skip
-    /<!-- results -->/ {print table; skip = 1}' README.md >out/README.md
-mv out/README.md README.md
+put() { # put NAME FILE TEXT: between <!-- NAME --> and <!-- /NAME -->
+    TEXT=$3 awk -v name="$1" '
+        $0 == "<!-- /" name " -->" {skip = 0}
+        !skip
+        $0 == "<!-- " name " -->" {print ENVIRON["TEXT"]; skip = 1}' "$2" >out/put.md
+    mv out/put.md "$2"
+}
+put results README.md "$(awk '/^\| Implementation/ {on = 1} on && !/^\|/ {exit} on' $out/report.md)"
+
+"$program" compare -o out/lag --lag --size 256x256 --techniques reuse parallax secant
+put lag docs/lag.md "$(awk '/^## / {on = /^## Lag: /} on' out/lag/report.md | sed 's/^## Lag: /### Lag: /')"

@@ -73,9 +73,12 @@ Request request_for(const Request& base, const Rendering& rendering) {
     constexpr int kSettled = 16; // deeper bounces are below a rounding of the picture's halves
     Request request = base;
     const int last = base.warmup + base.frames;
-    const bool moves = base.animate && !rendering.is_settled;
-    if (!moves) request.time = last_time(base);
-    request.animate = moves;
+    const bool moves = (base.animate || base.clock) && !rendering.is_settled;
+    if (!moves) {
+        request.time = last_time(base);
+        request.animate = false;
+        request.clock = nullptr;
+    }
     request.frames = 1;
     request.warmup = moves ? last - 1 : rendering.is_settled ? kSettled : std::min(last - 1, kSettled);
     request.techniques = {rendering.technique};

@@ -1,6 +1,7 @@
 #include "app/compare.hpp"
 
 #include "app/causes.hpp"
+#include "app/lag.hpp"
 #include "app/oracle.hpp"
 #include "core/error.hpp"
 #include "measure/difference.hpp"
@@ -128,6 +129,7 @@ public:
             const std::vector<double> clear = engine_.clear_ms(request_.base);
             if (!clear.empty()) comparison_.clear_ms = measure::summarise(clear);
             request_.together ? run_together() : run_apart();
+            if (request_.lag) add_lag();
         } catch (const Error& error) {
             const bool stopped = error.failure == Failure::interrupted || error.failure == Failure::terminated;
             if (!stopped) throw;
@@ -245,6 +247,11 @@ private:
         if (request_.on_row) request_.on_row("all rows in one frame", 0, 1);
         const Result result = engine_.run(request_.base);
         for (std::size_t i = 0; i < result.parts.size(); ++i) add(request_.base.techniques[i], result.parts[i], result.frames);
+    }
+
+    void add_lag() {
+        comparison_.lag = measure_lag(engine_, {.base = request_.base, .reference = request_.reference, .on_row = request_.on_row});
+        comparison_.complete = comparison_.lag->complete;
     }
 
     void finish() {

@@ -12,6 +12,7 @@ struct CompareRequest {
     std::string reference = kReference;
     bool together = false; ///< all rows in one frame
     bool causes = true;    ///< split each row's error by cause; only against the default reference
+    bool lag = false;      ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row
     std::vector<std::string> command; ///< for the record
     /// Called before each row with its label, number from 0 and the count; may be empty.
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;

@@ -7,7 +7,9 @@
 #include "measure/masks.hpp"
 #include "reflect/technique.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <optional>
 
 namespace catoptric::app {
 
@@ -17,8 +19,6 @@ std::string version() { return CATOPTRIC_VERSION; }
 std::string commit() { return CATOPTRIC_COMMIT; }
 
 namespace {
-
-double time_of(const Request& request, int frame) { return request.time + (request.animate ? (frame - 1) / 60.0 : 0.0); }
 
 DeviceInfo to_info(const gpu::DeviceInfo& info) {
     return {info.name, info.driver, info.api, info.type, info.threads, info.missing};
@@ -74,6 +74,12 @@ void check_request(const Request& request) {
           request.frames, " and ", request.warmup);
 }
 
+/// Where frame k, from 1, stands in the scene's motion.
+double instant_of(const Request& request, int k) {
+    if (request.clock) return request.clock(k);
+    return request.time + (request.animate ? (k - 1) / 60.0 : 0.0);
+}
+
 void check_stopped() {
     const int signal = stop_signal.load();
     check(signal == 0, signal == 15 ? Failure::terminated : Failure::interrupted, "stopped by signal ", signal);
@@ -93,6 +99,14 @@ void count_scene_passes(const graph::Graph& graph, const graph::Plan& plan, Part
         ++part.scene_passes;
         part.scene_draws += static_cast<int>(pass.layer_count);
     }
+}
+
+bool reads_previous(const graph::Graph& graph, const graph::Plan& plan, const std::string& prefix) {
+    return std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
+        const graph::Pass& pass = graph.passes()[planned.pass];
+        return pass.name.starts_with(prefix) &&
+               std::ranges::any_of(pass.images, [](const graph::ImageUse& use) { return use.image.previous; });
+    });
 }
 
 measure::Picture to_picture(const std::vector<std::byte>& texels, uvec2 size, Format format) {
@@ -131,6 +145,7 @@ Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan
     part.label = declared.choice.label;
     part.prefix = declared.prefix;
     part.memory_bytes = plan.bytes;
+    part.remembers = reads_previous(frame.graph, plan, part.prefix);
     count_scene_passes(frame.graph, plan, part);
     const Settings& settings = declared.choice.settings;
     if (settings.has("face") && settings.is_special("face")) part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
@@ -155,9 +170,15 @@ std::vector<std::vector<measure::Picture>> render_mended(graph::Runner& runner, 
     return pictures;
 }
 
+std::vector<Part> read_parts(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const render::GpuScene& scene, uvec2 size) {
+    std::vector<Part> parts;
+    for (const Declared& part : frame.parts) parts.push_back(read_part(runner, frame, plan, part, scene, size));
+    return parts;
+}
+
 } // namespace
 
-double last_time(const Request& request) { return time_of(request, request.warmup + request.frames); }
+double last_time(const Request& request) { return instant_of(request, request.warmup + request.frames); }
 
 struct Engine::Impl {
     explicit Impl(const EngineOptions& options)
@@ -181,21 +202,25 @@ Result Engine::run(const Request& request) {
     const auto timing = request.timing == Timing::isolated ? graph::Timing::isolated : graph::Timing::pipelined;
     const int total = request.warmup + request.frames;
     Result result;
+    std::optional<double> shown;
     for (int k = 1; k <= total; ++k) {
         check_stopped();
-        if (k == 1 || request.animate) {
-            scene.update(scene::at(request.scene, time_of(request, k)), request.camera, request.size, request.ambient);
+        if (const double instant = instant_of(request, k); shown != instant) {
+            scene.update(scene::at(request.scene, instant), request.camera, request.size, request.ambient);
+            shown = instant;
         }
         auto mended = k == total ? render_mended(runner, request, choices, scene) : std::vector<std::vector<measure::Picture>>();
         const FrameGraph frame = declare(request, choices, scene, runner.history());
         const graph::Plan plan = runner.plan(frame.graph);
         const graph::FrameTimes times = runner.run(frame.graph, plan, timing);
         if (k > request.warmup) result.frames.push_back(to_frame(times));
-        for (std::size_t i = 0; k == total && i < frame.parts.size(); ++i) {
-            result.parts.push_back(read_part(runner, frame, plan, frame.parts[i], scene, request.size));
-            result.parts.back().mended = std::move(mended[i]);
-        }
+        const ReadParts read = [&] { return read_parts(runner, frame, plan, scene, request.size); };
+        const bool enough = request.watch && !request.watch(k, read);
+        const bool last = enough || k == total;
+        if (last) result.parts = read();
+        for (std::size_t i = 0; i < mended.size(); ++i) result.parts[i].mended = std::move(mended[i]);
         if (request.progress) request.progress(k, total);
+        if (last) break;
     }
     return result;
 }

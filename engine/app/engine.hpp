@@ -28,6 +28,10 @@ struct EngineOptions {
     std::map<std::string, std::string> shader_variants = {};
 };
 
+struct Part;
+/// Reads back what the techniques made in the frame that has just been rendered.
+using ReadParts = std::function<std::vector<Part>()>;
+
 /// What to render and for how long.
 struct Request {
     scene::Scene scene; ///< at rest
@@ -40,6 +44,8 @@ struct Request {
     int warmup = 8;  ///< before them; frames count from 1 at cold history, these included
     double time = 0; ///< seconds into the scene's motion
     bool animate = false; ///< frame k at time + (k-1)/60 s; otherwise all at `time`
+    /// Seconds into the scene's motion of frame k, in place of `time` and `animate`; may be empty.
+    std::function<double(int)> clock;
     double ambient = 0.05;
     double exposure = 0; ///< stops
     std::uint64_t seed = 1; ///< of sample patterns that are not a regular grid
@@ -50,6 +56,9 @@ struct Request {
     bool with_lookup = false; ///< also say where mirrors looked (Part::lookup); costs time
     /// Called after each frame with its number and the total; may be empty.
     std::function<void(int, int)> progress;
+    /// Called after each frame with its number; false makes it the last one. No measured time holds
+    /// what this or reading back takes. May be empty.
+    std::function<bool(int, const ReadParts&)> watch;
 };
 
 /// Seconds into the scene's motion at the last frame.
@@ -86,6 +95,7 @@ struct Part {
     std::string prefix;  ///< of its passes' names; empty when it was alone
     int scene_passes = 0;
     int scene_draws = 0; ///< scene passes times the layers that each renders
+    bool remembers = false; ///< a pass of it reads what the frame before left
     std::uint64_t memory_bytes = 0; ///< of the whole frame's images
     measure::Picture hdr;     ///< linear radiance
     measure::Picture display; ///< what the screen shows: multiples of 1/255
@@ -98,8 +108,8 @@ struct Part {
 };
 
 struct Result {
-    std::vector<Part> parts;   ///< one per technique
-    std::vector<Frame> frames; ///< the measured ones
+    std::vector<Part> parts;   ///< one per technique, of the last frame
+    std::vector<Frame> frames; ///< the measured ones; fewer than asked for where `watch` ended the run
 };
 
 /// How the compiled plan of a request's frame is written.

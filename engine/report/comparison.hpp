@@ -5,6 +5,7 @@
 #include "measure/picture.hpp"
 #include "measure/statistics.hpp"
 #include "report/causes.hpp"
+#include "report/lag.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -103,6 +104,7 @@ struct Comparison {
     std::optional<measure::Summary> clear_ms;
     std::vector<Row> rows;
     std::vector<std::size_t> pareto; ///< rows on the front of gpu_ms.median against error.flip
+    std::optional<Lag> lag; ///< of the rows that remember, when it was asked for
     std::vector<std::string> warnings;
 };
 

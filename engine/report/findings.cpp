@@ -1,5 +1,6 @@
 #include "report/findings.hpp"
 
+#include "report/lag_tables.hpp"
 #include "report/rows.hpp"
 #include "report/seed_table.hpp"
 #include "report/text.hpp"
@@ -149,7 +150,8 @@ Sentence ray_tracing(const Comparison& comparison) {
 std::vector<std::string> findings(const Comparison& comparison) {
     std::vector<std::string> list;
     for (const auto finding :
-         {clears, inter_reflections, stored_distance, price_of_correction, ray_tracing})
+         {clears, inter_reflections, stored_distance, price_of_correction, ray_tracing,
+                               lag_in_words})
         if (const Sentence sentence = finding(comparison)) list.push_back(*sentence);
     return list;
 }

@@ -2,6 +2,7 @@
 #include "measure/heat.hpp"
 #include "report/findings.hpp"
 #include "report/html_text.hpp"
+#include "report/lag_tables.hpp"
 #include "report/plot.hpp"
 #include "report/report.hpp"
 #include "report/rows.hpp"
@@ -208,7 +209,9 @@ std::string to_html(const Comparison& comparison) {
     html += to_html(rows_table(comparison), "all", true) +
             to_html(mirror_table(comparison), "mirrors", true) +
             to_html(lookup_table(comparison), "lookups", true) +
-            to_html(cause_table(comparison), "causes", false) + pictures(comparison) +
+            to_html(cause_table(comparison), "causes", false) + lag_plots(comparison) +
+            to_html(lag_table(comparison), "lag", false) +
+            to_html(settling_table(comparison), "lag", false) + pictures(comparison) +
             circumstances(comparison);
     return html + "</main></body></html>\n";
 }

@@ -59,6 +59,11 @@ tr.front > *, tr.front > :first-child { background: var(--tint); }
 .seed th:nth-child(6), .seed td:nth-child(6) { border-left: 2px solid var(--line); }
 .plot { margin: 0; }
 .plot svg { display: block; width: 100%; min-width: 40rem; height: auto; }
+.panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr));
+  gap: 1.25rem; }
+.panels figure { background: var(--card); border: 1px solid var(--line); border-radius: .5rem;
+  padding: .8rem; min-width: 0; }
+.panels svg { display: block; width: 100%; height: auto; }
 svg text { font: 11px system-ui, sans-serif; fill: var(--soft);
   font-variant-numeric: tabular-nums; }
 svg .label { fill: var(--ink); stroke: var(--card); stroke-width: 3; stroke-linejoin: round;
@@ -66,6 +71,7 @@ svg .label { fill: var(--ink); stroke: var(--card); stroke-width: 3; stroke-line
 svg .grid { stroke: var(--line); }
 svg .lane { fill: var(--tint); }
 svg .step { fill: none; stroke: var(--accent); stroke-width: 1.5; stroke-dasharray: 5 4; }
+svg .line { fill: none; stroke: var(--accent); stroke-width: 1.5; stroke-linejoin: round; }
 svg .mark { fill: var(--card); stroke: var(--other); stroke-width: 1.5; }
 svg .mark.front { fill: var(--accent); stroke: var(--accent); }
 figure { margin: 0; }

@@ -1,18 +1,12 @@
-// report.json. The only file that knows the JSON library; fields are only ever added.
+// report.json. Only the files json*.cpp know the JSON library; fields are only ever added.
+#include "report/json.hpp"
 #include "report/report.hpp"
 #include "report/rows.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 
 namespace catoptric::report {
 
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// Whole numbers without a fraction, null for what JSON has no number for.
 Json number(double value) {
     if (!std::isfinite(value)) return nullptr;
     constexpr double kExact = 9007199254740992; // 2^53
@@ -20,6 +14,8 @@ Json number(double value) {
         return static_cast<std::int64_t>(value);
     return value;
 }
+
+namespace {
 
 template <typename Value>
 Json number_or_null(const std::optional<Value>& value) {
@@ -212,6 +208,7 @@ std::string to_json(const Comparison& comparison) {
     for (const Row& row : comparison.rows)
         json["rows"].push_back(to_json(row));
     json["pareto"] = comparison.pareto;
+    if (comparison.lag) json["lag"] = to_json(*comparison.lag);
     // Names from files may be any bytes; JSON is UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

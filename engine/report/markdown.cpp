@@ -1,4 +1,5 @@
 #include "report/findings.hpp"
+#include "report/lag_tables.hpp"
 #include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
@@ -83,7 +84,8 @@ std::string to_markdown(const Comparison& comparison) {
         text += "> " + escaped(caution) + "\n>\n";
     text += "\n" + to_text(seed_table(comparison)) + to_text(rows_table(comparison)) +
             to_text(mirror_table(comparison)) + to_text(lookup_table(comparison)) +
-            to_text(cause_table(comparison));
+            to_text(cause_table(comparison)) + to_text(lag_table(comparison)) +
+            to_text(settling_table(comparison));
     text += "## The Pareto front: time against FLIP\n\n" + list_of(front_in_words(comparison));
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty()) text += "## What this says of the seed report\n\n" + list_of(sentences);

@@ -2,6 +2,7 @@
 
 #include "report/html_text.hpp"
 #include "report/rows.hpp"
+#include "report/svg.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
@@ -11,29 +12,12 @@
 
 namespace catoptric::report {
 
+using svg::grid_line, svg::kLetter, svg::kLine, svg::Scale, svg::text, svg::ticks;
+
 namespace {
 
 constexpr double kWidth = 860, kHeight = 470;
 constexpr double kLeft = 64, kRight = 836, kTop = 16, kLane = 380, kBottom = 424; // lane: error 0
-constexpr double kLetter = 6.6, kLine = 13; // of an 11 px label, about
-
-/// From the logarithm of a value to pixels.
-struct Scale {
-    double low, high; ///< logarithms to base 10
-    double from, to;  ///< pixels
-    double operator()(double value) const {
-        return from + (std::log10(value) - low) / (high - low) * (to - from);
-    }
-};
-
-/// Room for all values with some air; one decade around a single one.
-Scale scale_for(const std::vector<double>& values, double from, double to) {
-    if (values.empty()) return {-3, 0, from, to};
-    const auto [least, most] = std::ranges::minmax(values);
-    const double low = std::log10(least), high = std::log10(most);
-    const double air = high - low < 0.5 ? 0.5 - (high - low) / 2 : 0.08 * (high - low);
-    return {low - air, high + air, from, to};
-}
 
 struct Point {
     double x, y;
@@ -50,28 +34,6 @@ struct Box {
 
 bool can_be_placed(const Row& row) {
     return row.gpu_ms.median > 0 && std::isfinite(row.error.flip);
-}
-
-/// 1, 2 and 5 times powers of ten inside the scale.
-std::vector<double> ticks(const Scale& scale) {
-    std::vector<double> values;
-    for (int decade = static_cast<int>(std::floor(scale.low)); decade <= scale.high; ++decade)
-        for (const double step : {1.0, 2.0, 5.0}) {
-            const double value = step * std::pow(10.0, decade);
-            const double place = std::log10(value);
-            if (place >= scale.low && place <= scale.high) values.push_back(value);
-        }
-    return values;
-}
-
-std::string grid_line(double x0, double y0, double x1, double y1) {
-    return fmt::format(R"(<line class="grid" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
-                       x0, y0, x1, y1);
-}
-
-std::string text(double x, double y, const char* anchor, std::string_view content) {
-    return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor,
-                       content);
 }
 
 std::string axes(const Scale& x, const Scale& y, bool has_errors) {
@@ -159,8 +121,8 @@ std::string plot(const Comparison& comparison) {
         if (row.error.flip > 0) errors.push_back(row.error.flip);
     }
     if (times.empty()) return "";
-    const Scale x = scale_for(times, kLeft, kRight);
-    const Scale y = scale_for(errors, kLane - 8, kTop);
+    const Scale x = svg::log_scale(times, kLeft, kRight);
+    const Scale y = svg::log_scale(errors, kLane - 8, kTop);
     std::vector<Point> points;
     for (const Row& row : comparison.rows)
         if (can_be_placed(row))

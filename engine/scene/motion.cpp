@@ -53,7 +53,21 @@ dvec3 offset_at(const Keyframes& keys, double seconds) {
     return dvec3(0);
 }
 
+double period_of(const std::monostate&) { return 0; }
+double period_of(const Harmonic& motion) { return motion.period; }
+double period_of(const Keyframes& keys) {
+    return keys.times.empty() ? 0 : std::max(keys.times.back(), 0.0);
+}
+
 } // namespace
+
+double period(const Scene& scene) {
+    double longest = 0;
+    for (const Object& object : scene.objects)
+        longest = std::max(longest, std::visit([](const auto& motion) { return period_of(motion); },
+                                               object.motion));
+    return longest;
+}
 
 Scene at(const Scene& scene, double seconds) {
     check(std::isfinite(seconds), Failure::usage, "time: wanted a finite number of seconds, found ",

@@ -94,6 +94,8 @@ Scene at(const Scene& scene, double seconds);
 
 /// True when some object moves.
 bool is_animated(const Scene& scene);
+/// The longest period of all motions, seconds; 0 when nothing moves.
+double period(const Scene& scene);
 
 /// Indices into Scene::objects of the mirrors, in file order; mirror n (from 1) is entry n-1.
 std::vector<std::size_t> mirrors(const Scene& scene);

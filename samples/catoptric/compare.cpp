@@ -20,6 +20,7 @@ constexpr const char* kExamples = R"(Examples:
   catoptric compare -o out
   catoptric compare scene.glb -o out --size 256x256 --techniques reuse parallax:face=512
   catoptric compare -o out --together --json > report.json
+  catoptric compare -o out --lag --size 256x256 --techniques reuse parallax secant
 
 SCENE comes before --techniques. DIR gets report.html, report.md, report.json, rows.csv and images/.)";
 
@@ -29,6 +30,7 @@ struct Options {
     std::vector<std::string> techniques;
     bool together = false;
     bool no_causes = false;
+    bool lag = false;
     std::vector<std::string> command;
 };
 
@@ -52,6 +54,7 @@ app::CompareRequest make_compare_request(const Options& options) {
     request.reference = options.common.reference;
     request.together = options.together;
     request.causes = !options.no_causes;
+    request.lag = options.lag;
     request.command = options.command;
     return request;
 }
@@ -77,8 +80,9 @@ void show(const Options& options, const report::Comparison& comparison) {
 int exit_code(const report::Comparison& comparison, std::size_t row_count) {
     if (!comparison.complete)
         fail(app::stop_signal == SIGTERM ? Failure::terminated : Failure::interrupted,
-             "stopped after ", comparison.rows.size(), " of ", row_count,
-             " rows; what there is has been written");
+             "stopped after ", comparison.rows.size(), " of ", row_count, " rows",
+             comparison.lag ? ", while their lag was measured" : "",
+             "; what there is has been written");
     const std::vector<std::string> broken = broken_rows(comparison);
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
@@ -130,6 +134,9 @@ void add_compare(CLI::App& program, Run& chosen, std::vector<std::string> comman
                    "all rows in one command buffer, on one timeline");
     verb->add_flag("--no-causes", options->no_causes,
                    "leave out the split of each row's error by cause");
+    verb->add_flag("--lag", options->lag,
+                   "also how far the rows that read last frame's captures are behind a moving "
+                   "scene: about 2300 frames a row");
     add_common(*verb, options->common);
     verb->callback([verb, options, &chosen] {
         refuse_extras(*verb);

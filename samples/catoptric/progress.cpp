@@ -44,6 +44,7 @@ Progress::~Progress() {
 }
 
 void Progress::row(const std::string& label, std::size_t index, std::size_t count) {
+    if (index == 0) start_ = Clock::now(); // of a list of its own
     label_ = label;
     index_ = index;
     count_ = std::max<std::size_t>(count, 1);

@@ -120,6 +120,22 @@ TEST_F(Cli, InterruptedBeforeTheFirstRow) {
     EXPECT_EQ(document["rows"].size(), 0U);
 }
 
+TEST_F(Cli, InterruptedLagKeepsTheRows) {
+    test::Start process = start({"compare", "-o", "out", "--lag", "--size", "32x32", "--frames",
+                                 "1", "--warmup", "1", "--progress", "always", "--techniques",
+                                 "raytrace", "reuse:face=16"});
+    process.signal = SIGINT;
+    process.signal_at = "lag of reuse";
+    const test::Ended ended = test::run_process(process);
+    EXPECT_EQ(ended.exit_code, 130) << ended.err;
+    EXPECT_THAT(ended.err, testing::HasSubstr("2 of 2 rows, while their lag was measured"));
+    const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
+    EXPECT_EQ(document["complete"], false);
+    EXPECT_EQ(document["rows"].size(), 2U);
+    EXPECT_EQ(document["lag"]["complete"], false);
+    EXPECT_EQ(document["lag"]["without_history"], nlohmann::json::array({"raytrace"}));
+}
+
 TEST_F(Cli, InterruptedRenderLeavesNoPicture) {
     write("x.png", "old");
     test::Start process = start({"render", "-o", "x.png", "--size", "32x32", "--frames", "100000",

@@ -196,6 +196,48 @@ TEST_F(Cli, CompareJsonIsTheReport) {
     EXPECT_EQ(json::parse(ended.out), json::parse(read("out/report.json")));
 }
 
+/// Two facing mirrors and a lamp, standing still: an instant and a few frames a speed.
+constexpr const char* kTwoMirrors = R"(mtllib two.mtl
+v -1 0 -1
+v 1 0 -1
+v 0 2 -1
+v -1 0 1
+v 1 0 1
+v 0 2 1
+v -1 3 -1
+v 1 3 -1
+v 0 3 1
+o one
+usemtl mirror
+f 1 2 3
+o two
+usemtl mirror
+f 6 5 4
+o lamp
+usemtl lamp
+f 7 8 9
+)";
+
+TEST_F(Cli, CompareSaysTheLagWhenAsked) {
+    write("two.obj", kTwoMirrors);
+    write("two.mtl", "newmtl mirror\nillum 3\nKs 1 1 1\nnewmtl lamp\nKe 5 5 5\n");
+    Words words = quick({"compare", "two.obj", "-o", "out", "--lag", "--json", "--techniques",
+                         "reuse:face=16", "raytrace"});
+    const test::Ended ended = cli(words);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const json lag = json::parse(ended.out)["lag"];
+    EXPECT_EQ(lag["without_history"], json::array({"raytrace"}));
+    ASSERT_EQ(lag["rows"].size(), 1U);
+    EXPECT_EQ(lag["rows"][0]["label"], "reuse:face=16");
+    ASSERT_EQ(lag["rows"][0]["speeds"].size(), 6U);
+    for (const json& speed : lag["rows"][0]["speeds"])
+        EXPECT_EQ(speed["rmse"], json::array({0})) << speed;
+    EXPECT_THAT(read("out/report.md"), testing::HasSubstr("## Lag: frames after a cut"));
+    EXPECT_THAT(read("out/report.html"), testing::HasSubstr("<h2>Lag</h2>"));
+    std::erase(words, "--lag");
+    EXPECT_FALSE(json::parse(cli(words).out).contains("lag"));
+}
+
 TEST_F(Cli, WatchedByTheValidationLayer) {
     const test::Ended ended =
         cli(quick({"compare", "-o", "out", "--validate", "--techniques", "parallax", "raytrace"}));

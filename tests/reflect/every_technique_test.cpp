@@ -125,6 +125,14 @@ TEST_P(EveryTechnique, MakesTheSameBytesTwice) {
     }
 }
 
+/// Where it does not, its first frame is as good as any; where it does, mirrors in mirrors start black.
+TEST_P(EveryTechnique, ShowsMoreInASecondFrameIfAndOnlyIfItRemembers) {
+    const std::string text = small({{"continue", "0"}});
+    const app::Part first = test::render(test::room(3, 1), text, kSize), second = test::render(test::room(3, 1), text, kSize, 2);
+    EXPECT_EQ(first.remembers, second.remembers);
+    EXPECT_EQ(test::same_bytes(first.hdr, second.hdr), !first.remembers);
+}
+
 TEST_P(EveryTechnique, HasOneTimeForEachPassAndNoneBesides) {
     app::Request request = test::request(test::room(2, 2), {small()}, kSize);
     request.frames = 3;

@@ -169,6 +169,16 @@ TEST(Motion, BallFourGoesUpAndDown) {
     EXPECT_EQ(object_named(at(scene, 2), "ball4").sphere->centre, dvec3(500, 180, 210));
 }
 
+TEST(Motion, PeriodIsTheLongest) {
+    Scene scene = cornell_mirrors();
+    EXPECT_EQ(period(scene), 4);
+    scene.objects[0].motion = Keyframes{.times = {1, 5.5}, .values = {{0, 0, 0}, {1, 0, 0}}};
+    EXPECT_EQ(period(scene), 5.5);
+    scene.objects[1].motion = Keyframes{};
+    EXPECT_EQ(period(scene), 5.5);
+    EXPECT_EQ(period(at(scene, 1)), 0) << "nothing moves any more";
+}
+
 dvec3 moved(const Keyframes& keys, double seconds) {
     Scene scene = glowing(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}));
     scene.objects[0].motion = keys;

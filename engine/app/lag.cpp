@@ -1,0 +1,279 @@
+#include "app/lag.hpp"
+
+#include "core/error.hpp"
+#include "measure/difference.hpp"
+#include "measure/masks.hpp"
+#include "measure/settling.hpp"
+#include "measure/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+namespace catoptric::app {
+
+namespace {
+
+constexpr int kFrameCap = 30;        // of a still, and of each side of a cut
+constexpr int kWarmup = 16;          // frames along the path before the first that counts
+constexpr double kLongestPath = 10;  // seconds: a long animation is cut, or a run would take hours
+constexpr double kFramesASecond = 60;
+
+/// Instants along the scene's motion that frames of every speed meet.
+struct Path {
+    double start = 0;   ///< seconds
+    double step = 0;    ///< seconds from one instant to the next
+    double fastest = 1; ///< speed
+    int stride = 1;     ///< its frames in a step
+    int count = 1;      ///< of instants
+
+    double length() const { return step * count; }
+    double instant(int i) const { return start + step * i; }
+    /// Frames of a speed in a step.
+    int frames(double speed) const { return stride * static_cast<int>(fastest / speed); }
+    /// Where frame f, from 0 at the start, of a speed stands: exactly on an instant at every frames()-th.
+    double seconds(double speed, int f) const { return start + step * (static_cast<double>(f) / frames(speed)); }
+};
+
+void check_speeds(const std::vector<double>& speeds) {
+    check(!speeds.empty(), Failure::usage, "lag: wanted at least one speed, found none");
+    const double fastest = std::ranges::max(speeds);
+    for (const double speed : speeds) {
+        const double ratio = fastest / speed;
+        check(speed > 0 && std::isfinite(ratio) && ratio == std::trunc(ratio), Failure::usage,
+              "lag: wanted positive speeds that go a whole number of times into the fastest, ", fastest, ", found ", speed);
+    }
+}
+
+/// As many instants as the fastest speed has frames, or as are allowed. One if nothing moves.
+Path path_of(const LagRequest& request) {
+    check_speeds(request.speeds);
+    check(request.most_instants > 0, Failure::usage, "lag: wanted at least one instant, found ", request.most_instants);
+    Path path{.start = request.base.time, .fastest = std::ranges::max(request.speeds)};
+    const double frame = path.fastest / kFramesASecond;
+    const double frames = std::min(scene::period(request.base.scene), kLongestPath) / frame;
+    path.stride = std::max(1, static_cast<int>(std::ceil(frames / request.most_instants)));
+    path.count = std::max(1, static_cast<int>(std::lround(frames / path.stride)));
+    path.step = frames > 0 ? path.stride * frame : 0;
+    return path;
+}
+
+using Pixels = std::vector<std::size_t>; // row-major
+
+Pixels mirror_pixels(const std::vector<std::uint32_t>& hits) {
+    Pixels pixels;
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        if (measure::first_mirror(hits[i]) != 0) pixels.push_back(i);
+    return pixels;
+}
+
+/// The pixels in one row: what is kept of a picture, since there are many.
+measure::Picture cut_out(const measure::Picture& picture, const Pixels& pixels) {
+    measure::Picture row(static_cast<int>(pixels.size()), 1);
+    for (std::size_t i = 0; i < pixels.size(); ++i) row.pixels[i] = picture.pixels[pixels[i]];
+    return row;
+}
+
+measure::Difference apart(const measure::Picture& a, const measure::Picture& b) {
+    return measure::difference(a, b, {}, std::vector<float>(a.pixels.size(), 0.0f));
+}
+
+bool same_bytes(const measure::Picture& a, const measure::Picture& b) {
+    return a.pixels.size() == b.pixels.size() && std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
+}
+
+// Over the instants at which a mirror is in view; NaN when it is at none.
+
+std::vector<double> judged(std::vector<double> errors) {
+    std::erase_if(errors, [](double error) { return std::isnan(error); });
+    return errors;
+}
+
+double mean_of(const std::vector<double>& errors) {
+    const std::vector<double> those = judged(errors);
+    return std::accumulate(those.begin(), those.end(), 0.0) / static_cast<double>(those.size());
+}
+
+double percentile_of(const std::vector<double>& errors, double share) {
+    const std::vector<double> those = judged(errors);
+    return those.empty() ? measure::Difference::kNone : measure::percentile(those, share);
+}
+
+/// A technique's picture of an instant once nothing changes any more.
+struct Still {
+    Part part;
+    int frames = 0;     ///< that it took
+    bool rests = false; ///< false: it still changed at the cap
+};
+
+class LagMeter {
+public:
+    LagMeter(Engine& engine, const LagRequest& request)
+        : engine_(engine), request_(request), path_(path_of(request)), mirrors_(static_cast<int>(scene::mirrors(request.base.scene).size())) {
+        check(!request_.base.techniques.empty(), Failure::usage, "lag: no technique was asked for");
+        for (const std::string& text : request_.base.techniques) parse_technique(text); // refused before any work
+    }
+
+    report::Lag run() {
+        for (int i = 0; i < path_.count; ++i) lag_.seconds.push_back(path_.instant(i));
+        lag_.path = path_.length();
+        lag_.jump_from = path_.start + path_.length() / 2;
+        lag_.frame_cap = kFrameCap;
+        try {
+            begin("reference " + request_.reference, 0, path_.count * kFrameCap);
+            for (int i = 0; i < path_.count; ++i) add_instant(path_.instant(i));
+            for (std::size_t i = 0; i < request_.base.techniques.size(); ++i) add_technique(i);
+        } catch (const Error& error) {
+            const bool stopped = error.failure == Failure::interrupted || error.failure == Failure::terminated;
+            if (!stopped) throw;
+            lag_.complete = false;
+        }
+        return std::move(lag_);
+    }
+
+private:
+    /// What is seen where mirrors are.
+    struct Instant {
+        double seconds = 0;
+        Pixels pixels;              ///< that show a mirror
+        measure::Picture reference; ///< of these
+    };
+
+    void begin(const std::string& label, std::size_t index, int frames) {
+        if (request_.on_row) request_.on_row(label, index, request_.base.techniques.size() + 1);
+        frames_done_ = 0;
+        frames_expected_ = frames;
+    }
+
+    /// Runs of one row count as one for who watches the progress.
+    void run_in_row(Request request) {
+        const int first = frames_done_, most = request.frames;
+        if (request_.base.progress)
+            request.progress = [&, first](int k, int) { request_.base.progress(first + k, frames_expected_); };
+        engine_.run(request);
+        frames_done_ = first + most;
+    }
+
+    /// A run of one technique whose frames stand where `clock` says.
+    Request moving(const std::string& technique, int frames, std::function<double(int)> clock) const {
+        Request request = request_.base;
+        request.techniques = {technique};
+        request.frames = frames;
+        request.warmup = 0;
+        request.clock = std::move(clock);
+        return request;
+    }
+
+    Still still(const std::string& technique, double seconds) {
+        Still still;
+        int unchanged = 0;
+        Request request = moving(technique, kFrameCap, [=](int) { return seconds; });
+        request.watch = [&](int k, const ReadParts& read) {
+            Part part = std::move(read().front());
+            unchanged = same_bytes(part.hdr, still.part.hdr) ? unchanged + 1 : 0;
+            still.part = std::move(part);
+            still.frames = k - unchanged;
+            // What comes from one mirror to the next may be black on its way: equal for as many frames.
+            still.rests = !still.part.remembers || unchanged >= mirrors_;
+            return !still.rests;
+        };
+        run_in_row(std::move(request));
+        return still;
+    }
+
+    void add_instant(double seconds) {
+        const Part reference = still(request_.reference, seconds).part;
+        const bool traces = !reference.hits.empty();
+        const Pixels pixels = mirror_pixels(traces ? reference.hits : still("raytrace:depth=1", seconds).part.hits);
+        instants_.push_back({seconds, pixels, cut_out(reference.hdr, pixels)});
+    }
+
+    void add_technique(std::size_t index) {
+        const std::string& text = request_.base.techniques[index];
+        const std::string label = parse_technique(text).label;
+        begin("lag of " + label, index + 1, frames_of_row());
+        report::LagRow row;
+        row.label = label;
+        stills_.clear();
+        for (const Instant& instant : instants_)
+            if (!add_still(row, text, instant)) return lag_.without_history.push_back(label);
+        row.mean_still_reference_rmse = mean_of(row.still_reference_rmse);
+        row.after_black = settle(text, 0, [this](int) { return path_.start; });
+        row.after_jump = settle(text, kFrameCap, [this](int k) { return k <= kFrameCap ? lag_.jump_from : path_.start; });
+        lag_.rows.push_back(std::move(row)); // what there is, should a signal come
+        for (const double speed : request_.speeds) lag_.rows.back().speeds.push_back(at_speed(text, speed));
+    }
+
+    /// False where the technique does not remember.
+    bool add_still(report::LagRow& row, const std::string& text, const Instant& instant) {
+        const Still found = still(text, instant.seconds);
+        if (!found.part.remembers) return false;
+        stills_.push_back(cut_out(found.part.hdr, instant.pixels));
+        row.still_frames = std::max(row.still_frames, found.frames);
+        row.restless_stills += !found.rests;
+        row.still_reference_rmse.push_back(apart(stills_.back(), instant.reference).rmse);
+        return true;
+    }
+
+    /// Frames after the cut that follows frame `before`, against the still of the first instant.
+    report::Settling settle(const std::string& text, int before, std::function<double(int)> clock) {
+        report::Settling settling;
+        Request request = moving(text, before + kFrameCap, std::move(clock));
+        request.watch = [&](int k, const ReadParts& read) {
+            if (k <= before) return true;
+            const measure::Difference error = apart(cut_out(read().front().hdr, instants_.front().pixels), stills_.front());
+            settling.rmse.push_back(error.rmse);
+            settling.max.push_back(error.max);
+            return true;
+        };
+        run_in_row(std::move(request));
+        settling.rmse_settled = measure::settled_from(settling.rmse, report::kLagBound);
+        settling.max_settled = measure::settled_from(settling.max, report::kLagBound);
+        return settling;
+    }
+
+    report::LagAtSpeed at_speed(const std::string& text, double speed) {
+        report::LagAtSpeed lag{.speed = speed};
+        const int between = path_.frames(speed);
+        Request request = moving(text, frames_at(speed), [=, this](int k) { return path_.seconds(speed, k - 1 - kWarmup); });
+        request.watch = [&](int k, const ReadParts& read) {
+            const int frame = k - 1 - kWarmup;
+            if (frame < 0 || frame % between != 0) return true;
+            const auto i = static_cast<std::size_t>(frame / between);
+            const measure::Picture picture = cut_out(read().front().hdr, instants_[i].pixels);
+            lag.rmse.push_back(apart(picture, stills_[i]).rmse);
+            lag.reference_rmse.push_back(apart(picture, instants_[i].reference).rmse);
+            return true;
+        };
+        run_in_row(std::move(request));
+        lag.mean_rmse = mean_of(lag.rmse);
+        lag.median_rmse = percentile_of(lag.rmse, 0.5);
+        lag.max_rmse = percentile_of(lag.rmse, 1);
+        lag.mean_reference_rmse = mean_of(lag.reference_rmse);
+        return lag;
+    }
+
+    int frames_at(double speed) const { return kWarmup + (path_.count - 1) * path_.frames(speed) + 1; }
+    /// With every still at the cap.
+    int frames_of_row() const {
+        int frames = path_.count * kFrameCap + 3 * kFrameCap;
+        for (const double speed : request_.speeds) frames += frames_at(speed);
+        return frames;
+    }
+
+    Engine& engine_;
+    LagRequest request_;
+    Path path_;
+    int mirrors_ = 0;
+    std::vector<Instant> instants_;
+    std::vector<measure::Picture> stills_; ///< of the technique at hand, one an instant
+    report::Lag lag_;
+    int frames_done_ = 0, frames_expected_ = 0; ///< of the row at hand
+};
+
+} // namespace
+
+report::Lag measure_lag(Engine& engine, const LagRequest& request) { return LagMeter(engine, request).run(); }
+
+} // namespace catoptric::app

@@ -1,0 +1,12 @@
+#include "measure/settling.hpp"
+
+namespace catoptric::measure {
+
+std::optional<int> settled_from(std::span<const double> errors, double bound) {
+    std::size_t first = errors.size();
+    while (first > 0 && errors[first - 1] <= bound) --first;
+    if (first == errors.size()) return std::nullopt;
+    return static_cast<int>(first) + 1;
+}
+
+} // namespace catoptric::measure

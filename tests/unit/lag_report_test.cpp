@@ -1,0 +1,156 @@
+// What the report says of a lag that nobody measured.
+#include "report/line_plot.hpp"
+#include "report_sample.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+#include <regex>
+
+namespace {
+
+using catoptric::report::Comparison;
+using catoptric::report::Lag;
+using catoptric::report::LagAtSpeed;
+using catoptric::report::LagRow;
+using catoptric::report::Settling;
+using namespace catoptric::report::sample;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+LagAtSpeed at_speed(double speed, double rmse) {
+    return {speed, {0, rmse}, {0.1, 0.1 + rmse}, rmse / 2, rmse / 4, rmse, 0.1 + rmse / 2};
+}
+
+LagRow lag_row(const std::string& label) {
+    LagRow row;
+    row.label = label;
+    row.still_frames = 5;
+    row.still_reference_rmse = {0.09, 0.11};
+    row.mean_still_reference_rmse = 0.1;
+    row.after_black = {{0.2, 0.003, 0}, {0.9, 0.5, 0}, 2, 3};
+    row.after_jump = {{0.001, 0, 0}, {0.9, 0.8, 0.7}, 1, {}};
+    row.speeds = {at_speed(1, 0.002), at_speed(2, 0.004)};
+    return row;
+}
+
+Comparison with_lag() {
+    Comparison made = usual();
+    made.lag = Lag{.seconds = {0, 2},
+                   .path = 4,
+                   .jump_from = 2,
+                   .frame_cap = 3,
+                   .rows = {lag_row("reuse"), lag_row("parallax")},
+                   .without_history = {"naive", "raytrace:depth=16"}};
+    return made;
+}
+
+std::string said(const Comparison& made) {
+    return catoptric::report::to_markdown(made);
+}
+
+TEST(LagReport, IsSilentWhereNobodyAsked) {
+    EXPECT_THAT(said(usual()), Not(HasSubstr("Lag")));
+    EXPECT_THAT(catoptric::report::to_html(usual()), Not(HasSubstr("Lag")));
+    EXPECT_FALSE(json::parse(catoptric::report::to_json(usual())).contains("lag"));
+}
+
+TEST(LagReport, HasARowForEachSpeed) {
+    const std::string text = said(with_lag());
+    EXPECT_TRUE(std::regex_search(
+        text,
+        std::regex(
+            R"(\| reuse +\| +2x \| +0\.0020 \| +0\.0010 \| +0\.0040 \| +2\.00 \| +0\.1020 \| +0\.1000 \|)")))
+        << text;
+    EXPECT_TRUE(std::regex_search(text, std::regex(R"(\| parallax +\| +1x \| +0\.0010 \|)")));
+    EXPECT_THAT(text, HasSubstr("over a path of 4 s"));
+    EXPECT_THAT(text, HasSubstr("of 2 instants"));
+    EXPECT_THAT(text, Not(HasSubstr("still changed")));
+}
+
+TEST(LagReport, SaysWhereTheCapWasNotEnough) {
+    Comparison made = with_lag();
+    EXPECT_TRUE(std::regex_search(
+        said(made), std::regex(R"(\| reuse +\| +2 \| +3 \| +1 \| +over 3 \|)")))
+        << said(made);
+    made.lag->rows[1].restless_stills = 2;
+    EXPECT_THAT(said(made), HasSubstr("parallax: 2 stills still changed after 3 frames."));
+}
+
+TEST(LagReport, PutsItInWords) {
+    Comparison made = with_lag();
+    EXPECT_THAT(
+        said(made),
+        HasSubstr("reuse is behind its own still picture by an rmse of 0.0010 (median 0.0005, largest "
+                  "0.0020) at 1x, 0.0020 (median 0.0010, largest 0.0040) at 2x; after a cut from black it is within 1/255 "
+                  "from frame 2 by rmse, 3 in every pixel; after a jump of half the path from "
+                  "frame 1 by rmse, over 3 in every pixel."));
+    EXPECT_THAT(said(made), HasSubstr("have no lag: naive, raytrace:depth=16."));
+    made.lag->rows.clear();
+    EXPECT_THAT(said(made), HasSubstr("have no lag: naive, raytrace:depth=16."));
+    EXPECT_THAT(said(made), Not(HasSubstr("## Lag")));
+}
+
+TEST(LagReport, JsonHoldsEveryFigure) {
+    Comparison made = with_lag();
+    made.lag->rows[0].speeds[0].rmse[0] = kNaN;
+    const json lag = json::parse(catoptric::report::to_json(made))["lag"];
+    EXPECT_EQ(lag["complete"], true);
+    EXPECT_EQ(lag["seconds"], json({0, 2}));
+    EXPECT_EQ(lag["path_seconds"], 4);
+    EXPECT_EQ(lag["jump_from"], 2);
+    EXPECT_EQ(lag["without_history"], json::array({"naive", "raytrace:depth=16"}));
+    const json& row = lag["rows"][0];
+    EXPECT_EQ(row["label"], "reuse");
+    EXPECT_EQ(row["still_frames"], 5);
+    EXPECT_EQ(row["after_black"]["rmse_settled"], 2);
+    EXPECT_EQ(row["after_black"]["max"], json({0.9, 0.5, 0}));
+    EXPECT_TRUE(row["after_jump"]["max_settled"].is_null());
+    EXPECT_EQ(row["speeds"][1]["speed"], 2);
+    EXPECT_EQ(row["speeds"][1]["rmse"], json({0, 0.004}));
+    EXPECT_EQ(row["speeds"][1]["rmse_mean"], 0.002);
+    EXPECT_EQ(row["speeds"][1]["rmse_median"], 0.001);
+    EXPECT_DOUBLE_EQ(row["speeds"][1]["reference_rmse_mean"], 0.102);
+    EXPECT_TRUE(row["speeds"][0]["rmse"][0].is_null());
+}
+
+/// How often the pattern is in the text.
+std::ptrdiff_t count(const std::string& text, const std::string& pattern) {
+    const std::regex wanted(pattern);
+    return std::distance(std::sregex_iterator(text.begin(), text.end(), wanted),
+                         std::sregex_iterator());
+}
+
+TEST(LagReport, DrawsALineForEachSpeedAndEachRow) {
+    Comparison made = with_lag();
+    made.lag->rows[1].label = "<b>";
+    const std::string html = catoptric::report::to_html(made);
+    EXPECT_EQ(count(html, "class=\"line\""), 2 * 2 + 2 + 2); // along the path, against speed, after a jump
+    EXPECT_THAT(html, Not(HasSubstr("<b>")));
+    EXPECT_THAT(html, Not(HasSubstr("nan")));
+    EXPECT_THAT(html, HasSubstr("<h2>Lag</h2>"));
+    made.lag->rows.resize(1);
+    made.lag->rows[0].speeds.clear(); // stopped before the first
+    EXPECT_EQ(count(catoptric::report::to_html(made), "class=\"line\""), 1);
+}
+
+TEST(LinePlot, PutsZeroInItsLaneAndLeavesGapsOut) {
+    catoptric::report::LinePlot plot{.x_name = "x", .y_name = "y", .says = "both", .x = {0, 1, 2}};
+    plot.lines = {{"a", {0, 0.1, 0}}, {"b", {kNaN, 0.01, 0.1}}};
+    const std::string drawn = line_plot(plot);
+    EXPECT_TRUE(std::regex_search(
+        drawn, std::regex(R"(d="M66\.0 238\.0L203\.0 [0-9.]+L340\.0 238\.0")")))
+        << drawn;
+    EXPECT_TRUE(std::regex_search(drawn, std::regex(R"(d="M203\.0 [0-9.]+L340\.0 [0-9.]+")")));
+    plot.lines = {{"a", {kNaN}}};
+    EXPECT_EQ(line_plot(plot), "");
+    plot.x = {1, 10, 100}, plot.log_x = true;
+    plot.lines = {{"a", {0.1, 0.1, 0.1}}};
+    EXPECT_TRUE(std::regex_search(line_plot(plot), std::regex(R"(d="M66\.0 .*L203\.0 .*L340\.0)")));
+}
+
+} // namespace
