@@ -80,7 +80,7 @@ TEST(Hybrid, TracesThePixelsThatTheSearchCallsUnknown) {
 TEST(Hybrid, ChangesOnlyWhatItTraces) {
     constexpr uvec2 kOdd{201, 177};
     const scene::Scene scene = scene::cornell_mirrors();
-    const measure::Picture searched = test::render(scene, "pyramid:face=64", kOdd).hdr;
+    const measure::Picture searched = test::render(scene, "pyramid:face=64,captures=all", kOdd).hdr;
     const measure::Picture traced = test::render(scene, "raytrace:depth=16", kOdd).hdr;
     const app::Part part = hybrid(scene, "hybrid:face=64", kOdd);
     ASSERT_GT(part.rays->primary, 64u) << "more than one work group";
