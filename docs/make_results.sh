@@ -8,6 +8,7 @@ mkdir -p out docs/images
 
 rows=(naive:bounces=0 naive:bounces=1 naive:bounces=2 naive:bounces=3 naive:bounces=4 reuse parallax
     proxy secant:continue=0 secant march pyramid layered hybrid
+    pyramid:lookup=object pyramid:captures=all pyramid:mirrors=left_out
     parallax:distance=unorm8,range=200 parallax:distance=unorm8,range=1000 parallax:distance=r16f parallax:face=512
     raytrace:depth=0 raytrace:depth=1 raytrace:depth=2 raytrace:depth=3 raytrace:depth=4 raytrace:depth=8
     raytrace:sphere=exact)
