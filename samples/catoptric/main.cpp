@@ -68,6 +68,7 @@ int run(int argc, char** argv) {
     Run chosen;
     add_compare(program, chosen, {argv, argv + argc});
     add_render(program, chosen);
+    add_stress(program, chosen, {argv, argv + argc});
     add_diff(program, chosen);
     add_graph(program, chosen);
     add_list(program, chosen);

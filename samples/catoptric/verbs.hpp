@@ -13,6 +13,7 @@ using Run = std::function<int()>;
 
 /// `command`: the whole command line, for the record.
 void add_compare(CLI::App& program, Run& run, std::vector<std::string> command);
+void add_stress(CLI::App& program, Run& run, std::vector<std::string> command);
 void add_render(CLI::App& program, Run& run);
 void add_diff(CLI::App& program, Run& run);
 void add_graph(CLI::App& program, Run& run);

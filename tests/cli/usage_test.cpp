@@ -12,7 +12,7 @@ TEST_F(Cli, WithoutArgumentsShowsHelp) {
 
 TEST_F(Cli, HelpOfEveryVerbHasExamples) {
     EXPECT_EQ(cli({"--help"}).exit_code, 0);
-    for (const std::string verb : {"compare", "render", "diff", "graph", "list", "info"}) {
+    for (const std::string verb : {"compare", "stress", "render", "diff", "graph", "list", "info"}) {
         const test::Ended ended = cli({verb, "--help"});
         EXPECT_EQ(ended.exit_code, 0) << verb;
         EXPECT_EQ(ended.err, "");

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "measure/picture.hpp"
+#include "report/comparison.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// What `stress` found: one row for each property of rendering at the extremes.
+namespace catoptric::report {
+
+enum class Verdict { pass, fail, quality_warning, unsupported, waived };
+std::string name_of(Verdict verdict);
+
+/// One figure of a property; holds when `measured` is a number and at most `limit`.
+struct StressCase {
+    std::string what;
+    double measured = 0;
+    double limit = 0;
+    bool is_quality = false; ///< beyond its limit it looks worse but is not wrong
+    bool holds() const { return measured <= limit; }
+};
+
+struct StressPicture {
+    std::string name;         ///< fit for a file
+    measure::Picture display; ///< as shown
+};
+
+struct StressRow {
+    std::string id, stimulus, property;
+    Verdict verdict = Verdict::pass;
+    std::string remark; ///< why not, where it was not judged; else what is not covered, or empty
+    std::vector<StressCase> cases;
+    std::vector<StressPicture> pictures; ///< of cases that do not hold
+    double seconds = 0;
+    /// The case nearest to or furthest beyond its limit; null when there is none.
+    const StressCase* worst() const;
+};
+
+struct Stress {
+    std::string version, commit;
+    std::vector<std::string> command;
+    bool complete = true; ///< false: interrupted, rows so far
+    DeviceFacts device;
+    int width = 0, height = 0;
+    std::uint64_t seed = 1;
+    std::vector<StressRow> rows;
+    bool failed() const; ///< some row did
+};
+
+/// Schema "catoptric/stress/1".
+std::string to_json(const Stress& stress);
+/// One self-contained page.
+std::string to_html(const Stress& stress);
+/// stress.json, stress.html and images/ID-*.png in `folder`, made as for a comparison. Throws `cannot_create`, `io`.
+void write(const Stress& stress, const std::filesystem::path& folder);
+
+} // namespace catoptric::report

@@ -1,0 +1,69 @@
+#include "stress/bench.hpp"
+
+#include "measure/flip.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace catoptric::stress {
+
+namespace {
+
+/// Letters, digits and single hyphens.
+std::string as_file_name(const std::string& text) {
+    std::string name;
+    for (const char c : text)
+        if (std::isalnum(static_cast<unsigned char>(c)))
+            name += c;
+        else if (!name.empty() && name.back() != '-')
+            name += '-';
+    return name;
+}
+
+} // namespace
+
+app::Request Bench::asked(const scene::Scene& scene, const std::string& technique, int frames) const {
+    app::Request request;
+    request.scene = scene;
+    request.techniques = {technique};
+    request.camera = scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front();
+    request.size = size_;
+    request.frames = 1;
+    request.warmup = frames - 1;
+    return request;
+}
+
+app::Part Bench::render(const app::Request& request) { return std::move(engine_.run(request).parts.front()); }
+
+void Bench::add_flip(const std::string& what, const app::Part& found, const app::Part& wanted, double limit) {
+    const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
+    add(what, nonfinite(found.hdr) > 0 ? std::nan("") : flip, limit);
+    if (row_.cases.back().holds()) return;
+    const std::string name = row_.id + "-" + as_file_name(what);
+    row_.pictures.push_back({name + "-found", found.display});
+    row_.pictures.push_back({name + "-wanted", wanted.display});
+}
+
+void Bench::add_nonfinite(const std::string& what, const app::Part& part) {
+    add(what + ": pixels that are no numbers", static_cast<double>(nonfinite(part.hdr)), 0);
+}
+
+void Bench::add_refused(const std::string& what, Failure failure, const std::function<void()>& work) {
+    bool refused = false;
+    try {
+        work();
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        refused = error.failure == failure && std::ranges::any_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+    }
+    add(what + ": not refused with numbers", refused ? 0 : 1, 0);
+}
+
+std::size_t nonfinite(const measure::Picture& picture) {
+    return static_cast<std::size_t>(std::ranges::count_if(picture.pixels, [](const vec3& pixel) {
+        return !(std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z));
+    }));
+}
+
+} // namespace catoptric::stress

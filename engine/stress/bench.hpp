@@ -1,0 +1,48 @@
+#pragma once
+
+#include "app/engine.hpp"
+#include "core/error.hpp"
+#include "report/stress.hpp"
+
+#include <random>
+
+namespace catoptric::stress {
+
+/// What a property judges with: pictures of scenes, and the row that its figures go to.
+class Bench {
+public:
+    Bench(app::Engine& engine, uvec2 size, std::uint64_t seed, report::StressRow& row) : engine_(engine), size_(size), random_(seed), row_(row) {}
+
+    /// Seen by the scene's first camera; the picture after `frames` frames at rest. Fields of `request` that a
+    /// property needs otherwise are set by it: `asked` is this bench's default for it.
+    app::Request asked(const scene::Scene& scene, const std::string& technique, int frames = 4) const;
+    app::Part render(const app::Request& request);
+    app::Part render(const scene::Scene& scene, const std::string& technique, int frames = 4) { return render(asked(scene, technique, frames)); }
+
+    /// A figure and its limit.
+    void add(std::string what, double measured, double limit) { row_.cases.push_back({std::move(what), measured, limit, false}); }
+    /// The same where more looks worse but is not wrong.
+    void add_quality(std::string what, double measured, double limit) { row_.cases.push_back({std::move(what), measured, limit, true}); }
+    /// Mean FLIP of two pictures; both are kept where it is above the limit.
+    void add_flip(const std::string& what, const app::Part& found, const app::Part& wanted, double limit);
+    /// Pixels that are no numbers; limit 0.
+    void add_nonfinite(const std::string& what, const app::Part& part);
+    /// That `work` ends in an error of this kind whose text has a number in it; limit 0.
+    void add_refused(const std::string& what, Failure failure, const std::function<void()>& work);
+
+    app::Engine& engine() { return engine_; }
+    uvec2 size() const { return size_; }
+    /// In [low, high).
+    double random(double low, double high) { return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53; }
+
+private:
+    app::Engine& engine_;
+    uvec2 size_;
+    std::mt19937_64 random_;
+    report::StressRow& row_;
+};
+
+/// Pixels with a NaN or infinity.
+std::size_t nonfinite(const measure::Picture& picture);
+
+} // namespace catoptric::stress

@@ -1,0 +1,154 @@
+// Mirrors where they touch, vanish, or are very many.
+#include "stress/property.hpp"
+#include "stress/scenes.hpp"
+
+#include "core/error.hpp"
+#include "measure/difference.hpp"
+#include "measure/flip.hpp"
+#include "measure/masks.hpp"
+#include "measure/statistics.hpp"
+#include "scene/load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::stress {
+
+namespace {
+
+/// Of a furnace: pixels darker than it, and how much brighter than it the brightest is.
+struct Seen {
+    double dark = 0, brightest = 0;
+};
+
+Seen look(Bench& bench, const scene::Scene& scene, const std::string& technique, int frames) {
+    app::Request request = bench.asked(scene, technique, frames);
+    request.ambient = 0;
+    const app::Part part = bench.render(request);
+    Seen seen;
+    for (const vec3& pixel : part.hdr.pixels) {
+        seen.dark += !(pixel.x >= .998f);
+        seen.brightest = std::max(seen.brightest, double{pixel.x});
+    }
+    seen.dark /= static_cast<double>(part.hdr.pixels.size());
+    if (nonfinite(part.hdr) > 0) seen.brightest = std::nan("");
+    return seen;
+}
+
+void judge_contact(Bench& bench) {
+    const std::pair<const char*, std::vector<Ball>> contacts[] = {
+        {"on the floor and at the wall", {{{-3, -2, 1}, 1}}},
+        {"two that touch", {{{-1, 0, 1}, 1}, {{1, 0, 1}, 1}}},
+        {"two that overlap", {{{-.6, 0, 1}, 1}, {{.7, .2, 1}, 1}}},
+        {"one in the other", {{{0, 0, 1}, 1}, {{0, 0, 1}, .5}}}};
+    for (const auto& [what, balls] : contacts) {
+        const scene::Scene scene = furnace(balls);
+        bench.add(std::string(what) + ", raytrace:depth=64: dark pixels", look(bench, scene, "raytrace:depth=64", 1).dark, .001);
+        bench.add(std::string(what) + ", reuse, frame 100: brightest of 1", look(bench, scene, "reuse:face=32", 100).brightest, 1.002);
+        bench.add(std::string(what) + ", pyramid: brightest of 1", look(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
+    }
+}
+
+void judge_vanishing(Bench& bench) {
+    const scene::Scene scene = room(bench, 2);
+    const std::size_t mirror = scene.materials.size() - 1;
+    const dvec3 place(0, 0, -.3);
+    const std::pair<const char*, dvec3> sizes[] = {{"radius 0", dvec3(0)}, {"radius 1e-9", dvec3(1e-9)}, {"flattened", dvec3(1e-7, 1e-7, 1e-12)}};
+    for (const std::string technique : {"raytrace", "parallax", "pyramid"}) {
+        const app::Part without = bench.render(scene, technique);
+        for (const auto& [what, size] : sizes) {
+            scene::Scene with = scene;
+            add_ball(with, mirror, {place, 1});
+            with.objects.back().sphere.reset();
+            for (int axis = 0; axis < 3; ++axis) with.objects.back().world_from_object[axis][axis] = size[axis];
+            bench.add_flip(technique + ", " + what, bench.render(with, technique), without, .002);
+        }
+    }
+}
+
+void judge_many(Bench& bench) {
+    for (const int mirrors : {0, 1, 2, 16, 64, 1000}) {
+        scene::Scene scene = furnace({});
+        const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+        for (int i = 0; i < mirrors; ++i)
+            add_ball(scene, mirror, {{-3.5 + .7 * (i % 10), -2.5 + .5 * (i / 10 % 10), .5 * (i / 100)}, .15}, 1);
+        const std::string what = std::to_string(mirrors) + " mirrors";
+        try {
+            const app::Part part = bench.render(scene, "reuse:face=8,shadow=none", 2);
+            bench.add_nonfinite(what, part);
+            bench.add(what + ": passes off N + 1", std::abs(part.scene_passes - (mirrors + 1)), 0);
+        } catch (const Error& error) {
+            bench.add(what + ": refused otherwise than by a budget: " + error.what(), error.failure == Failure::exhausted && mirrors == 1000 ? 0 : 1, 0);
+        }
+    }
+}
+
+void judge_faces(Bench& bench) {
+    const scene::Scene scene = room(bench, 1);
+    for (const char* face : {"1", "2", "3"})
+        for (const std::string technique : {"reuse", "parallax", "pyramid", "layered"}) {
+            const std::string text = technique + ":face=" + face;
+            bench.add_nonfinite(text, bench.render(scene, text));
+        }
+    // Planned, not rendered: the plan knows every byte and every limit.
+    for (const char* face : {"4096", "16384"}) {
+        const std::string text = std::string("parallax:face=") + face;
+        try {
+            bench.engine().plan(bench.asked(scene, text), app::PlanFormat::json);
+            bench.add(text + ": planned", 0, 0);
+        } catch (const Error& error) {
+            bench.add(text + ": " + error.what(), error.failure == Failure::exhausted ? 0 : 1, 0);
+        }
+    }
+    bench.add_refused("face=32769", Failure::usage, [] { app::parse_technique("parallax:face=32769"); });
+}
+
+/// Ball 4 through its whole path.
+void judge_path(Bench& bench) {
+    app::Request request = bench.asked(scene::cornell_mirrors(), "parallax:face=128", 1);
+    constexpr int kWarm = 8, kFrames = 120;
+    request.warmup = kWarm;
+    request.frames = kFrames;
+    request.clock = [](int frame) { return 4.0 * (frame - 1) / kFrames; };
+    std::vector<double> steps;
+    measure::Picture last;
+    request.watch = [&](int frame, const app::ReadParts& read) {
+        if (frame < kWarm) return true;
+        measure::Picture now = std::move(read().front().display);
+        if (frame > kWarm) steps.push_back(measure::flip_mean(measure::flip(now, last)));
+        last = std::move(now);
+        return true;
+    };
+    bench.engine().run(request);
+    const double most = *std::ranges::max_element(steps), median = measure::summarise(steps).median;
+    bench.add("largest FLIP from frame to frame over the median", most / median, 3);
+}
+
+void judge_correction(Bench& bench) {
+    const auto contract = [&](const std::string& technique, int frames) {
+        app::Request request = bench.asked(scene::cornell_mirrors(), technique, frames);
+        request.size = {512, 512}; // ball 4 is some 30 pixels wide at half of it
+        return bench.render(request);
+    };
+    const app::Part truth = contract("raytrace:depth=16", 1), plain = contract("reuse", 8), corrected = contract("parallax", 8);
+    const std::vector<float> no_flip(truth.hdr.pixels.size());
+    const auto share = [&](const measure::Mask& mask) {
+        return measure::difference(corrected.hdr, truth.hdr, mask, no_flip).rmse / measure::difference(plain.hdr, truth.hdr, mask, no_flip).rmse;
+    };
+    for (std::uint32_t ball = 1; ball <= 4; ++ball) bench.add(fmt::format("ball {}: rmse over uncorrected", ball), share(measure::of_mirror(truth.hits, ball)), .65);
+    bench.add("together: rmse over uncorrected", share(measure::mirrors(truth.hits)), .5);
+}
+
+const Row kCorrection{{"N12", "parallax against ray tracing, contract camera, 512x512", "better than uncorrected for every ball", judge_correction}};
+const Row kContact{{"C1", "balls that touch wall and floor, each other, overlap, are concentric", "no dark ring, no blow-up in 100 frames", judge_contact}};
+const Row kInside{{"C5", "camera inside a ball", "one documented rule, both worlds obey it", nullptr, "no rule for an eye inside a mirror is documented yet"}};
+const Row kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened", "the others are untouched (FLIP)", judge_vanishing}};
+const Row kMany{{"C9", "0, 1, 2, 16, 64, 1000 mirrors", "0: no capture; 1000: runs, or a budget message", judge_many}};
+const Row kFaces{{"C10", "face 1, 2, 3, 4096, 16384, 32769", "runs, or says the bytes, or is refused", judge_faces}};
+const Row kPath{{"C13", "ball 4 through its whole path, 120 frames", "no single-frame pop", judge_path}};
+
+} // namespace
+
+} // namespace catoptric::stress

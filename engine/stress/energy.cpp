@@ -1,0 +1,129 @@
+// What light may do between mirrors: never grow, fall by the reflectance, arrive bounce by bounce.
+#include "stress/property.hpp"
+#include "stress/scenes.hpp"
+
+#include "measure/difference.hpp"
+#include "measure/masks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::stress {
+
+namespace {
+
+const std::vector<Ball> kTwoBalls{{{-1.2, -.3, 1}, 1}, {{1.3, .4, 1.5}, 1.2}};
+
+double brightest(const app::Part& part) {
+    double most = 0;
+    for (const vec3& pixel : part.hdr.pixels) most = std::max({most, double{pixel.x}, double{pixel.y}, double{pixel.z}});
+    return nonfinite(part.hdr) > 0 ? std::nan("") : most;
+}
+
+app::Part render_dark(Bench& bench, const scene::Scene& scene, const std::string& technique, int frames) {
+    app::Request request = bench.asked(scene, technique, frames);
+    request.ambient = 0;
+    return bench.render(request);
+}
+
+void judge_furnace(Bench& bench) {
+    const scene::Scene scene = furnace(kTwoBalls);
+    for (const app::TechniqueInfo& technique : app::techniques()) bench.add(technique.name + ": brightest of 1", brightest(render_dark(bench, scene, technique.name, 8)), 1.002);
+    for (int bounces = 0; bounces <= 8; bounces += 4) {
+        const std::string text = "naive:bounces=" + std::to_string(bounces);
+        bench.add(text + ": brightest of 1", brightest(render_dark(bench, scene, text, 1)), 1.002);
+    }
+    double darkest = 1;
+    for (const vec3& pixel : render_dark(bench, scene, "raytrace:depth=16", 1).hdr.pixels) darkest = std::min(darkest, double{pixel.x});
+    bench.add("raytrace:depth=16: missing from 1", 1 - darkest, .002);
+}
+
+/// Two mirrors face to face in a box that emits 1: a path of k mirrors shows .8^k.
+void judge_corridor(Bench& bench) {
+    scene::Scene scene = furnace({});
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true, .reflectance = vec3(.8f)});
+    add_quad(scene, mirror, {-2, -2, -2}, {-2, -2, 4}, {-2, 2, 4}, {-2, 2, -2});
+    add_quad(scene, mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
+    scene.cameras.front() = {.eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60};
+    for (const int depth : {1, 4, 12}) {
+        double worst = 0;
+        std::vector<std::size_t> seen(static_cast<std::size_t>(depth) + 1);
+        for (const vec3& pixel : render_dark(bench, scene, "raytrace:depth=" + std::to_string(depth), 1).hdr.pixels) {
+            if (pixel.x == 0) continue; // more mirrors than the depth
+            const auto k = static_cast<std::size_t>(std::max(std::lround(std::log(double{pixel.x}) / std::log(.8)), 0L));
+            worst = std::max(worst, std::abs(pixel.x / std::pow(.8, double(k)) - 1));
+            if (k <= static_cast<std::size_t>(depth)) ++seen[k];
+            else worst = 1;
+        }
+        bench.add(fmt::format("depth {}: off .8^k", depth), worst, .005);
+        if (depth <= 4) bench.add(fmt::format("depth {}: k that nobody shows", depth), double(std::ranges::count(seen, 0u)), 0);
+    }
+}
+
+void judge_bounces(Bench& bench) {
+    const scene::Scene scene = room(bench, 4);
+    const app::Part truth = bench.render(scene, "raytrace");
+    const measure::Mask mirrors = measure::mirrors(truth.hits);
+    const std::vector<float> no_flip(truth.hdr.pixels.size());
+    std::vector<app::Part> parts;
+    for (int bounces = 0; bounces <= 6; ++bounces) parts.push_back(bench.render(scene, "naive:face=128,bounces=" + std::to_string(bounces), 1));
+    double last = 1;
+    for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
+        const auto mean = [&](std::size_t i) { return measure::mean_of(parts[i].hdr, measure::Range::unclamped, mirrors).all; };
+        bench.add(fmt::format("bounce {}: radiance lost", k + 1), std::max(mean(k) - mean(k + 1), 0.0), 0);
+        const double step = measure::difference(parts[k].hdr, parts[k + 1].hdr, mirrors, no_flip).rmse;
+        bench.add(fmt::format("bounce {}: no change", k + 1), step > 0 ? 0 : 1, 0);
+        if (k > 0 && k <= 3) bench.add(fmt::format("bounce {}: share of the step before", k + 1), step / last, .4);
+        if (k == 4) bench.add_quality("bounce 5: share of the step before", step / last, .4); // a pixel or two
+        last = step;
+    }
+}
+
+std::size_t different_pixels(const app::Part& a, const app::Part& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.hdr.pixels.size(); ++i) count += a.hdr.pixels[i] != b.hdr.pixels[i];
+    return count;
+}
+
+void judge_reuse(Bench& bench) {
+    const scene::Scene scene = room(bench, 3);
+    for (int k = 1; k <= 8; ++k)
+        bench.add(fmt::format("frame {}: pixels that differ", k),
+                  double(different_pixels(bench.render(scene, "reuse:face=64", k), bench.render(scene, fmt::format("naive:face=64,bounces={}", k), 1))), 0);
+}
+
+void judge_passes(Bench& bench) {
+    for (const int balls : {0, 1, 4}) {
+        const scene::Scene scene = room(bench, balls);
+        for (const int bounces : {0, 1, 3})
+            bench.add(fmt::format("{} mirrors, {} bounces: off N i + 2", balls, bounces),
+                      std::abs(bench.render(scene, fmt::format("naive:face=16,bounces={}", bounces), 1).scene_passes - (balls * bounces + 2)), 0);
+        bench.add(fmt::format("{} mirrors: off N + 2", balls), std::abs(bench.render(scene, "reuse:face=16", 2).scene_passes - (balls + 2)), 0);
+    }
+}
+
+/// A light too bright for a half, and a surface too dark for a float.
+void judge_emission(Bench& bench) {
+    scene::Scene bright = room(bench, 3), dim = bright, black = bright;
+    for (scene::Material& material : bright.materials)
+        if (material.emission != vec3(0)) material.emission = vec3(1e30f);
+    for (const std::string technique : {"raytrace", "reuse", "pyramid"}) bench.add_nonfinite(technique + ", emission 1e30, frame 20", bench.render(bright, technique, 20));
+    dim.materials.front().albedo = vec3(1e-40f);
+    black.materials.front().albedo = vec3(0);
+    bench.add_flip("albedo 1e-40 against black", bench.render(dim, "raytrace"), bench.render(black, "raytrace"), 0);
+}
+
+const Row kFurnace{{"N6", "white furnace, bounces 0..8, every technique", "energy is never created; complete at depth 16", judge_furnace}};
+const Row kCorridor{{"N7", "parallel mirrors, reflectance .8, depth 1..12", "k mirrors show .8^k, nothing after the depth", judge_corridor, {},
+                     "cube techniques know parallel mirrors only as far as captures show them"}};
+const Row kBounces{{"N8", "naive, bounces 0..6", "radiance in mirrors grows, steps fall by 2.5 and more", judge_bounces}};
+const Row kReuse{{"N9", "static scene, reuse frame k", "equals naive with k bounces", judge_reuse}};
+const Row kPasses{{"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2", judge_passes}};
+const Row kEmission{{"N26", "emission 1e30; albedo 1e-40", "saturates, frames stay finite; equals black", judge_emission, {},
+                     "taking the light away in mid-run"}};
+
+} // namespace
+
+} // namespace catoptric::stress

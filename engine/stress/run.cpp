@@ -1,0 +1,66 @@
+#include "stress/run.hpp"
+
+#include "core/error.hpp"
+#include "stress/property.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace catoptric::stress {
+
+namespace {
+
+report::Verdict verdict_of(const report::StressRow& row) {
+    bool looks_worse = false;
+    for (const report::StressCase& one : row.cases) {
+        if (one.holds()) continue;
+        if (!one.is_quality) return report::Verdict::fail;
+        looks_worse = true;
+    }
+    return looks_worse ? report::Verdict::quality_warning : report::Verdict::pass;
+}
+
+report::StressRow judged(app::Engine& engine, const StressRequest& request, const Property& property) {
+    report::StressRow row{std::string(property.id), std::string(property.stimulus), std::string(property.property), {}, std::string(property.not_covered), {}, {}, 0};
+    if (!property.judge) {
+        row.verdict = report::Verdict::unsupported;
+        row.remark = property.unsupported;
+        return row;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    Bench bench(engine, request.size, request.seed, row);
+    try {
+        property.judge(bench);
+        row.verdict = verdict_of(row);
+    } catch (const Error& error) {
+        if (error.failure == Failure::interrupted || error.failure == Failure::terminated || error.failure == Failure::device_lost) throw;
+        row.verdict = report::Verdict::fail;
+        row.remark = error.what();
+    }
+    row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return row;
+}
+
+} // namespace
+
+report::Stress run(app::Engine& engine, const StressRequest& request) {
+    std::vector<const Property*> chosen;
+    for (const std::string& id : request.only) chosen.push_back(&find_property(id));
+    if (chosen.empty()) chosen = properties();
+    const app::DeviceInfo& device = engine.device();
+    report::Stress stress{app::version(), app::commit(), request.command, true, {device.name, device.driver, device.api, device.type, device.threads},
+                          static_cast<int>(request.size.x), static_cast<int>(request.size.y), request.seed, {}};
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        if (request.on_row) request.on_row(std::string(chosen[i]->id), i, chosen.size());
+        try {
+            stress.rows.push_back(judged(engine, request, *chosen[i]));
+        } catch (const Error& error) {
+            if (error.failure != Failure::interrupted && error.failure != Failure::terminated) throw;
+            stress.complete = false;
+            break;
+        }
+    }
+    return stress;
+}
+
+} // namespace catoptric::stress

@@ -1,0 +1,136 @@
+#include "stress/scenes.hpp"
+
+#include "scene/shapes.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace catoptric::stress {
+
+namespace {
+
+/// The wall of the box in direction +X -X +Y -Y +Z -Z, facing in.
+void add_wall(scene::Scene& scene, std::size_t material, int face, dvec3 lo, dvec3 hi) {
+    const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    std::array<dvec3, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) {
+        corners[i][axis] = face % 2 ? lo[axis] : hi[axis];
+        corners[i][u] = i == 1 || i == 2 ? hi[u] : lo[u];
+        corners[i][v] = i >= 2 ? hi[v] : lo[v];
+    }
+    if (face % 2) // counter-clockwise seen from +axis: right on the low side
+        add_quad(scene, material, corners[0], corners[1], corners[2], corners[3]);
+    else
+        add_quad(scene, material, corners[3], corners[2], corners[1], corners[0]);
+}
+
+bool is_free(const scene::Scene& scene, const Ball& ball) {
+    for (const scene::Object& object : scene.objects)
+        if (object.sphere && length(object.sphere->centre - ball.centre) < object.sphere->radius + ball.radius + .05) return false;
+    return true;
+}
+
+} // namespace
+
+std::size_t add_material(scene::Scene& scene, const scene::Material& material) {
+    scene.materials.push_back(material);
+    return scene.materials.size() - 1;
+}
+
+void add_quad(scene::Scene& scene, std::size_t material, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
+    const std::string name = "quad" + std::to_string(scene.objects.size());
+    scene.objects.push_back({.name = name, .mesh = scene.meshes.size(), .material = material});
+    scene.meshes.push_back(scene::quad(name, a, b, c, d));
+}
+
+void add_ball(scene::Scene& scene, std::size_t material, const Ball& ball, int levels) {
+    const std::string name = "ball" + std::to_string(scene.objects.size());
+    scene.objects.push_back({.name = name,
+                             .mesh = scene.meshes.size(),
+                             .material = material,
+                             .world_from_object = moved(ball.centre) * scaled(ball.radius),
+                             .sphere = scene::Sphere{ball.centre, ball.radius}});
+    scene.meshes.push_back(scene::ball(name, levels));
+}
+
+scene::Scene room(Bench& bench, int balls) {
+    scene::Scene scene{.name = "room"};
+    const auto colour = [&] { return vec3(bench.random(.1, .8), bench.random(.1, .8), bench.random(.1, .8)); };
+    const dvec3 hi(bench.random(1.8, 2.2), bench.random(1.6, 2.0), bench.random(1.8, 2.4)), lo = -hi;
+    for (int face = 0; face < 5; ++face) add_wall(scene, add_material(scene, {.name = "wall", .albedo = colour()}), face, lo, hi);
+    const std::size_t lamp = add_material(scene, {.name = "lamp", .emission = vec3(6, 5, 4)});
+    const double x = bench.random(-.5, .5), z = bench.random(-.5, .5), y = hi.y - .01;
+    add_quad(scene, lamp, {x - .5, y, z - .5}, {x + .5, y, z - .5}, {x + .5, y, z + .5}, {x - .5, y, z + .5});
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+    for (int made = 0; made < balls;) {
+        const double radius = bench.random(.2, .5);
+        const Ball ball{{bench.random(lo.x + radius + .05, hi.x - radius - .05), lo.y + radius + bench.random(.01, .6),
+                         bench.random(lo.z + radius + .05, hi.z - radius - .05)}, radius};
+        if (!is_free(scene, ball)) continue;
+        add_ball(scene, mirror, ball);
+        ++made;
+    }
+    scene.cameras.push_back({.eye = {bench.random(-.4, .4), bench.random(-.3, .3), lo.z - 4}, .target = {0, -.3, 0}, .vertical_fov_degrees = 42});
+    return scene;
+}
+
+scene::Scene furnace(const std::vector<Ball>& balls) {
+    scene::Scene scene{.name = "furnace"};
+    const std::size_t hot = add_material(scene, {.name = "hot", .emission = vec3(1)});
+    for (int face = 0; face < 6; ++face) add_wall(scene, hot, face, {-4, -3, -5}, {4, 3, 5});
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+    for (const Ball& ball : balls) add_ball(scene, mirror, ball);
+    scene.cameras.push_back({.eye = {.2, .1, -4.5}, .target = {0, 0, 1}, .vertical_fov_degrees = 50});
+    return scene;
+}
+
+scene::Scene plane() {
+    scene::Scene scene{.name = "plane"};
+    add_quad(scene, add_material(scene, {.name = "grey", .albedo = vec3(.7f)}), {-10, 0, -10}, {-10, 0, 10}, {10, 0, 10}, {10, 0, -10});
+    add_quad(scene, add_material(scene, {.name = "lamp", .emission = vec3(40)}), {-.2, 4, -.2}, {.2, 4, -.2}, {.2, 4, .2}, {-.2, 4, .2});
+    scene.cameras.push_back({.eye = {0, 3, -9}, .target = {0, 0, 0}, .vertical_fov_degrees = 50});
+    return scene;
+}
+
+scene::Scene through(const scene::Scene& scene, const dmat4& root) {
+    scene::Scene result = scene;
+    const double factor = std::cbrt(std::abs(determinant(dmat3(root))));
+    const auto point = [&](dvec3 p) { return dvec3(root * dvec4(p, 1)); };
+    for (scene::Object& object : result.objects) {
+        object.world_from_object = root * object.world_from_object;
+        if (object.sphere) object.sphere = scene::Sphere{point(object.sphere->centre), object.sphere->radius * factor};
+        if (auto* swing = std::get_if<scene::Harmonic>(&object.motion)) swing->amplitude = dmat3(root) * swing->amplitude;
+    }
+    for (scene::Camera& camera : result.cameras) {
+        camera.eye = point(camera.eye);
+        camera.target = point(camera.target);
+        camera.up = normalize(dmat3(root) * camera.up);
+    }
+    return result;
+}
+
+dmat4 scaled(double factor) {
+    dmat4 matrix(factor);
+    matrix[3][3] = 1;
+    return matrix;
+}
+
+dmat4 moved(dvec3 by) {
+    dmat4 matrix(1);
+    matrix[3] = dvec4(by, 1);
+    return matrix;
+}
+
+dmat4 turned(double radians, dvec3 axis) {
+    const dvec3 n = normalize(axis);
+    const double c = std::cos(radians), s = std::sin(radians);
+    dmat4 matrix(1);
+    for (int column = 0; column < 3; ++column) {
+        dvec3 e(0);
+        e[column] = 1;
+        matrix[column] = dvec4(c * e + s * cross(n, e) + (1 - c) * dot(n, e) * n, 0);
+    }
+    return matrix;
+}
+
+} // namespace catoptric::stress

@@ -1,0 +1,43 @@
+// catoptric stress: measured values beside thresholds.
+#include "cli/program.hpp"
+
+namespace {
+
+using nlohmann::json;
+
+TEST_F(Cli, StressMeasuresBesideThresholds) {
+    const std::vector<std::string> ids{"N1", "N4", "N9", "N10", "C8"};
+    Words words{"stress", "-o", "out", "--json", "--size", "64x64", "--only"};
+    words.insert(words.end(), ids.begin(), ids.end());
+    const test::Ended ended = cli(words);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+    const json document = json::parse(ended.out);
+    EXPECT_EQ(document["schema"], "catoptric/stress/1");
+    ASSERT_EQ(document["rows"].size(), ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const json& row = document["rows"][i];
+        EXPECT_EQ(row["id"], ids[i]);
+        EXPECT_EQ(row["verdict"], "pass") << row;
+        EXPECT_GT(row["cases"].size(), 1u);
+        EXPECT_LE(row["measured"].get<double>(), row["threshold"].get<double>());
+    }
+    EXPECT_EQ(json::parse(read("out/stress.json")), document);
+    EXPECT_THAT(read("out/stress.html"), testing::HasSubstr("N10"));
+}
+
+TEST_F(Cli, StressTakesItsScenesFromTheSeed) {
+    const auto measured = [&](const std::string& seed) {
+        return json::parse(cli({"stress", "--json", "--size", "64x64", "--only", "N3", "--seed", seed}).out)["rows"][0]["cases"];
+    };
+    EXPECT_EQ(measured("3"), measured("3"));
+    EXPECT_NE(measured("3"), measured("4"));
+}
+
+TEST_F(Cli, StressSaysWhatItCannotJudge) {
+    const test::Ended ended = cli({"stress", "--only", "C5"});
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.out, testing::AllOf(testing::HasSubstr("unsupported"), testing::HasSubstr("no rule")));
+    expect_refused({"stress", "--only", "N99"}, 2, {"N99", "did you mean"});
+}
+
+} // namespace
