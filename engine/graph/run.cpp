@@ -1,5 +1,6 @@
 #include "graph/run.hpp"
 
+#include "graph/stamps.hpp"
 #include "graph/sync.hpp"
 
 #include <algorithm>
@@ -254,15 +255,12 @@ FrameTimes Runner::read_times(const Graph& graph, const Plan& plan, Timing timin
     std::vector<std::uint64_t> stamps(next_query_);
     gpu::check_vk(vkGetQueryPoolResults(device_.handle(), queries_, 0, next_query_, stamps.size() * 8, stamps.data(), 8,
                                         VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT), "read the time stamps");
-    // Differences modulo the valid bits survive one wrap of the counter.
-    const std::uint64_t mask = device_.timestamp_bits() >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << device_.timestamp_bits()) - 1;
-    const double tick_ms = static_cast<double>(device_.limits().timestampPeriod) * 1e-6;
-    const auto at = [&](std::size_t i) { return static_cast<double>((stamps[i] - stamps[0]) & mask) * tick_ms; };
+    const std::vector<double> at = milliseconds_since_first(stamps, device_.timestamp_bits(), static_cast<double>(device_.limits().timestampPeriod));
     FrameTimes times;
     for (std::size_t i = 0; i < plan.passes.size(); ++i) {
         const bool isolated = timing == Timing::isolated;
-        times.passes.push_back({graph.passes()[plan.passes[i].pass].name, isolated ? at(i) : at(2 * i),
-                                isolated ? at(i + 1) : at(2 * i + 1)});
+        times.passes.push_back({graph.passes()[plan.passes[i].pass].name, isolated ? at[i] : at[2 * i],
+                                isolated ? at[i + 1] : at[2 * i + 1]});
         times.span_ms = std::max(times.span_ms, times.passes.back().end_ms);
     }
     return times;

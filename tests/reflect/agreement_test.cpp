@@ -29,4 +29,14 @@ TEST_P(Agreement, OfRasterAndRayTracing) {
     }
 }
 
+// What is lifted off its surface so that it does not shade itself is lifted no further: coarse maps show it, because
+// they lift by texels.
+TEST(ShadowMap, LiftsNoFurtherThanItMust) {
+    const app::Part truth = test::render(scene::cornell_mirrors(), "raytrace:depth=16", {256, 256});
+    const double error = test::rmse(test::render(scene::cornell_mirrors(), "naive:bounces=0,shadow_map=64", {256, 256}).hdr, truth.hdr,
+                                    measure::non_mirror(truth.hits));
+    std::cout << "[ MEASURED ] shadow_map=64: rmse " << error << " on non-mirror pixels\n";
+    EXPECT_LE(error, .0);
+}
+
 } // namespace

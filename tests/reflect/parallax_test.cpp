@@ -26,6 +26,31 @@ TEST(Parallax, HalvesTheErrorOfTheUncorrectedDirection) {
         expect_share("ball " + std::to_string(ball), measure::of_mirror(truth.hits, ball), .65);
 }
 
+// Beside the void one infinite texel of four does not make the other three void: the nearest decides. A taken ring of
+// texels would show at once where they are large.
+TEST(Parallax, TheVoidIsNoLargerInCoarseCaptures) {
+    scene::Scene scene{.name = "floor"};
+    const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
+    test::add_quad(scene, "floor", hot, {-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3});
+    test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}), {.1, 2, .2}, 1);
+    scene.cameras.push_back({.eye = {0, 3, -7}, .target = {0, 2, 0}, .vertical_fov_degrees = 30});
+    const auto misses = [&](const std::string& technique) {
+        app::Request request = test::request(scene, {technique}, {192, 192});
+        request.with_lookup = true;
+        double mirror = 0, miss = 0;
+        for (const vec4& pixel : test::engine().run(request).parts.front().lookup) {
+            if (!(pixel.w > 0)) continue;
+            ++mirror;
+            miss += (static_cast<int>(pixel.w) - 1) % 4 == 2;
+        }
+        return miss / mirror;
+    };
+    const double fine = misses("parallax:face=512"), coarse = misses("parallax:face=12");
+    std::cout << "[ MEASURED ] share of misses: " << fine << " at face 512, " << coarse << " at face 12\n";
+    EXPECT_GT(fine, .2);
+    EXPECT_NEAR(coarse, fine, .02);
+}
+
 TEST(Parallax, DistancesClampedAt200AreWorseThanNone) {
     const scene::Scene scene = scene::cornell_mirrors();
     const app::Part truth = test::render(scene, "raytrace:depth=16", kSize);
