@@ -36,7 +36,7 @@ TEST(ShadowMap, LiftsNoFurtherThanItMust) {
     const double error = test::rmse(test::render(scene::cornell_mirrors(), "naive:bounces=0,shadow_map=64", {256, 256}).hdr, truth.hdr,
                                     measure::non_mirror(truth.hits));
     std::cout << "[ MEASURED ] shadow_map=64: rmse " << error << " on non-mirror pixels\n";
-    EXPECT_LE(error, .0);
+    EXPECT_LE(error, .0052); // measured: .0049; lifted twice as far: .0055
 }
 
 } // namespace
