@@ -247,7 +247,7 @@ INLINE vec3 facet_normal(vec3 a, vec3 b, vec3 c) {
 // The point with barycentric weights w, and how far each coordinate may be off: the interpolation's
 // roundings, plus those of a triangle test that starts here. A flat triangle cannot be met by a ray
 // that leaves it, so Ray::leaves excludes it by name; the bound is for its neighbours in the same
-// plane, and does not cover slivers a hundred times longer than high.
+// plane, and does not cover slivers thirty times longer than high.
 INLINE vec3 triangle_point(vec3 a, vec3 b, vec3 c, vec3 w, OUT(vec3) error) {
     vec3 point = w.x * a + w.y * b + w.z * c;
     vec3 sum = abs(w.x * a) + abs(w.y * b) + abs(w.z * c);

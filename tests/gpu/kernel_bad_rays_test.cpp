@@ -32,11 +32,12 @@ Steps steps_of(const std::vector<KernelHit>& hits) {
     return result;
 }
 
-std::vector<KernelRay> normal_rays(std::size_t count) {
+/// `reach` 0.5: all from inside the ball.
+std::vector<KernelRay> normal_rays(std::size_t count, float reach) {
     test::Numbers numbers(16);
     std::vector<KernelRay> rays(count);
     for (KernelRay& ray : rays) {
-        ray.origin = 1.5f * numbers.in_cube();
+        ray.origin = reach * numbers.in_cube();
         ray.direction = numbers.direction();
     }
     return rays;
@@ -44,7 +45,7 @@ std::vector<KernelRay> normal_rays(std::size_t count) {
 
 TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
     Kernel kernel(ball());
-    const std::vector<KernelRay> normal = normal_rays(10000);
+    const std::vector<KernelRay> normal = normal_rays(10000, 0.5f);
     const Steps usual = steps_of(kernel.closest(normal));
     std::vector<KernelRay> bad;
     // Quiet and signalling NaN of either sign, the infinities; an infinite t_max is the usual one.
@@ -80,7 +81,7 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
 /// Where a coordinate is zero, its sign changes neither the hit nor, beyond the bound, the cost.
 TEST(KernelBadRays, N16_NegativeZeroIsZero) {
     Kernel kernel(ball());
-    std::vector<KernelRay> positive = normal_rays(60000);
+    std::vector<KernelRay> positive = normal_rays(60000, 1.2f);
     for (std::size_t i = 0; i < positive.size(); ++i) {
         field(positive[i], i % 6) = 0.0f;
         if (i % 4 == 0) field(positive[i], (i + 1) % 6) = 0.0f; // axis-aligned, in a plane, from the centre

@@ -141,8 +141,8 @@ TEST(KernelGeometry, N21_CopiesOfOneTriangle) {
     EXPECT_LT(build.count(), 5);
 }
 
-/// Copies in different objects are all kept. As many as a walk may look at: the lowest number wins. More: the walk
-/// says that it gave up.
+/// Copies in different objects are all kept. Fewer than a walk may look at: the lowest number wins. More: the walk
+/// says that it gave up, and so may the lanes beside it, whose loops the driver ends too.
 TEST(KernelGeometry, N21_CopiesInAsManyObjects) {
     const std::vector<KernelRay> rays = rays_at_the_copies();
     for (const std::size_t count : {std::size_t{5000}, std::size_t{100000}}) {
@@ -159,7 +159,8 @@ TEST(KernelGeometry, N21_CopiesInAsManyObjects) {
         }
         std::cout << "[ MEASURED ] N21 copies in " << count << " objects: " << found << " rays hit, " << gave_up << " gave up\n";
         EXPECT_GT(found, rays.size() / 4);
-        EXPECT_EQ(gave_up, count > 60000 ? found : 0) << "60,000 steps are what a walk may take";
+        if (count < 60000) EXPECT_EQ(gave_up, 0u);
+        else EXPECT_GE(gave_up, found);
     }
 }
 

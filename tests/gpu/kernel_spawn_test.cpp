@@ -21,6 +21,9 @@ double shape(const bvh::Triangle& t) {
     return longest > 0 ? glm::length(glm::cross((b - a) / longest, (c - a) / longest)) : 0;
 }
 
+/// What triangle_point's bound promises to cover: triangles less than thirty times longer than high.
+constexpr double kSliver = 1.0 / 30;
+
 struct SelfHits {
     std::size_t rays = 0, named = 0, unnamed = 0; ///< with Ray::leaves and without
 };
@@ -57,7 +60,7 @@ TEST(KernelSpawn, N17_CoordinatesOfAnyMagnitude) {
         bvh::Triangle t;
         for (vec3* corner : {&t.a, &t.b, &t.c})
             for (int k = 0; k < 3; ++k) (*corner)[k] = numbers.wide(-8, 8);
-        leave(t, numbers, shape(t) < 0.01 ? slivers : shaped);
+        leave(t, numbers, shape(t) < kSliver ? slivers : shaped);
     }
     tell("slivers", slivers);
     tell("other triangles", shaped);
@@ -77,7 +80,7 @@ TEST(KernelSpawn, N17_TrianglesOfAnySize) {
         bvh::Triangle t;
         do
             for (vec3* corner : {&t.a, &t.b, &t.c}) *corner = centre + size * numbers.in_cube();
-        while (shape(t) < 0.01);
+        while (shape(t) < kSliver);
         leave(t, numbers, count);
     }
     tell("triangles of sizes 1e-8 .. 1e8", count);
