@@ -78,11 +78,11 @@ inline ClosedMesh torus() {
     return {std::move(mesh), 1, 0.15};
 }
 
-/// A closed room of twelve triangles without a round number.
-inline ClosedMesh box() {
-    scene::Mesh mesh{.name = "room"};
+/// A closed room of twelve triangles without a round number; `stretch` makes a corridor of it, along z.
+inline ClosedMesh box(std::string name, double stretch) {
+    scene::Mesh mesh{.name = std::move(name)};
     for (int face = 0; face < 6; ++face) {
-        const scene::Mesh side = wall(face, {-0.91, -0.63, -1.17}, {0.87, 0.71, 1.03});
+        const scene::Mesh side = wall(face, {-0.91, -0.63, -1.17 * stretch}, {0.87, 0.71, 1.03 * stretch});
         const uvec3 first(static_cast<std::uint32_t>(mesh.positions.size()));
         mesh.positions.insert(mesh.positions.end(), side.positions.begin(), side.positions.end());
         for (const uvec3& triangle : side.triangles) mesh.triangles.push_back(triangle + first);
