@@ -7,6 +7,8 @@
 #include <bit>
 #include <cmath>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 namespace catoptric::bvh {
 namespace {
@@ -123,10 +125,37 @@ std::size_t halve(References references) {
     return middle;
 }
 
+/// One reference of each triangle where there are more of them in one place than a leaf holds: a ray
+/// would have to look at all copies, since all are at the same t, and it cannot tell those of one
+/// object apart. The lowest number stays.
+References without_copies(References references, std::span<const Triangle> triangles) {
+    const auto in_one_place = [&](const Reference& r) { return r.centre == references[0].centre; };
+    if (references.size() <= kMaxLeaf || !std::ranges::all_of(references, in_one_place))
+        return references;
+    const auto what = [&](const Reference& r) {
+        const Triangle& t = triangles[r.triangle];
+        return std::array{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
+    };
+    const auto whose = [&](const Reference& r) {
+        const Triangle& t = triangles[r.triangle];
+        return std::pair{t.object, t.flags};
+    };
+    std::ranges::sort(references, [&](const Reference& a, const Reference& b) {
+        return std::tuple{what(a), whose(a), a.triangle} < std::tuple{what(b), whose(b), b.triangle};
+    });
+    const auto copies = std::ranges::unique(references, [&](const Reference& a, const Reference& b) {
+        return what(a) == what(b) && whose(a) == whose(b);
+    });
+    return references.first(references.size() - copies.size());
+}
+
 class Builder {
 public:
     Builder(std::span<const Triangle> triangles, Bvh& bvh) : triangles_(triangles), bvh_(bvh) {}
 
+    void add_root(References references) { add_node(without_copies(references, triangles_), 0); }
+
+private:
     /// Appends the node over `references` and everything below it. `depth` of the root is 0.
     std::uint32_t add_node(References references, std::uint32_t depth) {
         const std::size_t place = bvh_.nodes.size();
@@ -135,7 +164,7 @@ public:
         const std::array sides{references.first(middle), references.subspan(middle)};
         for (std::size_t i = 0; i < 2; ++i) {
             const Box box = bounds(sides[i]);
-            const std::uint32_t child = add_child(sides[i], depth + 1);
+            const std::uint32_t child = add_child(without_copies(sides[i], triangles_), depth + 1);
             vec4* texel = &bvh_.nodes[place]; // after add_child, which moves the nodes
             texel[2 * i] = vec4(box.lo, texel[2 * i].w);
             texel[2 * i + 1] = vec4(box.hi, texel[2 * i + 1].w);
@@ -144,7 +173,6 @@ public:
         return static_cast<std::uint32_t>(place / 4);
     }
 
-private:
     std::uint32_t add_child(References references, std::uint32_t depth) {
         if (references.empty()) return f32::kBvhNothing;
         if (is_leaf(references, depth)) return add_leaf(references);
@@ -219,8 +247,9 @@ Bvh build(std::span<const Triangle> triangles) {
     bvh.triangles.reserve(3 * kept.size());
     const Box everything = bounds(kept);
     bvh.nodes.resize(4, vec4(0));
-    Builder(triangles, bvh).add_node(kept, 0);
-    bvh.nodes[0] = vec4(everything.lo, id_word(kept.size()));
+    Builder(triangles, bvh).add_root(kept);
+    bvh.copies = kept.size() - triangle_count(bvh);
+    bvh.nodes[0] = vec4(everything.lo, id_word(triangle_count(bvh)));
     bvh.nodes[1] = vec4(everything.hi, id_word(node_count(bvh)));
     return bvh;
 }

@@ -130,6 +130,26 @@ INLINE real edge_function(real a, real b, real c, real d) {
     return difference;
 }
 
+// The smaller (larger); a NaN candidate (0 * infinity, a ray in a box's plane) changes nothing.
+INLINE real least(real kept, real candidate) { return candidate < kept ? candidate : kept; }
+INLINE real greatest(real kept, real candidate) { return candidate > kept ? candidate : kept; }
+
+// The two shorter edges of a triangle, whose roundings turn its plane least, and which corner lies
+// between them: 0, 1 or 2. cross(e, f) points to the counter-clockwise side.
+INLINE int short_edges(vec3 a, vec3 b, vec3 c, OUT(vec3) e, OUT(vec3) f) {
+    precise vec3 ab = b - a;
+    precise vec3 bc = c - b;
+    precise vec3 ca = a - c;
+    real ab_size = largest(abs(ab));
+    real bc_size = largest(abs(bc));
+    real ca_size = largest(abs(ca));
+    bool ab_longest = ab_size >= bc_size && ab_size >= ca_size;
+    bool bc_longest = !ab_longest && bc_size >= ca_size;
+    e = ab_longest ? bc : (bc_longest ? ca : ab);
+    f = ab_longest ? ca : (bc_longest ? ab : bc);
+    return ab_longest ? 2 : (bc_longest ? 0 : 1);
+}
+
 // Watertight triangle test, both sides. True when the ray meets the triangle at a finite t > 0;
 // weights / (their sum) are the barycentric weights of a, b, c (see `barycentric`).
 INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT(real) t,
@@ -152,12 +172,20 @@ INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT
                   (u <= real(0) && v <= real(0) && w <= real(0));
     precise real det = u + v + w;
     if (!inside || det == real(0)) return false;
-    precise real scaled_t = u * (ray.shear.z * ta.z) + v * (ray.shear.z * tb.z) +
-                            w * (ray.shear.z * tc.z);
-    // Behind the origin: seen by the signs, before the quotient can round to anything.
-    if (!(det > real(0) ? scaled_t > real(0) : scaled_t < real(0))) return false;
-    precise real quotient = scaled_t / det;
-    t = quotient;
+    // Where the ray meets the plane: the weights of a triangle a thousand times longer than high
+    // would put that a thousand times further off.
+    vec3 e, f;
+    int between = short_edges(a, b, c, e, f);
+    vec3 corner = between == 0 ? ta : (between == 1 ? tb : tc);
+    precise vec3 normal = turned(vec3(e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z,
+                                      e.x * f.y - e.y * f.x), ray.axis);
+    precise real height = normal.x * corner.x + normal.y * corner.y + normal.z * corner.z;
+    precise real slope = normal.x * ray.shear.x + normal.y * ray.shear.y + normal.z;
+    precise real at_plane = ray.shear.z * (height / slope);
+    // Never before the first corner or behind the last; without a normal it is NaN or infinite.
+    precise vec3 at = ray.shear.z * vec3(ta.z, tb.z, tc.z);
+    real first = min(at.x, min(at.y, at.z));
+    t = least(largest(at), greatest(first, at_plane));
     return t > real(0) && t <= kLargest;
 }
 
@@ -188,10 +216,6 @@ INLINE BoxRay box_ray(Ray ray, vec3 lo, vec3 hi) {
     result.far_origin = ray.origin - step;
     return result;
 }
-
-// The smaller (larger); a NaN candidate (0 * infinity, a ray in the box's plane) changes nothing.
-INLINE real least(real kept, real candidate) { return candidate < kept ? candidate : kept; }
-INLINE real greatest(real kept, real candidate) { return candidate > kept ? candidate : kept; }
 
 // Does the ray meet the box in [0, t_max]; enters at t_near.
 INLINE bool slab_test(vec3 lo, vec3 hi, BoxRay ray, real t_max, OUT(real) t_near) {
@@ -233,13 +257,13 @@ INLINE bool sphere_test(vec3 centre, real radius, Ray ray, real t_max, OUT(real)
 
 // Unit normal of the facet, counter-clockwise side; zero when it has none.
 INLINE vec3 facet_normal(vec3 a, vec3 b, vec3 c) {
-    vec3 ab = b - a;
-    vec3 ac = c - a;
-    real ab_size = largest(abs(ab));
-    real ac_size = largest(abs(ac));
-    if (!(ab_size > real(0) && ac_size > real(0))) return vec3(real(0));
+    vec3 e, f;
+    short_edges(a, b, c, e, f);
+    real e_size = largest(abs(e));
+    real f_size = largest(abs(f));
+    if (!(e_size > real(0) && f_size > real(0))) return vec3(real(0));
     // Scaled first, so that tiny triangles do not underflow.
-    vec3 n = cross(ab / ab_size, ac / ac_size);
+    vec3 n = cross(e / e_size, f / f_size);
     real size = length(n);
     return size > real(0) ? n / size : vec3(real(0));
 }
@@ -247,7 +271,7 @@ INLINE vec3 facet_normal(vec3 a, vec3 b, vec3 c) {
 // The point with barycentric weights w, and how far each coordinate may be off: the interpolation's
 // roundings, plus those of a triangle test that starts here. A flat triangle cannot be met by a ray
 // that leaves it, so Ray::leaves excludes it by name; the bound is for its neighbours in the same
-// plane, and does not cover slivers a hundred times longer than high.
+// plane, and for copies of it.
 INLINE vec3 triangle_point(vec3 a, vec3 b, vec3 c, vec3 w, OUT(vec3) error) {
     vec3 point = w.x * a + w.y * b + w.z * c;
     vec3 sum = abs(w.x * a) + abs(w.y * b) + abs(w.z * c);

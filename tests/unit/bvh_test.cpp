@@ -191,7 +191,9 @@ TEST(Bvh, SurvivesRandomBits) {
 }
 
 TEST(Bvh, CopiesOfOneTriangleAndTheLowestNumberWins) {
-    const std::vector<Triangle> copies(100000, {{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}});
+    std::vector<Triangle> copies(100000, {{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}});
+    for (std::size_t i = 0; i < copies.size(); ++i)
+        copies[i].object = static_cast<std::uint32_t>(copies.size() - i); // all of them are kept
     const auto start = std::chrono::steady_clock::now();
     const Bvh bvh = build(copies);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
@@ -203,6 +205,25 @@ TEST(Bvh, CopiesOfOneTriangleAndTheLowestNumberWins) {
     Steps steps;
     EXPECT_TRUE(any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, kInfinity, 0, &steps));
     EXPECT_LE(steps.total(), kMaxDepth + kMaxLeaf);
+}
+
+TEST(Bvh, CopiesInOneObjectCountAsOne) {
+    // Two heaps, each with its corners in two orders, two objects and two sets of flags.
+    std::vector<Triangle> triangles;
+    for (std::uint32_t i = 0; i < 8000; ++i) {
+        Triangle t{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, i / 2 % 2, i / 4 % 2 == 0 ? 0 : kHidden};
+        if (i % 2 == 0) std::swap(t.a, t.b);
+        if (i / 8 % 2 == 0) t.a.z = t.b.z = t.c.z = 2;
+        triangles.push_back(t);
+    }
+    const Bvh bvh = build(triangles);
+    expect_sound(bvh, 16);
+    EXPECT_EQ(bvh.copies, triangles.size() - 16);
+    EXPECT_EQ(bvh.dropped, 0u);
+    for (std::size_t i = 0; i < 16; ++i)
+        EXPECT_LT(detail::number(bvh.triangles[3 * i + 1].w), 16u) << "the lowest number of each stays";
+    const std::vector<Triangle> few(kMaxLeaf, triangles.front());
+    EXPECT_EQ(build(few).copies, 0u) << "a leaf has room for them";
 }
 
 TEST(Bvh, CoplanarCopiesInOtherLeavesTie) {

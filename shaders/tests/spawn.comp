@@ -1,0 +1,25 @@
+// tests/support/kernel.hpp: points on triangles, their normals, and the rays that leave them, as the ray tracer
+// makes them; one an invocation. Everything travels as words.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define BVH_NODES_BINDING 0
+#define BVH_TRIANGLES_BINDING 1
+#include "lib/trace.glsl"
+
+layout(local_size_x = TRACE_LOCAL_SIZE) in;
+layout(set = 0, binding = 2, std430) readonly buffer Starts { uvec4 starts[]; };   // weights, place; direction, unused
+layout(set = 0, binding = 3, std430) writeonly buffer Leavings { uvec4 leavings[]; }; // point, 0; normal, 0; origin, 0
+layout(push_constant) uniform Push { uint count; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= count) return;
+    vec3 a, b, c, error;
+    triangle_corners(starts[2u * i].w, a, b, c);
+    vec3 point = triangle_point(a, b, c, uintBitsToFloat(starts[2u * i].xyz), error);
+    vec3 facet = facet_normal(a, b, c);
+    vec3 origin = spawn_origin(point, error, facet, uintBitsToFloat(starts[2u * i + 1u].xyz));
+    leavings[3u * i] = uvec4(floatBitsToUint(point), 0u);
+    leavings[3u * i + 1u] = uvec4(floatBitsToUint(facet), 0u);
+    leavings[3u * i + 2u] = uvec4(floatBitsToUint(origin), 0u);
+}

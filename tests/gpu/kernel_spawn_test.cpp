@@ -1,0 +1,128 @@
+// Points on triangles and the rays that leave them, computed on the device.
+#include "support/kernel.hpp"
+#include "support/kernel_shapes.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+using test::Kernel;
+using test::KernelHit;
+using test::KernelLeaving;
+using test::KernelRay;
+using test::KernelStart;
+
+struct SelfHits {
+    std::size_t rays = 0, named = 0, unnamed = 0; ///< with Ray::leaves and without
+};
+
+/// 1000 rays from random points of the triangle into random directions.
+void leave(const bvh::Triangle& triangle, test::Numbers& numbers, SelfHits& count) {
+    constexpr std::size_t kRays = 1000;
+    Kernel kernel(std::span(&triangle, 1));
+    std::vector<KernelStart> starts(kRays);
+    for (KernelStart& start : starts) start = {numbers.weights(), 0, numbers.direction()};
+    const std::vector<KernelLeaving> leavings = kernel.leave(starts);
+    std::vector<KernelRay> rays;
+    for (std::size_t i = 0; i < kRays; ++i)
+        for (const std::uint32_t leaves : {0u, 1u})
+            rays.push_back({.origin = leavings[i].origin, .direction = starts[i].direction, .leaves = leaves});
+    const std::vector<KernelHit> hits = kernel.closest(rays);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (hits[i].found()) ++(rays[i].leaves == 0 ? count.unnamed : count.named);
+    count.rays += kRays;
+}
+
+void tell(const char* what, const SelfHits& hits) {
+    std::cout << "[ MEASURED ] N17 " << what << ": self hits " << hits.named << " of " << hits.rays
+              << " rays that name their triangle, " << hits.unnamed << " ("
+              << static_cast<double>(hits.unnamed) / static_cast<double>(std::max<std::size_t>(hits.rays, 1)) << " of them) of those that do not\n";
+}
+
+/// Each coordinate of its own magnitude: half of these triangles are slivers thirty to a billion times longer than
+/// high. The bound alone lifts a ray off them; it does not need to name what it leaves.
+TEST(KernelSpawn, N17_CoordinatesOfAnyMagnitude) {
+    test::Numbers numbers(17);
+    SelfHits count;
+    for (int i = 0; i < 1000; ++i) {
+        bvh::Triangle t;
+        for (vec3* corner : {&t.a, &t.b, &t.c})
+            for (int k = 0; k < 3; ++k) (*corner)[k] = numbers.wide(-8, 8);
+        leave(t, numbers, count);
+    }
+    tell("coordinates of 1e-8 .. 1e8", count);
+    EXPECT_EQ(count.named, 0u);
+    EXPECT_EQ(count.unnamed, 0u);
+}
+
+/// Of any size, at the origin or away from it by up to a thousand times that size.
+TEST(KernelSpawn, N17_TrianglesOfAnySize) {
+    test::Numbers numbers(18);
+    SelfHits count;
+    for (int i = 0; i < 500; ++i) {
+        const float size = std::pow(10.0f, numbers.between(-8, 8));
+        const vec3 centre = size * numbers.wide(-2, 3) * numbers.direction();
+        bvh::Triangle t;
+        for (vec3* corner : {&t.a, &t.b, &t.c}) *corner = centre + size * numbers.in_cube();
+        leave(t, numbers, count);
+    }
+    tell("triangles of sizes 1e-8 .. 1e8", count);
+    EXPECT_EQ(count.named, 0u);
+    EXPECT_EQ(count.unnamed, 0u);
+}
+
+/// Difference in units of the last place of a float as large as `scale`.
+double ulps(double found, double exact, double scale) { return std::abs(found - exact) / (std::ldexp(1.0, std::ilogb(scale)) * 0x1p-23); }
+double ulps(const vec3& found, const dvec3& exact, double scale) {
+    return std::max({ulps(double{found.x}, exact.x, scale), ulps(double{found.y}, exact.y, scale), ulps(double{found.z}, exact.z, scale)});
+}
+
+/// 256 rays against the double build on the same floats. Weights and normal against 1, the point against the
+/// triangle's largest coordinate, t against itself. No ray is flatter than 30 degrees: then a rounding of a
+/// corner moves the hit by no more than twice as much.
+TEST(KernelHit, N18_WithinSixteenUlpOfDouble) {
+    test::Numbers numbers(19);
+    const bvh::Triangle t{{-0.83f, -0.61f, 0.13f}, {0.94f, -0.47f, -0.22f}, {0.07f, 0.89f, 0.31f}};
+    const dvec3 a(t.a), b(t.b), c(t.c), n = glm::normalize(glm::cross(b - a, c - a));
+    Kernel kernel(std::span(&t, 1));
+    std::vector<KernelRay> rays(256);
+    for (KernelRay& ray : rays) {
+        const dvec3 w(numbers.weights());
+        dvec3 from;
+        do from = dvec3(numbers.direction());
+        while (std::abs(glm::dot(from, n)) < 0.5);
+        const dvec3 target = w.x * a + w.y * b + w.z * c;
+        ray.origin = vec3(target + from * double{numbers.between(0.5f, 2)});
+        ray.direction = vec3(target) - ray.origin;
+    }
+    const std::vector<test::KernelHit> hits = kernel.closest(rays);
+    std::vector<KernelStart> starts;
+    for (const test::KernelHit& hit : hits) starts.push_back({.weights = hit.barycentric, .place = 0, .direction = vec3(0, 0, 1)});
+    const std::vector<KernelLeaving> points = kernel.leave(starts);
+    struct Worst {
+        double t = 0, weights = 0, point = 0, normal = 0;
+    } worst;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        double exact_t;
+        dvec3 weights, error;
+        const bool met = f64::triangle_test(a, b, c, dvec3(rays[i].origin), f64::ray_shear(dvec3(rays[i].direction)), exact_t, weights);
+        ASSERT_EQ(hits[i].found(), met) << test::text(rays[i]);
+        if (!met) continue; // aimed at a point of an edge, beyond it by a rounding
+        const dvec3 exact = f64::barycentric(weights);
+        worst.t = std::max(worst.t, ulps(double{hits[i].t}, exact_t, exact_t));
+        worst.weights = std::max(worst.weights, ulps(hits[i].barycentric, exact, 1));
+        worst.point = std::max(worst.point, ulps(points[i].point, f64::triangle_point(a, b, c, exact, error), 0.94));
+        worst.normal = std::max(worst.normal, ulps(points[i].normal, f64::facet_normal(a, b, c), 1));
+    }
+    std::cout << "[ MEASURED ] N18 ulp from double: t " << worst.t << ", weights " << worst.weights << ", point " << worst.point
+              << ", normal " << worst.normal << "\n";
+    EXPECT_LE(worst.t, 16);
+    EXPECT_LE(worst.weights, 16);
+    EXPECT_LE(worst.point, 16);
+    EXPECT_LE(worst.normal, 16);
+    EXPECT_GT(worst.t, 0) << "the device's answers are rounded; were they asked for?";
+}
+
+} // namespace

@@ -1,0 +1,123 @@
+// A ray from strictly inside a closed mesh that hits nothing has slipped between two triangles, or past a box of
+// the hierarchy.
+#include "support/kernel.hpp"
+#include "support/kernel_shapes.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+using test::Kernel;
+using test::KernelHit;
+using test::KernelRay;
+
+constexpr std::size_t kChunk = 1u << 18;
+
+std::size_t misses(const std::vector<KernelRay>& rays, const std::vector<KernelHit>& hits) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (hits[i].found()) continue;
+        if (count++ == 0) ADD_FAILURE() << "ray " << i << " leaks: " << test::text(rays[i]);
+    }
+    return count;
+}
+
+/// Embree's test: about 2 to 100 units wide where floats are 1/64 apart, so that the smaller ones are crumpled and
+/// some of their triangles have no area. They stay closed.
+TEST(KernelWatertight, N14_MeshSphereFarOut) {
+    constexpr std::size_t kRays = 1000000;
+    const dvec3 centre(148376, 1234, -223423);
+    std::size_t rays_in_all = 0, missed = 0, different = 0;
+    for (const double radius : {2.0, 10.0, 100.0, 1e4}) {
+        std::vector<bvh::Triangle> triangles;
+        const scene::Mesh mesh = scene::ball("ball", 5);
+        for (const uvec3& t : mesh.triangles) {
+            const auto corner = [&](std::uint32_t i) { return vec3(mesh.positions[i] * radius + centre); };
+            triangles.push_back({corner(t.x), corner(t.y), corner(t.z)});
+        }
+        Kernel kernel(triangles);
+        test::Numbers numbers(14);
+        for (std::size_t done = 0; done < kRays; done += kChunk) {
+            std::vector<KernelRay> rays(std::min(kChunk, kRays - done));
+            for (KernelRay& ray : rays) {
+                ray.origin = vec3(centre + 0.5 * radius * dvec3(numbers.in_cube()));
+                ray.direction = numbers.direction();
+            }
+            const std::vector<KernelHit> hits = kernel.closest(rays);
+            missed += misses(rays, hits);
+            different += test::differences(kernel, rays, hits, 0, 16);
+            rays_in_all += rays.size();
+        }
+    }
+    std::cout << "[ MEASURED ] N14 misses " << missed << " of " << rays_in_all << ", other than the mirror " << different << "\n";
+    EXPECT_EQ(missed, 0u);
+    EXPECT_EQ(different, 0u);
+}
+
+struct Setting {
+    std::string name;
+    double scale;
+    dvec3 offset;
+    const test::ClosedMesh* closed;
+    std::vector<bvh::Triangle> triangles;
+};
+
+/// Aimed at a corner, or at a point of an edge.
+std::vector<KernelRay> aimed(const Setting& setting, std::size_t count, test::Numbers& numbers) {
+    std::vector<KernelRay> rays(count);
+    for (KernelRay& ray : rays) {
+        const bvh::Triangle& t = setting.triangles[numbers.below(setting.triangles.size())];
+        const std::size_t first = numbers.below(3);
+        const vec3 from = std::array{t.a, t.b, t.c}[first], to = std::array{t.b, t.c, t.a}[first];
+        const vec3 target = numbers.word() % 4 == 0 ? from : from + numbers.unit() * (to - from);
+        ray.origin = test::inside(*setting.closed, setting.scale, setting.offset, numbers);
+        ray.direction = target - ray.origin;
+        if (numbers.word() % 2 == 0) ray.direction = glm::normalize(ray.direction);
+    }
+    return rays;
+}
+
+TEST(KernelWatertight, N15_RaysAtEdgesAndCornersOfClosedMeshes) {
+    constexpr std::size_t kRays = 10000000;
+    const std::array meshes{test::ball(), test::torus(), test::box("room", 1), test::box("corridor", 1e5)};
+    const dvec3 away = glm::normalize(dvec3(0.62, -0.11, -0.78));
+    std::vector<Setting> settings;
+    std::size_t left_out = 0;
+    for (const test::ClosedMesh& closed : meshes)
+        for (const double scale : {1e-4, 1e-2, 1.0, 1e2, 1e4})
+            for (const double offset : {0.0, 1.0, 1e3, 1e6}) {
+                const auto triangles = test::placed(closed.mesh, scale, offset * away);
+                if (!triangles || !test::is_resolved(scale, offset * away)) {
+                    ++left_out; // a triangle collapsed, or there is no strictly inside
+                    continue;
+                }
+                std::ostringstream name;
+                name << closed.mesh.name << " x " << scale << " + " << offset;
+                settings.push_back({name.str(), scale, offset * away, &closed, *triangles});
+            }
+    const std::size_t rays_each = (kRays + settings.size() - 1) / settings.size();
+    std::size_t rays_in_all = 0, missed = 0, shadows_missed = 0, different = 0;
+    test::Numbers numbers(15);
+    for (const Setting& setting : settings) {
+        SCOPED_TRACE(setting.name);
+        Kernel kernel(setting.triangles);
+        for (std::size_t done = 0; done < rays_each; done += kChunk) {
+            const std::vector<KernelRay> rays = aimed(setting, std::min(kChunk, rays_each - done), numbers);
+            const std::vector<KernelHit> hits = kernel.closest(rays);
+            missed += misses(rays, hits);
+            different += test::differences(kernel, rays, hits, 0, 16);
+            if (done == 0) shadows_missed += misses(rays, kernel.any(rays));
+            rays_in_all += rays.size();
+        }
+    }
+    std::cout << "[ MEASURED ] N15 leaks " << missed << " of " << rays_in_all << " rays (" << shadows_missed << " of shadow rays), "
+              << settings.size() << " meshes, " << left_out << " left out, other than the mirror " << different << "\n";
+    EXPECT_GE(rays_in_all, kRays);
+    EXPECT_GE(settings.size(), 60u);
+    EXPECT_EQ(missed, 0u);
+    EXPECT_EQ(shadows_missed, 0u);
+    EXPECT_EQ(different, 0u);
+}
+
+} // namespace

@@ -1,0 +1,125 @@
+#pragma once
+
+#include "bvh/bvh.hpp"
+#include "scene/shapes.hpp"
+#include "support/scenes.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+/// Geometry and numbers for tests of the ray kernel, all from a seed.
+namespace test {
+
+/// Numbers from a counter (SplitMix64): fast, and the same on every machine.
+class Numbers {
+public:
+    explicit Numbers(std::uint64_t seed) : state_(seed) {}
+    std::uint32_t word() {
+        std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return static_cast<std::uint32_t>((z ^ (z >> 31)) >> 32);
+    }
+    /// In [0, 1), a multiple of 2^-24.
+    float unit() { return static_cast<float>(word() >> 8) * 0x1p-24f; }
+    float between(float lo, float hi) { return lo + (hi - lo) * unit(); }
+    std::size_t below(std::size_t count) { return static_cast<std::size_t>((std::uint64_t{word()} * count) >> 32); }
+    vec3 in_cube() {
+        const float x = between(-1, 1), y = between(-1, 1);
+        return {x, y, between(-1, 1)};
+    }
+    vec3 direction() {
+        for (;;) {
+            const vec3 v = in_cube();
+            const float size = glm::length(v);
+            if (size > 0.1f && size <= 1) return v / size;
+        }
+    }
+    /// Either sign, 10^low .. 10^high, every power as likely.
+    float wide(float low, float high) {
+        const float size = std::pow(10.0f, between(low, high));
+        return word() % 2 == 0 ? size : -size;
+    }
+    /// Weights of a point, uniform over the triangle.
+    vec3 weights() {
+        const float s = std::sqrt(unit()), r = unit();
+        return {1 - s, s * (1 - r), s * r};
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+/// A closed mesh, and from where rays may start strictly inside: `reach` around points of its core, which is
+/// its centre or, for a torus, a circle about z.
+struct ClosedMesh {
+    scene::Mesh mesh;
+    double core_radius;
+    double reach; ///< half edge of a cube around a point of the core
+};
+constexpr double kInsideMargin = 0.12; ///< from such a cube to the mesh, at least
+
+/// 64 rings of 32 around a circle of radius 1, tube radius 0.4; neighbours share their corners.
+inline ClosedMesh torus() {
+    constexpr std::uint32_t kRings = 64, kSides = 32;
+    scene::Mesh mesh{.name = "torus"};
+    for (std::uint32_t ring = 0; ring < kRings; ++ring)
+        for (std::uint32_t side = 0; side < kSides; ++side) {
+            const double around = 2 * std::numbers::pi * ring / kRings, about = 2 * std::numbers::pi * side / kSides;
+            const double out = 1 + 0.4 * std::cos(about);
+            mesh.positions.push_back({out * std::cos(around), out * std::sin(around), 0.4 * std::sin(about)});
+            const auto corner = [&](std::uint32_t i, std::uint32_t k) { return (ring + i) % kRings * kSides + (side + k) % kSides; };
+            mesh.triangles.push_back({corner(0, 0), corner(1, 0), corner(1, 1)});
+            mesh.triangles.push_back({corner(0, 0), corner(1, 1), corner(0, 1)});
+        }
+    return {std::move(mesh), 1, 0.15};
+}
+
+/// A closed room of twelve triangles without a round number; `stretch` makes a corridor of it, along z.
+inline ClosedMesh box(std::string name, double stretch) {
+    scene::Mesh mesh{.name = std::move(name)};
+    for (int face = 0; face < 6; ++face) {
+        const scene::Mesh side = wall(face, {-0.91, -0.63, -1.17 * stretch}, {0.87, 0.71, 1.03 * stretch});
+        const uvec3 first(static_cast<std::uint32_t>(mesh.positions.size()));
+        mesh.positions.insert(mesh.positions.end(), side.positions.begin(), side.positions.end());
+        for (const uvec3& triangle : side.triangles) mesh.triangles.push_back(triangle + first);
+    }
+    return {std::move(mesh), 0, 0.5};
+}
+
+inline ClosedMesh ball() { return {scene::ball("ball", 5), 0, 0.5}; }
+
+/// The mesh times `scale` plus `offset`, rounded to float; nothing when that leaves a triangle without an area.
+inline std::optional<std::vector<bvh::Triangle>> placed(const scene::Mesh& mesh, double scale, dvec3 offset) {
+    std::vector<bvh::Triangle> result;
+    for (const uvec3& t : mesh.triangles) {
+        const auto corner = [&](std::uint32_t i) { return vec3(mesh.positions[i] * scale + offset); };
+        const bvh::Triangle triangle{corner(t.x), corner(t.y), corner(t.z)};
+        const dvec3 a(triangle.a), b(triangle.b), c(triangle.c);
+        if (glm::cross(b - a, c - a) == dvec3(0)) return {};
+        result.push_back(triangle);
+    }
+    return result;
+}
+
+/// Whether rounding `scale` times the mesh plus `offset` moves corners and starting points by less than what lies
+/// between them.
+inline bool is_resolved(double scale, dvec3 offset) {
+    const double largest = 2 * scale + glm::length(offset);
+    return std::sqrt(3.0) * std::ldexp(largest, -23) < kInsideMargin * scale;
+}
+
+/// Where a ray starts strictly inside the placed mesh if that is resolved, rounded to float.
+inline vec3 inside(const ClosedMesh& closed, double scale, dvec3 offset, Numbers& numbers) {
+    dvec3 core(0);
+    if (closed.core_radius > 0) {
+        const double around = 2 * std::numbers::pi * static_cast<double>(numbers.unit());
+        core = closed.core_radius * dvec3(std::cos(around), std::sin(around), 0);
+    }
+    return vec3((core + closed.reach * dvec3(numbers.in_cube())) * scale + offset);
+}
+
+} // namespace test
