@@ -74,7 +74,7 @@ Watched Faults::watch(const Words& words, const std::optional<Fault>& fault, con
     return watched;
 }
 
-void Faults::two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& run) {
+void two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& run) {
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
         for (std::size_t i; (i = next++) < count;) run(i);

@@ -35,7 +35,7 @@ protected:
 
     /// Runs in `place`, a folder below the test's own that must be there.
     Watched watch(const Words& words, const std::optional<Fault>& fault, const std::string& place = ".") const;
-
-    /// Calls `run(i)` for each i below `count`, two at a time: most of a run is one thread's.
-    static void two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& run);
 };
+
+/// Calls `run(i)` for each i below `count`, two at a time: most of a program's run is one thread's.
+void two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& run);
