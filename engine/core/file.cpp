@@ -37,8 +37,9 @@ void write_all(File file, std::string_view content, const fs::path& path) {
     const int error = errno;
     check(whole, Failure::io, path.string(), ": wanted to write ", content.size(), " bytes: ",
           reason(error));
-    check(std::fclose(file.release()) == 0, Failure::io, path.string(),
-          ": cannot be closed: ", reason(errno));
+    const bool closed = std::fclose(file.release()) == 0;
+    const int close_error = errno;
+    check(closed, Failure::io, path.string(), ": cannot be closed: ", reason(close_error));
 }
 
 File open_new(const fs::path& temporary, const fs::path& path) {
@@ -76,8 +77,9 @@ void write_file(const fs::path& path, std::string_view content) {
     if (!fs::exists(status) || fs::is_regular_file(status)) return replace(target, content, path);
 
     File file(std::fopen(target.c_str(), "wb")); // a device or a pipe
+    const int open_error = errno;
     check(file != nullptr, Failure::cannot_create, path.string(),
-          ": cannot be opened: ", reason(errno));
+          ": cannot be opened: ", reason(open_error));
     write_all(std::move(file), content, path);
 }
 

@@ -53,9 +53,9 @@ UniqueMemory back(const Device& device, VkBuffer buffer, bool want_mapped, const
     return memory;
 }
 
-void copy(Device& device, VkBuffer from, std::uint64_t from_offset, VkBuffer to, std::uint64_t to_offset,
-          std::uint64_t bytes) {
-    device.submit_now([&](VkCommandBuffer commands) {
+void copy(Device& device, const std::string& doing, VkBuffer from, std::uint64_t from_offset, VkBuffer to,
+          std::uint64_t to_offset, std::uint64_t bytes) {
+    device.submit_now(doing, [&](VkCommandBuffer commands) {
         const VkBufferCopy region{from_offset, to_offset, bytes};
         vkCmdCopyBuffer(commands, from, to, 1, &region);
     });
@@ -92,7 +92,7 @@ void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) {
     const UniqueBuffer staging = make_buffer(*device_, data.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "staging");
     const UniqueMemory memory = back(*device_, staging, true, "staging", mapped);
     std::memcpy(mapped, data.data(), data.size());
-    copy(*device_, staging, 0, buffer_, offset, data.size());
+    copy(*device_, "write buffer '" + name_ + "'", staging, 0, buffer_, offset, data.size());
 }
 
 std::vector<std::byte> Buffer::read() const {
@@ -104,7 +104,7 @@ std::vector<std::byte> Buffer::read() const {
     void* mapped = nullptr;
     const UniqueBuffer staging = make_buffer(*device_, bytes_, VK_BUFFER_USAGE_TRANSFER_DST_BIT, "read-back");
     const UniqueMemory memory = back(*device_, staging, true, "read-back", mapped);
-    copy(*device_, buffer_, 0, staging, 0, bytes_);
+    copy(*device_, "read back buffer '" + name_ + "'", buffer_, 0, staging, 0, bytes_);
     std::memcpy(data.data(), mapped, bytes_);
     return data;
 }

@@ -205,14 +205,14 @@ void Device::set_name(VkObjectType type, std::uint64_t handle, const std::string
     set_object_name_(device_, &info);
 }
 
-void Device::begin_one_shot() {
+void Device::begin_one_shot(const std::string& doing) {
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check_vk(vkBeginCommandBuffer(one_shot_, &begin), "begin a command buffer");
+    check_vk(vkBeginCommandBuffer(one_shot_, &begin), doing + " (begin a command buffer)");
 }
 
 /// What was copied is visible to the host and to all later commands.
-void Device::end_one_shot() {
+void Device::end_one_shot(const std::string& doing) {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
@@ -222,14 +222,14 @@ void Device::end_one_shot() {
     dependency.memoryBarrierCount = 1;
     dependency.pMemoryBarriers = &barrier;
     vkCmdPipelineBarrier2(one_shot_, &dependency);
-    check_vk(vkEndCommandBuffer(one_shot_), "end a command buffer");
+    check_vk(vkEndCommandBuffer(one_shot_), doing + " (end a command buffer)");
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = one_shot_;
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
-    check_vk(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "submit a copy");
-    check_vk(vkQueueWaitIdle(queue_), "wait for a copy");
+    check_vk(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), doing);
+    check_vk(vkQueueWaitIdle(queue_), doing);
 }
 
 void Device::check_validation() const {

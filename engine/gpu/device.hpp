@@ -63,12 +63,13 @@ public:
     bool has_labels() const { return has_debug_utils_; }
 
     /// Records copies with `record`, submits and waits; what they wrote is visible to the host and to all
-    /// later commands. For uploads and read-back, never inside a timed frame.
+    /// later commands. For uploads and read-back, never inside a timed frame. `doing` reads on from
+    /// "Vulkan: cannot " when it throws `exhausted` or `device_lost`.
     template <typename Record>
-    void submit_now(Record&& record) {
-        begin_one_shot();
+    void submit_now(const std::string& doing, Record&& record) {
+        begin_one_shot(doing);
         record(one_shot_);
-        end_one_shot();
+        end_one_shot(doing);
     }
 
     /// Messages of the validation layer so far (errors and warnings).
@@ -81,8 +82,8 @@ private:
     void create_instance(bool validate);
     void choose(const DeviceOptions& options);
     void create_device();
-    void begin_one_shot();
-    void end_one_shot();
+    void begin_one_shot(const std::string& doing);
+    void end_one_shot(const std::string& doing);
 
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;

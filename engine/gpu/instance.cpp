@@ -23,9 +23,12 @@ bool has_layer(const char* name) {
     return std::ranges::any_of(layers, [&](const auto& l) { return !strcmp(l.layerName, name); });
 }
 
+/// Throws `no_device` when the loader cannot read the files that say where drivers are.
 bool has_instance_extension(const char* layer, const char* name) {
     std::uint32_t count = 0;
-    vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
+    const VkResult result = vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
+    check(result == VK_SUCCESS, Failure::no_device, kNoDriver, " (the Vulkan loader cannot read its driver files: ",
+          name_of(result), "; is VK_DRIVER_FILES or VK_ICD_FILENAMES set?)");
     std::vector<VkExtensionProperties> list(count);
     vkEnumerateInstanceExtensionProperties(layer, &count, list.data());
     return std::ranges::any_of(list, [&](const auto& e) { return !strcmp(e.extensionName, name); });

@@ -224,6 +224,13 @@ void Runner::render(const Graph& graph, const Pass& pass, std::uint32_t first_la
     vkCmdEndRendering(commands_);
 }
 
+/// The number of the frame and its passes: which of them a device was lost in, nobody knows.
+std::string Runner::name_of_frame(const Graph& graph, const Plan& plan) const {
+    std::string name = "frame " + std::to_string(frame_) + " (passes";
+    for (const PlannedPass& planned : plan.passes) name += " '" + graph.passes()[planned.pass].name + "'";
+    return name + ")";
+}
+
 double Runner::submit_and_wait(const Graph& graph, const Plan& plan) {
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = commands_;
@@ -236,9 +243,7 @@ double Runner::submit_and_wait(const Graph& graph, const Plan& plan) {
     submit.pCommandBufferInfos = &commands;
     submit.signalSemaphoreInfoCount = 1;
     submit.pSignalSemaphoreInfos = &signal;
-    std::string doing = "run frame " + std::to_string(frame_) + " (passes";
-    for (const PlannedPass& planned : plan.passes) doing += " '" + graph.passes()[planned.pass].name + "'";
-    doing += ")";
+    const std::string doing = "run " + name_of_frame(graph, plan);
 
     const auto start = Clock::now();
     gpu::check_vk(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE), doing);
@@ -254,7 +259,8 @@ double Runner::submit_and_wait(const Graph& graph, const Plan& plan) {
 FrameTimes Runner::read_times(const Graph& graph, const Plan& plan, Timing timing) const {
     std::vector<std::uint64_t> stamps(next_query_);
     gpu::check_vk(vkGetQueryPoolResults(device_.handle(), queries_, 0, next_query_, stamps.size() * 8, stamps.data(), 8,
-                                        VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT), "read the time stamps");
+                                        VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                  "read the time stamps of " + name_of_frame(graph, plan));
     const std::vector<double> at = milliseconds_since_first(stamps, device_.timestamp_bits(), static_cast<double>(device_.limits().timestampPeriod));
     FrameTimes times;
     for (std::size_t i = 0; i < plan.passes.size(); ++i) {

@@ -78,6 +78,7 @@ private:
     void barriers(const Graph& graph, const Plan& plan, const std::vector<Barrier>& list, bool last);
     void full_barrier();
     void stamp(Timing timing);
+    std::string name_of_frame(const Graph& graph, const Plan& plan) const;
     double submit_and_wait(const Graph& graph, const Plan& plan);
     FrameTimes read_times(const Graph& graph, const Plan& plan, Timing timing) const;
 

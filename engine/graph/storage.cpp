@@ -146,7 +146,7 @@ void Runner::make_kept(const ImageDesc& desc) {
         gpu::check_vk(vkBindImageMemory(device_.handle(), kept.copies[i].image, kept.memory, i * second),
                       "place image '" + desc.name + "'");
     }
-    device_.submit_now([&](VkCommandBuffer commands) {
+    device_.submit_now("clear image '" + desc.name + "'", [&](VkCommandBuffer commands) {
         for (const Physical& copy : kept.copies) {
             const VkImageSubresourceRange range{aspect_of(desc.format), 0, 1, 0, desc.layers};
             VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
@@ -206,7 +206,7 @@ std::vector<std::byte> Runner::read(Image image) {
     Physical& source = physical(image);
     const std::uint64_t bytes = std::uint64_t{desc.width} * desc.height * image.layer_count * bytes_per_texel(desc.format);
     gpu::Buffer target(device_, "read-back of " + desc.name, bytes, gpu::BufferUse::plain);
-    device_.submit_now([&](VkCommandBuffer commands) {
+    device_.submit_now("read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
         VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
         barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
@@ -230,9 +230,9 @@ std::vector<std::byte> Runner::read(Image image) {
 }
 
 std::vector<std::byte> Runner::read(Buffer buffer) {
-    const std::uint64_t bytes = buffer_descs_[buffer.id].bytes;
-    gpu::Buffer target(device_, "read-back of " + buffer_descs_[buffer.id].name, bytes, gpu::BufferUse::plain);
-    device_.submit_now([&](VkCommandBuffer commands) {
+    const auto& [name, bytes] = buffer_descs_[buffer.id];
+    gpu::Buffer target(device_, "read-back of " + name, bytes, gpu::BufferUse::plain);
+    device_.submit_now("read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, bytes};
         vkCmdCopyBuffer(commands, buffers_[buffer.id], target.handle(), 1, &region);
     });

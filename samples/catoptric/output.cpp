@@ -22,8 +22,10 @@ void line(const std::string& text) {
 }
 
 void check_writable(const fs::path& folder, const fs::path& path) {
-    check(::access(folder.c_str(), W_OK | X_OK) == 0, Failure::cannot_create, path.string(),
-          ": cannot be created in ", folder.string(), ": ", std::generic_category().message(errno));
+    const bool writable = ::access(folder.c_str(), W_OK | X_OK) == 0;
+    const int error = errno; // before anything else is called
+    check(writable, Failure::cannot_create, path.string(), ": cannot be created in ", folder.string(), ": ",
+          std::generic_category().message(error));
 }
 
 /// The folder that a new entry `path` would lie in.
@@ -44,6 +46,7 @@ void check_parent(const fs::path& path) {
 
 void prepare_streams() {
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     for (int stream = 0; stream <= 2; ++stream) {
         if (::fcntl(stream, F_GETFD) != -1) continue;
         // The lowest free number is this one. Open for reading, stdout still refuses to be written.

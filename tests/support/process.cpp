@@ -1,17 +1,25 @@
 #include "support/process.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <functional>
 #include <thread>
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace test {
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// Reads to the end; calls `seen` once, as soon as `marker` has come.
 std::string read_all(int fd, const std::string& marker = {}, std::function<void()> seen = {}) {
@@ -27,8 +35,12 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
 
 /// In the child, between fork and exec.
 [[noreturn]] void become(const Start& start, int out, int err) {
-    for (const int signal : {SIGINT, SIGTERM, SIGPIPE})
+    for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ})
         ::signal(signal, SIG_DFL);
+    if (start.file_limit > 0) {
+        const rlimit limit{start.file_limit, start.file_limit};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
     if (!start.out_path.empty())
         out = ::open(start.out_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(::open("/dev/null", O_RDONLY), 0);
@@ -51,6 +63,8 @@ Ended run_process(const Start& start) {
     int out[2], err[2];
     if (::pipe2(out, O_CLOEXEC) != 0 || ::pipe2(err, O_CLOEXEC) != 0) return {};
     if (start.no_reader) ::close(out[0]);
+    const Clock::time_point begin = Clock::now();
+    Clock::time_point signalled = begin;
     const pid_t child = ::fork();
     if (child == 0) become(start, out[1], err[1]);
     ::close(out[1]);
@@ -60,11 +74,17 @@ Ended run_process(const Start& start) {
         if (!start.no_reader) ended.out = read_all(out[0]);
     });
     std::function<void()> send;
-    if (start.signal != 0) send = [&] { ::kill(child, start.signal); };
+    if (start.signal != 0)
+        send = [&] {
+            signalled = Clock::now();
+            ::kill(child, start.signal);
+        };
     ended.err = read_all(err[0], start.signal_at, send);
     reader.join();
     int status = 0;
     ::waitpid(child, &status, 0);
+    ended.seconds = seconds_since(begin);
+    if (signalled != begin) ended.seconds_after_signal = seconds_since(signalled);
     ended.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return ended;
 }

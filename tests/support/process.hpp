@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -10,6 +11,8 @@ namespace test {
 struct Ended {
     int exit_code = -1; ///< 128 + n when signal n killed it
     std::string out, err;
+    double seconds = 0;              ///< from its start to its end
+    double seconds_after_signal = 0; ///< from the signal that was sent, if one was
 };
 
 struct Start {
@@ -17,6 +20,7 @@ struct Start {
     std::map<std::string, std::string> environment = {}; ///< added to ours
     std::string out_path = {}; ///< stdout goes here instead of `Ended::out`
     bool no_reader = false;    ///< stdout is a pipe whose other end is closed
+    std::uint64_t file_limit = 0; ///< bytes after which writing to a file fails; 0 = no limit
     int signal = 0;            ///< sent once stderr has `signal_at` in it; 0 = none
     std::string signal_at = {};
     std::filesystem::path folder = {}; ///< where it runs; empty = here

@@ -1,0 +1,136 @@
+// R5: every kind of file that is written meets a full disk, a limit of file size, a folder that takes no files and
+// a folder of its own name: 73 or 74, the old file intact, no temporary left.
+#include "faults/faults.hpp"
+
+#include <cstring>
+
+#include <sys/mount.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Disk : public Cli {
+protected:
+    /// The files of a comparison, in the order in which they are written.
+    const Words files = {"images/reference.png", "images/raytrace.exr", "images/raytrace.png", "images/raytrace-error.png",
+                         "rows.csv", "report.md", "report.html", "report.json"};
+
+    static Words comparison(const std::string& into) {
+        return {"compare", "-o", into, "--size", "16x16", "--frames", "1", "--warmup", "0", "--quiet", "--techniques", "raytrace"};
+    }
+    Words picture(const std::string& path) const {
+        return {"render", "--technique", "raytrace:depth=1", "--size", "64x64", "--frames", "1", "--warmup", "0", "--quiet", "-o", path};
+    }
+    /// Temporaries of whole-file writes.
+    Words strays() const {
+        Words found;
+        for (const auto& entry : fs::recursive_directory_iterator(folder))
+            if (entry.path().filename().string().find(".partial-") != std::string::npos) found.push_back(entry.path());
+        return found;
+    }
+
+    /// Comparisons, in each of which `prepare(place)` made one of the files impossible: exit code and message.
+    void compare_without_each_file(const std::function<void(const fs::path& file)>& prepare, int exit_code, const std::string& why) const {
+        two_at_a_time(files.size(), [&](std::size_t i) {
+            const std::string out = "out-" + std::to_string(i);
+            const fs::path file = folder / out / files[i];
+            fs::create_directories(file.parent_path());
+            prepare(file);
+            expect_ended(cli(comparison(out)), exit_code, {out + "/" + files[i], why});
+        });
+        EXPECT_EQ(strays(), Words{});
+    }
+};
+
+/// A folder in memory with no room left, gone at the end.
+struct FullDisk {
+    explicit FullDisk(fs::path folder) : path(std::move(folder)) {
+        fs::create_directories(path);
+        mounted = ::mount("tmpfs", path.c_str(), "tmpfs", 0, "size=64k") == 0;
+        why = std::strerror(errno);
+    }
+    ~FullDisk() {
+        if (mounted) ::umount(path.c_str());
+    }
+    /// After this nothing more can be written.
+    void fill() const {
+        std::ofstream filler(path / "filler", std::ios::binary);
+        for (char page[4096] = {}; filler.write(page, sizeof page).flush();) {}
+    }
+    fs::path path;
+    bool mounted = false;
+    std::string why;
+};
+
+TEST_F(Disk, FullForEveryFileOfAComparison) {
+    const FullDisk disk(folder / "disk");
+    if (!disk.mounted) GTEST_SKIP() << "cannot mount a small tmpfs: " << disk.why;
+    for (const std::string& name : files) write("disk/" + fs::path(name).filename().string(), "old");
+    disk.fill();
+    compare_without_each_file([&](const fs::path& file) { fs::create_symlink(disk.path / file.filename(), file); }, 74, "No space left on device");
+    for (const std::string& name : files) EXPECT_EQ(read_path(disk.path / fs::path(name).filename()), "old");
+}
+
+TEST_F(Disk, FullForAPictureAndItsTrace) {
+    const FullDisk disk(folder / "disk");
+    if (!disk.mounted) GTEST_SKIP() << "cannot mount a small tmpfs: " << disk.why;
+    for (const char* name : {"x.exr", "x.png", "t.json"}) write(std::string("disk/") + name, "old");
+    disk.fill();
+    for (const std::string name : {"disk/x.exr", "disk/x.png"}) {
+        expect_ended(cli(picture(name)), 74, {name, "No space left on device"});
+        EXPECT_EQ(read(name), "old");
+    }
+    Words words = picture("y.png");
+    words.insert(words.end(), {"--trace", "disk/t.json"});
+    expect_ended(cli(words), 74, {"disk/t.json", "No space left on device"});
+    EXPECT_EQ(read("disk/t.json"), "old");
+    EXPECT_EQ(strays(), Words{});
+}
+
+/// Needs no privilege, and breaks off in the middle of the file: `ulimit -f`.
+TEST_F(Disk, LimitOfFileSizeEndsAsAnErrorAndNotAsASignal) {
+    for (const std::string name : {"x.exr", "x.png"}) {
+        write(name, "old");
+        test::Start process = start(picture(name));
+        process.file_limit = 512;
+        expect_ended(test::run_process(process), 74, {name, "File too large"});
+        EXPECT_EQ(read(name), "old");
+    }
+    fs::create_directory(folder / "out");
+    write("out/report.json", "old");
+    test::Start process = start(comparison("out"));
+    process.file_limit = 4096; // the pictures are smaller, the page is larger
+    expect_ended(test::run_process(process), 74, {"out/report.", "File too large"});
+    EXPECT_EQ(read("out/report.json"), "old");
+    EXPECT_EQ(strays(), Words{});
+}
+
+/// Nobody may make files in /proc, not even root, whom permissions do not stop.
+TEST_F(Disk, FolderThatTakesNoFiles) {
+    if (!fs::is_directory("/proc/self")) GTEST_SKIP() << "no /proc, a folder in which not even root can make a file";
+    compare_without_each_file([](const fs::path& file) { fs::create_symlink("/proc" / file.filename(), file); }, 73, "cannot be created");
+    for (const std::string name : {"/proc/x.exr", "/proc/x.png"}) expect_ended(cli(picture(name)), 73, {name, "cannot be created"});
+    Words words = picture("y.png");
+    words.insert(words.end(), {"--trace", "/proc/t.json"});
+    expect_ended(cli(words), 73, {"/proc/t.json", "cannot be created"});
+    expect_ended(cli(comparison("/proc/out")), 73, {"/proc/out"});
+}
+
+TEST_F(Disk, ReadOnlyFolder) {
+    const FullDisk disk(folder / "disk");
+    if (!disk.mounted) GTEST_SKIP() << "cannot mount a small tmpfs: " << disk.why;
+    write("disk/x.exr", "old");
+    fs::create_directory(folder / "disk/out");
+    if (::mount("tmpfs", disk.path.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, "size=64k") != 0)
+        GTEST_SKIP() << "cannot make a tmpfs read-only: " << std::strerror(errno);
+    expect_ended(cli(picture("disk/x.exr")), 73, {"disk/x.exr", "Read-only file system"});
+    EXPECT_EQ(read("disk/x.exr"), "old");
+    expect_ended(cli(comparison("disk/out")), 73, {"disk/out", "Read-only file system"});
+}
+
+TEST_F(Disk, FolderInThePlaceOfEachFile) {
+    compare_without_each_file([](const fs::path& file) { fs::create_directory(file); }, 73, "found a folder");
+}
+
+} // namespace

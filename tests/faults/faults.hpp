@@ -1,0 +1,41 @@
+#pragma once
+
+#include "cli/program.hpp"
+
+#include <functional>
+#include <optional>
+
+/// One Vulkan call that fails: the `at`-th, from 1, of that name.
+struct Fault {
+    std::string call;
+    int at = 1;
+    int result = 0; ///< a VkResult
+};
+
+/// Calls of one name in a run, and how many of the objects that they made were never destroyed.
+struct Count {
+    int calls = 0, alive = 0;
+};
+
+/// A run under the layer of tests/faults/layer.
+struct Watched {
+    test::Ended ended;
+    std::map<std::string, Count> counts; ///< empty when the program crashed or the layer was not there
+    int strays = 0;                      ///< handles destroyed that were not alive
+
+    /// What is wrong with what it left on the device; empty = nothing.
+    std::string leaks() const;
+};
+
+/// The command with that layer over its driver. Its shader cache is kept for the whole program.
+class Faults : public Cli {
+protected:
+    /// Fails where the loader does not load the layer; skips there with sanitizers.
+    void SetUp() override;
+
+    /// Runs in `place`, a folder below the test's own that must be there.
+    Watched watch(const Words& words, const std::optional<Fault>& fault, const std::string& place = ".") const;
+};
+
+/// Calls `run(i)` for each i below `count`, two at a time: most of a program's run is one thread's.
+void two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& run);

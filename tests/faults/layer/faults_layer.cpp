@@ -1,0 +1,310 @@
+// VK_LAYER_CATOPTRIC_faults: makes one Vulkan call fail and counts all of them. By environment:
+//   CATOPTRIC_FAULT=vkCreateBuffer:3:-2   the third call of that name returns VkResult -2 instead of being made
+//   CATOPTRIC_FAULT_REPORT=FILE           at exit gets a line "NAME CALLS ALIVE" for each call made, then
+//                                         "strays N": handles destroyed that were not alive
+// For one instance, one device and one thread at a time, as the engine has them.
+#include <vulkan/vk_layer.h>
+#include <vulkan/vulkan.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace {
+
+// Calls that make something, and the call that ends its life.
+#define FOR_CREATORS(X)                                  \
+    X(AllocateMemory, FreeMemory)                        \
+    X(CreateBuffer, DestroyBuffer)                       \
+    X(CreateBufferView, DestroyBufferView)               \
+    X(CreateImage, DestroyImage)                         \
+    X(CreateImageView, DestroyImageView)                 \
+    X(CreateSampler, DestroySampler)                     \
+    X(CreateShaderModule, DestroyShaderModule)           \
+    X(CreateDescriptorSetLayout, DestroyDescriptorSetLayout) \
+    X(CreatePipelineLayout, DestroyPipelineLayout)       \
+    X(CreateGraphicsPipelines, DestroyPipeline)          \
+    X(CreateComputePipelines, DestroyPipeline)           \
+    X(CreateDescriptorPool, DestroyDescriptorPool)       \
+    X(CreateCommandPool, DestroyCommandPool)             \
+    X(CreateSemaphore, DestroySemaphore)                 \
+    X(CreateFence, DestroyFence)                         \
+    X(CreateEvent, DestroyEvent)                         \
+    X(CreatePipelineCache, DestroyPipelineCache)         \
+    X(CreateQueryPool, DestroyQueryPool)
+#define FOR_DESTROYERS(X)                                                                                    \
+    X(FreeMemory) X(DestroyBuffer) X(DestroyBufferView) X(DestroyImage) X(DestroyImageView) X(DestroySampler) \
+    X(DestroyShaderModule) X(DestroyDescriptorSetLayout) X(DestroyPipelineLayout) X(DestroyPipeline)         \
+    X(DestroyDescriptorPool) X(DestroyCommandPool) X(DestroySemaphore) X(DestroyFence) X(DestroyEvent)       \
+    X(DestroyPipelineCache) X(DestroyQueryPool)
+// Calls that may fail and make nothing of their own; sets and command buffers go with their pools.
+#define FOR_CALLS(X)                                                                                       \
+    X(AllocateDescriptorSets) X(AllocateCommandBuffers) X(BindBufferMemory) X(BindImageMemory) X(MapMemory) \
+    X(BeginCommandBuffer) X(EndCommandBuffer) X(QueueSubmit2) X(WaitSemaphores) X(QueueWaitIdle)           \
+    X(DeviceWaitIdle) X(GetQueryPoolResults)
+
+struct Counter {
+    int calls = 0, alive = 0;
+    PFN_vkVoidFunction next = nullptr; ///< the driver's, or the next layer's
+};
+
+/// Everything the layer knows. The report is written when the program ends, and so is missing when it
+/// crashed; the library is linked to stay loaded until then.
+struct State {
+    State() {
+        if (const char* text = std::getenv("CATOPTRIC_FAULT")) {
+            char name[64] = {};
+            if (std::sscanf(text, "%63[^:]:%d:%d", name, &fault_at, &fault_result) != 3) {
+                std::fprintf(stderr, "CATOPTRIC_FAULT: wanted NAME:CALL:RESULT, found '%s'\n", text);
+                std::abort();
+            }
+            fault_name = name;
+        }
+    }
+    ~State() {
+        const char* path = std::getenv("CATOPTRIC_FAULT_REPORT");
+        std::FILE* file = path ? std::fopen(path, "w") : nullptr;
+        if (!file) return;
+        for (const auto& [name, counter] : counters)
+            if (counter.calls > 0) std::fprintf(file, "%s %d %d\n", name.c_str(), counter.calls, counter.alive);
+        std::fprintf(file, "strays %d\n", strays);
+        std::fclose(file);
+    }
+
+    std::string fault_name;
+    int fault_at = 0, fault_result = 0;
+    bool lost = false; ///< the device has been reported lost, and stays so
+    int strays = 0;
+    std::map<std::string, Counter, std::less<>> counters;
+    /// By the call that destroys it, since handles of two types may be the same number.
+    std::map<std::pair<std::string_view, std::uint64_t>, Counter*> alive;
+
+    PFN_vkGetInstanceProcAddr next_instance_proc = nullptr;
+    PFN_vkGetDeviceProcAddr next_device_proc = nullptr;
+    VkDevice device = VK_NULL_HANDLE;
+} state;
+
+Counter& counter_of(std::string_view name) {
+    const auto found = state.counters.find(name);
+    return found != state.counters.end() ? found->second : state.counters[std::string(name)];
+}
+
+template <typename Handle>
+std::uint64_t number_of(Handle handle) {
+    std::uint64_t number = 0;
+    std::memcpy(&number, &handle, sizeof handle);
+    return number;
+}
+
+template <typename Handle>
+void born(Counter& counter, std::string_view destroyer, Handle handle) {
+    if (handle == VK_NULL_HANDLE) return;
+    ++counter.alive;
+    state.alive[{destroyer, number_of(handle)}] = &counter;
+}
+
+template <typename Handle>
+void died(std::string_view destroyer, Handle handle) {
+    if (handle == VK_NULL_HANDLE) return;
+    const auto found = state.alive.find({destroyer, number_of(handle)});
+    if (found == state.alive.end()) {
+        ++state.strays;
+        return;
+    }
+    --found->second->alive;
+    state.alive.erase(found);
+}
+
+/// Counts a call; true when it is the one that must fail.
+bool is_fault(std::string_view name) {
+    const bool fault = ++counter_of(name).calls == state.fault_at && name == state.fault_name;
+    if (fault && state.fault_result == VK_ERROR_DEVICE_LOST) state.lost = true;
+    return fault;
+}
+
+/// A lost device runs nothing, so the driver's threads must be done before anybody is told.
+void let_work_finish() {
+    if (!state.device) return;
+    const auto wait = state.next_device_proc(state.device, "vkDeviceWaitIdle");
+    reinterpret_cast<PFN_vkDeviceWaitIdle>(wait)(state.device);
+}
+
+bool may_say_lost(std::string_view name) {
+    for (const char* one : {"vkQueueSubmit2", "vkWaitSemaphores", "vkQueueWaitIdle", "vkDeviceWaitIdle", "vkGetQueryPoolResults"})
+        if (name == one) return true;
+    return false;
+}
+
+/// What the call must return instead of being made; VK_SUCCESS = make it.
+VkResult refusal(std::string_view name) {
+    const bool fault = is_fault(name);
+    const bool lost = state.lost && may_say_lost(name);
+    if (!fault && !lost) return VK_SUCCESS;
+    if (name != "vkQueueSubmit2" && may_say_lost(name)) let_work_finish();
+    return fault ? static_cast<VkResult>(state.fault_result) : VK_ERROR_DEVICE_LOST;
+}
+
+/// How many handles a creator's arguments ask for: pipelines come in arrays.
+template <typename... Args>
+std::uint32_t handle_count(const std::tuple<Args...>& args) {
+    if constexpr (sizeof...(Args) == 6) return std::get<2>(args);
+    return 1;
+}
+
+template <const auto& kName, typename Pfn>
+struct Call;
+template <const auto& kName, typename... Args>
+struct Call<kName, VkResult(VKAPI_PTR*)(Args...)> {
+    static VkResult hook(Args... args) {
+        if (const VkResult result = refusal(kName); result != VK_SUCCESS) return result;
+        return reinterpret_cast<VkResult(VKAPI_PTR*)(Args...)>(counter_of(kName).next)(args...);
+    }
+};
+
+template <const auto& kName, const auto& kDestroyer, typename Pfn>
+struct Creator;
+template <const auto& kName, const auto& kDestroyer, typename... Args>
+struct Creator<kName, kDestroyer, VkResult(VKAPI_PTR*)(Args...)> {
+    static VkResult hook(Args... args) {
+        const std::tuple<Args...> list(args...);
+        const auto handles = std::get<sizeof...(Args) - 1>(list);
+        const VkResult result = Call<kName, VkResult(VKAPI_PTR*)(Args...)>::hook(args...);
+        for (std::uint32_t i = 0; result == VK_SUCCESS && i < handle_count(list); ++i)
+            born(counter_of(kName), kDestroyer, handles[i]);
+        return result;
+    }
+};
+
+template <const auto& kName, typename Handle>
+void destroy_hook(VkDevice device, Handle handle, const VkAllocationCallbacks* callbacks) {
+    died(kName, handle);
+    using Destroy = void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*);
+    reinterpret_cast<Destroy>(counter_of(kName).next)(device, handle, callbacks);
+}
+template <typename Pfn>
+struct Destroyed;
+template <typename Handle>
+struct Destroyed<void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*)> {
+    template <const auto& kName>
+    static constexpr auto hook = &destroy_hook<kName, Handle>;
+};
+
+#define NAME(call, ...) constexpr char k##call[] = "vk" #call;
+FOR_CREATORS(NAME)
+FOR_DESTROYERS(NAME)
+FOR_CALLS(NAME)
+#undef NAME
+
+struct Hook {
+    std::string_view name;
+    PFN_vkVoidFunction function;
+};
+
+const Hook kDeviceHooks[] = {
+#define CREATOR(call, destroyer) \
+    {k##call, reinterpret_cast<PFN_vkVoidFunction>(&Creator<k##call, k##destroyer, PFN_vk##call>::hook)},
+#define DESTROYER(call) {k##call, reinterpret_cast<PFN_vkVoidFunction>(Destroyed<PFN_vk##call>::hook<k##call>)},
+#define CALL(call) {k##call, reinterpret_cast<PFN_vkVoidFunction>(&Call<k##call, PFN_vk##call>::hook)},
+    FOR_CREATORS(CREATOR) FOR_DESTROYERS(DESTROYER) FOR_CALLS(CALL)
+#undef CREATOR
+#undef DESTROYER
+#undef CALL
+};
+
+/// The loader's link to what is below us, in the chain of a create call.
+template <typename Link, typename Info>
+Link* find_link(const Info* create, VkStructureType type) {
+    for (auto* next = static_cast<const VkBaseInStructure*>(create->pNext); next; next = next->pNext) {
+        auto* link = const_cast<Link*>(reinterpret_cast<const Link*>(next));
+        if (next->sType == type && link->function == VK_LAYER_LINK_INFO) return link;
+    }
+    return nullptr;
+}
+
+VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationCallbacks* callbacks, VkInstance* instance) {
+    if (const VkResult result = refusal("vkCreateInstance"); result != VK_SUCCESS) return result;
+    auto* link = find_link<VkLayerInstanceCreateInfo>(create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+    if (!link) return VK_ERROR_INITIALIZATION_FAILED;
+    state.next_instance_proc = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    const auto next = reinterpret_cast<PFN_vkCreateInstance>(state.next_instance_proc(VK_NULL_HANDLE, "vkCreateInstance"));
+    const VkResult result = next(create, callbacks, instance);
+    if (result != VK_SUCCESS) return result;
+    born(counter_of("vkCreateInstance"), "vkDestroyInstance", *instance);
+    // Asked now: later the loader answers with the top of the chain, not with what is below us.
+    for (const char* name : {"vkDestroyInstance", "vkEnumeratePhysicalDevices", "vkCreateDevice"})
+        counter_of(name).next = state.next_instance_proc(*instance, name);
+    return result;
+}
+
+void destroy_instance(VkInstance instance, const VkAllocationCallbacks* callbacks) {
+    died("vkDestroyInstance", instance);
+    reinterpret_cast<PFN_vkDestroyInstance>(counter_of("vkDestroyInstance").next)(instance, callbacks);
+}
+
+VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* create, const VkAllocationCallbacks* callbacks,
+                       VkDevice* device) {
+    if (const VkResult result = refusal("vkCreateDevice"); result != VK_SUCCESS) return result;
+    auto* link = find_link<VkLayerDeviceCreateInfo>(create, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+    if (!link) return VK_ERROR_INITIALIZATION_FAILED;
+    state.next_device_proc = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    const auto next = reinterpret_cast<PFN_vkCreateDevice>(counter_of("vkCreateDevice").next);
+    const VkResult result = next(physical, create, callbacks, device);
+    if (result != VK_SUCCESS) return result;
+    state.device = *device;
+    born(counter_of("vkCreateDevice"), "vkDestroyDevice", *device);
+    for (const Hook& hook : kDeviceHooks) counter_of(hook.name).next = state.next_device_proc(*device, hook.name.data());
+    return result;
+}
+
+void destroy_device(VkDevice device, const VkAllocationCallbacks* callbacks) {
+    died("vkDestroyDevice", device);
+    const auto next = state.next_device_proc(device, "vkDestroyDevice");
+    state.device = VK_NULL_HANDLE;
+    reinterpret_cast<PFN_vkDestroyDevice>(next)(device, callbacks);
+}
+
+constexpr char kEnumerate[] = "vkEnumeratePhysicalDevices";
+
+PFN_vkVoidFunction device_proc(VkDevice device, const char* name) {
+    if (!std::strcmp(name, "vkGetDeviceProcAddr")) return reinterpret_cast<PFN_vkVoidFunction>(device_proc);
+    if (!std::strcmp(name, "vkDestroyDevice")) return reinterpret_cast<PFN_vkVoidFunction>(destroy_device);
+    for (const Hook& hook : kDeviceHooks)
+        if (hook.name == name) return hook.function;
+    return state.next_device_proc(device, name);
+}
+
+PFN_vkVoidFunction instance_proc(VkInstance instance, const char* name) {
+    const Hook hooks[] = {
+        {"vkGetInstanceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(instance_proc)},
+        {"vkGetDeviceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(device_proc)},
+        {"vkCreateInstance", reinterpret_cast<PFN_vkVoidFunction>(create_instance)},
+        {"vkDestroyInstance", reinterpret_cast<PFN_vkVoidFunction>(destroy_instance)},
+        {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(create_device)},
+        {"vkDestroyDevice", reinterpret_cast<PFN_vkVoidFunction>(destroy_device)},
+        {kEnumerate, reinterpret_cast<PFN_vkVoidFunction>(&Call<kEnumerate, PFN_vkEnumeratePhysicalDevices>::hook)}};
+    for (const Hook& hook : hooks)
+        if (hook.name == name) return hook.function;
+    for (const Hook& hook : kDeviceHooks)
+        if (hook.name == name) return hook.function;
+    return state.next_instance_proc ? state.next_instance_proc(instance, name) : nullptr;
+}
+
+} // namespace
+
+extern "C" VK_LAYER_EXPORT VkResult vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* interface) {
+    interface->loaderLayerInterfaceVersion = 2;
+    interface->pfnGetInstanceProcAddr = instance_proc;
+    interface->pfnGetDeviceProcAddr = device_proc;
+    interface->pfnGetPhysicalDeviceProcAddr = nullptr;
+    return VK_SUCCESS;
+}

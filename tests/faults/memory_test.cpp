@@ -1,0 +1,158 @@
+// R1: no memory for the k-th object of every kind: exit code 75, a message that names what was wanted, nothing
+// left alive on the device, and no file touched.
+#include "faults/faults.hpp"
+
+#include <vulkan/vulkan_core.h>
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The calls that the standard lets fail for want of memory and that the engine makes, with a word that the
+/// message must have: what was wanted, not only how it is called.
+const std::map<std::string, std::string> kCalls = {
+    {"vkCreateInstance", "an instance"},
+    {"vkEnumeratePhysicalDevices", "enumerate devices"},
+    {"vkCreateDevice", "open device '"},
+    {"vkAllocateMemory", " bytes for "},
+    {"vkCreateBuffer", "buffer '"},
+    {"vkCreateBufferView", "view buffer '"},
+    {"vkCreateImage", "image '"},
+    {"vkCreateImageView", "view image '"},
+    {"vkCreateSampler", "sampler"},
+    {"vkCreateShaderModule", "shader '"},
+    {"vkCreateDescriptorSetLayout", "lay out '"},
+    {"vkCreatePipelineLayout", "lay out '"},
+    {"vkCreateGraphicsPipelines", "pipeline '"},
+    {"vkCreateComputePipelines", "pipeline '"},
+    {"vkCreateDescriptorPool", "descriptor pool"},
+    {"vkAllocateDescriptorSets", "descriptor set"},
+    {"vkCreateCommandPool", "command pool"},
+    {"vkAllocateCommandBuffers", "command buffer"},
+    {"vkCreateSemaphore", "semaphore"},
+    {"vkCreateQueryPool", "time stamps"},
+    {"vkBindBufferMemory", "buffer '"},
+    {"vkBindImageMemory", "image '"},
+    {"vkMapMemory", "map buffer '"},
+    {"vkBeginCommandBuffer", "command buffer"},
+    {"vkEndCommandBuffer", "command buffer"},
+    {"vkQueueSubmit2", "'"},
+    {"vkWaitSemaphores", "passes '"},
+    {"vkQueueWaitIdle", "'"},
+    {"vkGetQueryPoolResults", "time stamps"},
+};
+/// The engine asks for these while it closes, when there is nobody to tell.
+const std::set<std::string> kUnheard = {"vkDeviceWaitIdle"};
+
+/// Which of the calls of one name fail in their turn.
+using Sample = std::vector<int> (*)(int calls);
+
+/// All of up to 8; of more, every n-th so that it is about 8, and the last.
+std::vector<int> first_to_last(int calls) {
+    const int step = (calls + 7) / 8;
+    std::vector<int> chosen;
+    for (int k = 1; k < calls; k += step) chosen.push_back(k);
+    chosen.push_back(calls);
+    return chosen;
+}
+
+std::vector<int> middle(int calls) { return {(calls + 1) / 2}; }
+
+/// Names and contents of all files below a folder.
+std::map<std::string, std::string> files_of(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        std::ifstream file(entry.path(), std::ios::binary);
+        files[fs::relative(entry.path(), folder)] =
+            entry.is_regular_file() ? std::string(std::istreambuf_iterator<char>(file), {}) : "";
+    }
+    return files;
+}
+
+class Memory : public Faults {
+protected:
+    /// What a faulty run got wrong; empty = nothing.
+    static std::string judge(const Fault& fault, const Watched& watched) {
+        const std::string name = fault.result == VK_ERROR_OUT_OF_HOST_MEMORY ? "VK_ERROR_OUT_OF_HOST_MEMORY" : "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+        std::string wrong;
+        if (watched.ended.exit_code != 75) wrong += "exit code " + std::to_string(watched.ended.exit_code) + "; ";
+        if (!watched.ended.out.empty()) wrong += "something on stdout; ";
+        if (!watched.ended.err.starts_with("catoptric: Vulkan: cannot ") || std::ranges::count(watched.ended.err, '\n') != 1 ||
+            watched.ended.err.find(name) == std::string::npos || watched.ended.err.find(kCalls.at(fault.call)) == std::string::npos)
+            wrong += "the message; ";
+        return wrong + watched.leaks();
+    }
+
+    /// Runs the command once for each sampled call. `old` lies where it writes, and must lie there untouched.
+    void sweep(const Words& words, const std::map<std::string, std::string>& old, Sample sample) {
+        const auto lay_out = [&](const std::string& place) {
+            for (const auto& [name, content] : old) {
+                fs::create_directories((folder / place / name).parent_path());
+                write(place + "/" + name, content);
+            }
+            return files_of(folder / place);
+        };
+        lay_out("whole");
+        const Watched whole = watch(words, std::nullopt, "whole");
+        ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
+        ASSERT_EQ(whole.leaks(), "");
+
+        std::vector<Fault> faults;
+        for (const auto& [call, count] : whole.counts) {
+            if (kUnheard.contains(call)) continue;
+            ASSERT_TRUE(kCalls.contains(call)) << call << " is made " << count.calls << " times and not watched";
+            for (const int k : sample(count.calls))
+                faults.push_back({call, k, faults.size() % 2 ? VK_ERROR_OUT_OF_DEVICE_MEMORY : VK_ERROR_OUT_OF_HOST_MEMORY});
+        }
+        std::mutex mutex;
+        std::map<std::string, int> tried, right;
+        two_at_a_time(faults.size(), [&](std::size_t i) {
+            const std::string place = std::to_string(i);
+            const auto before = lay_out(place);
+            const Watched watched = watch(words, faults[i], place);
+            std::string wrong = judge(faults[i], watched);
+            if (files_of(folder / place) != before) wrong += "; files were touched";
+            fs::remove_all(folder / place);
+            const std::lock_guard lock(mutex);
+            EXPECT_EQ(wrong, "") << faults[i].call << " " << faults[i].at << ": " << watched.ended.err;
+            ++tried[faults[i].call];
+            right[faults[i].call] += wrong.empty();
+        });
+        for (const auto& [call, count] : whole.counts)
+            if (!kUnheard.contains(call))
+                std::printf("  %-28s %4d calls, %2d made to fail in their turn, %2d ended well\n", call.c_str(), count.calls,
+                            tried[call], right[call]);
+    }
+};
+
+TEST_F(Memory, EveryKindOfCallOfARender) {
+    sweep({"render", "--technique", "hybrid:face=16,shadow_map=16", "--size", "64x64", "--frames", "1", "--warmup", "0", "-o", "x.exr"},
+          {{"x.exr", "old"}}, first_to_last);
+}
+
+TEST_F(Memory, TheMiddleCallOfEachKindOfAComparison) {
+    sweep({"compare", "-o", "out", "--size", "32x32", "--frames", "1", "--warmup", "1", "--no-causes", "--techniques",
+           "parallax:face=16,shadow_map=16", "hybrid:face=16,shadow_map=16"},
+          {{"out/report.json", "old"}, {"out/report.html", "old"}, {"out/images/reference.png", "old"}}, middle);
+}
+
+/// A full descriptor pool is no failure: the next one is made.
+TEST_F(Memory, AFullDescriptorPoolIsFollowedByAnother) {
+    const Words words = {"render", "--technique", "parallax:face=16,shadow_map=16", "--size", "64x64", "--frames", "1", "--warmup", "1", "-o", "x.exr"};
+    const Watched whole = watch(words, std::nullopt);
+    ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
+    const std::string picture = read("x.exr");
+    for (const int result : {VK_ERROR_OUT_OF_POOL_MEMORY, VK_ERROR_FRAGMENTED_POOL}) {
+        const Watched watched = watch(words, Fault{"vkAllocateDescriptorSets", 3, result});
+        EXPECT_EQ(watched.ended.exit_code, 0) << watched.ended.err;
+        EXPECT_EQ(watched.leaks(), "");
+        EXPECT_EQ(watched.counts.at("vkCreateDescriptorPool").calls, whole.counts.at("vkCreateDescriptorPool").calls + 1);
+        EXPECT_EQ(read("x.exr"), picture);
+    }
+}
+
+} // namespace
