@@ -51,9 +51,9 @@ const std::set<std::string> kUnheard = {"vkDeviceWaitIdle"};
 /// Which of the calls of one name fail in their turn.
 using Sample = std::vector<int> (*)(int calls);
 
-/// All of up to 8; of more, every n-th so that it is about 8, and the last.
+/// All of up to 6; of more, every n-th so that it is about 6, and the last.
 std::vector<int> first_to_last(int calls) {
-    const int step = (calls + 7) / 8;
+    const int step = (calls + 5) / 6;
     std::vector<int> chosen;
     for (int k = 1; k < calls; k += step) chosen.push_back(k);
     chosen.push_back(calls);
