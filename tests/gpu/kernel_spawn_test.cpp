@@ -73,6 +73,18 @@ TEST(KernelSpawn, N17_TrianglesOfAnySize) {
     EXPECT_EQ(count.unnamed, 0u);
 }
 
+/// Not even when it lies squarely before the ray; and of all rays only that one passes through.
+TEST(KernelSpawn, N17_ARayDoesNotSeeTheTriangleThatItNames) {
+    const std::vector<bvh::Triangle> triangles{{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}}, {{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}};
+    Kernel kernel(triangles);
+    std::vector<KernelRay> rays;
+    for (const std::uint32_t leaves : {0u, 1u, 2u}) rays.push_back({.direction = {0, 0, 1}, .leaves = leaves});
+    const std::vector<KernelHit> hits = kernel.closest(rays);
+    EXPECT_EQ(hits[0].t, 1);
+    EXPECT_EQ(hits[1].t, 2);
+    EXPECT_EQ(hits[2].t, 1);
+}
+
 /// Difference in units of the last place of a float as large as `scale`.
 double ulps(double found, double exact, double scale) { return std::abs(found - exact) / (std::ldexp(1.0, std::ilogb(scale)) * 0x1p-23); }
 double ulps(const vec3& found, const dvec3& exact, double scale) {
