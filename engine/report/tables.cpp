@@ -184,8 +184,8 @@ Table lookup_table(const Comparison& comparison) {
                  {"Unknown, %"}, {"Miss, %"}, {"Traced, %"}},
                 {},
                 {},
-                "Angle between the looked-up and the true direction from the capture's centre, over mirror pixels "
-                "whose reflected ray meets no second mirror and that the row did not follow into one; wrong object: "
+                "Angle between the looked-up and the true direction from the centre of the capture that was looked into, over mirror pixels "
+                "whose reflected ray meets no second mirror, in whichever capture the row looked; wrong object: "
                 "the capture shows another one there; unknown and miss: what the search says of itself; traced: of "
                 "all mirror pixels."};
     const auto percent = [](double share) { return fmt::format("{:.2f}", 100 * share); };

@@ -55,13 +55,19 @@ void judge_shadow_map(Bench& bench) {
     for (const double factor : {1e-6, 1.0, 1e6})
         for (const int edge : {1, 16, 1024}) {
             const scene::Scene scene = through(plane(), scaled(factor));
-            const app::Part with = bench.render(scene, fmt::format("reuse:shadow_map={}", edge), 1), without = bench.render(scene, "reuse:shadow=none", 1);
+            const auto render = [&](const std::string& technique) {
+                app::Request request = bench.asked(scene, technique, 1);
+                request.ambient = 0; // what is not black is lit by the lamp
+                return bench.render(request);
+            };
+            const app::Part with = render(fmt::format("reuse:shadow_map={}", edge)), without = render("reuse:shadow=none");
             std::size_t lit = 0, judged = 0;
             for (std::size_t i = 0; i < with.hdr.pixels.size(); ++i) {
                 if (!(without.hdr.pixels[i].x > 0)) continue;
                 ++judged;
                 lit += with.hdr.pixels[i].x >= .999f * without.hdr.pixels[i].x;
             }
+            bench.add(fmt::format("edge {}, times {}: less than a tenth of the picture is lit", edge, factor), judged * 10 < with.hdr.pixels.size() ? 1 : 0, 0);
             bench.add(fmt::format("edge {}, times {}: plane in shadow of itself", edge, factor), 1 - double(lit) / double(judged), .005);
         }
 }
