@@ -1,5 +1,6 @@
 // Whitted ray tracing: one sample of each pixel a dispatch.
-// Builds: default; #shadow_map asks the raster world's shadow map instead of tracing; #naive is the
+// Builds: default; #shadow_map asks the raster world's shadow map instead of tracing; #doubles and
+// #shadow_map_doubles compute hit points in doubles; #naive is the
 // plain form that the benchmark compares with (see lib/trace.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -121,6 +121,7 @@ void Device::choose(const DeviceOptions& options) {
     Features has;
     vkGetPhysicalDeviceFeatures2(physical_, &has.core);
     layered_ = options.layered && has.v12.shaderOutputLayer;
+    doubles_ = has.core.features.shaderFloat64;
 }
 
 void Device::create_device() {
@@ -138,6 +139,7 @@ void Device::create_device() {
     Features features;
     features.core.features.imageCubeArray = true;
     features.core.features.fragmentStoresAndAtomics = true;
+    features.core.features.shaderFloat64 = doubles_;
     features.v12.scalarBlockLayout = true;
     features.v12.timelineSemaphore = true;
     features.v12.hostQueryReset = true;

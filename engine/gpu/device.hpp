@@ -49,6 +49,8 @@ public:
     bool is_cpu() const { return info_.type == "cpu"; }
     /// Vertex shaders may write gl_Layer; otherwise layered passes run layer by layer.
     bool layered() const { return layered_; }
+    /// Shaders may compute with doubles.
+    bool doubles() const { return doubles_; }
     bool staged() const { return staged_; }
     std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
@@ -96,6 +98,7 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceInfo info_;
     bool layered_ = true;
+    bool doubles_ = false;
     bool staged_ = false;
     bool has_debug_utils_ = false;
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name_ = nullptr;

@@ -24,6 +24,8 @@ struct Stage {
         : bit(stage) {
         const EmbeddedShader& shader = find_shader(name);
         reflection = reflect(name, shader.words);
+        check(!reflection.doubles || device.doubles(), Failure::no_device, "shader '", name, "' computes with doubles, which device '",
+              device.info().name, "' cannot");
         VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
         create.codeSize = shader.words.size_bytes();
         create.pCode = shader.words.data();

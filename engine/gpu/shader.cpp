@@ -15,7 +15,7 @@ namespace {
 
 // The part of SPIR-V that is looked at (specification 1.6, sections 3.20, 3.42, 3.49).
 enum Op : std::uint32_t {
-    kName = 5, kTypeInt = 21, kTypeFloat = 22, kTypeVector = 23, kTypeMatrix = 24, kTypeImage = 25,
+    kName = 5, kCapability = 17, kTypeInt = 21, kTypeFloat = 22, kTypeVector = 23, kTypeMatrix = 24, kTypeImage = 25,
     kTypeSampledImage = 27, kTypeArray = 28, kTypeRuntimeArray = 29, kTypeStruct = 30,
     kTypePointer = 32, kConstant = 43, kFunctionCall = 57, kVariable = 59, kImageTexelPointer = 60,
     kLoad = 61, kAccessChain = 65, kInBoundsAccessChain = 66, kArrayLength = 68, kDecorate = 71,
@@ -23,6 +23,7 @@ enum Op : std::uint32_t {
 };
 enum Decoration : std::uint32_t { kSpecId = 1, kBinding = 33, kDescriptorSet = 34, kOffset = 35 };
 enum Storage : std::uint32_t { kUniformConstant = 0, kUniform = 2, kPushConstant = 9, kStorageBuffer = 12 };
+constexpr std::uint32_t kFloat64 = 10; // a capability
 enum Dim : std::uint32_t { kDim2D = 1, kDimCube = 3, kDimBuffer = 5 };
 
 struct Type {
@@ -55,6 +56,7 @@ public:
         }
         for (const auto& [key, value] : decorations_)
             if (key.second == kSpecId) result.constants.push_back({name_of(key.first), value});
+        result.doubles = doubles_;
         std::ranges::sort(result.bindings, {}, &Binding::binding);
         return result;
     }
@@ -63,6 +65,7 @@ private:
     void read(std::uint32_t op, std::span<const std::uint32_t> words) {
         switch (op) {
         case kName: names_[words[0]] = reinterpret_cast<const char*>(words.data() + 1); break;
+        case kCapability: doubles_ = doubles_ || words[0] == kFloat64; break;
         case kDecorate:
             if (words.size() > 2) decorations_[{words[0], words[1]}] = words[2];
             break;
@@ -140,6 +143,7 @@ private:
     std::map<std::uint32_t, std::uint32_t> constants_;
     std::vector<Variable> variables_;
     std::set<std::uint32_t> used_;
+    bool doubles_ = false;
 };
 
 } // namespace

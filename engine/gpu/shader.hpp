@@ -38,6 +38,7 @@ struct Reflection {
     std::vector<Binding> bindings;
     std::vector<Constant> constants;
     std::uint32_t push_bytes = 0;
+    bool doubles = false; ///< needs a device that computes with them
 };
 
 /// Reads names, decorations and uses out of SPIR-V. Throws `internal` for a set other than 0 or an

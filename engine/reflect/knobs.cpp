@@ -14,11 +14,13 @@ render::CaptureOptions capture_options(const render::FrameInputs& inputs, const 
     render::CaptureOptions options;
     options.face = settings.is_special("face") ? inputs.scene.common_face() : static_cast<std::uint32_t>(settings.integer("face"));
     options.lighting = lighting;
+    if (settings.choice("colour") == "float") options.colour = Format::rgba32f;
     if (!settings.has("distance")) return options;
     constexpr Format kFormats[] = {Format::r32f, Format::r16f, Format::r8_unorm};
     options.distance = kFormats[settings.integer("distance")];
     if (options.distance == Format::r8_unorm)
         options.stored_unit = inputs.scene.space().length(settings.number("range"));
+    if (settings.has("without")) options.saturates = settings.choice("without") != "saturation";
     const bool continues = settings.has("continue") && settings.integer("continue") > 0;
     const auto chosen = [&](const char* knob, const char* choice) { return settings.has(knob) && settings.choice(knob) == choice; };
     options.surfaces = chosen("lookup", "object") || chosen("captures", "all") || (continues && inputs.scene.has_other_mirrors());

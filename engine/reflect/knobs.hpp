@@ -9,6 +9,7 @@
 namespace catoptric::reflect {
 
 inline constexpr std::array<std::string_view, 3> kDistanceChoices{"r32f", "r16f", "unorm8"};
+inline constexpr std::array<std::string_view, 2> kColourChoices{"half", "float"};
 inline constexpr std::array<std::string_view, 2> kShadowChoices{"map", "none"};
 
 inline constexpr Knob kFace{.name = "face",
@@ -17,6 +18,8 @@ inline constexpr Knob kFace{.name = "face",
                             .high = 16384,
                             .value = 256,
                             .special = "auto"};
+inline constexpr Knob kColour{
+    .name = "colour", .help = "how captures store colour: half, which ends at 65504, or float", .high = 1, .choices = kColourChoices};
 inline constexpr Knob kShadow{.name = "shadow", .help = "shadow map or none", .high = 1, .choices = kShadowChoices};
 inline constexpr Knob kShadowMapEdge{
     .name = "shadow_map", .help = "shadow map edge in texels", .low = 1, .high = 16384, .value = 1024};
@@ -35,15 +38,15 @@ inline constexpr std::array<std::string_view, 3> kShowChoices{"colour", "state",
 
 /// Knobs of every search, after its own.
 template <std::size_t N>
-constexpr std::array<Knob, N + 10> search_knobs(const std::array<Knob, N>& own) {
-    const std::array<Knob, 10> shared{
-        kFace, kDistance, kRange, kContinue,
-        Knob{.name = "lookup", .help = "mix the colours of four texels, or only of those that show one object", .high = 1, .choices = kLookupChoices},
+constexpr std::array<Knob, N + 11> search_knobs(const std::array<Knob, N>& own) {
+    const std::array<Knob, 11> shared{
+        kFace, kColour, kDistance, kRange, kContinue,
+        Knob{.name = "lookup", .help = "mix the colours of four texels, or only of those that show one object", .high = 1, .value = 1, .choices = kLookupChoices},
         Knob{.name = "captures", .help = "captures asked where the search knows no answer: the mirror's own, or then the others", .high = 1, .choices = kCapturesChoices},
         Knob{.name = "mirrors", .help = "left_out: captures without mirrors that are exact spheres, which rays are followed through anyway", .high = 1, .choices = kMirrorsChoices},
         Knob{.name = "show", .help = "what mirrors show: their colour, whether the search ended in a hit (green), unknown (red) or a miss (blue), or its residual", .high = 2, .choices = kShowChoices},
         kShadow, kShadowMapEdge};
-    std::array<Knob, N + 10> knobs{};
+    std::array<Knob, N + 11> knobs{};
     std::ranges::copy(shared, std::ranges::copy(own, knobs.begin()).out);
     return knobs;
 }
@@ -54,7 +57,7 @@ render::Lighting add_lighting(graph::Graph& graph, const render::FrameInputs& in
 /// Shadow passes: one a light, none without shadows.
 int shadow_passes(int lights, const Settings& settings);
 
-/// `face`, lighting and, where there are such knobs, the distance format.
+/// `face`, lighting, and how colour and, where there are such knobs, distance are stored.
 render::CaptureOptions capture_options(const render::FrameInputs& inputs, const Settings& settings,
                                        const render::Lighting& lighting);
 

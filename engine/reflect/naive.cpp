@@ -9,7 +9,7 @@ namespace {
 
 constexpr Knob kKnobs[] = {
     {.name = "bounces", .help = "inter-reflections rendered each frame; 0 leaves mirrors black", .low = 0, .high = 8, .value = 3},
-    kFace, kShadow, kShadowMapEdge};
+    kFace, kColour, kShadow, kShadowMapEdge};
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
     const render::Lighting lighting = add_lighting(graph, inputs, settings);

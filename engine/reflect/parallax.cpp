@@ -7,7 +7,10 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kFragment = "reflect/parallax.frag";
-constexpr Knob kKnobs[] = {kFace, kDistance, kRange, kShadow, kShadowMapEdge};
+constexpr std::array<std::string_view, 3> kRules{"none", "saturation", "void_test"};
+constexpr Knob kKnobs[] = {
+    kFace, kColour, kDistance, kRange, kShadow, kShadowMapEdge,
+    {.name = "without", .help = "rule of robustness to leave out, only for measuring what it costs", .high = 2, .choices = kRules}};
 
 constexpr Technique kParallax{
     .name = "parallax",
@@ -17,7 +20,9 @@ constexpr Technique kParallax{
     .scene_passes = feedback_passes,
     .add = [](graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
         const Captured captured = add_feedback(graph, inputs, settings, kFragment);
-        return add_view_of(graph, inputs, captured, view_look(captured, settings, kFragment));
+        render::MirrorLook look = view_look(captured, settings, kFragment);
+        if (captured.cubes && settings.choice("without") == "void_test") look.constants.emplace_back("tests_void", 0u);
+        return add_view_of(graph, inputs, captured, look);
     }};
 const Row kRow{kParallax};
 

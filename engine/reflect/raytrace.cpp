@@ -12,11 +12,18 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kTracedShadowChoices{"ray", "map", "none"};
 constexpr std::array<std::string_view, 2> kSphereChoices{"mesh", "exact"};
+constexpr std::array<std::string_view, 2> kHitChoices{"f32", "f64"};
+/// As shaders/lib/plain.glsl numbers them.
+constexpr std::array<std::string_view, 6> kRules{"none", "watertight", "box_slack", "spawn_bound", "shadow_end", "stable_sphere"};
+/// World units: what the report moves a ray's origin by.
+constexpr double kReportOffset = 1e-3;
 constexpr Knob kKnobs[] = {
     {.name = "depth", .help = "mirror bounces; a path that meets more ends black", .low = 0, .high = 64, .value = 8},
     {.name = "samples", .help = "rays a pixel: 1 = its centre, n*n = a regular grid, else stratified", .low = 1, .high = 65536, .value = 1},
     {.name = "shadow", .help = "shadow ray, shadow map or none", .high = 2, .choices = kTracedShadowChoices},
     {.name = "sphere", .help = "balls as triangles or as exact spheres", .high = 1, .choices = kSphereChoices},
+    {.name = "hit", .help = "hit points in single or double precision", .high = 1, .choices = kHitChoices},
+    {.name = "without", .help = "rule of robustness to leave out, only for measuring what it costs", .high = 5, .choices = kRules},
     kShadowMapEdge};
 
 /// Work groups in one row of a dispatch: every device allows 65535.
@@ -49,11 +56,15 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     });
     graph::PassBuilder pass = graph.pass(inputs.prefix + "raytrace");
     if (lighting.shadow_map) pass.reads(*lighting.shadow_map, Use::sampled);
+    const bool doubles = settings.choice("hit") == "f64";
     const gpu::ComputeState state{
-        lighting.shadow_map ? "raytrace.comp#shadow_map" : "raytrace.comp",
+        lighting.shadow_map ? (doubles ? "raytrace.comp#shadow_map_doubles" : "raytrace.comp#shadow_map")
+                            : (doubles ? "raytrace.comp#doubles" : "raytrace.comp"),
         {{"max_depth", static_cast<std::uint32_t>(settings.integer("depth"))},
          {"shadow", settings.choice("shadow") == "none" ? 0u : lighting.shadow_map ? 1u : 2u},
-         {"exact_spheres", static_cast<std::uint32_t>(settings.integer("sphere"))}}};
+         {"exact_spheres", static_cast<std::uint32_t>(settings.integer("sphere"))},
+         {"without", static_cast<std::uint32_t>(settings.integer("without"))},
+         {"fixed_offset", inputs.scene.space().length(kReportOffset)}}};
     pass.writes(hdr, Use::storage_write)
         .writes(hits, Use::storage_write)
         .writes(counters, Use::storage)

@@ -7,7 +7,7 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kFragment = "reflect/naive.frag";
-constexpr Knob kKnobs[] = {kFace, kShadow, kShadowMapEdge};
+constexpr Knob kKnobs[] = {kFace, kColour, kShadow, kShadowMapEdge};
 
 constexpr Technique kReuse{
     .name = "reuse",

@@ -16,6 +16,7 @@ using graph::Image;
 using graph::Tag;
 using graph::Use;
 
+constexpr float kLargestHalf = 65504;
 constexpr Clear kBlack{0, 0, 0, 1};
 constexpr Clear kFarthest{0, 0, 0, 0}; // reversed depth
 
@@ -92,6 +93,7 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
     if (cubes.distance) pass.writes(*cubes.distance, Use::colour, Clear{nothing, 0, 0, 0});
     if (cubes.surfaces) pass.writes(*cubes.surfaces, Use::colour, Clear{});
     gpu::Constants store{{"distance_scale", 1 / options.stored_unit}};
+    if (options.colour == Format::rgba16f && options.saturates) store.emplace_back("largest_colour", kLargestHalf);
     if (cubes.surfaces) store.emplace_back("keeps_surface", 1u);
     if (peeled && options.stored_unit != 1) store.emplace_back("half_step", 0.5f / 255);
     pass.writes(depth, Use::depth, kFarthest)
@@ -141,7 +143,7 @@ Cubes declare_cubes(graph::Graph& graph, const FrameInputs& inputs, const Captur
     const std::uint32_t layers = 6 * inputs.scene.mirror_count();
     const std::string name = inputs.prefix + options.name + "/cubes.";
     Cubes cubes;
-    cubes.colour = graph.image({name + "colour", Format::rgba16f, options.face, options.face, layers, true});
+    cubes.colour = graph.image({name + "colour", options.colour, options.face, options.face, layers, true});
     if (options.distance)
         cubes.distance = graph.image({name + "distance", *options.distance, options.face, options.face, layers, true});
     if (options.surfaces) {
@@ -151,7 +153,7 @@ Cubes declare_cubes(graph::Graph& graph, const FrameInputs& inputs, const Captur
     if (options.second_layer) {
         check(options.distance.has_value(), Failure::internal, "captures '", options.name,
               "' want a second layer, which needs the distance of the first");
-        cubes.colour2 = graph.image({name + "colour2", Format::rgba16f, options.face, options.face, layers, true});
+        cubes.colour2 = graph.image({name + "colour2", options.colour, options.face, options.face, layers, true});
         cubes.distance2 = graph.image({name + "distance2", *options.distance, options.face, options.face, layers, true});
     }
     return cubes;

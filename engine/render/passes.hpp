@@ -26,7 +26,7 @@ struct FrameInputs {
 /// Nothing when the scene has no light.
 std::optional<graph::Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t edge);
 
-/// Colour (rgba16f) and, where asked for, radial distance: cube arrays of 6 layers a mirror. The second
+/// Colour and, where asked for, radial distance: cube arrays of 6 layers a mirror. The second
 /// pair holds, in the same directions, the next surface behind that faces the centre.
 struct Cubes {
     graph::Image colour;
@@ -55,7 +55,9 @@ struct Lighting {
 struct CaptureOptions {
     std::string name = "capture"; ///< passes are called name/1, name/2, ...
     std::uint32_t face = 256;     ///< cube edge in texels
+    Format colour = Format::rgba16f;
     std::optional<Format> distance;
+    bool saturates = true; ///< half colour; false only to measure what that costs
     bool second_layer = false; ///< with distance: another pass a mirror, name2/1, name2/2, ...; fragment#peel exists
     bool surfaces = false; ///< with distance: also keep which object is seen, and its normal
     bool leaves_out_spheres = false; ///< no mirror that is an exact sphere is drawn

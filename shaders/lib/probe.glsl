@@ -61,6 +61,9 @@ bool mends(uint cause);
 float exact_distance(uint mirror, vec3 direction);
 #endif
 
+// 0: only for measuring what the test costs and what it is worth (docs/robustness.md).
+layout(constant_id = 18) const uint tests_void = 1u;
+
 // Distance from the capture's centre, bilinear. Where one of the four texels holds nothing
 // (+infinity), the sum is not finite and the nearest texel decides.
 float captured_distance(uint mirror, vec3 direction) {
@@ -68,7 +71,7 @@ float captured_distance(uint mirror, vec3 direction) {
     if (mends(kMendDistance)) return exact_distance(mirror, direction);
 #endif
     float d = textureLod(distance_cubes, vec4(direction, mirror), 0).r;
-    if (is_miss(d)) d = textureLod(distance_cubes_nearest, vec4(direction, mirror), 0).r;
+    if (tests_void != 0u && is_miss(d)) d = textureLod(distance_cubes_nearest, vec4(direction, mirror), 0).r;
     return d * stored_unit;
 }
 

@@ -38,11 +38,11 @@ float surface_number() {
     return draw.surface.mirror != 0u ? float(draw.surface.mirror) : -1.0 - float(draw.object % 2047u);
 }
 
-const float kLargestHalf = 65504.0;
+// Of the format. Colour saturates there, so that no capture ever holds an infinity.
+layout(constant_id = 17) const float largest_colour = 3.402823466e38;
 
-// Colour saturates below the largest half, so that no capture ever holds an infinity.
 void write_surface(vec3 colour) {
-    out_colour = vec4(min(colour, vec3(kLargestHalf)), 1);
+    out_colour = vec4(min(colour, vec3(largest_colour)), 1);
     out_distance = length(from_eye) * distance_scale;
     out_more = vec4(0); // an output that is not written is not zero, it is undefined
     if (keeps_surface != 0u) out_more = vec4(surface_number(), normalize(normal));

@@ -10,6 +10,7 @@
 #define CATOPTRIC_TRACE_GLSL
 
 #include "lib/math.glsl"
+#include "lib/plain.glsl"
 
 #ifndef TRACE_LOCAL_SIZE
 #define TRACE_LOCAL_SIZE 64
@@ -74,7 +75,8 @@ void trace_triangle(uint place, Ray ray, RayShear shear, uint skipped_flags, ino
     vec4 c = TRIANGLE_TEXEL(3u * place + 2u);
     float t;
     vec3 weights;
-    bool hit = triangle_test(a.xyz, b.xyz, c.xyz, ray.origin, shear, t, weights);
+    bool hit = keeps(kWatertight) ? triangle_test(a.xyz, b.xyz, c.xyz, ray.origin, shear, t, weights)
+                                  : plain_triangle_test(a.xyz, b.xyz, c.xyz, ray, t, weights);
     uint triangle = floatBitsToUint(b.w) & kBvhIdMask;
     uint object = floatBitsToUint(a.w) & kBvhIdMask;
     bool seen = (floatBitsToUint(c.w) & skipped_flags) == 0u && triangle + 1u != ray.leaves && TRACE_SEES(object);
@@ -85,6 +87,10 @@ void trace_triangle(uint place, Ray ray, RayShear shear, uint skipped_flags, ino
     }
 }
 
+bool trace_box(vec3 lo, vec3 hi, BoxRay ray, float t_max, out float t_near) {
+    return keeps(kBoxSlack) ? slab_test(lo, hi, ray, t_max, t_near) : plain_slab_test(lo, hi, ray, t_max, t_near);
+}
+
 // Two boxes of a node: the nearer child that the ray meets (or kBvhNothing), and the other.
 void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint second) {
     vec4 lo_0 = NODE_TEXEL(4u * node);
@@ -92,8 +98,8 @@ void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint s
     vec4 lo_1 = NODE_TEXEL(4u * node + 2u);
     vec4 hi_1 = NODE_TEXEL(4u * node + 3u);
     float near_0, near_1;
-    bool meets_0 = slab_test(lo_0.xyz, hi_0.xyz, boxes, t_max, near_0);
-    bool meets_1 = slab_test(lo_1.xyz, hi_1.xyz, boxes, t_max, near_1);
+    bool meets_0 = trace_box(lo_0.xyz, hi_0.xyz, boxes, t_max, near_0);
+    bool meets_1 = trace_box(lo_1.xyz, hi_1.xyz, boxes, t_max, near_1);
     uint child_0 = meets_0 ? floatBitsToUint(lo_0.w) : kBvhNothing;
     uint child_1 = meets_1 ? floatBitsToUint(hi_0.w) : kBvhNothing;
     bool swap = meets_1 && (!meets_0 || near_1 < near_0);
@@ -110,7 +116,7 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
 #ifdef TRACE_PRIVATE_STACK
     uint stack[kBvhMaxDepth + 2];
 #endif
-    BoxRay boxes = box_ray(ray, header_lo.xyz, header_hi.xyz);
+    BoxRay boxes = keeps(kBoxSlack) ? box_ray(ray, header_lo.xyz, header_hi.xyz) : plain_box_ray(ray);
     RayShear shear = ray_shear(ray.direction);
     bool found = false;
     uint waiting = 0u;

@@ -1,6 +1,7 @@
 // Whitted ray tracing of one pixel: camera, shadow and mirror rays. What the reference traces and what others
 // trace where they know nothing is this one function.
-// Builds: SHADOW_MAP can also ask the raster world's shadow map; NAIVE see lib/trace.glsl.
+// Builds: SHADOW_MAP can also ask the raster world's shadow map; DOUBLES computes hit points in doubles; NAIVE see
+// lib/trace.glsl.
 #ifndef CATOPTRIC_WHITTED_GLSL
 #define CATOPTRIC_WHITTED_GLSL
 
@@ -8,6 +9,9 @@
 #include "lib/trace.glsl"
 #ifdef SHADOW_MAP
 #include "lib/shadow.glsl"
+#endif
+#ifdef DOUBLES
+#include "lib/double_hit.glsl"
 #endif
 
 #ifdef NAIVE
@@ -42,11 +46,15 @@ Point point; // what is being shaded
 // Triangles that stand for an exact sphere are passed by when spheres are exact.
 uint passed_by() { return exact_spheres != 0u ? kBvhSphere : 0u; }
 
+bool meets_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) {
+    return keeps(kStableSphere) ? sphere_test(centre, radius, ray, t_max, t) : plain_sphere_test(centre, radius, ray, t_max, t);
+}
+
 bool nearest_sphere(Ray ray, inout float t, out uint object) {
     bool found = false;
     for (uint i = 0u; i < frame.value.object_count; ++i) {
         float t_sphere;
-        if (surfaces[i].radius > 0.0 && sphere_test(surfaces[i].centre, surfaces[i].radius, ray, t, t_sphere)) {
+        if (surfaces[i].radius > 0.0 && meets_sphere(surfaces[i].centre, surfaces[i].radius, ray, t, t_sphere)) {
             t = t_sphere;
             object = i;
             found = true;
@@ -64,14 +72,25 @@ Point on_triangle(Hit hit) {
     p.facet = facet_normal(a, b, c);
     p.normal = normalize(w.x * NORMAL(3u * hit.triangle) + w.y * NORMAL(3u * hit.triangle + 1u) +
                          w.z * NORMAL(3u * hit.triangle + 2u));
+#ifdef DOUBLES
+    dvec3 exact_w = meet_triangle(a, b, c, w);
+    exact_normal = normalize(exact_w.x * dvec3(NORMAL(3u * hit.triangle)) + exact_w.y * dvec3(NORMAL(3u * hit.triangle + 1u)) +
+                             exact_w.z * dvec3(NORMAL(3u * hit.triangle + 2u)));
+    p.position = vec3(exact_point);
+    p.normal = vec3(exact_normal);
+#endif
     p.object = hit.object;
-    p.leaves = hit.triangle + 1u;
+    p.leaves = keeps(kSpawnBound) ? hit.triangle + 1u : 0u;
     return p;
 }
 
 Point on_sphere(Ray ray, float t, uint object) {
     Point p;
     p.position = sphere_point(surfaces[object].centre, surfaces[object].radius, ray, t, p.error);
+#ifdef DOUBLES
+    meet_sphere(surfaces[object].centre, surfaces[object].radius, t);
+    p.position = vec3(exact_point);
+#endif
     p.normal = p.facet = (p.position - surfaces[object].centre) / surfaces[object].radius;
     p.object = object;
     p.leaves = 0u;
@@ -93,16 +112,21 @@ bool trace_ray(Ray ray, uint skipped, out Point p) {
     return found;
 }
 
+// A ray that leaves the point along `direction`.
+vec3 leaving(Point p, vec3 direction) {
+    return keeps(kSpawnBound) ? spawn_origin(p.position, p.error, p.facet, direction) : plain_spawn_origin(p.position, p.facet, direction);
+}
+
 float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
     if (SHADOW_BY == kShadowNone) return 1.0;
 #ifdef SHADOW_MAP
     if (SHADOW_BY == kShadowMap) return shadow_map_visible(light, position, normal);
 #endif
     ++shadow_rays;
-    vec3 origin = spawn_origin(position, point.error, point.facet, direction);
+    vec3 origin = leaving(point, direction);
     Ray ray = Ray(origin, lights[light].position - origin, point.leaves);
-    if (any_hit(ray, kShadowRayEnd, kBvhShadowless | passed_by())) return 0.0;
-    float t = kShadowRayEnd;
+    float t = keeps(kShadowEnd) ? kShadowRayEnd : 1.0;
+    if (any_hit(ray, t, kBvhShadowless | passed_by())) return 0.0;
     uint object;
     return exact_spheres != 0u && nearest_sphere(ray, t, object) ? 0.0 : 1.0;
 }
@@ -123,6 +147,9 @@ vec3 radiance(Ray ray, uint first, out uint met) {
     vec3 result = vec3(0);
     met = 0u;
     uint skipped = first == 0u ? kBvhHidden : 0u;
+#ifdef DOUBLES
+    exact_ray(ray);
+#endif
     bool done = false;
     for (uint bounce = first; !done; ++bounce) {
         if (!trace_ray(ray, skipped, point)) {
@@ -138,8 +165,12 @@ vec3 radiance(Ray ray, uint first, out uint met) {
             done = true;
         } else {
             weight *= surface.reflectance;
+#ifdef DOUBLES
+            vec3 direction = exact_reflection();
+#else
             vec3 direction = mirror_direction(ray.direction, point.normal, point.facet);
-            ray = Ray(spawn_origin(point.position, point.error, point.facet, direction), direction, point.leaves);
+#endif
+            ray = Ray(leaving(point, direction), direction, point.leaves);
             skipped = 0u;
             ++mirror_rays;
         }

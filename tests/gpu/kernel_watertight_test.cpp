@@ -3,6 +3,7 @@
 #include "support/kernel.hpp"
 #include "support/kernel_shapes.hpp"
 
+#include <algorithm>
 #include <iostream>
 
 namespace {
@@ -118,6 +119,26 @@ TEST(KernelWatertight, N15_RaysAtEdgesAndCornersOfClosedMeshes) {
     EXPECT_EQ(missed, 0u);
     EXPECT_EQ(shadows_missed, 0u);
     EXPECT_EQ(different, 0u);
+}
+
+/// The same rays do find the gaps of a triangle test and of boxes as they are commonly written.
+TEST(KernelWatertight, N15_TheSameRaysLeakWithoutTheRules) {
+    const test::ClosedMesh ball = test::ball();
+    const dvec3 away(0.62, -0.11, -0.78);
+    const Setting setting{"ball", 1, away, &ball, *test::placed(ball.mesh, 1, away)};
+    Kernel kernel(setting.triangles);
+    test::Numbers numbers(15);
+    const std::vector<KernelRay> rays = aimed(setting, 4 * kChunk, numbers);
+    const auto leaks = [&](std::uint32_t without) {
+        kernel.rules = {{"without", without}};
+        return std::ranges::count_if(kernel.closest(rays), [](const KernelHit& hit) { return !hit.found(); });
+    };
+    const auto with = leaks(0), plain_triangles = leaks(1), plain_boxes = leaks(2);
+    std::cout << "[ MEASURED ] N15 leaks of " << rays.size() << " rays: " << with << " with every rule, " << plain_triangles
+              << " with plain triangles, " << plain_boxes << " with plain boxes\n";
+    EXPECT_EQ(with, 0);
+    EXPECT_GT(plain_triangles, 0);
+    EXPECT_GT(plain_boxes, 0);
 }
 
 } // namespace

@@ -150,7 +150,7 @@ TEST(Layered, RendersTheSceneTwiceAMirror) {
 }
 
 TEST(Layered, IsWorthItsSecondLayer) {
-    test::expect_worth("layered", {.first_order = .65, .all = .55, .angle = .01, .wrong_object = .005});
+    test::expect_worth("layered", {.first_order = .55, .all = .46, .coarse = .55, .mirror_in_mirror = .34, .angle = .01, .wrong_object = .005});
 }
 
 } // namespace

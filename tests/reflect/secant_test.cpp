@@ -16,7 +16,7 @@ TEST(Secant, WithoutStepsIsParallax) {
     }
 }
 
-TEST(Secant, IsWorthItsSteps) { test::expect_worth("secant", {.first_order = .75, .all = .70, .angle = .04}); }
+TEST(Secant, IsWorthItsSteps) { test::expect_worth("secant", {.first_order = .57, .all = .42, .coarse = .49, .mirror_in_mirror = .25, .angle = .04}); }
 
 TEST(Secant, NeedsSmallerCapturesThanParallax) {
     for (const test::Look& look : test::looks()) {

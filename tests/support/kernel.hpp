@@ -65,6 +65,9 @@ public:
     }
     explicit Kernel(std::span<const bvh::Triangle> triangles) : Kernel(bvh::build(triangles)) {}
 
+    /// Rules to leave out, by the constants of shaders/lib/plain.glsl: what they are good for shows without them.
+    gpu::Constants rules{};
+
     const bvh::Bvh& hierarchy() const { return hierarchy_; }
 
     /// What each ray meets first, triangles with a flag of `skipped` left out. At most 4 million rays.
@@ -95,7 +98,7 @@ private:
             commands.bind("bvh_triangles", triangles_);
             commands.bind(input, input_);
             commands.bind(output, out);
-            commands.use(gpu::ComputeState{shader, {}});
+            commands.use(gpu::ComputeState{shader, rules});
             commands.push(push);
             commands.dispatch((size_of(in) + 63) / 64, 1);
         });
