@@ -69,6 +69,7 @@ bool follow_captured(inout Path path, Lookup lookup) {
     vec4 surface = captured_surface(path.mirror, lookup.direction);
     if (lookup.state != kHit || lookup.layer != 0.0 || !is_mirror(surface)) return false;
     uint next = uint(surface.x) - 1u;
+    if (probes[next].radius > 0.0) return false; // an exact sphere that the ray is known to miss
     vec3 n = normalize(surface.yzw);
     vec3 seen = path.centre + lookup.direction * captured_distance(path.mirror, lookup.direction);
     float t = dot(seen - path.at, n) / dot(path.direction, n);
