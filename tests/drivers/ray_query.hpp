@@ -1,0 +1,33 @@
+#pragma once
+
+#include "drivers/ray_query_device.hpp"
+#include "support/kernel.hpp"
+
+#include <span>
+#include <vector>
+
+namespace test {
+
+/// The driver's own ray tracer: a pipeline that asks it about rays from a buffer (ray_query.comp).
+class RayQuery {
+public:
+    explicit RayQuery(const RayQueryDevice& device);
+
+    /// What each ray meets first; `object` and `steps` stay 0.
+    std::vector<KernelHit> closest(std::span<const bvh::Triangle> triangles, const std::vector<KernelRay>& rays) const;
+
+private:
+    struct Structure;
+    Structure build(VkAccelerationStructureTypeKHR type, const VkAccelerationStructureGeometryKHR& geometry, std::uint32_t primitives) const;
+    Structure bottom(const Memory& corners, std::uint32_t triangles) const;
+    Structure top(const Structure& bottom) const;
+    void trace(const Structure& triangles, const Memory& rays, const Memory& hits, std::uint32_t count) const;
+    void destroy(const Structure& structure) const;
+
+    const RayQueryDevice& device_;
+    gpu::UniqueDescriptorSetLayout set_layout_;
+    gpu::UniquePipelineLayout pipeline_layout_;
+    gpu::UniquePipeline pipeline_;
+};
+
+} // namespace test

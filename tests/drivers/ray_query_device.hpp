@@ -1,0 +1,76 @@
+#pragma once
+
+#include "gpu/device.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace test {
+
+using namespace catoptric;
+
+/// A buffer in memory that both sides see, with an address.
+struct Memory {
+    gpu::UniqueMemory memory; // before the buffer: destroyed after it
+    gpu::UniqueBuffer buffer;
+    void* mapped = nullptr;
+    VkDeviceAddress address = 0;
+};
+
+/// A validated device with ray queries, beside the engine's own, which asks for no such thing.
+class RayQueryDevice {
+public:
+    /// The first device that has them; null where none has, and then `reason` says so.
+    static std::unique_ptr<RayQueryDevice> open(std::string& reason);
+    ~RayQueryDevice();
+    RayQueryDevice(const RayQueryDevice&) = delete;
+    RayQueryDevice& operator=(const RayQueryDevice&) = delete;
+
+    const std::string& name() const { return name_; }
+    VkPhysicalDevice physical() const { return physical_; }
+    VkDevice handle() const { return device_; }
+    /// Messages of the validation layer so far.
+    const std::vector<std::string>& messages() const { return messages_; }
+
+    /// A function of one of the extensions.
+    template <typename Function>
+    Function find(const char* function) const {
+        return reinterpret_cast<Function>(vkGetDeviceProcAddr(device_, function));
+    }
+    Memory make_memory(std::uint64_t bytes, VkBufferUsageFlags usage, const void* contents = nullptr) const;
+
+    /// Records with `record`, submits and waits.
+    template <typename Record>
+    void submit(Record&& record) const {
+        VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+        begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
+        record(commands_);
+        gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
+        VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+        info.commandBufferCount = 1;
+        info.pCommandBuffers = &commands_;
+        gpu::check_vk(vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE), "submit");
+        gpu::check_vk(vkQueueWaitIdle(queue_), "wait");
+    }
+
+private:
+    RayQueryDevice() = default;
+    void make_messenger();
+    void make_device();
+    void make_commands(std::uint32_t queue_family);
+
+    std::string name_;
+    std::vector<std::string> messages_;
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    gpu::UniqueCommandPool command_pool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+};
+
+} // namespace test
