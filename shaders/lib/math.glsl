@@ -181,9 +181,12 @@ INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT
                                       e.x * f.y - e.y * f.x), ray.axis);
     precise real height = normal.x * corner.x + normal.y * corner.y + normal.z * corner.z;
     precise real slope = normal.x * ray.shear.x + normal.y * ray.shear.y + normal.z;
-    precise real at_plane = ray.shear.z * (height / slope);
-    // Never before the first corner or behind the last; without a normal it is NaN or infinite.
+    // A plane seen edge-on within roundings is met anywhere: there the weights know better.
+    real doubt = gamma_bound(64) * (abs(normal.x * ray.shear.x) + abs(normal.y * ray.shear.y) + abs(normal.z));
     precise vec3 at = ray.shear.z * vec3(ta.z, tb.z, tc.z);
+    precise real at_weights = (u * at.x + v * at.y + w * at.z) / det;
+    precise real at_plane = abs(slope) > doubt ? ray.shear.z * (height / slope) : at_weights;
+    // Never before the first corner or behind the last; without a normal it is NaN or infinite.
     real first = min(at.x, min(at.y, at.z));
     t = least(largest(at), greatest(first, at_plane));
     return t > real(0) && t <= kLargest;

@@ -45,7 +45,7 @@ TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
         EXPECT_EQ(one->binding, binding) << name;
         EXPECT_EQ(one->kind, kind) << name;
     }
-    EXPECT_EQ(constants(found), (std::vector<std::string>{"exact_spheres", "max_depth", "shadow"}));
+    EXPECT_EQ(constants(found), (std::vector<std::string>{"exact_spheres", "fixed_offset", "max_depth", "shadow", "without"}));
 }
 
 TEST(Reflection, LeavesOutWhatTheCodeDoesNotUse) {
