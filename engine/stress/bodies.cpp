@@ -143,7 +143,6 @@ void judge_correction(Bench& bench) {
 
 const Row kCorrection{{"N12", "parallax against ray tracing, contract camera, 512x512", "better than uncorrected for every ball", judge_correction}};
 const Row kContact{{"C1", "balls that touch wall and floor, each other, overlap, are concentric", "no dark ring, no blow-up in 100 frames", judge_contact}};
-const Row kInside{{"C5", "camera inside a ball", "one documented rule, both worlds obey it", nullptr, "no rule for an eye inside a mirror is documented yet"}};
 const Row kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened", "the others are untouched (FLIP)", judge_vanishing}};
 const Row kMany{{"C9", "0, 1, 2, 16, 64, 1000 mirrors", "0: no capture; 1000: runs, or a budget message", judge_many}};
 const Row kFaces{{"C10", "face 1, 2, 3, 4096, 16384, 32769", "runs, or says the bytes, or is refused", judge_faces}};

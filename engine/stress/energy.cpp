@@ -103,25 +103,12 @@ void judge_passes(Bench& bench) {
     }
 }
 
-/// A light too bright for a half, and a surface too dark for a float.
-void judge_emission(Bench& bench) {
-    scene::Scene bright = room(bench, 3), dim = bright, black = bright;
-    for (scene::Material& material : bright.materials)
-        if (material.emission != vec3(0)) material.emission = vec3(1e30f);
-    for (const std::string technique : {"raytrace", "reuse", "pyramid"}) bench.add_nonfinite(technique + ", emission 1e30, frame 20", bench.render(bright, technique, 20));
-    dim.materials.front().albedo = vec3(1e-40f);
-    black.materials.front().albedo = vec3(0);
-    bench.add_flip("albedo 1e-40 against black", bench.render(dim, "raytrace"), bench.render(black, "raytrace"), 0);
-}
-
 const Row kFurnace{{"N6", "white furnace, bounces 0..8, every technique", "energy is never created; complete at depth 16", judge_furnace}};
 const Row kCorridor{{"N7", "parallel mirrors, reflectance .8, depth 1..12", "k mirrors show .8^k, nothing after the depth", judge_corridor, {},
                      "cube techniques know parallel mirrors only as far as captures show them"}};
 const Row kBounces{{"N8", "naive, bounces 0..6", "radiance in mirrors grows, steps fall by 2.5 and more", judge_bounces}};
 const Row kReuse{{"N9", "static scene, reuse frame k", "equals naive with k bounces", judge_reuse}};
 const Row kPasses{{"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2", judge_passes}};
-const Row kEmission{{"N26", "emission 1e30; albedo 1e-40", "saturates, frames stay finite; equals black", judge_emission, {},
-                     "taking the light away in mid-run"}};
 
 } // namespace
 

@@ -1,4 +1,4 @@
-// Lights and cameras where nobody would put them, pictures and scenes of no or enormous size.
+// Lights where nobody would put them, pictures and scenes of no or enormous size.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -72,21 +72,6 @@ void judge_shadow_map(Bench& bench) {
         }
 }
 
-void judge_eye(Bench& bench) {
-    const scene::Scene scene = room(bench, 2);
-    const scene::Camera camera = scene.cameras.front();
-    scene::Camera low = camera;
-    low.eye.y = scene::bounds(scene).lo.y + 1e-3, low.eye.z = 0, low.target = low.eye + dvec3(0, .2, 1);
-    scene::Camera narrow = camera, wide = camera;
-    narrow.vertical_fov_degrees = .01, wide.vertical_fov_degrees = 179.9;
-    for (const auto& [what, eye] : {std::pair{"1e-3 above the floor", low}, {"field of view .01", narrow}, {"field of view 179.9", wide}})
-        for (const std::string technique : {"raytrace", "pyramid"}) {
-            app::Request request = bench.asked(scene, technique);
-            request.camera = eye;
-            bench.add_nonfinite(fmt::format("{}, {}", what, technique), bench.render(request));
-        }
-}
-
 void judge_sizes(Bench& bench) {
     const scene::Scene scene = room(bench, 1);
     for (const uvec2 size : {uvec2(1, 1), uvec2(1, 16384), uvec2(16384, 1)})
@@ -131,7 +116,6 @@ void judge_triangles(Bench& bench) {
     bench.add_nonfinite("1,048,576 triangles, raytrace", part);
 }
 
-const Row kEye{{"N24", "camera 1e-3 above the floor; field of view .01 and 179.9", "finite", judge_eye, {}, "the comparison with a reference in doubles"}};
 const Row kLight{{"L1", "light inside a ball, on the ceiling, at the camera, facing away", "finite; unlit where it faces away", judge_light}};
 const Row kShadowMap{{"L2", "shadow map edge 1, 16, 1024; scene times 1e-6, 1, 1e6", "no acne on an open plane", judge_shadow_map}};
 const Row kSizes{{"Z1", "picture 1x1, 1x16384, 16384x1, 0x0, 65536x65536", "works, or is refused with the limit", judge_sizes}};
