@@ -1,13 +1,15 @@
 #include "render/enclosure.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 namespace catoptric::render {
 
 namespace {
+
+constexpr double kRoundings = 1e-3; // of a sum of solid angles, far more than they are
 
 using Place = std::array<float, 3>;
 
@@ -43,8 +45,8 @@ bool encloses(const Geometry& geometry, const DrawRange& range, vec3 point) {
         const auto corner = [&](std::uint32_t j) { return dvec3(geometry.vertices[geometry.indices[k + j]].position) - dvec3(point); };
         seen += solid_angle(corner(0), corner(1), corner(2));
     }
-    // Inside the whole sphere of directions, on a face half of it, outside nothing; less at an edge or a corner.
-    return std::abs(seen) > .5 * std::numbers::pi && is_closed(geometry, range);
+    // Inside the whole sphere of directions, on a face half of it, on an edge or a corner a part, outside nothing.
+    return std::abs(seen) > kRoundings && is_closed(geometry, range);
 }
 
 } // namespace catoptric::render
