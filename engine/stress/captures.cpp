@@ -122,7 +122,7 @@ void judge_cube_edges(Bench& bench) {
     scene::Scene scene = furnace({});
     scene.materials.front().emission = vec3(kColour);
     add_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}), {{0, 0, 0}, 1}, 5);
-    double step = 0;
+    double step = 0, off = 0;
     std::size_t near = 0;
     for (int edge = 0; edge < 12; ++edge) {
         dvec3 wanted;
@@ -139,10 +139,12 @@ void judge_cube_edges(Bench& bench) {
             for (int x = 1; x < picture.width; ++x) {
                 const float here = picture.at(x, y).x;
                 step = std::max<double>({step, std::abs(here - picture.at(x - 1, y).x) / kColour, std::abs(here - picture.at(x, y - 1).x) / kColour});
+                off = std::max<double>(off, std::abs(here - kColour) / kColour);
                 if (!std::isfinite(here)) step = std::nan("");
             }
     }
     bench.add("largest step from neighbour to neighbour", step, 2.0 / 1024);
+    bench.add("largest departure from the room's colour", off, 2.0 / 1024);
     bench.add("directions within two texels of an edge: fewer than 1e5", near < 100000 ? 1 : 0, 0);
 }
 
