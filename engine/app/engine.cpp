@@ -5,6 +5,7 @@
 #include "graph/dump.hpp"
 #include "graph/run.hpp"
 #include "reflect/technique.hpp"
+#include "render/captured.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "core/format.hpp"
 #include "core/math.hpp"
 #include "measure/picture.hpp"
-#include "render/captured.hpp"
 #include "scene/load.hpp"
 #include "scene/scene.hpp"
 
@@ -14,6 +14,10 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace catoptric::render {
+struct Captured;
+} // namespace catoptric::render
 
 /// The engine as a program or a library uses it. No Vulkan name is needed to include this.
 namespace catoptric::app {
@@ -174,7 +178,8 @@ public:
     /// of the scene's mirrors once and draw nothing.
     std::vector<double> clear_ms(const Request& request);
 
-    /// Cubes of `face` texels around every mirror: no shadows, no ambient light, other mirrors black.
+    /// Cubes of `face` texels around every mirror: no shadows, no ambient light, other mirrors black. For tests and
+    /// properties; render/captured.hpp says what it holds.
     render::Captured capture(const scene::Scene& scene, std::uint32_t face, Format distance);
 
     const DeviceInfo& device() const;

@@ -6,6 +6,7 @@
 #include "stress/texels.hpp"
 
 #include "core/format.hpp"
+#include "render/captured.hpp"
 #include "scene/load.hpp"
 #include "scene/shapes.hpp"
 

@@ -2,6 +2,8 @@
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
+#include "render/captured.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

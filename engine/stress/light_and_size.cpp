@@ -2,7 +2,6 @@
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
-
 #include <fmt/format.h>
 
 #include <algorithm>
