@@ -80,4 +80,16 @@ std::size_t nonfinite(const measure::Picture& picture) {
     }));
 }
 
+double brightest(const measure::Picture& picture) {
+    double most = 0;
+    for (const vec3& pixel : picture.pixels) most = std::max({most, double{pixel.x}, double{pixel.y}, double{pixel.z}});
+    return nonfinite(picture) > 0 ? std::nan("") : most;
+}
+
+std::size_t different_pixels(const measure::Picture& a, const measure::Picture& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i];
+    return count;
+}
+
 } // namespace catoptric::stress

@@ -47,5 +47,8 @@ private:
 
 /// Pixels with a NaN or infinity.
 std::size_t nonfinite(const measure::Picture& picture);
+/// The largest channel of all; NaN where some pixel is no number.
+double brightest(const measure::Picture& picture);
+std::size_t different_pixels(const measure::Picture& a, const measure::Picture& b);
 
 } // namespace catoptric::stress

@@ -16,12 +16,6 @@ namespace {
 
 constexpr float kLargestHalf = 65504;
 
-std::size_t different_pixels(const measure::Picture& a, const measure::Picture& b) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i];
-    return count;
-}
-
 /// Texels of the captures that hold the largest half, and those that hold no number.
 std::pair<std::size_t, std::size_t> saturated(Bench& bench, const scene::Scene& scene) {
     constexpr std::uint32_t kEdge = 64;

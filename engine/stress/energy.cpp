@@ -16,12 +16,6 @@ namespace {
 
 const std::vector<Ball> kTwoBalls{{{-1.2, -.3, 1}, 1}, {{1.3, .4, 1.5}, 1.2}};
 
-double brightest(const app::Part& part) {
-    double most = 0;
-    for (const vec3& pixel : part.hdr.pixels) most = std::max({most, double{pixel.x}, double{pixel.y}, double{pixel.z}});
-    return nonfinite(part.hdr) > 0 ? std::nan("") : most;
-}
-
 app::Part render_dark(Bench& bench, const scene::Scene& scene, const std::string& technique, int frames) {
     app::Request request = bench.asked(scene, technique, frames);
     request.ambient = 0;
@@ -30,10 +24,10 @@ app::Part render_dark(Bench& bench, const scene::Scene& scene, const std::string
 
 void judge_furnace(Bench& bench) {
     const scene::Scene scene = furnace(kTwoBalls);
-    for (const app::TechniqueInfo& technique : app::techniques()) bench.add(technique.name + ": brightest of 1", brightest(render_dark(bench, scene, technique.name, 8)), 1.002);
+    for (const app::TechniqueInfo& technique : app::techniques()) bench.add(technique.name + ": brightest of 1", brightest(render_dark(bench, scene, technique.name, 8).hdr), 1.002);
     for (int bounces = 0; bounces <= 8; bounces += 4) {
         const std::string text = "naive:bounces=" + std::to_string(bounces);
-        bench.add(text + ": brightest of 1", brightest(render_dark(bench, scene, text, 1)), 1.002);
+        bench.add(text + ": brightest of 1", brightest(render_dark(bench, scene, text, 1).hdr), 1.002);
     }
     double darkest = 1;
     for (const vec3& pixel : render_dark(bench, scene, "raytrace:depth=16", 1).hdr.pixels) darkest = std::min(darkest, double{pixel.x});
@@ -48,7 +42,7 @@ void judge_captured_corridor(Bench& bench, const scene::Scene& scene) {
         const app::Part part = render_dark(bench, scene, technique, 8);
         std::size_t off = 0;
         for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i) off += !(std::abs(part.hdr.pixels[i].x - truth.hdr.pixels[i].x) <= .005f * truth.hdr.pixels[i].x);
-        bench.add(technique + ": brightest of 1", brightest(part), 1.002);
+        bench.add(technique + ": brightest of 1", brightest(part.hdr), 1.002);
         bench.add_quality(technique + ": share of pixels off .8^k", double(off) / double(part.hdr.pixels.size()), .005);
     }
 }
@@ -101,17 +95,11 @@ void judge_bounces(Bench& bench) {
     }
 }
 
-std::size_t different_pixels(const app::Part& a, const app::Part& b) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.hdr.pixels.size(); ++i) count += a.hdr.pixels[i] != b.hdr.pixels[i];
-    return count;
-}
-
 void judge_reuse(Bench& bench) {
     const scene::Scene scene = room(bench, 3);
     for (int k = 1; k <= 8; ++k)
         bench.add(fmt::format("frame {}: pixels that differ", k),
-                  double(different_pixels(bench.render(scene, "reuse:face=64", k), bench.render(scene, fmt::format("naive:face=64,bounces={}", k), 1))), 0);
+                  double(different_pixels(bench.render(scene, "reuse:face=64", k).hdr, bench.render(scene, fmt::format("naive:face=64,bounces={}", k), 1).hdr)), 0);
 }
 
 void judge_passes(Bench& bench) {

@@ -14,12 +14,6 @@ namespace catoptric::stress {
 
 namespace {
 
-double brightest(const measure::Picture& picture) {
-    double most = 0;
-    for (const vec3& pixel : picture.pixels) most = std::max({most, double{pixel.x}, double{pixel.y}, double{pixel.z}});
-    return nonfinite(picture) > 0 ? std::nan("") : most;
-}
-
 struct Place {
     const char* what;
     scene::Camera camera;
