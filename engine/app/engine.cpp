@@ -4,8 +4,8 @@
 #include "core/error.hpp"
 #include "graph/dump.hpp"
 #include "graph/run.hpp"
-#include "measure/masks.hpp"
 #include "reflect/technique.hpp"
+#include "render/captured.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -205,7 +205,9 @@ Result Engine::run(const Request& request) {
     std::optional<double> shown;
     for (int k = 1; k <= total; ++k) {
         check_stopped();
-        if (const double instant = instant_of(request, k); shown != instant) {
+        if (request.changed) {
+            scene.update(request.changed(k), request.camera, request.size, request.ambient);
+        } else if (const double instant = instant_of(request, k); shown != instant) {
             scene.update(scene::at(request.scene, instant), request.camera, request.size, request.ambient);
             shown = instant;
         }
@@ -262,6 +264,10 @@ std::vector<double> Engine::clear_ms(const Request& request) {
         if (k > request.warmup) samples.push_back(times.passes.front().ms());
     }
     return samples;
+}
+
+render::Captured Engine::capture(const scene::Scene& scene, std::uint32_t face, Format distance) {
+    return render::capture(impl_->device, impl_->pipelines, scene, face, distance);
 }
 
 std::vector<DeviceInfo> devices() {

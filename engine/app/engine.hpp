@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/format.hpp"
 #include "core/math.hpp"
 #include "measure/picture.hpp"
 #include "scene/load.hpp"
@@ -13,6 +14,10 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace catoptric::render {
+struct Captured;
+} // namespace catoptric::render
 
 /// The engine as a program or a library uses it. No Vulkan name is needed to include this.
 namespace catoptric::app {
@@ -46,6 +51,9 @@ struct Request {
     bool animate = false; ///< frame k at time + (k-1)/60 s; otherwise all at `time`
     /// Seconds into the scene's motion of frame k, in place of `time` and `animate`; may be empty.
     std::function<double(int)> clock;
+    /// The scene of frame k, in place of `scene` at an instant of its motion, where light or materials change in
+    /// mid-run; units stay those of `scene`, and what the frame before left is kept. May be empty.
+    std::function<scene::Scene(int)> changed;
     double ambient = 0.05;
     double exposure = 0; ///< stops
     std::uint64_t seed = 1; ///< of sample patterns that are not a regular grid
@@ -169,6 +177,10 @@ public:
     /// Median and samples are up to the caller: milliseconds of `frames` frames that clear the cubes
     /// of the scene's mirrors once and draw nothing.
     std::vector<double> clear_ms(const Request& request);
+
+    /// Cubes of `face` texels around every mirror: no shadows, no ambient light, other mirrors black. For tests and
+    /// properties; render/captured.hpp says what it holds.
+    render::Captured capture(const scene::Scene& scene, std::uint32_t face, Format distance);
 
     const DeviceInfo& device() const;
     /// Throws `internal` with the first message of the validation layer, when there is any.

@@ -1,6 +1,7 @@
 #include "render/gpu_scene.hpp"
 
 #include "bvh/bvh.hpp"
+#include "render/enclosure.hpp"
 #include "render/footprint.hpp"
 #include "render/views.hpp"
 
@@ -91,6 +92,8 @@ void GpuScene::fill_views(const scene::Scene& now, const scene::Camera& camera, 
     views_ = {camera_view(camera, space_, size, nearest_distance(geometry_, eye, [](std::size_t, const DrawRange& range) {
         return !range.seen_by_camera;
     }))};
+    hides_all_.clear();
+    for (const DrawRange& range : geometry_.ranges) hides_all_.push_back(range.mirror && encloses(geometry_, range, eye));
     probes_.clear();
     for (const std::size_t object : mirror_objects_) {
         const Bounds<double> bounds = scene::bounds(now, now.objects[object]);

@@ -27,6 +27,8 @@ public:
     const std::vector<shared::View>& views() const { return views_; }
     /// Index of the object that is mirror n, n from 0.
     std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
+    /// Whether the object is a closed mirror with the camera inside, where no light from outside arrives.
+    bool hides_all_from_camera(std::size_t object) const { return hides_all_[object]; }
     /// Texels that the edge of each mirror's cube needs (render/footprint.hpp); 0 for a mirror that is not in
     /// the picture. Found at the first update and kept: cubes that change their size lose what the frame before left.
     const std::vector<double>& face_needs() const { return face_needs_; }
@@ -56,6 +58,7 @@ private:
     std::vector<shared::Probe> probes_;
     std::vector<shared::Light> lights_;
     std::vector<std::size_t> mirror_objects_;
+    std::vector<bool> hides_all_; ///< by object
     std::vector<double> face_needs_;
     std::uint32_t mirror_count_ = 0, light_count_ = 0, shadow_faces_ = 6;
     gpu::Buffer vertex_buffer_, index_buffer_, frame_, view_buffer_, surface_buffer_, light_buffer_, probe_buffer_;

@@ -51,6 +51,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
         if (!scene.ranges()[i].mirror && !skip(i)) draw_object(commands, scene, i, first_view, layers);
     gpu::RasterState mirrors{"scene.vert", black, store};
+    const auto is_black = [&](std::size_t object) { return first_view == GpuScene::kCameraView && scene.hides_all_from_camera(object); };
     if (look.cubes && !look.blank) {
         mirrors.fragment = look.fragment + (peeled ? "#peel" : !look.mended ? "" : lighting.shadow_map ? "#mend" : "#mend_unshadowed");
         mirrors.constants.insert(mirrors.constants.end(), look.constants.begin(), look.constants.end());
@@ -66,7 +67,12 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
     }
     commands.use(mirrors);
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
-        if (scene.ranges()[i].mirror && !skip(i)) draw_object(commands, scene, i, first_view, layers, look.mended);
+        if (scene.ranges()[i].mirror && !skip(i) && !is_black(i)) draw_object(commands, scene, i, first_view, layers, look.mended);
+    for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+        if (!is_black(i) || skip(i)) continue;
+        commands.use(gpu::RasterState{"scene.vert", black, store});
+        draw_object(commands, scene, i, first_view, layers);
+    }
 }
 
 void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const MirrorLook& look) {

@@ -13,7 +13,7 @@ Json to_json(const StressRow& row) {
     json["threshold"] = worst ? number(worst->limit) : Json(nullptr);
     json["cases"] = Json::array();
     for (const StressCase& one : row.cases)
-        json["cases"].push_back({{"what", one.what}, {"measured", number(one.measured)}, {"threshold", number(one.limit)}, {"holds", one.holds()}});
+        json["cases"].push_back({{"what", one.what}, {"measured", number(one.measured)}, {"threshold", number(one.limit)}, {"holds", one.holds()}, {"quality", one.is_quality}});
     json["pictures"] = Json::array();
     for (const StressPicture& picture : row.pictures) json["pictures"].push_back("images/" + picture.name + ".png");
     json["seconds"] = number(row.seconds);

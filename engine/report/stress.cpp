@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace catoptric::report {
 
@@ -48,7 +49,7 @@ std::string name_of(Verdict verdict) {
 }
 
 const StressCase* StressRow::worst() const {
-    const auto found = std::ranges::max_element(cases, {}, load);
+    const auto found = std::ranges::max_element(cases, {}, [](const StressCase& one) { return std::pair(!one.holds() && !one.is_quality, load(one)); });
     return found == cases.end() ? nullptr : &*found;
 }
 

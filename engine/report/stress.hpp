@@ -34,7 +34,8 @@ struct StressRow {
     std::vector<StressCase> cases;
     std::vector<StressPicture> pictures; ///< of cases that do not hold
     double seconds = 0;
-    /// The case nearest to or furthest beyond its limit; null when there is none.
+    /// The case nearest to or furthest beyond its limit, one that is wrong before all that look worse; null when there
+    /// is none.
     const StressCase* worst() const;
 };
 

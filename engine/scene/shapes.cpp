@@ -1,6 +1,7 @@
 #include "scene/shapes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -43,6 +44,19 @@ Mesh quad(std::string name, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
             .positions = {a, b, c, d},
             .normals = std::vector<vec3>(4, normal),
             .triangles = {{0, 1, 2}, {0, 2, 3}}};
+}
+
+Mesh wall(int face, dvec3 lo, dvec3 hi) {
+    const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    std::array<dvec3, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) {
+        corners[i][axis] = face % 2 ? lo[axis] : hi[axis];
+        corners[i][u] = i == 1 || i == 2 ? hi[u] : lo[u];
+        corners[i][v] = i >= 2 ? hi[v] : lo[v];
+    }
+    // (a b c d) counter-clockwise seen from +axis: right for the wall on the low side.
+    if (face % 2) return quad("wall" + std::to_string(face), corners[0], corners[1], corners[2], corners[3]);
+    return quad("wall" + std::to_string(face), corners[3], corners[2], corners[1], corners[0]);
 }
 
 Mesh ball(std::string name, int levels) {

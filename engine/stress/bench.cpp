@@ -21,6 +21,10 @@ std::string as_file_name(const std::string& text) {
     return name;
 }
 
+bool has_number(std::string_view text) {
+    return std::ranges::any_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
 } // namespace
 
 app::Request Bench::asked(const scene::Scene& scene, const std::string& technique, int frames) const {
@@ -49,13 +53,23 @@ void Bench::add_nonfinite(const std::string& what, const app::Part& part) {
     add(what + ": pixels that are no numbers", static_cast<double>(nonfinite(part.hdr)), 0);
 }
 
+bool Bench::add_done_or_refused(const std::string& what, const std::function<void()>& work) {
+    try {
+        work();
+        add(what + ": done", 0, 0);
+        return true;
+    } catch (const Error& error) {
+        add(what + (error.failure == Failure::exhausted ? ": refused: " : ": fails: ") + error.what(), error.failure == Failure::exhausted && has_number(error.what()) ? 0 : 1, 0);
+        return false;
+    }
+}
+
 void Bench::add_refused(const std::string& what, Failure failure, const std::function<void()>& work) {
     bool refused = false;
     try {
         work();
     } catch (const Error& error) {
-        const std::string text = error.what();
-        refused = error.failure == failure && std::ranges::any_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+        refused = error.failure == failure && has_number(error.what());
     }
     add(what + ": not refused with numbers", refused ? 0 : 1, 0);
 }
@@ -64,6 +78,18 @@ std::size_t nonfinite(const measure::Picture& picture) {
     return static_cast<std::size_t>(std::ranges::count_if(picture.pixels, [](const vec3& pixel) {
         return !(std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z));
     }));
+}
+
+double brightest(const measure::Picture& picture) {
+    double most = 0;
+    for (const vec3& pixel : picture.pixels) most = std::max({most, double{pixel.x}, double{pixel.y}, double{pixel.z}});
+    return nonfinite(picture) > 0 ? std::nan("") : most;
+}
+
+std::size_t different_pixels(const measure::Picture& a, const measure::Picture& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i];
+    return count;
 }
 
 } // namespace catoptric::stress

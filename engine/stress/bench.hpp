@@ -27,6 +27,9 @@ public:
     void add_flip(const std::string& what, const app::Part& found, const app::Part& wanted, double limit);
     /// Pixels that are no numbers; limit 0.
     void add_nonfinite(const std::string& what, const app::Part& part);
+    /// That `work` is done, or ends in an error that says what the device has not got, with a number; limit 0.
+    /// True when it was done.
+    bool add_done_or_refused(const std::string& what, const std::function<void()>& work);
     /// That `work` ends in an error of this kind whose text has a number in it; limit 0.
     void add_refused(const std::string& what, Failure failure, const std::function<void()>& work);
 
@@ -44,5 +47,8 @@ private:
 
 /// Pixels with a NaN or infinity.
 std::size_t nonfinite(const measure::Picture& picture);
+/// The largest channel of all; NaN where some pixel is no number.
+double brightest(const measure::Picture& picture);
+std::size_t different_pixels(const measure::Picture& a, const measure::Picture& b);
 
 } // namespace catoptric::stress

@@ -14,7 +14,6 @@ struct Property {
     std::string_view id, stimulus, property;
     /// Renders its scenes and adds cases to the row.
     void (*judge)(Bench& bench) = nullptr;
-    std::string_view unsupported = {}; ///< why it cannot be judged yet; then there is no `judge`
     std::string_view not_covered = {}; ///< what of the property this does not look at
 };
 

@@ -2,27 +2,11 @@
 
 #include "scene/shapes.hpp"
 
-#include <array>
 #include <cmath>
 
 namespace catoptric::stress {
 
 namespace {
-
-/// The wall of the box in direction +X -X +Y -Y +Z -Z, facing in.
-void add_wall(scene::Scene& scene, std::size_t material, int face, dvec3 lo, dvec3 hi) {
-    const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
-    std::array<dvec3, 4> corners;
-    for (std::size_t i = 0; i < 4; ++i) {
-        corners[i][axis] = face % 2 ? lo[axis] : hi[axis];
-        corners[i][u] = i == 1 || i == 2 ? hi[u] : lo[u];
-        corners[i][v] = i >= 2 ? hi[v] : lo[v];
-    }
-    if (face % 2) // counter-clockwise seen from +axis: right on the low side
-        add_quad(scene, material, corners[0], corners[1], corners[2], corners[3]);
-    else
-        add_quad(scene, material, corners[3], corners[2], corners[1], corners[0]);
-}
 
 bool is_free(const scene::Scene& scene, const Ball& ball) {
     for (const scene::Object& object : scene.objects)
@@ -32,32 +16,19 @@ bool is_free(const scene::Scene& scene, const Ball& ball) {
 
 } // namespace
 
-std::size_t add_material(scene::Scene& scene, const scene::Material& material) {
-    scene.materials.push_back(material);
-    return scene.materials.size() - 1;
-}
-
 void add_quad(scene::Scene& scene, std::size_t material, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
-    const std::string name = "quad" + std::to_string(scene.objects.size());
-    scene.objects.push_back({.name = name, .mesh = scene.meshes.size(), .material = material});
-    scene.meshes.push_back(scene::quad(name, a, b, c, d));
+    scene::add_quad(scene, "quad" + std::to_string(scene.objects.size()), material, a, b, c, d);
 }
 
 void add_ball(scene::Scene& scene, std::size_t material, const Ball& ball, int levels) {
-    const std::string name = "ball" + std::to_string(scene.objects.size());
-    scene.objects.push_back({.name = name,
-                             .mesh = scene.meshes.size(),
-                             .material = material,
-                             .world_from_object = moved(ball.centre) * scaled(ball.radius),
-                             .sphere = scene::Sphere{ball.centre, ball.radius}});
-    scene.meshes.push_back(scene::ball(name, levels));
+    scene::add_ball(scene, "ball" + std::to_string(scene.objects.size()), material, ball.centre, ball.radius, levels);
 }
 
 scene::Scene room(Bench& bench, int balls) {
     scene::Scene scene{.name = "room"};
     const auto colour = [&] { return vec3(bench.random(.1, .8), bench.random(.1, .8), bench.random(.1, .8)); };
     const dvec3 hi(bench.random(1.8, 2.2), bench.random(1.6, 2.0), bench.random(1.8, 2.4)), lo = -hi;
-    for (int face = 0; face < 5; ++face) add_wall(scene, add_material(scene, {.name = "wall", .albedo = colour()}), face, lo, hi);
+    for (int face = 0; face < 5; ++face) add_mesh(scene, scene::wall(face, lo, hi), add_material(scene, {.name = "wall", .albedo = colour()}));
     const std::size_t lamp = add_material(scene, {.name = "lamp", .emission = vec3(6, 5, 4)});
     const double x = bench.random(-.5, .5), z = bench.random(-.5, .5), y = hi.y - .01;
     add_quad(scene, lamp, {x - .5, y, z - .5}, {x + .5, y, z - .5}, {x + .5, y, z + .5}, {x - .5, y, z + .5});
@@ -77,7 +48,7 @@ scene::Scene room(Bench& bench, int balls) {
 scene::Scene furnace(const std::vector<Ball>& balls) {
     scene::Scene scene{.name = "furnace"};
     const std::size_t hot = add_material(scene, {.name = "hot", .emission = vec3(1)});
-    for (int face = 0; face < 6; ++face) add_wall(scene, hot, face, {-4, -3, -5}, {4, 3, 5});
+    for (int face = 0; face < 6; ++face) add_mesh(scene, scene::wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (const Ball& ball : balls) add_ball(scene, mirror, ball);
     scene.cameras.push_back({.eye = {.2, .1, -4.5}, .target = {0, 0, 1}, .vertical_fov_degrees = 50});

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/build.hpp"
 #include "stress/bench.hpp"
 
 /// Scenes that are made for a run from its seed, so that nothing can be known of them beforehand.
@@ -21,7 +21,7 @@ scene::Scene furnace(const std::vector<Ball>& balls);
 /// A plane of 20 by 20 units at y = 0 with a small lamp 4 above it, seen at a slant; nothing throws a shadow.
 scene::Scene plane();
 
-std::size_t add_material(scene::Scene& scene, const scene::Material& material);
+using scene::add_material, scene::add_mesh;
 void add_quad(scene::Scene& scene, std::size_t material, dvec3 a, dvec3 b, dvec3 c, dvec3 d);
 /// 4^(levels+1) triangles that stand for an exact sphere.
 void add_ball(scene::Scene& scene, std::size_t material, const Ball& ball, int levels = 4);

@@ -33,10 +33,16 @@ TEST_F(Cli, StressTakesItsScenesFromTheSeed) {
     EXPECT_NE(measured("3"), measured("4"));
 }
 
-TEST_F(Cli, StressSaysWhatItCannotJudge) {
-    const test::Ended ended = cli({"stress", "--only", "C5"});
-    EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(ended.out, testing::AllOf(testing::HasSubstr("unsupported"), testing::HasSubstr("no rule")));
+TEST_F(Cli, StressJudgesWhatCapturesHold) {
+    const test::Ended ended = cli({"stress", "--json", "--size", "64x64", "--only", "C3", "C11", "C12", "N11", "N24", "C5"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+    for (const json& row : json::parse(ended.out)["rows"]) EXPECT_THAT(row["verdict"], testing::AnyOf("pass", "quality-warning")) << row;
+}
+
+TEST_F(Cli, StressTellsWhatLooksWorseWithoutFailing) {
+    const test::Ended ended = cli({"stress", "--size", "64x64", "--only", "N7"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+    EXPECT_THAT(ended.out, testing::HasSubstr("quality-warning"));
     expect_refused({"stress", "--only", "N99"}, 2, {"N99", "did you mean"});
 }
 

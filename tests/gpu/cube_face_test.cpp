@@ -1,8 +1,9 @@
 // Each face of a capture sees its wall, the right way round, at the right distance; a world direction
 // finds in the cube map what lies in that direction.
 #include "core/shader_math.hpp"
+#include "stress/glyph_room.hpp"
+#include "stress/texels.hpp"
 #include "support/captures.hpp"
-#include "support/glyph_room.hpp"
 
 #include <cmath>
 #include <random>
@@ -10,7 +11,7 @@
 namespace {
 
 using namespace catoptric;
-using test::GlyphRoom;
+using stress::GlyphRoom;
 
 constexpr std::uint32_t kFace = 64;
 // Rasterisers snap corners to 1/256 of a texel, 2^-13 of a face's half width, which a wall seen at a flat
@@ -19,22 +20,11 @@ constexpr double kSnap = 0.001;
 // Half the diagonal of a texel that is looked up linearly, stretched likewise.
 constexpr double kTexel = 0.03;
 
-/// Calls check(direction, face, x, y) for the centre of each texel.
-template <typename Check>
-void for_texels(const Check& check) {
-    for (int face = 0; face < 6; ++face)
-        for (std::uint32_t y = 0; y < kFace; ++y)
-            for (std::uint32_t x = 0; x < kFace; ++x) {
-                const double s = (2 * x + 1.0) / kFace - 1, t = (2 * y + 1.0) / kFace - 1;
-                check(f64::cube_direction(face, dvec3(s, t, 1)), face, x, y);
-            }
-}
-
 TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
     const GlyphRoom room;
     const test::Captured captured = test::capture(room.scene(), kFace, Format::r32f);
     std::size_t wrong = 0, judged = 0, inked = 0;
-    for_texels([&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+    stress::for_texels(kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
         const GlyphRoom::Seen seen = room.look(direction);
         if (seen.margin < kSnap) return; // the texel's centre lies on an edge
         ++judged, inked += seen.glyph;
@@ -121,7 +111,7 @@ TEST_P(Distances, AreThoseOfTheWalls) {
     const test::Captured captured = test::capture(room.scene(), kFace, GetParam(), kRange);
     const double unit = unorm ? captured.space.length(kRange) : 1.0;
     double worst = 0;
-    for_texels([&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+    stress::for_texels(kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
         const double wanted = captured.space.length(room.look(direction).distance) / unit;
         const double found = captured.distance(0, face, x, y, GetParam());
         worst = std::max(worst, unorm ? std::abs(found - std::min(wanted, 1.0)) : std::abs(found - wanted) / wanted);
@@ -153,7 +143,7 @@ TEST(CubeFace, AMirrorIsNotInItsOwnCaptureButInTheOthers) {
     const test::Captured captured = test::capture(test::furnace(2), kFace, Format::r32f);
     std::size_t black[2] = {0, 0}, hot[2] = {0, 0};
     for (std::uint32_t mirror = 0; mirror < 2; ++mirror)
-        for_texels([&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+        stress::for_texels(kFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
             const vec3 colour = captured.colour(mirror, face, x, y);
             black[mirror] += colour == vec3(0);
             hot[mirror] += colour == test::kFurnace;

@@ -1,5 +1,5 @@
 // The ray tracer with exact spheres against a page of double precision.
-#include "support/double_tracer.hpp"
+#include "stress/double_tracer.hpp"
 #include "support/rendering.hpp"
 
 #include <iostream>
@@ -22,7 +22,7 @@ TEST_P(Analytic, EqualsTheDoublePrecisionTracer) {
     constexpr int kDepth = 8;
     const scene::Scene room = test::room(GetParam().mirrors, GetParam().lights);
     const measure::Picture picture = test::render(room, "raytrace:sphere=exact,depth=8", kSize).hdr;
-    const test::DoubleTracer tracer(room, .05);
+    const stress::DoubleTracer tracer(room, .05);
     std::vector<double> differences;
     for (std::uint32_t y = 0; y < kSize.y; ++y)
         for (std::uint32_t x = 0; x < kSize.x; ++x) {

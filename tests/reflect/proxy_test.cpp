@@ -1,6 +1,6 @@
 // A box or sphere derived from what was captured: exact where the surroundings are one, harmless where
 // there are none.
-#include "support/glyph_room.hpp"
+#include "stress/glyph_room.hpp"
 #include "support/searches.hpp"
 
 namespace {
@@ -24,7 +24,7 @@ measure::LookupError error_of(const std::string& what, const std::vector<measure
 
 TEST(Proxy, TheBoxOfAnEmptyRoomIsExact) {
     for (const std::string face : {"16", "37", "64", "256"}) {
-        const auto pixels = test::looked_up(test::GlyphRoom().scene(), "proxy:face=" + face, kSize);
+        const auto pixels = test::looked_up(stress::GlyphRoom().scene(), "proxy:face=" + face, kSize);
         ASSERT_GT(pixels.size(), 1000u);
         double worst;
         EXPECT_LT(error_of("box, face " + face, pixels, worst).p99_degrees, kMostSnapped);

@@ -1,8 +1,9 @@
 // The pyramid's cells bound whatever a bilinear lookup finds in them; the search through them is exact.
 #include "core/shader_math.hpp"
 #include "reflect/technique.hpp"
+#include "core/half.hpp"
+#include "stress/glyph_room.hpp"
 #include "support/captures.hpp"
-#include "support/glyph_room.hpp"
 #include "support/searches.hpp"
 
 #include <random>
@@ -35,7 +36,7 @@ struct Read {
         std::uint32_t column = 0;
         for (std::uint32_t k = 1; k < level; ++k) column += width >> k;
         const std::uint32_t both = cells[(std::size_t{layer} * height + y) * width + column + x];
-        return {test::from_half(static_cast<std::uint16_t>(both)), test::from_half(static_cast<std::uint16_t>(both >> 16))};
+        return {from_half(static_cast<std::uint16_t>(both)), from_half(static_cast<std::uint16_t>(both >> 16))};
     }
     std::uint32_t cells_across(std::uint32_t level) const { return (face + (1u << level) - 1) >> level; }
 };
@@ -172,7 +173,7 @@ TEST(Pyramid, BoundsAreNoWiderThanTheyMust) {
 
 TEST(Pyramid, FindsTheWallsOfAnEmptyRoom) {
     for (const int face : {16, 37, 64, 256}) {
-        const auto pixels = test::looked_up(test::GlyphRoom().scene(), "pyramid:face=" + std::to_string(face), {128, 128});
+        const auto pixels = test::looked_up(stress::GlyphRoom().scene(), "pyramid:face=" + std::to_string(face), {128, 128});
         ASSERT_GT(pixels.size(), 1000u);
         EXPECT_EQ(std::ranges::count(pixels, 0, &measure::LookedUp::state), std::ssize(pixels)) << "face " << face;
         const measure::LookupError error = measure::lookup_error(pixels);

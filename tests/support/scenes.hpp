@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/build.hpp"
 #include "scene/load.hpp"
 #include "scene/scene.hpp"
 #include "scene/shapes.hpp"
@@ -12,46 +13,7 @@ namespace test {
 
 using namespace catoptric;
 
-/// Index of a new material.
-inline std::size_t add_material(scene::Scene& scene, scene::Material material) {
-    scene.materials.push_back(std::move(material));
-    return scene.materials.size() - 1;
-}
-
-inline void add_mesh(scene::Scene& scene, scene::Mesh mesh, std::size_t material) {
-    scene.objects.push_back({.name = mesh.name, .mesh = scene.meshes.size(), .material = material});
-    scene.meshes.push_back(std::move(mesh));
-}
-
-inline void add_quad(scene::Scene& scene, const std::string& name, std::size_t material, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
-    add_mesh(scene, scene::quad(name, a, b, c, d), material);
-}
-
-/// A ball of 4^(levels+1) triangles that stands for an exact sphere.
-inline void add_ball(scene::Scene& scene, const std::string& name, std::size_t material, dvec3 centre, double radius, int levels = 3) {
-    dmat4 world_from_object(radius);
-    world_from_object[3] = dvec4(centre, 1);
-    scene.objects.push_back({.name = name,
-                             .mesh = scene.meshes.size(),
-                             .material = material,
-                             .world_from_object = world_from_object,
-                             .sphere = scene::Sphere{centre, radius}});
-    scene.meshes.push_back(scene::ball(name, levels));
-}
-
-/// The wall of the box [lo, hi] in direction +X -X +Y -Y +Z -Z (as the faces of a cube map), facing in.
-inline scene::Mesh wall(int face, dvec3 lo, dvec3 hi) {
-    const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
-    std::array<dvec3, 4> corners;
-    for (std::size_t i = 0; i < 4; ++i) {
-        corners[i][axis] = face % 2 ? lo[axis] : hi[axis];
-        corners[i][u] = i == 1 || i == 2 ? hi[u] : lo[u];
-        corners[i][v] = i >= 2 ? hi[v] : lo[v];
-    }
-    // (a b c d) counter-clockwise seen from +axis: right for the wall on the low side.
-    if (face % 2) return scene::quad("wall" + std::to_string(face), corners[0], corners[1], corners[2], corners[3]);
-    return scene::quad("wall" + std::to_string(face), corners[3], corners[2], corners[1], corners[0]);
-}
+using scene::add_ball, scene::add_material, scene::add_mesh, scene::add_quad, scene::wall;
 
 /// What every wall of a furnace emits: exact in binary16.
 constexpr vec3 kFurnace{0.5f, 0.25f, 0.75f};

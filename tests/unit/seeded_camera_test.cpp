@@ -2,7 +2,7 @@
 #include "app/seeded_camera.hpp"
 
 #include "core/error.hpp"
-#include "support/double_tracer.hpp"
+#include "stress/double_tracer.hpp"
 #include "support/scenes.hpp"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ constexpr std::uint64_t kSeeds = 25;
 /// The share of black pixels where mirrors send nothing on: in a closed room with ambient light all else is lit.
 double mirror_share(const scene::Scene& scene, const scene::Camera& camera) {
     constexpr uvec2 kSize{64, 64};
-    const test::DoubleTracer tracer(scene, 1);
+    const stress::DoubleTracer tracer(scene, 1);
     std::size_t black = 0;
     for (std::uint32_t y = 0; y < kSize.y; ++y)
         for (std::uint32_t x = 0; x < kSize.x; ++x) black += tracer.pixel(camera, kSize, x, y, 0) == dvec3(0);

@@ -16,6 +16,8 @@ TEST(StressRow, TheWorstCaseIsTheOneFurthestBeyondItsLimit) {
     EXPECT_EQ(row({{"half", .5, 1}, {"all", 4, 4}, {"little", 9, 100}}).worst()->what, "all");
     EXPECT_EQ(row({{"over nothing", 1e-9, 0}, {"ten times", 10, 1}}).worst()->what, "over nothing");
     EXPECT_EQ(row({{"no number", std::nan(""), 1}, {"fine", 0, 0}}).worst()->what, "no number");
+    EXPECT_EQ(row({{"ugly", 100, 1, true}, {"wrong", 1.1, 1}, {"fine", 1, 1}}).worst()->what, "wrong");
+    EXPECT_EQ(row({{"ugly", 2, 1, true}, {"fine", 1, 1}}).worst()->what, "ugly");
     EXPECT_EQ(row({}).worst(), nullptr);
 }
 
@@ -39,11 +41,12 @@ TEST(Stress, FailsByItsRows) {
 
 TEST(Stress, JsonHasEveryCaseAndHtmlNoMarkupOfItsTexts) {
     Stress stress;
-    stress.rows = {row({{"a", .25, .5}, {"b", std::nan(""), .5}})};
+    stress.rows = {row({{"a", .25, .5}, {"b", std::nan(""), .5}, {"c", 1, .5, true}})};
     const nlohmann::json json = nlohmann::json::parse(to_json(stress));
-    EXPECT_EQ(json["rows"][0]["cases"][0], (nlohmann::json{{"what", "a"}, {"measured", .25}, {"threshold", .5}, {"holds", true}}));
+    EXPECT_EQ(json["rows"][0]["cases"][0], (nlohmann::json{{"what", "a"}, {"measured", .25}, {"threshold", .5}, {"holds", true}, {"quality", false}}));
     EXPECT_TRUE(json["rows"][0]["measured"].is_null());
     EXPECT_EQ(json["rows"][0]["cases"][1]["holds"], false);
+    EXPECT_EQ(json["rows"][0]["cases"][2]["quality"], true);
     EXPECT_THAT(to_html(stress), testing::HasSubstr("a &lt;stimulus&gt;"));
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace test {
+namespace catoptric {
 
 /// The number that 16 bits stand for (IEEE 754 binary16).
 inline float from_half(std::uint16_t bits) {
@@ -15,4 +15,4 @@ inline float from_half(std::uint16_t bits) {
     return bits >> 15 ? -size : size;
 }
 
-} // namespace test
+} // namespace catoptric

@@ -1,0 +1,53 @@
+#include "render/captured.hpp"
+
+#include "core/half.hpp"
+#include "graph/run.hpp"
+#include "render/passes.hpp"
+
+#include <cstring>
+
+namespace catoptric::render {
+
+std::size_t Captured::index(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y) const {
+    return ((std::size_t{6} * mirror + static_cast<std::size_t>(cube_face)) * face + y) * face + x;
+}
+
+vec3 Captured::colour(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y) const {
+    std::uint16_t halves[4];
+    std::memcpy(halves, colour_bytes.data() + 8 * index(mirror, cube_face, x, y), 8);
+    return {from_half(halves[0]), from_half(halves[1]), from_half(halves[2])};
+}
+
+float Captured::distance(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y, Format format) const {
+    const std::size_t i = index(mirror, cube_face, x, y);
+    if (format == Format::r8_unorm) return static_cast<float>(distance_bytes[i]) / 255;
+    if (format == Format::r16f) {
+        std::uint16_t half;
+        std::memcpy(&half, distance_bytes.data() + 2 * i, 2);
+        return from_half(half);
+    }
+    float value;
+    std::memcpy(&value, distance_bytes.data() + 4 * i, 4);
+    return value;
+}
+
+Captured capture(gpu::Device& device, gpu::Pipelines& pipelines, const scene::Scene& scene, std::uint32_t face, Format distance,
+                 double range_world) {
+    GpuScene gpu_scene(device, scene);
+    gpu_scene.update(scene, scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front(), {16, 16}, 0);
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    const FrameInputs inputs{gpu_scene, {16, 16}, ""};
+    CaptureOptions options;
+    options.face = face;
+    options.distance = distance;
+    if (distance == Format::r8_unorm) options.stored_unit = gpu_scene.space().length(range_world);
+    const Cubes cubes = declare_cubes(graph, inputs, options);
+    add_captures(graph, inputs, options, cubes);
+    graph.want(cubes.colour);
+    graph.want(*cubes.distance);
+    runner.run(graph, runner.plan(graph), graph::Timing::isolated);
+    return {face, runner.read(cubes.colour), runner.read(*cubes.distance), gpu_scene.space()};
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,90 @@
+// An eye inside a mirror (the rule is in docs/design.md): mirrors have two sides, so that nothing from outside
+// arrives in a closed one.
+#include "stress/property.hpp"
+#include "stress/scenes.hpp"
+
+#include "measure/flip.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::stress {
+
+namespace {
+
+struct Place {
+    const char* what;
+    scene::Camera camera;
+    bool inside;
+};
+
+void judge_places(Bench& bench, const scene::Scene& scene, const scene::Sphere& ball) {
+    const dvec3 out = normalize(dvec3(.3, .4, .8)), along = normalize(cross(out, dvec3(0, 1, 0)));
+    const auto eye = [&](double radii, const dvec3& direction) {
+        const dvec3 place = ball.centre + radii * ball.radius * out;
+        return scene::Camera{.eye = place, .target = place + direction, .vertical_fov_degrees = 60};
+    };
+    const Place places[] = {{"at the centre", eye(0, out), true},
+                            {"halfway out", eye(.5, out), true},
+                            {"just under the surface, looking along it", eye(.99, along), true},
+                            {"on the surface, looking away", eye(1, out), false},
+                            {"on the surface, looking along it", eye(1, along), false},
+                            {"on the surface, looking at it", eye(1, -out), false}};
+    for (const Place& place : places) {
+        const auto render = [&](const std::string& technique) {
+            app::Request request = bench.asked(scene, technique);
+            request.camera = place.camera;
+            return bench.render(request);
+        };
+        const app::Part traced = render("raytrace:depth=16");
+        if (place.inside) bench.add(fmt::format("{}, raytrace: brightest of 0", place.what), brightest(traced.hdr), 0);
+        for (const std::string technique : {"parallax", "pyramid", "hybrid"})
+            bench.add_flip(fmt::format("{}, {}", place.what, technique), render(technique), traced, .05);
+        const app::Part plain = render("reuse");
+        if (place.inside) bench.add_flip(fmt::format("{}, reuse", place.what), plain, traced, .05);
+        // From outside an uncorrected look-up is off wherever the eye is, and most where the ball fills the picture.
+        else bench.add_quality(fmt::format("{}, reuse", place.what), measure::flip_mean(measure::flip(plain.display, traced.display)), .05);
+    }
+}
+
+/// The ball moves over the eye and on: black in those frames, and in those only, in which the eye is inside.
+void judge_motion(Bench& bench, scene::Scene scene) {
+    constexpr int kFrames = 16;
+    scene::Object& object = scene.objects.back();
+    const double reach = 3 * object.sphere->radius;
+    object.motion = scene::Harmonic{dvec3(reach, 0, 0) / 2.0, 1};
+    scene::Camera camera{.eye = object.sphere->centre + dvec3(reach / 2, 0, 0)};
+    camera.target = camera.eye + dvec3(0, 0, 1);
+    for (const std::string technique : {"raytrace", "parallax"}) {
+        app::Request request = bench.asked(scene, technique, kFrames);
+        request.camera = camera;
+        request.clock = [](int frame) { return double(frame - 1) / kFrames; };
+        int wrong = 0, inside = 0;
+        request.watch = [&](int frame, const app::ReadParts& read) {
+            const scene::Scene now = scene::at(scene, request.clock(frame));
+            const double depth = 1 - length(camera.eye - now.objects.back().sphere->centre) / object.sphere->radius;
+            if (std::abs(depth) < .01) return true; // between the mesh and its sphere
+            inside += depth > 0;
+            wrong += (brightest(read().front().hdr) == 0) != (depth > 0);
+            return true;
+        };
+        bench.engine().run(request);
+        bench.add(fmt::format("a ball moves over the eye, {}: frames that are black outside or lit inside", technique), wrong, 0);
+        bench.add(fmt::format("a ball moves over the eye, {}: too few frames inside or outside", technique), inside < 4 || inside > kFrames - 4 ? 1 : 0, 0);
+    }
+}
+
+void judge_inside(Bench& bench) {
+    const scene::Scene scene = room(bench, 2);
+    judge_places(bench, scene, *scene.objects.back().sphere);
+    judge_motion(bench, scene);
+}
+
+const Row kInside{{"C5", "camera inside a ball, at its centre, touching it; a ball moves over it", "a closed mirror is black from inside, in both worlds (FLIP)", judge_inside,
+                   "things inside with the eye: ray tracing also shows their images in the wall around them"}};
+
+} // namespace
+
+} // namespace catoptric::stress

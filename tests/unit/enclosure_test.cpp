@@ -1,0 +1,58 @@
+// Which points a mirror's triangles shut in.
+#include "render/enclosure.hpp"
+#include "scene/shapes.hpp"
+#include "support/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace catoptric;
+
+/// A mesh alone in scene units that are its own.
+struct Alone {
+    explicit Alone(scene::Mesh mesh) {
+        scene::Scene scene;
+        test::add_mesh(scene, std::move(mesh), test::add_material(scene, {.mirror = true}));
+        geometry = render::make_geometry(scene, {});
+    }
+    bool encloses(vec3 point) const { return render::encloses(geometry, geometry.ranges.front(), point); }
+    render::Geometry geometry;
+};
+
+/// The walls 0..5 of a box of 2 units that are asked for, in one mesh with corners of their own.
+scene::Mesh box(std::initializer_list<int> walls, bool outwards) {
+    scene::Mesh mesh;
+    for (const int wall : walls) {
+        const scene::Mesh side = outwards ? test::wall(wall, dvec3(1), dvec3(-1)) : test::wall(wall, dvec3(-1), dvec3(1));
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), side.positions.begin(), side.positions.end());
+        mesh.normals.insert(mesh.normals.end(), side.normals.begin(), side.normals.end());
+        for (const uvec3& triangle : side.triangles) mesh.triangles.push_back(triangle + first);
+    }
+    return mesh;
+}
+
+TEST(Enclosure, ABallShutsInWhatIsInIt) {
+    const Alone ball(scene::ball("ball", 3));
+    for (const vec3 inside : {vec3(0), vec3(.5f, -.3f, .2f), vec3(0, 0, -.999f)}) EXPECT_TRUE(ball.encloses(inside));
+    for (const vec3 outside : {vec3(.7f, .7f, .7f), vec3(0, 0, -1.001f), vec3(5, 0, 0)}) EXPECT_FALSE(ball.encloses(outside));
+    EXPECT_TRUE(ball.encloses(vec3(0, 0, -1))) << "a vertex";
+}
+
+TEST(Enclosure, WhicheverWayItsFacesTurn) {
+    for (const bool outwards : {true, false}) {
+        const Alone closed(box({0, 1, 2, 3, 4, 5}, outwards));
+        EXPECT_TRUE(closed.encloses(vec3(.2f, .9f, -.9f)));
+        EXPECT_TRUE(closed.encloses(vec3(1, .1f, .2f))) << "a face";
+        EXPECT_FALSE(closed.encloses(vec3(1.001f, 0, 0)));
+    }
+}
+
+TEST(Enclosure, NothingIsShutInByWhatIsOpen) {
+    const Alone open(box({0, 1, 2, 3, 4}, false)), pane(box({4}, false));
+    EXPECT_FALSE(open.encloses(vec3(0)));
+    EXPECT_FALSE(pane.encloses(vec3(0, 0, 1)));
+}
+
+} // namespace
