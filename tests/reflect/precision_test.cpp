@@ -1,5 +1,5 @@
 // What precision and the ray tracer's rules of robustness are worth: each choice beside its alternative.
-#include "support/double_tracer.hpp"
+#include "stress/double_tracer.hpp"
 #include "support/rendering.hpp"
 
 #include <iostream>
@@ -12,7 +12,7 @@ using namespace catoptric;
 /// the tracer in doubles; pixels whose middle lies on an edge left out.
 double off_double(const scene::Scene& scene, const std::string& technique, uvec2 size, int mirrors = 1) {
     const app::Part part = test::render(scene, technique, size);
-    const test::DoubleTracer tracer(scene, .05);
+    const stress::DoubleTracer tracer(scene, .05);
     double sum = 0;
     std::size_t count = 0;
     for (std::uint32_t y = 0; y < size.y; ++y)
