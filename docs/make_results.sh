@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
-# Writes docs/results.md, its pictures, the README's table and that of docs/lag.md anew. Called by ./dev results.
+# make_results.sh PROGRAM BENCH: writes docs/results.md, docs/views.md, their pictures, and the tables of README.md and of
+# docs/causes.md, lag.md and robustness.md anew. Called by ./dev results.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-program=$1
+program=$1 bench=$2
 out=out/results
 mkdir -p out docs/images
 
 rows=(naive:bounces=0 naive:bounces=1 naive:bounces=2 naive:bounces=3 naive:bounces=4 reuse parallax
     proxy secant:continue=0 secant march pyramid layered hybrid
-    pyramid:lookup=object pyramid:captures=all pyramid:mirrors=left_out
-    parallax:distance=unorm8,range=200 parallax:distance=unorm8,range=1000 parallax:distance=r16f parallax:face=512
+    pyramid:lookup=bilinear pyramid:captures=all pyramid:mirrors=left_out
+    parallax:distance=unorm8,range=200 parallax:distance=unorm8,range=1000 parallax:distance=r16f parallax:colour=float parallax:face=512
     raytrace:depth=0 raytrace:depth=1 raytrace:depth=2 raytrace:depth=3 raytrace:depth=4 raytrace:depth=8
-    raytrace:sphere=exact)
+    raytrace:sphere=exact raytrace:hit=f64)
 "$program" compare -o $out --techniques "${rows[@]}"
 
 sheet() { # sheet NAME COLUMNS WIDTHxHEIGHT+X+Y PICTURE...: the same cut of each picture, side by side
@@ -51,6 +52,13 @@ put() { # put NAME FILE TEXT: between <!-- NAME --> and <!-- /NAME -->
 }
 put causes docs/causes.md "$(awk '/^## / {on = /^## Error by cause/} on && /^\|/' $out/report.md)"
 put results README.md "$(awk '/^\| Implementation/ {on = 1} on && !/^\|/ {exit} on' $out/report.md)"
+
+# Precision: what the rows that differ in it cost and get wrong.
+put precision docs/robustness.md "$(awk -F'|' '
+    /^## / {on = /^## Every row/}
+    on && (/^\| Row/ || /^\| -/ || /^\| (parallax|raytrace)(:distance=[^ ]*|:colour=float|:hit=f64| ) *\|/) {
+        print "|" $2 "|" $5 "|" $6 "|" $9 "|" $10 "|" $11 "|" $18 "|"}' $out/report.md)"
+put rules docs/robustness.md "$("$bench" rules)"
 
 # The ladder from three places that stay and three drawn from seeds.
 search=()
