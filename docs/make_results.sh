@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# make_results.sh PROGRAM BENCH: writes docs/results.md, docs/views.md, their pictures, and the tables of README.md and of
-# docs/causes.md, lag.md and robustness.md anew. Called by ./dev results.
+# make_results.sh PROGRAM TESTS: writes docs/results.md, docs/views.md, their pictures, and the tables of README.md and of
+# docs/causes.md, extremes.md, lag.md and robustness.md anew. TESTS: the folder of catoptric_bench and gpu_test. Called by
+# ./dev results.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-program=$1 bench=$2
+program=$1 tests=$2
 out=out/results
 mkdir -p out docs/images
 
@@ -56,9 +57,13 @@ put results README.md "$(awk '/^\| Implementation/ {on = 1} on && !/^\|/ {exit} 
 # Precision: what the rows that differ in it cost and get wrong.
 put precision docs/robustness.md "$(awk -F'|' '
     /^## / {on = /^## Every row/}
-    on && (/^\| Row/ || /^\| -/ || /^\| (parallax|raytrace)(:distance=[^ ]*|:colour=float|:hit=f64| ) *\|/) {
+    on && (/^\| Row/ || /^\| -/ || /^\| (parallax|raytrace)(:distance=[^ ]*|:colour=float|:hit=f64|:depth=8| ) *\|/) {
         print "|" $2 "|" $5 "|" $6 "|" $9 "|" $10 "|" $11 "|" $18 "|"}' $out/report.md)"
-put rules docs/robustness.md "$("$bench" rules)"
+put rules docs/robustness.md "$("$tests/catoptric_bench" rules)"
+
+"$program" stress -o out/stress >/dev/null
+put stress docs/extremes.md "$(grep '^|' out/stress/stress.md)"
+put kernel docs/extremes.md "$("$tests/gpu_test" --gtest_filter='Kernel*' | sed -n 's/^\[ MEASURED \]/-/p')"
 
 # The ladder from three places that stay and three drawn from seeds.
 search=()

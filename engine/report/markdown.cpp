@@ -40,8 +40,16 @@ std::string line_of(const std::vector<std::string>& cells, const std::vector<std
     return line + "\n";
 }
 
-/// A pipe table whose columns line up as plain text, too.
-std::string to_text(const Table& table) {
+std::string list_of(const std::vector<std::string>& sentences) {
+    std::string text;
+    for (const std::string& sentence : sentences)
+        text += "- " + escaped(sentence) + "\n";
+    return text + "\n";
+}
+
+} // namespace
+
+std::string to_markdown(const Table& table) {
     if (table.rows.empty()) return "";
     std::vector<std::vector<std::string>> lines(1);
     for (const Column& column : table.columns)
@@ -66,15 +74,6 @@ std::string to_text(const Table& table) {
     return text + (table.note.empty() ? "" : "\n" + escaped(table.note) + "\n") + "\n";
 }
 
-std::string list_of(const std::vector<std::string>& sentences) {
-    std::string text;
-    for (const std::string& sentence : sentences)
-        text += "- " + escaped(sentence) + "\n";
-    return text + "\n";
-}
-
-} // namespace
-
 std::string to_markdown(const Comparison& comparison) {
     std::string text = "# Reflections compared: " + escaped(comparison.scene.name) + "\n\n";
     for (const Fact& fact : facts(comparison))
@@ -82,10 +81,10 @@ std::string to_markdown(const Comparison& comparison) {
     text += "\n";
     for (const std::string& caution : cautions(comparison))
         text += "> " + escaped(caution) + "\n>\n";
-    text += "\n" + to_text(seed_table(comparison)) + to_text(rows_table(comparison)) +
-            to_text(mirror_table(comparison)) + to_text(lookup_table(comparison)) +
-            to_text(cause_table(comparison)) + to_text(lag_table(comparison)) +
-            to_text(settling_table(comparison));
+    text += "\n" + to_markdown(seed_table(comparison)) + to_markdown(rows_table(comparison)) +
+            to_markdown(mirror_table(comparison)) + to_markdown(lookup_table(comparison)) +
+            to_markdown(cause_table(comparison)) + to_markdown(lag_table(comparison)) +
+            to_markdown(settling_table(comparison));
     text += "## The Pareto front: time against FLIP\n\n" + list_of(front_in_words(comparison));
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty()) text += "## What this says of the seed report\n\n" + list_of(sentences);

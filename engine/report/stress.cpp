@@ -4,6 +4,7 @@
 #include "measure/picture_file.hpp"
 #include "report/html_text.hpp"
 #include "report/report.hpp"
+#include "report/tables.hpp"
 
 #include <fmt/format.h>
 
@@ -25,14 +26,19 @@ double load(const StressCase& one) {
 
 std::string figure(double value) { return fmt::format("{:.3g}", value); }
 
-std::string to_html(const StressRow& row) {
-    const StressCase* worst = row.worst();
-    std::string html = fmt::format("<tr><th class=\"text\" scope=\"row\">{}</th><td class=\"text\">{}</td><td class=\"text\">{}</td>"
-                                   "<td>{}</td><td>{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>",
-                                   html_escaped(row.id), html_escaped(row.stimulus), html_escaped(row.property),
-                                   worst ? figure(worst->measured) : "–", worst ? figure(worst->limit) : "–", name_of(row.verdict),
-                                   html_escaped(worst ? worst->what + (row.remark.empty() ? "" : "; " + row.remark) : row.remark));
-    return html;
+/// One line a property: its worst case beside the threshold.
+Table table_of(const Stress& stress) {
+    Table table{"Properties", {{"Id", false}, {"Stimulus", false}, {"Property", false}, {"Measured"}, {"Threshold"}, {"Verdict", false}, {"Worst case", false}}, {}, {}, {}};
+    for (const StressRow& row : stress.rows) {
+        const StressCase* worst = row.worst();
+        table.rows.push_back({row.id, row.stimulus, row.property, worst ? figure(worst->measured) : "–", worst ? figure(worst->limit) : "–", name_of(row.verdict),
+                              worst ? worst->what + (row.remark.empty() ? "" : "; " + row.remark) : row.remark});
+    }
+    return table;
+}
+
+std::string lead_of(const Stress& stress) {
+    return fmt::format("{}, {}x{}, seed {}. Each row: its worst case beside the threshold.", stress.device.name, stress.width, stress.height, stress.seed);
 }
 
 } // namespace
@@ -61,13 +67,17 @@ std::string to_html(const Stress& stress) {
     std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
                        "content=\"width=device-width, initial-scale=1\"><title>Rendering at the extremes</title><style>" +
                        std::string(kStyle) + "</style></head>\n<body><header><p class=\"kicker\">Rendering at the extremes</p><h1>Stress</h1>" +
-                       fmt::format("<p class=\"lede\">{}, {}x{}, seed {}. Each row: its worst case beside the threshold.</p></header><main>",
-                                   html_escaped(stress.device.name), stress.width, stress.height, stress.seed) +
-                       "<section><div class=\"scroll\"><table><thead><tr>";
-    for (const char* name : {"Id", "Stimulus", "Property", "Measured", "Threshold", "Verdict", "Worst case"})
-        html += fmt::format("<th class=\"text\" scope=\"col\">{}</th>", name);
+                       "<p class=\"lede\">" + html_escaped(lead_of(stress)) + "</p></header><main><section><div class=\"scroll\"><table><thead><tr>";
+    const Table table = table_of(stress);
+    for (const Column& column : table.columns)
+        html += fmt::format("<th{} scope=\"col\">{}</th>", column.is_number ? "" : " class=\"text\"", html_escaped(column.name));
     html += "</tr></thead><tbody>\n";
-    for (const StressRow& row : stress.rows) html += to_html(row) + "\n";
+    for (const std::vector<std::string>& row : table.rows) {
+        html += "<tr>";
+        for (std::size_t i = 0; i < row.size(); ++i)
+            html += fmt::format("<td{}>{}</td>", table.columns[i].is_number ? "" : " class=\"text\"", html_escaped(row[i]));
+        html += "</tr>\n";
+    }
     html += "</tbody></table></div></section>\n";
     for (const StressRow& row : stress.rows)
         for (const StressPicture& picture : row.pictures)
@@ -77,11 +87,16 @@ std::string to_html(const Stress& stress) {
     return html + "</main></body></html>\n";
 }
 
+std::string to_markdown(const Stress& stress) {
+    return "# Rendering at the extremes\n\n" + lead_of(stress) + "\n\n" + to_markdown(table_of(stress));
+}
+
 void write(const Stress& stress, const std::filesystem::path& folder) {
     create_folder(folder);
     for (const StressRow& row : stress.rows)
         for (const StressPicture& picture : row.pictures) measure::write_png(picture.display, folder / "images" / (picture.name + ".png"));
     write_file(folder / "stress.html", to_html(stress));
+    write_file(folder / "stress.md", to_markdown(stress));
     write_file(folder / "stress.json", to_json(stress));
 }
 

@@ -54,7 +54,9 @@ struct Stress {
 std::string to_json(const Stress& stress);
 /// One self-contained page.
 std::string to_html(const Stress& stress);
-/// stress.json, stress.html and images/ID-*.png in `folder`, made as for a comparison. Throws `cannot_create`, `io`.
+/// The same table as Markdown.
+std::string to_markdown(const Stress& stress);
+/// stress.json, stress.html, stress.md and images/ID-*.png in `folder`, made as for a comparison. Throws `cannot_create`, `io`.
 void write(const Stress& stress, const std::filesystem::path& folder);
 
 } // namespace catoptric::report

@@ -21,6 +21,9 @@ struct Table {
     std::string note;         ///< what the columns mean; may be empty
 };
 
+/// Under its title, a pipe table whose columns line up as plain text, too; empty without rows.
+std::string to_markdown(const Table& table);
+
 /// The seed report's Table 1 beside what was measured here.
 Table seed_table(const Comparison& comparison);
 /// Every row, every figure; the rows on the Pareto front are marked.

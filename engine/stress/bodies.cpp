@@ -45,7 +45,7 @@ void judge_contact(Bench& bench) {
         {"one in the other", {{{0, 0, 1}, 1}, {{0, 0, 1}, .5}}}};
     for (const auto& [what, balls] : contacts) {
         const scene::Scene scene = furnace(balls);
-        bench.add(std::string(what) + ", raytrace:depth=64: dark pixels", look(bench, scene, "raytrace:depth=64", 1).dark, .001);
+        bench.add(std::string(what) + ", raytrace:depth=64: dark pixels", look(bench, scene, "raytrace:depth=64", 1).dark, .0001);
         bench.add(std::string(what) + ", reuse, frame 100: brightest of 1", look(bench, scene, "reuse:face=32", 100).brightest, 1.002);
         bench.add(std::string(what) + ", pyramid: brightest of 1", look(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
     }
@@ -63,7 +63,7 @@ void judge_vanishing(Bench& bench) {
             add_ball(with, mirror, {place, 1});
             with.objects.back().sphere.reset();
             for (int axis = 0; axis < 3; ++axis) with.objects.back().world_from_object[axis][axis] = size[axis];
-            bench.add_flip(technique + ", " + what, bench.render(with, technique), without, .002);
+            bench.add_flip(technique + ", " + what, bench.render(with, technique), without, .0002);
         }
     }
 }

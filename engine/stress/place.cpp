@@ -12,13 +12,12 @@ namespace {
 
 constexpr const char* kCubeTechniques[] = {"reuse", "parallax", "pyramid", "hybrid"};
 
-/// The scene through each root beside the scene as it is.
-void compare_through(Bench& bench, const std::vector<std::pair<std::string, dmat4>>& roots, const std::vector<double>& traced, const std::vector<double>& cubes) {
+/// The scene through each root beside the scene as it is; limits of ray tracing and of the others.
+void compare_through(Bench& bench, const std::vector<std::pair<std::string, dmat4>>& roots, double traced, double cubes) {
     const scene::Scene scene = room(bench, 3);
-    const auto with = [&](const std::string& technique, const std::vector<double>& limits) {
+    const auto with = [&](const std::string& technique, double limit) {
         const app::Part plain = bench.render(scene, technique);
-        for (std::size_t i = 0; i < roots.size(); ++i)
-            bench.add_flip(technique + ", " + roots[i].first, bench.render(through(scene, roots[i].second), technique), plain, limits[i]);
+        for (const auto& [what, root] : roots) bench.add_flip(technique + ", " + what, bench.render(through(scene, root), technique), plain, limit);
     };
     with("raytrace", traced);
     for (const char* technique : kCubeTechniques) with(technique, cubes);
@@ -27,19 +26,19 @@ void compare_through(Bench& bench, const std::vector<std::pair<std::string, dmat
 void judge_scale(Bench& bench) {
     std::vector<std::pair<std::string, dmat4>> roots;
     for (const double factor : {1e-6, 1e-3, 1e3, 1e6}) roots.emplace_back(fmt::format("times {}", factor), scaled(factor));
-    compare_through(bench, roots, {.005, .005, .005, .005}, {.01, .01, .01, .01});
+    compare_through(bench, roots, .0005, .001);
 }
 
 void judge_place(Bench& bench) {
     std::vector<std::pair<std::string, dmat4>> roots;
     for (const double distance : {1e5, 1e7}) roots.emplace_back(fmt::format("{} away", distance), moved(normalize(dvec3(1, -.5, .7)) * distance));
-    compare_through(bench, roots, {.005, .01}, {.005, .01});
+    compare_through(bench, roots, .0005, .0005);
 }
 
 void judge_turn(Bench& bench) {
     const double angle = bench.random(.3, 2.8);
     const dvec3 axis(bench.random(-1, 1), bench.random(.2, 1), bench.random(-1, 1));
-    compare_through(bench, {{fmt::format("turned {:.1f} degrees", angle * 180 / 3.14159265358979), turned(angle, axis)}}, {.003}, {.02});
+    compare_through(bench, {{fmt::format("turned {:.1f} degrees", angle * 180 / 3.14159265358979), turned(angle, axis)}}, .0005, .005);
 }
 
 /// Mirrored at the root, seen by the mirrored camera: the picture is mirrored.
@@ -51,7 +50,7 @@ void judge_negative(Bench& bench) {
         app::Part plain = bench.render(scene, technique);
         for (int y = 0; y < plain.display.height; ++y)
             for (int x = 0; x < plain.display.width / 2; ++x) std::swap(plain.display.at(x, y), plain.display.at(plain.display.width - 1 - x, y));
-        bench.add_flip(technique + ", mirrored", bench.render(through(scene, root), technique), plain, .005);
+        bench.add_flip(technique + ", mirrored", bench.render(through(scene, root), technique), plain, .001);
     }
 }
 
@@ -65,7 +64,7 @@ void judge_wide(Bench& bench) {
         const app::Part plain = bench.render(scene, "reuse"), corrected = bench.render(scene, "parallax");
         const std::string what = fmt::format("{} wide", width);
         bench.add_nonfinite(what, corrected);
-        bench.add_flip(what + ", parallax against reuse", corrected, plain, .005);
+        bench.add_flip(what + ", parallax against reuse", corrected, plain, .0005);
     }
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   catoptric stress                             every property, the table on stdout
-  catoptric stress -o out --only N1 C9         two of them; DIR gets stress.json, stress.html, images/
+  catoptric stress -o out --only N1 C9         two of them; DIR gets stress.json, .html, .md, images/
 
 Exit code 1 when a row fails.)";
 
@@ -44,7 +44,7 @@ std::string table_of(const report::Stress& stress) {
         cells.push_back({row.id, report::name_of(row.verdict), worst ? figure(worst->measured) : "-", worst ? figure(worst->limit) : "-",
                          fmt::format("{:.1f}", row.seconds), worst ? worst->what : row.remark});
     }
-    return aligned(cells);
+    return aligned(cells, 5);
 }
 
 int run(const Options& options) {
@@ -75,7 +75,7 @@ void add_stress(CLI::App& program, Run& chosen, std::vector<std::string> command
     options->command = std::move(command);
     CLI::App* verb = program.add_subcommand("stress", "rendering at the extremes: measured values beside thresholds");
     verb->footer(kExamples);
-    verb->add_option("-o,--output", options->folder, "folder for stress.json, stress.html and pictures of what failed")->type_name("DIR");
+    verb->add_option("-o,--output", options->folder, "folder for stress.json, stress.html, stress.md and pictures of what failed")->type_name("DIR");
     verb->add_option("--only", options->only, "ids of properties (all)")->type_name("ID");
     add_text(*verb, "--size", "WxH", "picture size (256x256)", [options = options.get()](const std::string& text) { options->size = parse_size("--size", text); });
     verb->add_option("--seed", options->seed, "of the scenes, which are made for the run (1)")->type_name("N");

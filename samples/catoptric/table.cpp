@@ -24,7 +24,7 @@ std::string spread(const measure::Summary& ms) {
 
 } // namespace
 
-std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size_t text_from) {
     std::vector<std::size_t> widths;
     for (const auto& row : rows) {
         widths.resize(std::max(widths.size(), row.size()));
@@ -35,8 +35,9 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     for (const auto& row : rows) {
         std::string line;
         for (std::size_t i = 0; i < row.size(); ++i)
-            line += i == 0 ? fmt::format("{:<{}}", row[i], widths[i])
-                           : fmt::format("  {:>{}}", row[i], widths[i]);
+            line += i == 0           ? fmt::format("{:<{}}", row[i], widths[i])
+                    : i >= text_from ? fmt::format("  {:<{}}", row[i], widths[i])
+                                     : fmt::format("  {:>{}}", row[i], widths[i]);
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
     return text;

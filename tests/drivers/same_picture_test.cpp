@@ -33,7 +33,7 @@ protected:
 };
 
 TEST_F(SamePicture, D4_TwoDriverVersions) {
-    constexpr double kFlip = 0.003;
+    constexpr double kFlip = 0.0005;
     const auto second = test::second_driver();
     if (!second) GTEST_SKIP() << test::kNoSecondDriver;
     const std::string driver_1 = json({"info", "--json"}, {})["device"]["driver"], driver_2 = json({"info", "--json"}, *second)["device"]["driver"];
