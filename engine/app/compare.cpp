@@ -188,9 +188,9 @@ private:
         comparison_.reference_display = truth("1").part.display;
     }
 
-    /// Where the row's mirrors looked: a run of its own, since saying so costs time. Empty for rows that
-    /// do not look into captures.
-    std::vector<vec4> looked_up(const std::string& text) {
+    /// Where the row's mirrors looked and what its captures cut off: a run of its own, since saying so costs time. No
+    /// lookup for rows that do not look into captures.
+    Part looked_up(const std::string& text) {
         Request request = request_.base;
         request.techniques = {text};
         request.frames = 1;
@@ -198,11 +198,11 @@ private:
         request.time = last_time(request_.base);
         request.animate = false;
         request.with_lookup = true;
-        std::vector<vec4> lookup = std::move(engine_.run(request).parts.front().lookup);
-        const bool looks = std::ranges::any_of(lookup, [](const vec4& pixel) { return pixel.w > 0; });
-        if (!looks) return {};
-        if (!oracle_) oracle_.emplace(request);
-        return lookup;
+        Part part = std::move(engine_.run(request).parts.front());
+        const bool looks = std::ranges::any_of(part.lookup, [](const vec4& pixel) { return pixel.w > 0; });
+        if (!looks) part.lookup.clear();
+        if (looks && !oracle_) oracle_.emplace(request);
+        return part;
     }
 
     /// Splits the row's error by cause.
@@ -222,7 +222,12 @@ private:
 
     void add(const std::string& text, const Part& part, const std::vector<Frame>& frames) {
         report::Row row = make_row(text, part, frames);
-        const std::vector<vec4> lookup = !part.rays || part.traced_fraction ? looked_up(text) : std::vector<vec4>();
+        const Part looked = !part.rays || part.traced_fraction ? looked_up(text) : Part();
+        const std::vector<vec4>& lookup = looked.lookup;
+        row.saturated_texels = looked.saturated;
+        if (looked.saturated.value_or(0) > 0)
+            comparison_.warnings.push_back("'" + text + "': " + std::to_string(*looked.saturated) +
+                                           " texels of its captures are brighter than 65504, where colour=half ends");
         if (!lookup.empty()) row.lookup = measure::lookup_error(oracle_->judge(lookup, is_set(row, "mirrors", "left_out")));
         const std::string samples = sample_count(parse_technique(text));
         fill_errors(row, part, truth(samples).part, hits_, mirrors_);

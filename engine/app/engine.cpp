@@ -2,6 +2,7 @@
 
 #include "app/version.hpp"
 #include "core/error.hpp"
+#include "core/half.hpp"
 #include "graph/dump.hpp"
 #include "graph/run.hpp"
 #include "reflect/technique.hpp"
@@ -51,6 +52,7 @@ FrameGraph declare(const Request& request, const std::vector<reflect::Choice>& c
         if (outputs.hits) frame.graph.want(*outputs.hits);
         if (outputs.counters) frame.graph.want(*outputs.counters);
         if (outputs.lookup) frame.graph.want(*outputs.lookup);
+        if (request.with_lookup && outputs.captures) frame.graph.want(*outputs.captures);
         frame.parts.push_back({choice, prefix, outputs, display});
     }
     return frame;
@@ -139,8 +141,17 @@ void read_counters(const std::vector<std::byte>& bytes, Part& part) {
     if (counters.mirror_pixels > 0) part.traced_fraction = static_cast<double>(counters.listed) / counters.mirror_pixels;
 }
 
+/// Texels of four halves with a colour at or above the largest half.
+std::size_t saturated_texels(const std::vector<std::byte>& bytes) {
+    const std::vector<std::uint16_t> halves = values_of<std::uint16_t>(bytes);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 3 < halves.size(); i += 4)
+        count += std::any_of(&halves[i], &halves[i] + 3, [](std::uint16_t half) { return (half & 0x7fff) >= kLargestHalfBits; });
+    return count;
+}
+
 Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const Declared& declared,
-               const render::GpuScene& scene, uvec2 size) {
+               const render::GpuScene& scene, uvec2 size, bool with_lookup) {
     Part part;
     part.label = declared.choice.label;
     part.prefix = declared.prefix;
@@ -153,6 +164,7 @@ Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan
     part.hdr = to_picture(runner.read(declared.outputs.hdr), size, Format::rgba32f);
     part.display = to_picture(runner.read(declared.display), size, Format::rgba8_unorm);
     if (declared.outputs.hits) part.hits = values_of<std::uint32_t>(runner.read(*declared.outputs.hits));
+    if (with_lookup && declared.outputs.captures) part.saturated = saturated_texels(runner.read(*declared.outputs.captures));
     if (declared.outputs.lookup) part.lookup = values_of<vec4>(runner.read(*declared.outputs.lookup));
     return part;
 }
@@ -170,9 +182,9 @@ std::vector<std::vector<measure::Picture>> render_mended(graph::Runner& runner, 
     return pictures;
 }
 
-std::vector<Part> read_parts(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const render::GpuScene& scene, uvec2 size) {
+std::vector<Part> read_parts(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan, const render::GpuScene& scene, const Request& request) {
     std::vector<Part> parts;
-    for (const Declared& part : frame.parts) parts.push_back(read_part(runner, frame, plan, part, scene, size));
+    for (const Declared& part : frame.parts) parts.push_back(read_part(runner, frame, plan, part, scene, request.size, request.with_lookup));
     return parts;
 }
 
@@ -216,7 +228,7 @@ Result Engine::run(const Request& request) {
         const graph::Plan plan = runner.plan(frame.graph);
         const graph::FrameTimes times = runner.run(frame.graph, plan, timing);
         if (k > request.warmup) result.frames.push_back(to_frame(times));
-        const ReadParts read = [&] { return read_parts(runner, frame, plan, scene, request.size); };
+        const ReadParts read = [&] { return read_parts(runner, frame, plan, scene, request); };
         const bool enough = request.watch && !request.watch(k, read);
         const bool last = enough || k == total;
         if (last) result.parts = read();

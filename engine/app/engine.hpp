@@ -107,6 +107,8 @@ struct Part {
     std::uint64_t memory_bytes = 0; ///< of the whole frame's images
     measure::Picture hdr;     ///< linear radiance
     measure::Picture display; ///< what the screen shows: multiples of 1/255
+    /// With `with_lookup`, techniques whose captures hold halves: their texels that are brighter than 65504 and cut off there.
+    std::optional<std::size_t> saturated;
     std::vector<vec4> lookup; ///< with `with_lookup`, techniques that search: see shaders/lib/mirror.glsl
     std::vector<measure::Picture> mended; ///< one for each Request::mended, linear radiance
     std::vector<std::uint32_t> hits; ///< ray tracing only: first mirror | second mirror << 16

@@ -6,6 +6,9 @@
 
 namespace catoptric {
 
+/// Bits of 65504.
+inline constexpr std::uint16_t kLargestHalfBits = 0x7bff;
+
 /// The number that 16 bits stand for (IEEE 754 binary16).
 inline float from_half(std::uint16_t bits) {
     const int exponent = bits >> 10 & 31, mantissa = bits & 1023;

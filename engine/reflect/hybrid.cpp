@@ -81,7 +81,7 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     const render::View view = render::add_view(graph, inputs, captured.lighting, look, true);
     const List list = add_list(graph, inputs, settings, *view.lookup);
     add_trace(graph, inputs, settings, list, view.hdr);
-    return {view.hdr, {}, list.counters, inputs.with_lookup ? view.lookup : std::nullopt};
+    return {view.hdr, {}, list.counters, inputs.with_lookup ? view.lookup : std::nullopt, half_colour(*captured.cubes, captured.options)};
 }
 
 constexpr Technique kHybrid{

@@ -21,8 +21,9 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
         render::add_captures(graph, inputs, options, cubes);
         options.look = look_into("reflect/naive.frag", cubes, options);
     }
+    const std::optional<render::Cubes>& last = options.look.cubes;
     const render::View view = render::add_view(graph, inputs, lighting, options.look);
-    return {view.hdr, {}, {}, view.lookup};
+    return {view.hdr, {}, {}, view.lookup, last ? half_colour(*last, options) : std::nullopt};
 }
 
 constexpr Technique kNaive{

@@ -83,7 +83,7 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
                 commands.dispatch((groups + rows - 1) / rows, rows);
             }
         });
-    return {hdr, hits, counters, {}};
+    return {hdr, hits, counters, {}, {}};
 }
 
 constexpr Technique kRaytrace{

@@ -71,6 +71,7 @@ struct Row {
     std::vector<measure::Difference> error_per_mirror; ///< entry n-1 is mirror n
     std::uint64_t memory_bytes = 0; ///< of the frame's images
     std::optional<Rays> rays;       ///< of ray tracing, one frame
+    std::optional<std::size_t> saturated_texels; ///< of captures that hold halves: cut off at 65504
     std::optional<measure::LookupError> lookup; ///< first-order pixels: where mirrors looked
     std::optional<Causes> causes;               ///< of rows that look into captures
     std::optional<double> traced_fraction;

@@ -157,6 +157,7 @@ Json to_json(const Row& row) {
     json["traced_fraction"] = number_or_null(row.traced_fraction);
     json["auto_face"] = to_json(row.auto_face);
     json["rays"] = to_json(row.rays);
+    json["saturated_texels"] = row.saturated_texels ? Json(*row.saturated_texels) : Json(nullptr);
     json["lookup"] = to_json(row.lookup);
     json["causes"] = to_json(row.causes);
     json["mean"] = to_json(row.mean);

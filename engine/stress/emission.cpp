@@ -2,8 +2,6 @@
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
-#include "render/captured.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,19 +12,11 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr float kLargestHalf = 65504;
-
-/// Texels of the captures that hold the largest half, and those that hold no number.
-std::pair<std::size_t, std::size_t> saturated(Bench& bench, const scene::Scene& scene) {
-    constexpr std::uint32_t kEdge = 64;
-    const render::Captured captured = bench.engine().capture(scene, kEdge, Format::r32f);
-    std::size_t full = 0, bad = 0;
-    for (std::uint32_t layer = 0; layer < 6 * scene::mirrors(scene).size(); ++layer)
-        for (std::uint32_t texel = 0; texel < kEdge * kEdge; ++texel) {
-            const float red = captured.colour(layer / 6, static_cast<int>(layer % 6), texel % kEdge, texel / kEdge).x;
-            full += red == kLargestHalf, bad += !std::isfinite(red);
-        }
-    return {full, bad};
+/// Texels of the captures of `technique` that are cut off at the largest half.
+double saturated(Bench& bench, const scene::Scene& scene, const std::string& technique) {
+    app::Request request = bench.asked(scene, technique);
+    request.with_lookup = true;
+    return double(bench.render(request).saturated.value());
 }
 
 /// Frames from 1 while the lamp of 1e30 is there and after it has been taken away.
@@ -61,10 +51,11 @@ void judge_emission(Bench& bench) {
         lit.materials[lamp].emission = vec3(1e30f);
         for (const std::string technique : {"raytrace", "reuse:face=128", "parallax:face=128", "pyramid:face=128"})
             judge_removal(bench, lit, dark, technique, fmt::format("emission 1e30, {} balls, {}", balls, technique));
-        const auto [full, bad] = saturated(bench, lit);
-        bench.add(fmt::format("emission 1e30, {} balls: no texel of {} saturated is counted", balls, full), full > 0 ? 0 : 1, 0);
-        bench.add(fmt::format("emission 1e30, {} balls: texels that are no numbers", balls), double(bad), 0);
-        bench.add(fmt::format("without it, {} balls: texels saturated", balls), double(saturated(bench, dark).first), 0);
+        for (const std::string technique : {"reuse:face=64", "hybrid:face=64"}) {
+            const double full = saturated(bench, lit, technique);
+            bench.add(fmt::format("emission 1e30, {} balls, {}: none of {} saturated texels is counted", balls, technique, full), full > 0 ? 0 : 1, 0);
+            bench.add(fmt::format("without it, {} balls, {}: texels saturated", balls, technique), saturated(bench, dark, technique), 0);
+        }
     }
     scene::Scene dim = room(bench, 3), black = dim;
     dim.materials.front().albedo = vec3(1e-40f);

@@ -71,6 +71,22 @@ TEST(Precision, HalfCapturesEndWhereHalvesEnd) {
     }
 }
 
+TEST(Precision, TexelsThatHalvesCutOffAreCounted) {
+    scene::Scene room = test::room(1, 1);
+    const auto counted = [&](const std::string& technique) {
+        app::Request asked = test::request(room, {technique}, {32, 32});
+        asked.with_lookup = true;
+        return test::engine().run(asked).parts.front().saturated;
+    };
+    for (const std::string technique : {"naive:bounces=1,", "reuse:", "layered:", "hybrid:"}) EXPECT_EQ(counted(technique + "face=64"), 0u) << technique;
+    for (scene::Material& material : room.materials)
+        if (material.emission != vec3(0)) material.emission = vec3(1e5f);
+    const std::optional<std::size_t> naive = counted("naive:bounces=1,face=64");
+    EXPECT_GT(naive.value(), 10u) << "the lamp";
+    for (const std::string technique : {"reuse:", "layered:", "hybrid:"}) EXPECT_EQ(counted(technique + "face=64"), naive) << technique;
+    EXPECT_FALSE(counted("reuse:face=64,colour=float").has_value());
+}
+
 /// A ball of radius 0.3 seen from two thousand units away.
 TEST(Precision, TheSchoolBooksSphereIsLostFarAway) {
     scene::Scene room = test::room(1, 1);
