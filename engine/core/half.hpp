@@ -6,7 +6,7 @@
 
 namespace catoptric {
 
-/// Bits of 65504.
+inline constexpr float kLargestHalf = 65504;
 inline constexpr std::uint16_t kLargestHalfBits = 0x7bff;
 
 /// The number that 16 bits stand for (IEEE 754 binary16).

@@ -1,5 +1,6 @@
 #include "render/passes.hpp"
 
+#include "core/half.hpp"
 #include "render/views.hpp"
 
 #include <cmath>
@@ -16,7 +17,6 @@ using graph::Image;
 using graph::Tag;
 using graph::Use;
 
-constexpr float kLargestHalf = 65504;
 constexpr Clear kBlack{0, 0, 0, 1};
 constexpr Clear kFarthest{0, 0, 0, 0}; // reversed depth
 
