@@ -53,6 +53,8 @@ thead th { border-top: 0; color: var(--soft); font-weight: 600; vertical-align: 
   white-space: normal; }
 tbody th { font-weight: 500; }
 .text { text-align: left; }
+.words td.text { white-space: normal; }
+.words td:nth-last-child(-n+3) { min-width: 14rem; }
 tbody tr > :first-child, thead tr > :first-child { position: sticky; left: 0;
   background: var(--card); }
 tr.front > *, tr.front > :first-child { background: var(--tint); }

@@ -28,10 +28,10 @@ std::string figure(double value) { return fmt::format("{:.3g}", value); }
 
 /// One line a property: its worst case beside the threshold.
 Table table_of(const Stress& stress) {
-    Table table{"Properties", {{"Id", false}, {"Stimulus", false}, {"Property", false}, {"Measured"}, {"Threshold"}, {"Verdict", false}, {"Worst case", false}}, {}, {}, {}};
+    Table table{"Properties", {{"Id", false}, {"Verdict", false}, {"Measured"}, {"Threshold"}, {"Stimulus", false}, {"Property", false}, {"Worst case", false}}, {}, {}, {}};
     for (const StressRow& row : stress.rows) {
         const StressCase* worst = row.worst();
-        table.rows.push_back({row.id, row.stimulus, row.property, worst ? figure(worst->measured) : "–", worst ? figure(worst->limit) : "–", name_of(row.verdict),
+        table.rows.push_back({row.id, name_of(row.verdict), worst ? figure(worst->measured) : "–", worst ? figure(worst->limit) : "–", row.stimulus, row.property,
                               worst ? worst->what + (row.remark.empty() ? "" : "; " + row.remark) : row.remark});
     }
     return table;
@@ -67,7 +67,7 @@ std::string to_html(const Stress& stress) {
     std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
                        "content=\"width=device-width, initial-scale=1\"><title>Rendering at the extremes</title><style>" +
                        std::string(kStyle) + "</style></head>\n<body><header><p class=\"kicker\">Rendering at the extremes</p><h1>Stress</h1>" +
-                       "<p class=\"lede\">" + html_escaped(lead_of(stress)) + "</p></header><main><section><div class=\"scroll\"><table><thead><tr>";
+                       "<p class=\"lede\">" + html_escaped(lead_of(stress)) + "</p></header><main><section><div class=\"scroll\"><table class=\"words\"><thead><tr>";
     const Table table = table_of(stress);
     for (const Column& column : table.columns)
         html += fmt::format("<th{} scope=\"col\">{}</th>", column.is_number ? "" : " class=\"text\"", html_escaped(column.name));

@@ -18,7 +18,10 @@ int decimals_for(double value) {
 } // namespace
 
 std::string fixed(double value, int decimals) {
-    return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : std::string(kNothing);
+    if (!std::isfinite(value)) return std::string(kNothing);
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.find_first_of("123456789") == std::string::npos && text.front() == '-') text.erase(0, 1); // no -0.0
+    return text;
 }
 
 std::string error_text(double error) {
