@@ -17,7 +17,7 @@ void exact_ray(Ray ray) {
 
 // Where the ray meets the triangle that the floats say it meets, at about the barycentric weights `w`. Returns
 // the weights; sets point and facet.
-dvec3 meet_triangle(vec3 a, vec3 b, vec3 c, vec3 w) {
+dvec3 exact_triangle_hit(vec3 a, vec3 b, vec3 c, vec3 w) {
     dvec3 e = dvec3(b) - dvec3(a), f = dvec3(c) - dvec3(a), n = cross(e, f);
     double size = dot(n, n), slope = dot(n, exact_direction);
     exact_facet = n / sqrt(size);
@@ -29,7 +29,7 @@ dvec3 meet_triangle(vec3 a, vec3 b, vec3 c, vec3 w) {
 }
 
 // The same for a sphere, at about t. Sets point, normal and facet.
-void meet_sphere(vec3 centre, float radius, float t) {
+void exact_sphere_hit(vec3 centre, float radius, float t) {
     dvec3 arm = exact_origin - dvec3(centre) + double(t) * exact_direction;
     // Newton's steps from the float's t; where the ray grazes they lead nowhere.
     for (int i = 0; i < 2; ++i) {

@@ -73,7 +73,7 @@ Point on_triangle(Hit hit) {
     p.normal = normalize(w.x * NORMAL(3u * hit.triangle) + w.y * NORMAL(3u * hit.triangle + 1u) +
                          w.z * NORMAL(3u * hit.triangle + 2u));
 #ifdef DOUBLES
-    dvec3 exact_w = meet_triangle(a, b, c, w);
+    dvec3 exact_w = exact_triangle_hit(a, b, c, w);
     exact_normal = normalize(exact_w.x * dvec3(NORMAL(3u * hit.triangle)) + exact_w.y * dvec3(NORMAL(3u * hit.triangle + 1u)) +
                              exact_w.z * dvec3(NORMAL(3u * hit.triangle + 2u)));
     p.position = vec3(exact_point);
@@ -88,7 +88,7 @@ Point on_sphere(Ray ray, float t, uint object) {
     Point p;
     p.position = sphere_point(surfaces[object].centre, surfaces[object].radius, ray, t, p.error);
 #ifdef DOUBLES
-    meet_sphere(surfaces[object].centre, surfaces[object].radius, t);
+    exact_sphere_hit(surfaces[object].centre, surfaces[object].radius, t);
     p.position = vec3(exact_point);
 #endif
     p.normal = p.facet = (p.position - surfaces[object].centre) / surfaces[object].radius;
