@@ -41,9 +41,9 @@ void judge_places(Bench& bench, const scene::Scene& scene, const scene::Sphere& 
         const app::Part traced = render("raytrace:depth=16");
         if (place.inside) bench.add(fmt::format("{}, raytrace: brightest of 0", place.what), brightest(traced.hdr), 0);
         for (const std::string technique : {"parallax", "pyramid", "hybrid"})
-            bench.add_flip(fmt::format("{}, {}", place.what, technique), render(technique), traced, .02);
+            bench.add_flip(fmt::format("{}, {}", place.what, technique), render(technique), traced, .03);
         const app::Part plain = render("reuse");
-        if (place.inside) bench.add_flip(fmt::format("{}, reuse", place.what), plain, traced, .02);
+        if (place.inside) bench.add_flip(fmt::format("{}, reuse", place.what), plain, traced, .03);
         // From outside an uncorrected look-up is off wherever the eye is, and most where the ball fills the picture.
         else bench.add_quality(fmt::format("{}, reuse", place.what), measure::flip_mean(measure::flip(plain.display, traced.display)), .05);
     }
