@@ -63,12 +63,15 @@ Watched Faults::watch(const Words& words, const std::optional<Fault>& fault, con
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words_of(line);
         std::string call;
-        Count count;
-        words_of >> call >> count.calls >> count.alive;
-        if (call == "strays")
-            watched.strays = count.calls;
-        else
-            watched.counts[call] = count;
+        words_of >> call;
+        if (call == "strays") {
+            words_of >> watched.strays;
+        } else if (call == "most_bytes") {
+            words_of >> watched.most_bytes;
+        } else {
+            Count& count = watched.counts[call];
+            words_of >> count.calls >> count.alive;
+        }
     }
     fs::remove(report);
     return watched;

@@ -22,6 +22,7 @@ struct Watched {
     test::Ended ended;
     std::map<std::string, Count> counts; ///< empty when the program crashed or the layer was not there
     int strays = 0;                      ///< handles destroyed that were not alive
+    std::uint64_t most_bytes = 0;        ///< of device memory at one time
 
     /// What is wrong with what it left on the device; empty = nothing.
     std::string leaks() const;

@@ -138,6 +138,35 @@ TEST_F(Memory, TheMiddleCallOfEachKindOfAComparison) {
           {{"out/report.json", "old"}, {"out/report.html", "old"}, {"out/images/reference.png", "old"}}, middle);
 }
 
+/// Z1: a run allocates what `graph` announces, a share of the scene that does not grow with the picture, and one buffer
+/// through which pictures are read: 16 bytes a pixel.
+TEST_F(Memory, InUseIsWhatThePlanAnnounces) {
+    constexpr std::uint64_t kCounters = 256; // at 1x1 the buffer is that of what is counted
+    std::optional<std::uint64_t> scene;
+    for (const std::string technique : {"raytrace", "parallax:face=64", "reuse:face=32", "hybrid:face=32"}) {
+        for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 2000), std::pair(1500, 1100)}) {
+            const std::string size = std::to_string(width) + "x" + std::to_string(height);
+            const auto with_frame = [&](Words words) {
+                words.insert(words.end(), {"--technique", technique, "--size", size});
+                return words;
+            };
+            const test::Ended graph = cli(with_frame({"graph", "--format", "json"}));
+            ASSERT_EQ(graph.exit_code, 0) << graph.err;
+            const auto announced = nlohmann::json::parse(graph.out).at("bytes").get<std::uint64_t>();
+            const Watched watched = watch(with_frame({"render", "--frames", "2", "--warmup", "1", "-o", "x.exr"}), std::nullopt);
+            ASSERT_EQ(watched.ended.exit_code, 0) << watched.ended.err;
+            const std::uint64_t known = announced + 16 * std::uint64_t(width) * std::uint64_t(height);
+            ASSERT_GE(watched.most_bytes, known) << technique << " at " << size;
+            const std::uint64_t rest = watched.most_bytes - known;
+            std::printf("  %s at %s: %llu bytes, announced %llu, the scene's share %llu\n", technique.c_str(), size.c_str(),
+                        static_cast<unsigned long long>(watched.most_bytes), static_cast<unsigned long long>(announced),
+                        static_cast<unsigned long long>(rest));
+            EXPECT_NEAR(double(rest), double(scene.value_or(rest)), double(kCounters)) << technique << " at " << size;
+            scene = scene.value_or(rest);
+        }
+    }
+}
+
 /// A full descriptor pool is no failure: the next one is made.
 TEST_F(Memory, AFullDescriptorPoolIsFollowedByAnother) {
     const Words words = {"render", "--technique", "parallax:face=16,shadow_map=16", "--size", "64x64", "--frames", "1", "--warmup", "1", "-o", "x.exr"};

@@ -1,11 +1,13 @@
 // VK_LAYER_CATOPTRIC_faults: makes one Vulkan call fail and counts all of them. By environment:
 //   CATOPTRIC_FAULT=vkCreateBuffer:3:-2   the third call of that name returns VkResult -2 instead of being made
 //   CATOPTRIC_FAULT_REPORT=FILE           at exit gets a line "NAME CALLS ALIVE" for each call made, then
-//                                         "strays N": handles destroyed that were not alive
+//                                         "strays N": handles destroyed that were not alive, and
+//                                         "most_bytes N": of memory that was alive at one time
 // For one instance, one device and one thread at a time, as the engine has them.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -56,6 +58,11 @@ struct Counter {
     PFN_vkVoidFunction next = nullptr; ///< the driver's, or the next layer's
 };
 
+struct Alive {
+    Counter* maker = nullptr;
+    std::uint64_t bytes = 0; ///< of memory
+};
+
 /// Everything the layer knows. The report is written when the program ends, and so is missing when it
 /// crashed; the library is linked to stay loaded until then.
 struct State {
@@ -75,7 +82,7 @@ struct State {
         if (!file) return;
         for (const auto& [name, counter] : counters)
             if (counter.calls > 0) std::fprintf(file, "%s %d %d\n", name.c_str(), counter.calls, counter.alive);
-        std::fprintf(file, "strays %d\n", strays);
+        std::fprintf(file, "strays %d\nmost_bytes %llu\n", strays, static_cast<unsigned long long>(most_bytes));
         std::fclose(file);
     }
 
@@ -84,8 +91,9 @@ struct State {
     bool lost = false; ///< the device has been reported lost, and stays so
     int strays = 0;
     std::map<std::string, Counter, std::less<>> counters;
+    std::uint64_t bytes = 0, most_bytes = 0; ///< of memory that is alive
     /// By the call that destroys it, since handles of two types may be the same number.
-    std::map<std::pair<std::string_view, std::uint64_t>, Counter*> alive;
+    std::map<std::pair<std::string_view, std::uint64_t>, Alive> alive;
 
     PFN_vkGetInstanceProcAddr next_instance_proc = nullptr;
     PFN_vkGetDeviceProcAddr next_device_proc = nullptr;
@@ -105,10 +113,12 @@ std::uint64_t number_of(Handle handle) {
 }
 
 template <typename Handle>
-void born(Counter& counter, std::string_view destroyer, Handle handle) {
+void born(Counter& counter, std::string_view destroyer, Handle handle, std::uint64_t bytes = 0) {
     if (handle == VK_NULL_HANDLE) return;
     ++counter.alive;
-    state.alive[{destroyer, number_of(handle)}] = &counter;
+    state.alive[{destroyer, number_of(handle)}] = {&counter, bytes};
+    state.bytes += bytes;
+    state.most_bytes = std::max(state.most_bytes, state.bytes);
 }
 
 template <typename Handle>
@@ -119,7 +129,8 @@ void died(std::string_view destroyer, Handle handle) {
         ++state.strays;
         return;
     }
-    --found->second->alive;
+    --found->second.maker->alive;
+    state.bytes -= found->second.bytes;
     state.alive.erase(found);
 }
 
@@ -159,6 +170,14 @@ std::uint32_t handle_count(const std::tuple<Args...>& args) {
     return 1;
 }
 
+/// What a call allocates.
+template <typename... Args>
+std::uint64_t bytes_of(const std::tuple<Args...>& args) {
+    if constexpr (std::is_same_v<std::tuple_element_t<1, std::tuple<Args...>>, const VkMemoryAllocateInfo*>)
+        return std::get<1>(args)->allocationSize;
+    return 0;
+}
+
 template <const auto& kName, typename Pfn>
 struct Call;
 template <const auto& kName, typename... Args>
@@ -178,7 +197,7 @@ struct Creator<kName, kDestroyer, VkResult(VKAPI_PTR*)(Args...)> {
         const auto handles = std::get<sizeof...(Args) - 1>(list);
         const VkResult result = Call<kName, VkResult(VKAPI_PTR*)(Args...)>::hook(args...);
         for (std::uint32_t i = 0; result == VK_SUCCESS && i < handle_count(list); ++i)
-            born(counter_of(kName), kDestroyer, handles[i]);
+            born(counter_of(kName), kDestroyer, handles[i], bytes_of(list));
         return result;
     }
 };
