@@ -1,7 +1,15 @@
 // The shipped files are the built-in scene.
+#include "measure/flip.hpp"
 #include "support/rendering.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
+
+#include <unistd.h>
 
 namespace {
 
@@ -22,6 +30,61 @@ TEST_P(Shipped, RendersAsTheBuiltInScene) {
             const double error = test::rmse(test::engine().run(request).parts.front().hdr, wanted);
             std::cout << "[ MEASURED ] ." << GetParam() << ", " << technique << " at " << time << " s: rmse " << error << "\n";
             EXPECT_LE(error, 1e-3);
+        }
+}
+
+/// The .glb with its roots, camera and all, below `depth` nodes that each turn, move and grow what is in them.
+std::string below_nodes(const std::string& glb, int depth) {
+    const auto number = [](const std::string& bytes, std::size_t at) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, bytes.data() + at, 4);
+        return value;
+    };
+    const std::size_t head = 12 + 8, length = number(glb, 12);
+    nlohmann::json json = nlohmann::json::parse(glb.substr(head, length));
+    const std::size_t first = json["nodes"].size();
+    for (int k = 0; k < depth; ++k) {
+        const double half = k % 2 ? .3 : -.3; // radians; turned back in the end, as captures look along the world's axes
+        nlohmann::json node = {{"rotation", {0, std::sin(half), 0, std::cos(half)}},
+                               {"translation", {40. * (k % 2), -3, k % 5}},
+                               {"scale", {1.002, 1.002, 1.002}}};
+        node["children"] = k + 1 < depth ? nlohmann::json::array({first + std::size_t(k) + 1}) : json["scenes"][0]["nodes"];
+        json["nodes"].push_back(node);
+    }
+    json["scenes"][0]["nodes"] = nlohmann::json::array({first});
+    std::string text = json.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string bytes = glb.substr(0, head) + text + glb.substr(head + length);
+    const auto put = [&](std::size_t at, std::size_t value) {
+        const auto word = static_cast<std::uint32_t>(value);
+        std::memcpy(bytes.data() + at, &word, 4);
+    };
+    put(12, text.size());
+    put(8, bytes.size());
+    return bytes;
+}
+
+/// N4: a thousand nodes one in another, some 7 times as large and far away: the same picture.
+TEST(Nested, RendersBelowAThousandNodes) {
+    std::ifstream file(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.glb", std::ios::binary);
+    const std::string glb((std::istreambuf_iterator<char>(file)), {});
+    const std::filesystem::path path = std::filesystem::temp_directory_path() / ("catoptric-nodes-" + std::to_string(::getpid()) + ".glb");
+    std::ofstream(path, std::ios::binary) << below_nodes(glb, 1000);
+    const scene::Scene flat = scene::load(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.glb"), nested = scene::load(path);
+    std::filesystem::remove(path);
+    const dmat4 there = nested.objects.front().world_from_object, here = flat.objects.front().world_from_object;
+    EXPECT_NEAR(length(dvec3(there[0])) / length(dvec3(here[0])), std::pow(1.002, 1000), 1e-6);
+    EXPECT_GT(length(dvec3(there[3] - here[3])), 1e4);
+    for (const char* technique : {"raytrace", "parallax"})
+        for (const double time : {0.0, 0.7}) {
+            const auto display = [&](const scene::Scene& scene) {
+                app::Request request = test::request(scene, {technique}, {256, 256});
+                request.time = time, request.frames = 3;
+                return test::engine().run(request).parts.front().display;
+            };
+            const double flip = measure::flip_mean(measure::flip(display(nested), display(flat)));
+            std::cout << "[ MEASURED ] 1000 nodes, " << technique << " at " << time << " s: FLIP " << flip << "\n";
+            EXPECT_LE(flip, 1e-3);
         }
 }
 
