@@ -1,5 +1,6 @@
 #pragma once
 
+#include "support/folder.hpp"
 #include "support/process.hpp"
 
 #include <gmock/gmock.h>
@@ -9,20 +10,10 @@
 #include <fstream>
 #include <iterator>
 
-#include <unistd.h>
-
 /// The built program in a folder of its own that is gone after the test.
-class Cli : public testing::Test {
+class Cli : public test::InFolder {
 protected:
     using Words = std::vector<std::string>;
-
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder = std::filesystem::temp_directory_path() /
-                 ("catoptric-cli-" + std::to_string(::getpid()) + "-" + test->name());
-        std::filesystem::create_directories(folder);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
 
     test::Start start(const Words& words) const {
         test::Start start{.command = {CATOPTRIC_CLI}};
@@ -58,6 +49,4 @@ protected:
         std::ifstream file(path, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};
     }
-
-    std::filesystem::path folder;
 };

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <thread>
 
+#include <unistd.h>
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,7 +38,6 @@ std::string Watched::leaks() const {
 }
 
 void Faults::SetUp() {
-    Cli::SetUp();
     static const Watched probe = watch({"list", "devices"}, std::nullopt);
     if (!probe.counts.empty()) return;
 #ifdef __SANITIZE_ADDRESS__

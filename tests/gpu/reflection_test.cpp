@@ -1,10 +1,10 @@
 // What the engine reads out of SPIR-V, and what it refuses by name.
 #include "gpu/shader.hpp"
 #include "support/device.hpp"
+#include "support/folder.hpp"
 #include "support/process.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 
 namespace {
@@ -131,8 +131,10 @@ TEST(Binding, AnUnknownConstantIsRefused) {
                          Failure::internal, {"tests/spin.comp", "has no constant 'speed'"});
 }
 
-TEST(SpirV, EveryEmbeddedShaderIsValid) {
-    const auto path = std::filesystem::temp_directory_path() / ("catoptric-" + std::to_string(::getpid()) + ".spv");
+using SpirV = test::InFolder;
+
+TEST_F(SpirV, EveryEmbeddedShaderIsValid) {
+    const auto path = folder / "shader.spv";
     for (const gpu::EmbeddedShader& shader : gpu::embedded_shaders()) {
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(shader.words.data()), static_cast<std::streamsize>(shader.words.size_bytes()));
@@ -140,7 +142,6 @@ TEST(SpirV, EveryEmbeddedShaderIsValid) {
                                                                  "--scalar-block-layout", path.string()}});
         EXPECT_EQ(ended.exit_code, 0) << shader.name << ": " << ended.out << ended.err;
     }
-    std::filesystem::remove(path);
 }
 
 } // namespace

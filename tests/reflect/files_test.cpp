@@ -1,15 +1,13 @@
 // The shipped files are the built-in scene.
 #include "measure/flip.hpp"
+#include "support/folder.hpp"
 #include "support/rendering.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
-
-#include <unistd.h>
 
 namespace {
 
@@ -64,14 +62,15 @@ std::string below_nodes(const std::string& glb, int depth) {
     return bytes;
 }
 
+using Nested = test::InFolder;
+
 /// N4: a thousand nodes one in another, some 7 times as large and far away: the same picture.
-TEST(Nested, RendersBelowAThousandNodes) {
+TEST_F(Nested, RendersBelowAThousandNodes) {
     std::ifstream file(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.glb", std::ios::binary);
     const std::string glb((std::istreambuf_iterator<char>(file)), {});
-    const std::filesystem::path path = std::filesystem::temp_directory_path() / ("catoptric-nodes-" + std::to_string(::getpid()) + ".glb");
+    const std::filesystem::path path = folder / "nested.glb";
     std::ofstream(path, std::ios::binary) << below_nodes(glb, 1000);
     const scene::Scene flat = scene::load(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.glb"), nested = scene::load(path);
-    std::filesystem::remove(path);
     const dmat4 there = nested.objects.front().world_from_object, here = flat.objects.front().world_from_object;
     EXPECT_NEAR(length(dvec3(there[0])) / length(dvec3(here[0])), std::pow(1.002, 1000), 1e-6);
     EXPECT_GT(length(dvec3(there[3] - here[3])), 1e4);

@@ -1,5 +1,6 @@
 #include "bvh/bvh.hpp"
 #include "bvh/closest_hit.hpp"
+#include "support/numbers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,25 +15,6 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-struct Random {
-    std::mt19937 engine;
-    explicit Random(unsigned seed) : engine(seed) {}
-    float between(float lo, float hi) {
-        return std::uniform_real_distribution<float>(lo, hi)(engine);
-    }
-    std::size_t below(std::size_t count) {
-        return std::uniform_int_distribution<std::size_t>(0, count - 1)(engine);
-    }
-    vec3 in_cube() { return {between(-1, 1), between(-1, 1), between(-1, 1)}; }
-    vec3 direction() {
-        for (;;) {
-            const vec3 v = in_cube();
-            const float size = glm::length(v);
-            if (size > 0.1f && size <= 1) return v / size;
-        }
-    }
-};
 
 /// Unit ball from an octahedron; neighbours compute a shared midpoint from the same two corners in
 /// either order, so it is the same float.
@@ -58,7 +40,7 @@ std::vector<Triangle> ball(int levels, float scale = 1, vec3 offset = vec3(0)) {
 }
 
 std::vector<Triangle> soup(std::size_t count, unsigned seed) {
-    Random random(seed);
+    test::Numbers random(seed);
     std::vector<Triangle> result(count);
     for (Triangle& t : result) {
         const vec3 centre = random.in_cube();
@@ -231,7 +213,7 @@ TEST(Bvh, CoplanarCopiesInOtherLeavesTie) {
     const std::vector<Triangle> original = triangles;
     triangles.insert(triangles.end(), original.begin(), original.end());
     const Bvh bvh = build(triangles);
-    Random random(5);
+    test::Numbers random(5);
     for (int i = 0; i < 2000; ++i) {
         const auto hit =
             closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, kInfinity);
@@ -253,7 +235,7 @@ TEST(Bvh, DepthIsBoundedForGeometricallyShrinkingTriangles) {
 template <typename Real>
 void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int rays, unsigned seed) {
     const Bvh bvh = build(triangles);
-    Random random(seed);
+    test::Numbers random(seed);
     int hits = 0;
     for (int i = 0; i < rays; ++i) {
         const vec3 origin = 2.0f * random.in_cube();
@@ -282,7 +264,7 @@ TEST(ClosestHit, EqualsBruteForceBitForBit) {
 /// Beside an edge much longer than its distance the sheared corners are off by more than a box
 /// test's own roundings: without the slack of box_ray half of these hits are culled.
 TEST(ClosestHit, BoxesKeepHitsBesideLongEdges) {
-    Random random(21);
+    test::Numbers random(21);
     int hits = 0;
     for (int i = 0; i < 20000; ++i) {
         const float length = i % 2 == 0 ? 100 : 1e4f;
@@ -304,7 +286,7 @@ TEST(ClosestHit, BoxesKeepHitsBesideLongEdges) {
 
 TEST(ClosestHit, FloatAgreesWithDouble) {
     const Bvh bvh = build(ball(4));
-    Random random(10);
+    test::Numbers random(10);
     for (int i = 0; i < 20000; ++i) {
         const vec3 origin = 0.5f * random.in_cube(), direction = random.direction();
         const auto single = closest_hit<float>(bvh, {origin, direction}, kInfinity);
@@ -322,7 +304,7 @@ TEST(ClosestHit, FloatAgreesWithDouble) {
 int leaks(float scale, vec3 offset, int rays, unsigned seed) {
     const std::vector<Triangle> triangles = ball(4, scale, offset);
     const Bvh bvh = build(triangles);
-    Random random(seed);
+    test::Numbers random(seed);
     int result = 0;
     for (int i = 0; i < rays; ++i) {
         const Triangle& t = triangles[random.below(triangles.size())];
@@ -357,7 +339,7 @@ TEST(ClosestHit, NoLeaksAlongTheAxes) {
 
 TEST(ClosestHit, BadRaysMissInBoundedSteps) {
     const Bvh bvh = build(ball(4));
-    Random random(15);
+    test::Numbers random(15);
     for (float bad : {kNan, kInfinity, -kInfinity})
         for (int k = 0; k < 7; ++k) {
             vec3 origin(0), direction = random.direction();
@@ -384,7 +366,7 @@ TEST(ClosestHit, PowersOfTwoLeaveTheHitsUnchanged) {
         std::vector<Triangle> scaled = triangles;
         for (Triangle& t : scaled) t.a *= s, t.b *= s, t.c *= s;
         const Bvh other = build(scaled);
-        Random random(17);
+        test::Numbers random(17);
         for (int i = 0; i < 2000; ++i) {
             const vec3 origin = 2.0f * random.in_cube(), direction = random.direction();
             const auto a = closest_hit<float>(one, {origin, direction}, kInfinity);
@@ -399,7 +381,7 @@ TEST(ClosestHit, PowersOfTwoLeaveTheHitsUnchanged) {
 
 /// Corners of 1e-8 to 1e8, so that most are slivers.
 TEST(ClosestHit, NoRayMeetsTheTriangleItLeaves) {
-    Random random(19);
+    test::Numbers random(19);
     const auto wide = [&] {
         return random.between(-1, 1) < 0 ? -std::pow(10.0f, random.between(-8, 8))
                                          : std::pow(10.0f, random.between(-8, 8));
@@ -427,7 +409,7 @@ TEST(ClosestHit, SpawnedRaysCrossTheBall) {
     for (float scale : {1e-3f, 1.0f, 1e3f}) {
         const std::vector<Triangle> triangles = ball(3, scale, vec3(2, 3, 5) * scale);
         const Bvh bvh = build(triangles);
-        Random random(20);
+        test::Numbers random(20);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const auto& [a, b, c, object, flags] = triangles[i];
             vec3 error;
@@ -445,7 +427,7 @@ TEST(ClosestHit, SpawnedRaysCrossTheBall) {
 
 TEST(ClosestHit, VisitsFewNodes) {
     const Bvh bvh = build(ball(5)); // 8192 triangles
-    Random random(18);
+    test::Numbers random(18);
     std::size_t total = 0;
     for (int i = 0; i < 1000; ++i) {
         Steps steps;

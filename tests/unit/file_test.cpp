@@ -1,12 +1,11 @@
 #include "core/file.hpp"
 
 #include "core/error.hpp"
+#include "support/folder.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
-
-#include <unistd.h>
 
 namespace {
 
@@ -15,19 +14,11 @@ using catoptric::Error;
 using catoptric::Failure;
 using testing::HasSubstr;
 
-class File : public testing::Test {
+class File : public test::InFolder {
 protected:
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder = fs::temp_directory_path() /
-                 ("catoptric-" + std::to_string(::getpid()) + "-" + test->name());
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
     std::ptrdiff_t entries() const {
         return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
     }
-    fs::path folder;
 };
 
 template <typename Body>

@@ -4,14 +4,13 @@
 #include "core/file.hpp"
 #include "scene/number.hpp"
 #include "scene/shapes.hpp"
+#include "support/folder.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <filesystem>
 #include <random>
-
-#include <unistd.h>
 
 namespace {
 
@@ -23,16 +22,8 @@ namespace fs = std::filesystem;
 
 const fs::path kSamples = fs::path(CATOPTRIC_SOURCE_DIR) / "samples" / "scenes";
 
-class Load : public testing::Test {
+class Load : public test::InFolder {
 protected:
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder = fs::temp_directory_path() /
-                 ("catoptric-load-" + std::to_string(::getpid()) + "-" + test->name());
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
     std::string write(const std::string& name, const std::string& text) const {
         write_file(folder / name, text);
         return (folder / name).string();
@@ -51,7 +42,6 @@ protected:
         ADD_FAILURE() << "nothing was thrown";
         return {};
     }
-    fs::path folder;
 };
 
 void expect_near(const dvec3& found, const dvec3& wanted, double tolerance) {

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "support/folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +11,6 @@
 #include <cstring>
 #include <limits>
 
-#include <unistd.h>
-
 namespace catoptric::measure {
 namespace {
 
@@ -19,22 +18,12 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-/// A folder that goes when the test does.
-class PictureFile : public testing::Test {
+class PictureFile : public test::InFolder {
 protected:
-    PictureFile() { fs::create_directories(folder); }
-    ~PictureFile() override { fs::remove_all(folder); }
-    PictureFile(const PictureFile&) = delete;
-    PictureFile& operator=(const PictureFile&) = delete;
-
     fs::path file(const std::string& name, const std::string& bytes) const {
         write_file(folder / name, bytes);
         return folder / name;
     }
-
-    fs::path folder = fs::temp_directory_path() /
-                      ("catoptric-picture-" + std::to_string(::getpid()) + "-" +
-                       testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 std::string from_hex(const std::string& hex) {

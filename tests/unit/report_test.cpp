@@ -4,14 +4,13 @@
 #include "core/file.hpp"
 #include "measure/picture_file.hpp"
 #include "report_sample.hpp"
+#include "support/folder.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include <limits>
 #include <regex>
-
-#include <unistd.h>
 
 namespace {
 
@@ -192,15 +191,8 @@ TEST(ReportHtml, HoldsThePlotAndEveryPicture) {
     EXPECT_THAT(html, Not(HasSubstr("nan")));
 }
 
-class ReportWrite : public testing::Test {
+class ReportWrite : public test::InFolder {
 protected:
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder = fs::temp_directory_path() /
-                 ("catoptric-" + std::to_string(::getpid()) + "-" + test->name());
-        fs::create_directories(folder);
-    }
-    void TearDown() override { fs::remove_all(folder); }
     Error error_of_writing_to(const fs::path& path) const {
         try {
             catoptric::report::write(usual(), path);
@@ -209,7 +201,6 @@ protected:
         }
         return Error(Failure::internal, "nothing was thrown");
     }
-    fs::path folder;
 };
 
 TEST_F(ReportWrite, PutsEveryFileThereAndReplacesOldOnesWhole) {

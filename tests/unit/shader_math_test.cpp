@@ -1,36 +1,16 @@
 #include "core/shader_math.hpp"
+#include "support/numbers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace catoptric {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-struct Random {
-    std::mt19937 engine;
-    explicit Random(unsigned seed) : engine(seed) {}
-    float between(float lo, float hi) {
-        return std::uniform_real_distribution<float>(lo, hi)(engine);
-    }
-    vec3 in_cube() { return {between(-1, 1), between(-1, 1), between(-1, 1)}; }
-    vec3 direction() {
-        for (;;) {
-            const vec3 v = in_cube();
-            const float size = glm::length(v);
-            if (size > 0.1f && size <= 1) return v / size;
-        }
-    }
-    /// Sign and exponent at random: 10^low .. 10^high.
-    float wide(float low, float high) {
-        return (between(0, 1) < 0.5f ? -1.0f : 1.0f) * std::pow(10.0f, between(low, high));
-    }
-};
 
 ::testing::AssertionResult near(const vec3& a, const vec3& b, float tolerance) {
     if (glm::length(a - b) <= tolerance) return ::testing::AssertionSuccess();
@@ -104,7 +84,7 @@ TEST(Mirror, ReflectsAboutTheNormalFromEitherSide) {
 }
 
 TEST(Mirror, NeverPointsBelowTheFacet) {
-    Random random(1);
+    test::Numbers random(1);
     for (int i = 0; i < 10000; ++i) {
         const vec3 d = random.direction(), n_geometric = random.direction();
         const vec3 n_shading = glm::normalize(n_geometric + 0.9f * random.direction());
@@ -148,7 +128,7 @@ TEST(TriangleTest, NanIsAMiss) {
 }
 
 TEST(TriangleTest, AgreesWithDouble) {
-    Random random(2);
+    test::Numbers random(2);
     int hits = 0, disagreements = 0;
     for (int i = 0; i < 100000; ++i) {
         const vec3 a = random.in_cube(), b = random.in_cube(), c = random.in_cube();
@@ -179,7 +159,7 @@ TEST(TriangleTest, AgreesWithDouble) {
 
 TEST(TriangleTest, EdgeFunctionHasTheExactSign) {
     // Long double has 64 bits: the products of 24-bit floats are exact in it.
-    Random random(3);
+    test::Numbers random(3);
     int fallbacks = 0;
     for (int i = 0; i < 200000; ++i) {
         const float a = random.between(0.5f, 1), b = random.between(0.5f, 1);
@@ -198,7 +178,7 @@ TEST(TriangleTest, EdgeFunctionHasTheExactSign) {
 }
 
 TEST(TriangleTest, PowersOfTwoChangeNothing) {
-    Random random(4);
+    test::Numbers random(4);
     for (int i = 0; i < 2000; ++i) {
         const vec3 a = random.in_cube(), b = random.in_cube(), c = random.in_cube();
         const vec3 origin = 3.0f * random.direction(), direction = 0.5f * random.in_cube() - origin;
@@ -256,7 +236,7 @@ TEST(SphereTest, FromOutsideInsideAndBehind) {
 }
 
 TEST(SphereTest, KeepsItsDigitsFarAway) {
-    Random random(5);
+    test::Numbers random(5);
     for (int i = 0; i < 10000; ++i) {
         const vec3 origin = 1e4f * random.direction();
         const vec3 direction = glm::normalize(0.5f * random.direction() - origin);
@@ -273,7 +253,7 @@ TEST(SphereTest, KeepsItsDigitsFarAway) {
 
 // Well-shaped or not, corners of 0.1 to 10; what is left are slivers (Ray::leaves).
 TEST(Spawn, NeverMeetsItsOwnTriangle) {
-    Random random(6);
+    test::Numbers random(6);
     for (int i = 0; i < 1000; ++i) {
         const auto corner = [&] {
             return vec3(random.wide(-1, 1), random.wide(-1, 1), random.wide(-1, 1));
@@ -301,7 +281,7 @@ TEST(Spawn, StaysWithinTheScaleOfTheRoundings) {
 }
 
 TEST(Spawn, NeverMeetsItsOwnSphereFromOutside) {
-    Random random(7);
+    test::Numbers random(7);
     for (int i = 0; i < 50000; ++i) {
         const vec3 centre = 10.0f * random.in_cube();
         const float radius = std::abs(random.wide(-2, 1));
@@ -325,7 +305,7 @@ TEST(Spawn, ShadowRaysEndShortOfTheLight) { EXPECT_EQ(f32::kShadowRayEnd, 1 - 0x
 // ---- Captures and picture
 
 TEST(Parallax, FindsThePointThatHasThatDistance) {
-    Random random(8);
+    test::Numbers random(8);
     for (int i = 0; i < 10000; ++i) {
         // Exact where the surface is a plane across the ray: what the ray meets is at
         // distance = dot(offset, dir) + way, as the one step assumes.
@@ -362,7 +342,7 @@ TEST(CubeFace, CentresInTheApisOrder) {
 }
 
 TEST(CubeFace, RoundTrip) {
-    Random random(9);
+    test::Numbers random(9);
     for (int i = 0; i < 10000; ++i) {
         const vec3 dir = random.direction();
         const int face = f32::cube_face(dir);

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "core/math.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace test {
+
+using catoptric::vec3;
+
+/// Numbers from a counter (SplitMix64): fast, and the same on every machine.
+class Numbers {
+public:
+    explicit Numbers(std::uint64_t seed) : state_(seed) {}
+    std::uint32_t word() {
+        std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return static_cast<std::uint32_t>((z ^ (z >> 31)) >> 32);
+    }
+    /// In [0, 1), a multiple of 2^-24.
+    float unit() { return static_cast<float>(word() >> 8) * 0x1p-24f; }
+    float between(float lo, float hi) { return lo + (hi - lo) * unit(); }
+    std::size_t below(std::size_t count) { return static_cast<std::size_t>((std::uint64_t{word()} * count) >> 32); }
+    vec3 in_cube() {
+        const float x = between(-1, 1), y = between(-1, 1);
+        return {x, y, between(-1, 1)};
+    }
+    vec3 direction() {
+        for (;;) {
+            const vec3 v = in_cube();
+            const float size = glm::length(v);
+            if (size > 0.1f && size <= 1) return v / size;
+        }
+    }
+    /// Either sign, 10^low .. 10^high, every power as likely.
+    float wide(float low, float high) {
+        const float size = std::pow(10.0f, between(low, high));
+        return word() % 2 == 0 ? size : -size;
+    }
+    /// Weights of a point, uniform over the triangle.
+    vec3 weights() {
+        const float s = std::sqrt(unit()), r = unit();
+        return {1 - s, s * (1 - r), s * r};
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+} // namespace test
