@@ -122,7 +122,8 @@ CauseFinder::CauseFinder(Engine& engine, const Request& base, const measure::Pic
     // A technique that follows no ray through other mirrors names the one that it draws.
     Request request = request_for(base, {"naive:bounces=1,face=1,shadow=none"});
     request.with_lookup = true;
-    for (const vec4& pixel : engine.run(request).parts.front().lookup)
+    const Result result = engine.run(request);
+    for (const vec4& pixel : result.parts.front().lookup)
         drawn_.push_back(pixel.w > 0 ? (static_cast<std::uint32_t>(pixel.w) - 1) / 8 + 1 : 0);
 }
 

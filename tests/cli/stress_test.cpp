@@ -36,7 +36,8 @@ TEST_F(Cli, StressTakesItsScenesFromTheSeed) {
 TEST_F(Cli, StressJudgesWhatCapturesHold) {
     const test::Ended ended = cli({"stress", "--json", "--size", "64x64", "--only", "C3", "C11", "C12", "N11", "N24", "C5"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
-    for (const json& row : json::parse(ended.out)["rows"]) EXPECT_THAT(row["verdict"], testing::AnyOf("pass", "quality-warning")) << row;
+    const json report = json::parse(ended.out);
+    for (const json& row : report["rows"]) EXPECT_THAT(row["verdict"], testing::AnyOf("pass", "quality-warning")) << row;
 }
 
 TEST_F(Cli, StressTellsWhatLooksWorseWithoutFailing) {

@@ -38,7 +38,8 @@ TEST(Parallax, TheVoidIsNoLargerInCoarseCaptures) {
         app::Request request = test::request(scene, {technique}, {192, 192});
         request.with_lookup = true;
         double mirror = 0, miss = 0;
-        for (const vec4& pixel : test::engine().run(request).parts.front().lookup) {
+        const app::Result result = test::engine().run(request);
+        for (const vec4& pixel : result.parts.front().lookup) {
             if (!(pixel.w > 0)) continue;
             ++mirror;
             miss += (static_cast<int>(pixel.w) - 1) % 4 == 2;
