@@ -30,9 +30,9 @@ TEST_F(Surroundings, ReaderThatHasGoneAfterTheWork) {
 
 TEST_F(Surroundings, CacheFolderThatCannotBeWritten) {
     write("file", "");
-    for (const std::string place : {"/proc/none", (folder / "file").c_str()}) {
+    for (const fs::path& place : {fs::path("/proc/none"), folder / "file"}) {
         test::Start process = start(small({"render", "--technique", "parallax", "-o", "x.png", "--quiet"}));
-        for (const char* variable : {"HOME", "XDG_CACHE_HOME", "MESA_SHADER_CACHE_DIR"}) process.environment[variable] = place;
+        for (const char* variable : {"HOME", "XDG_CACHE_HOME", "MESA_SHADER_CACHE_DIR"}) process.environment[variable] = place.string();
         const test::Ended ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_LE(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
