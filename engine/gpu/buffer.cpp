@@ -29,26 +29,38 @@ UniqueBuffer make_buffer(const Device& device, std::uint64_t bytes, VkBufferUsag
     return {device.handle(), buffer};
 }
 
+enum class Home { device, host_writes, host_reads };
+
+/// A memory type, and whether it is to be mapped.
+struct Type {
+    int index = -1;
+    bool mapped = false;
+};
+
+Type type_for(const Device& device, const VkMemoryRequirements& needs, Home home) {
+    constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    const auto find = [&](VkMemoryPropertyFlags properties) { return device.memory_type(needs.memoryTypeBits, properties); };
+    if (home == Home::device) {
+        // Where the host sees only a window of the device's memory, large buffers stay outside it.
+        constexpr std::uint64_t kShareOfWindow = 16;
+        const int seen = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHost);
+        const std::uint64_t window = seen < 0 ? 0 : device.heap_bytes(static_cast<std::uint32_t>(seen));
+        if (!device.staged() && (window == device.memory_budget() || needs.size <= window / kShareOfWindow)) return {seen, true};
+        return {find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT), false};
+    }
+    const int cached = home == Home::host_reads ? find(kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT) : -1;
+    return {cached >= 0 ? cached : find(kHost), true};
+}
+
 /// Memory for `buffer`, bound; `mapped` is null when the memory is not visible to the host.
-UniqueMemory back(const Device& device, VkBuffer buffer, bool want_mapped, const std::string& name,
-                  void*& mapped) {
+UniqueMemory back(const Device& device, VkBuffer buffer, Home home, const std::string& name, void*& mapped) {
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
-    constexpr VkMemoryPropertyFlags kHost =
-        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    int type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHost);
-    bool is_host = type >= 0;
-    if (want_mapped && !is_host) {
-        type = device.memory_type(needs.memoryTypeBits, kHost);
-        is_host = true;
-    } else if (!is_host || (device.staged() && !want_mapped)) {
-        type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-        is_host = false;
-    }
-    check(type >= 0, Failure::internal, "no memory type for buffer '", name, "'");
-    UniqueMemory memory = device.allocate(needs.size, static_cast<std::uint32_t>(type), name);
+    const Type type = type_for(device, needs, home);
+    check(type.index >= 0, Failure::internal, "no memory type for buffer '", name, "'");
+    UniqueMemory memory = device.allocate(needs.size, static_cast<std::uint32_t>(type.index), name);
     check_vk(vkBindBufferMemory(device.handle(), buffer, memory, 0), "bind buffer '" + name + "'");
-    if (is_host)
+    if (type.mapped)
         check_vk(vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped), "map buffer '" + name + "'");
     return memory;
 }
@@ -66,7 +78,7 @@ void copy(Device& device, const std::string& doing, VkBuffer from, std::uint64_t
 Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use)
     : device_(&device), name_(std::move(name)), bytes_(std::max<std::uint64_t>(bytes, kTexelBytes)) {
     buffer_ = make_buffer(device, bytes_, usage(use), name_);
-    memory_ = back(device, buffer_, false, name_, mapped_);
+    memory_ = back(device, buffer_, has(use, BufferUse::read_back) ? Home::host_reads : Home::device, name_, mapped_);
     if (!has(use, BufferUse::texels)) return;
     check(bytes_ / kTexelBytes <= device.limits().maxTexelBufferElements, Failure::exhausted, "buffer '",
           name_, "' wants ", bytes_ / kTexelBytes, " texels, the device allows ",
@@ -90,7 +102,7 @@ void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) {
     }
     void* mapped = nullptr;
     const UniqueBuffer staging = make_buffer(*device_, data.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "staging");
-    const UniqueMemory memory = back(*device_, staging, true, "staging", mapped);
+    const UniqueMemory memory = back(*device_, staging, Home::host_writes, "staging", mapped);
     std::memcpy(mapped, data.data(), data.size());
     copy(*device_, "write buffer '" + name_ + "'", staging, 0, buffer_, offset, data.size());
 }
@@ -103,7 +115,7 @@ std::vector<std::byte> Buffer::read() const {
     }
     void* mapped = nullptr;
     const UniqueBuffer staging = make_buffer(*device_, bytes_, VK_BUFFER_USAGE_TRANSFER_DST_BIT, "read-back");
-    const UniqueMemory memory = back(*device_, staging, true, "read-back", mapped);
+    const UniqueMemory memory = back(*device_, staging, Home::host_reads, "read-back", mapped);
     copy(*device_, "read back buffer '" + name_ + "'", buffer_, 0, staging, 0, bytes_);
     std::memcpy(data.data(), mapped, bytes_);
     return data;

@@ -7,8 +7,9 @@
 
 namespace catoptric::gpu {
 
-/// What a buffer is for, beside being a storage buffer and a source and target of copies.
-enum class BufferUse : std::uint32_t { plain = 0, vertex = 1, index = 2, uniform = 4, texels = 8 };
+/// What a buffer is for, beside being a storage buffer and a source and target of copies. `read_back`: filled by the
+/// device for the host, and so in the host's memory.
+enum class BufferUse : std::uint32_t { plain = 0, vertex = 1, index = 2, uniform = 4, texels = 8, read_back = 16 };
 constexpr BufferUse operator|(BufferUse a, BufferUse b) {
     return static_cast<BufferUse>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }

@@ -114,9 +114,11 @@ void Device::choose(const DeviceOptions& options) {
     physical_ = devices[index];
     info_ = infos[index];
     staged_ = options.staged;
-    VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(physical_, &properties);
-    limits_ = properties.limits;
+    VkPhysicalDeviceMaintenance3Properties pieces{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &pieces};
+    vkGetPhysicalDeviceProperties2(physical_, &properties);
+    limits_ = properties.properties.limits;
+    max_allocation_ = pieces.maxMemoryAllocationSize;
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
     Features has;
     vkGetPhysicalDeviceFeatures2(physical_, &has.core);
@@ -146,6 +148,7 @@ void Device::create_device() {
     features.v12.shaderOutputLayer = layered_;
     features.v13.dynamicRendering = true;
     features.v13.synchronization2 = true;
+    features.v13.shaderTerminateInvocation = true; // what `discard` is in SPIR-V for Vulkan 1.3
     features.v13.maintenance4 = true; // work-group sizes as glslang writes them for Vulkan 1.3
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     create.queueCreateInfoCount = 1;
@@ -186,6 +189,8 @@ std::uint64_t Device::memory_budget() const {
 }
 
 UniqueMemory Device::allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const {
+    check(bytes <= max_allocation_, Failure::exhausted, what, " wants ", bytes, " bytes in one piece, the device allows ",
+          max_allocation_);
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocate.allocationSize = bytes;
     allocate.memoryTypeIndex = type;

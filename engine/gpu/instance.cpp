@@ -56,6 +56,28 @@ int cpu_threads() {
     return threads;
 }
 
+constexpr VkFormatFeatureFlags kCaptured = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+
+/// Of images in optimal tiling. Formats that Vulkan itself demands are not asked for.
+bool allows(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags features) {
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(device, format, &properties);
+    return (properties.optimalTilingFeatures & features) == features;
+}
+
+bool adds_in_subgroups(VkPhysicalDevice device) {
+    VkPhysicalDeviceSubgroupProperties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups};
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    return (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) && (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT);
+}
+
+std::uint32_t largest_work_group(VkPhysicalDevice device) {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(device, &properties);
+    return std::min(properties.limits.maxComputeWorkGroupInvocations, properties.limits.maxComputeWorkGroupSize[0]);
+}
+
 } // namespace
 
 VkInstance make_instance(bool validate, bool& has_debug_utils) {
@@ -156,6 +178,11 @@ std::string Features::missing(VkPhysicalDevice device) {
         {"dynamicRendering", has.v13.dynamicRendering},
         {"synchronization2", has.v13.synchronization2},
         {"maintenance4", has.v13.maintenance4},
+        {"shaderTerminateInvocation", has.v13.shaderTerminateInvocation},
+        {"subgroup arithmetic in compute shaders", adds_in_subgroups(device)},
+        {"work groups of 256", largest_work_group(device) >= 256},
+        {"linear filtering of R32_SFLOAT", allows(device, VK_FORMAT_R32_SFLOAT, kCaptured)},
+        {"linear filtering of R32G32B32A32_SFLOAT", allows(device, VK_FORMAT_R32G32B32A32_SFLOAT, kCaptured)},
     };
     std::string names;
     for (const auto& [name, there] : required)

@@ -205,7 +205,7 @@ std::vector<std::byte> Runner::read(Image image) {
     const ImageDesc& desc = image_descs_[image.id];
     Physical& source = physical(image);
     const std::uint64_t bytes = std::uint64_t{desc.width} * desc.height * image.layer_count * bytes_per_texel(desc.format);
-    gpu::Buffer target(device_, "read-back of " + desc.name, bytes, gpu::BufferUse::plain);
+    gpu::Buffer target(device_, "read-back of " + desc.name, bytes, gpu::BufferUse::read_back);
     device_.submit_now("read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
         VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
         barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -231,7 +231,7 @@ std::vector<std::byte> Runner::read(Image image) {
 
 std::vector<std::byte> Runner::read(Buffer buffer) {
     const auto& [name, bytes] = buffer_descs_[buffer.id];
-    gpu::Buffer target(device_, "read-back of " + name, bytes, gpu::BufferUse::plain);
+    gpu::Buffer target(device_, "read-back of " + name, bytes, gpu::BufferUse::read_back);
     device_.submit_now("read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, bytes};
         vkCmdCopyBuffer(commands, buffers_[buffer.id], target.handle(), 1, &region);

@@ -1,5 +1,7 @@
 #include "render/geometry.hpp"
 
+#include "scene/transform.hpp"
+
 namespace catoptric::render {
 
 Geometry make_geometry(const scene::Scene& now, const Space& space) {
@@ -7,8 +9,7 @@ Geometry make_geometry(const scene::Scene& now, const Space& space) {
     for (const scene::Object& object : now.objects) {
         const scene::Mesh& mesh = now.meshes[object.mesh];
         const scene::Material& material = now.materials[object.material];
-        const dmat3 linear(object.world_from_object);
-        const dmat3 normal_from_object = glm::transpose(glm::inverse(linear));
+        const dmat3 normal_to_world = scene::normal_matrix(object.world_from_object);
         DrawRange range;
         range.first_index = static_cast<std::uint32_t>(geometry.indices.size());
         range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
@@ -21,7 +22,7 @@ Geometry make_geometry(const scene::Scene& now, const Space& space) {
             const dvec3 world(object.world_from_object * dvec4(mesh.positions[i], 1));
             const vec3 position = space.point(world);
             range.bounds.add(position);
-            geometry.vertices.push_back({position, vec3(glm::normalize(normal_from_object * dvec3(mesh.normals[i])))});
+            geometry.vertices.push_back({position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))});
         }
         for (const uvec3& triangle : mesh.triangles)
             for (int i = 0; i < 3; ++i) geometry.indices.push_back(first_vertex + triangle[i]);

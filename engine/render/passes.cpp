@@ -101,7 +101,7 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
     gpu::Constants store{{"distance_scale", 1 / options.stored_unit}};
     if (options.colour == Format::rgba16f && options.saturates) store.emplace_back("largest_colour", kLargestHalf);
     if (cubes.surfaces) store.emplace_back("keeps_surface", 1u);
-    if (peeled && options.stored_unit != 1) store.emplace_back("half_step", 0.5f / 255);
+    if (peeled && options.distance == Format::r8_unorm) store.emplace_back("half_step", 0.5f / 255);
     pass.writes(depth, Use::depth, kFarthest)
         .layers(6)
         .record([&scene = inputs.scene, mirror, lighting = options.lighting, look = options.look, store,

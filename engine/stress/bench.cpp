@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <regex>
 
 namespace catoptric::stress {
 
@@ -21,11 +22,12 @@ std::string as_file_name(const std::string& text) {
     return name;
 }
 
-bool has_number(std::string_view text) {
-    return std::ranges::any_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
 } // namespace
+
+bool names_limit(const std::string& text) {
+    static const std::regex limit(R"(allows ([a-z_]+[a-z_0-9]* = )?[0-9])");
+    return std::regex_search(text, limit);
+}
 
 app::Request Bench::asked(const scene::Scene& scene, const std::string& technique, int frames) const {
     app::Request request;
@@ -59,19 +61,20 @@ bool Bench::add_done_or_refused(const std::string& what, const std::function<voi
         add(what + ": done", 0, 0);
         return true;
     } catch (const Error& error) {
-        add(what + (error.failure == Failure::exhausted ? ": refused: " : ": fails: ") + error.what(), error.failure == Failure::exhausted && has_number(error.what()) ? 0 : 1, 0);
+        add(what + (error.failure == Failure::exhausted ? ": refused: " : ": fails: ") + error.what(), error.failure == Failure::exhausted && names_limit(error.what()) ? 0 : 1, 0);
         return false;
     }
 }
 
-void Bench::add_refused(const std::string& what, Failure failure, const std::function<void()>& work) {
-    bool refused = false;
+void Bench::add_refused(const std::string& what, Failure failure, const std::string& limit, const std::function<void()>& work) {
+    std::string text = "not refused";
     try {
         work();
     } catch (const Error& error) {
-        refused = error.failure == failure && has_number(error.what());
+        text = error.what();
+        if (error.failure == failure && text.find(limit) != text.npos) return add(what + ": refused: " + text, 0, 0);
     }
-    add(what + ": not refused with numbers", refused ? 0 : 1, 0);
+    add(what + ": wanted a refusal that names " + limit + ", found: " + text, 1, 0);
 }
 
 std::size_t nonfinite(const measure::Picture& picture) {

@@ -27,11 +27,11 @@ public:
     void add_flip(const std::string& what, const app::Part& found, const app::Part& wanted, double limit);
     /// Pixels that are no numbers; limit 0.
     void add_nonfinite(const std::string& what, const app::Part& part);
-    /// That `work` is done, or ends in an error that says what the device has not got, with a number; limit 0.
+    /// That `work` is done, or ends in an error that says what the device allows; limit 0.
     /// True when it was done.
     bool add_done_or_refused(const std::string& what, const std::function<void()>& work);
-    /// That `work` ends in an error of this kind whose text has a number in it; limit 0.
-    void add_refused(const std::string& what, Failure failure, const std::function<void()>& work);
+    /// That `work` ends in an error of this kind whose text names `limit`; limit 0.
+    void add_refused(const std::string& what, Failure failure, const std::string& limit, const std::function<void()>& work);
 
     app::Engine& engine() { return engine_; }
     uvec2 size() const { return size_; }
@@ -45,6 +45,8 @@ private:
     report::StressRow& row_;
 };
 
+/// That an error's text says how much of something a device allows.
+bool names_limit(const std::string& text);
 /// Pixels with a NaN or infinity.
 std::size_t nonfinite(const measure::Picture& picture);
 /// The largest channel of all; NaN where some pixel is no number.

@@ -92,13 +92,13 @@ void judge_sizes(Bench& bench) {
             bench.add_nonfinite(fmt::format("{}x{}, {}", size.x, size.y, technique), bench.render(request));
         }
     for (const uvec2 size : {uvec2(0, 0), uvec2(0, 7)})
-        bench.add_refused(fmt::format("{}x{}", size.x, size.y), Failure::usage, [&] {
+        bench.add_refused(fmt::format("{}x{}", size.x, size.y), Failure::usage, "at least 1x1", [&] {
             app::Request request = bench.asked(scene, "raytrace");
             request.size = size;
             bench.render(request);
         });
     for (const uvec2 size : {uvec2(65536, 65536), uvec2(~0u, 1)})
-        bench.add_refused(fmt::format("{}x{}", size.x, size.y), Failure::exhausted, [&] {
+        bench.add_refused(fmt::format("{}x{}", size.x, size.y), Failure::exhausted, "allows max_", [&] {
             app::Request request = bench.asked(scene, "raytrace");
             request.size = size;
             bench.engine().plan(request, app::PlanFormat::text);

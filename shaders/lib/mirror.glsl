@@ -79,8 +79,16 @@ bool follow_captured(inout Path path, Lookup lookup) {
     return true;
 }
 
+#ifndef OWN_LOOKUP_COLOUR // the including shader's own, where captures hold more than one colour
+vec3 lookup_colour(uint mirror, Lookup lookup) { return found_colour(mirror, lookup); }
+// How far from the centre the last search, or whoever sets it, looks.
+float looked_at() { return 0.0; }
+void look_at(float distance) {}
+#endif
+
 // Where another capture knows how the ray ends, if one does. What a mirror shows there is for another eye.
 void ask_others(inout Path path, inout Lookup lookup) {
+    float distance = looked_at();
     for (uint i = 0u; i < frame.value.mirror_count; ++i) {
         if (i == path.mirror) continue;
         Lookup other = search(i, path.at - probes[i].centre, path.direction);
@@ -90,6 +98,7 @@ void ask_others(inout Path path, inout Lookup lookup) {
         lookup = other;
         return;
     }
+    look_at(distance);
 }
 
 // The path's end and where it is to be looked up.
@@ -118,11 +127,6 @@ vec3 shown(vec3 colour, Lookup lookup) {
         return lookup.state == kHit ? vec3(0.1, 0.6, 0.2) : lookup.state == kUnknown ? vec3(0.9, 0.3, 0.1) : vec3(0.1, 0.2, 0.8);
     return colour;
 }
-
-#ifndef OWN_LOOKUP_COLOUR // the including shader's own, where captures hold more than one colour
-vec3 lookup_colour(uint mirror, Lookup lookup) { return found_colour(mirror, lookup); }
-void look_at(float distance) {}
-#endif
 
 #ifdef MEND
 #include "lib/mend.glsl"

@@ -116,6 +116,7 @@ float surface_distance(uint mirror, vec3 direction, float distance) {
 
 float found_distance; // of the lookup; 0: nothing was found. Without initial value, on which -gVS of glslang 12 trips
 
+float looked_at() { return found_distance; }
 void look_at(float distance) { found_distance = distance; }
 
 vec3 lookup_colour(uint mirror, Lookup lookup) {

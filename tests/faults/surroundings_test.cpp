@@ -65,4 +65,16 @@ TEST_F(Surroundings, SignalKeepsTheRowsAndIsHeardSoon) {
     std::printf("  from the signal to the end: at most %.2f s\n", longest);
 }
 
+/// A frame is one submit, which ends; what it showed is not written.
+TEST_F(Surroundings, SignalInTheLastFrameStopsToo) {
+    test::Start process = start({"render", "--technique", "raytrace:samples=128", "--size", "512x512", "--frames", "1", "--warmup", "0",
+                                 "--progress", "always", "-o", "x.png"});
+    process.signal = SIGINT;
+    process.signal_at = "[1/1]";
+    process.signal_after = std::chrono::milliseconds(1000);
+    const test::Ended ended = test::run_process(process);
+    EXPECT_EQ(ended.exit_code, 130) << ended.err;
+    EXPECT_FALSE(fs::exists(folder / "x.png"));
+}
+
 } // namespace

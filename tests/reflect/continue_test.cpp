@@ -1,5 +1,6 @@
 // Mirror in mirror for mirrors of any shape, and what several captures know together.
 #include "app/compare.hpp"
+#include "support/numbers.hpp"
 #include "support/searches.hpp"
 
 namespace {
@@ -59,6 +60,37 @@ TEST(Captures, OfOtherMirrorsKnowWhatTheOwnDoesNot) {
         const measure::LookupError &own = judged[0].lookup, &all = judged[1].lookup;
         EXPECT_LE(all.unknown, .75 * own.unknown) << search;
         EXPECT_LE(all.wrong_object, own.wrong_object) << search << ": an answer from elsewhere is no guess";
+    }
+}
+
+// A pixel that no capture answers shows what it showed without asking. Before the middle of a flat mirror stand two
+// screens, all that two layers hold, behind which rays from its edges end; a ball is shut up in two boxes.
+TEST(Captures, ThatDoNotAnswerChangeNothing) {
+    scene::Scene scene = test::room(0, 1);
+    const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true}), grey = test::add_material(scene, {.name = "grey"}),
+                      red = test::add_material(scene, {.name = "red", .albedo = {.8f, .1f, .1f}});
+    test::add_quad(scene, "panel", mirror, {-1.5, -1, 1.9}, {1.5, -1, 1.9}, {1.5, 1.2, 1.9}, {-1.5, 1.2, 1.9});
+    test::add_quad(scene, "near", red, {-.4, -.3, 1.6}, {.4, -.3, 1.6}, {.4, .5, 1.6}, {-.4, .5, 1.6});
+    test::add_quad(scene, "far", grey, {-.6, -.5, 1.3}, {.6, -.5, 1.3}, {.6, .7, 1.3}, {-.6, .7, 1.3});
+    const dvec3 shut(1.6, -1.6, 1.2);
+    test::add_ball(scene, "ball", mirror, shut, .05);
+    for (const double half : {.1, .2})
+        for (int face = 0; face < 6; ++face) test::add_mesh(scene, test::wall(face, shut - half, shut + half), grey);
+    for (const std::string search : {"pyramid", "layered", "march", "secant"}) {
+        app::Request request = test::request(scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"}, kSize);
+        request.with_lookup = true;
+        const app::Result result = test::engine().run(request);
+        const app::Part &own = result.parts[0], &all = result.parts[1];
+        std::size_t unknown = 0, changed = 0;
+        for (std::size_t i = 0; i < own.lookup.size(); ++i) {
+            const auto state = [&](const app::Part& part) { return (static_cast<int>(part.lookup[i].w) - 1) & 3; };
+            if (!(own.lookup[i].w > 0) || state(own) != 1 || state(all) != 1) continue;
+            ++unknown;
+            changed += own.hdr.pixels[i] != all.hdr.pixels[i];
+        }
+        std::cout << "[ MEASURED ] " << search << ": " << unknown << " pixels that no capture answers, " << changed << " of another colour\n";
+        EXPECT_GT(unknown, 20u) << search;
+        EXPECT_EQ(changed, 0u) << search;
     }
 }
 

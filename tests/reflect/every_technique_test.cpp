@@ -105,7 +105,9 @@ TEST_P(EveryTechnique, MakesOnlyNumbersAtTheEndsOfEachKnob) {
     const scene::Scene room = test::room(2, 1);
     for (const app::Knob& knob : GetParam().knobs)
         for (const std::string& value : extremes(knob)) {
-            const std::string text = small({{knob.name, value}});
+            std::vector<std::pair<std::string, std::string>> settings{{knob.name, value}};
+            if (knob.name == "range") settings.push_back({"distance", "unorm8"}); // without which it does nothing
+            const std::string text = small(settings);
             const app::Part part = test::render(room, text, {32, 24}, 3);
             EXPECT_EQ(test::nonfinite(part.hdr), 0u) << text;
             EXPECT_EQ(std::ranges::count_if(part.hdr.pixels, [](const vec3& c) { return c.x < 0 || c.y < 0 || c.z < 0; }), 0) << text;

@@ -144,6 +144,18 @@ TEST(Layered, FindsTheWallWhereOneLayerShowsTheBall) {
     EXPECT_LE(wrong_layered, wrong_secant / 4);
 }
 
+// What rounding of eight bits may hide behind the first layer does not depend on what their range is called.
+TEST(Layered, PeelsEightBitsWhateverTheirRange) {
+    const app::Part truth = test::render(scene::cornell_mirrors(), "raytrace:depth=16", {256, 256});
+    const auto error = [&](const std::string& range) {
+        return test::rmse(test::render(scene::cornell_mirrors(), "layered:face=128,distance=unorm8,range=" + range, {256, 256}, 4).hdr, truth.hdr,
+                          measure::mirrors(truth.hits));
+    };
+    const double beside = error("1023"), at = error("1024"); // the scene's own size
+    std::cout << "[ MEASURED ] rmse at a range of 1023: " << beside << ", 1024: " << at << "\n";
+    EXPECT_NEAR(at, beside, .05 * beside);
+}
+
 TEST(Layered, RendersTheSceneTwiceAMirror) {
     const app::Part part = test::render(scene::cornell_mirrors(), "layered:face=16,shadow_map=16", {16, 16});
     EXPECT_EQ(part.scene_passes, 2 * 4 + 2);

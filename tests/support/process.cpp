@@ -76,6 +76,7 @@ Ended run_process(const Start& start) {
     std::function<void()> send;
     if (start.signal != 0)
         send = [&] {
+            std::this_thread::sleep_for(start.signal_after);
             signalled = Clock::now();
             ::kill(child, start.signal);
         };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -23,6 +24,7 @@ struct Start {
     std::uint64_t file_limit = 0; ///< bytes after which writing to a file fails; 0 = no limit
     int signal = 0;            ///< sent once stderr has `signal_at` in it; 0 = none
     std::string signal_at = {};
+    std::chrono::milliseconds signal_after{0}; ///< from then
     std::filesystem::path folder = {}; ///< where it runs; empty = here
 };
 

@@ -46,6 +46,19 @@ TEST(Knob, ASpecialWordIsNoNumber) {
     }
 }
 
+TEST(Knob, NumbersAreWrittenOut) {
+    const Knob range{.name = "range", .low = 1, .high = 1e6, .value = 1000};
+    Settings settings(std::span(&range, 1));
+    settings.set("row", "range", "100000");
+    EXPECT_EQ(settings.text("range"), "100000");
+    try {
+        settings.set("row", "range", "0");
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("1 to 1000000,"));
+    }
+}
+
 TEST(Knob, EveryRefusalNamesWhatIsAllowed) {
     for (const std::string_view text : {"0", "65", "2.5", "atuo", "", "automatic", "nan"})
         EXPECT_THAT(refusal("face", text), testing::AllOf(testing::HasSubstr("'face' of 'row'"), testing::HasSubstr("1 to 64 or auto"),
