@@ -58,6 +58,8 @@ public:
     int memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
     /// Bytes of the largest device-local heap.
     std::uint64_t memory_budget() const;
+    /// Bytes that the device gives in one piece.
+    std::uint64_t max_allocation() const { return max_allocation_; }
     /// Bytes of the heap of a memory type.
     std::uint64_t heap_bytes(std::uint32_t type) const { return memory_.memoryHeaps[memory_.memoryTypes[type].heapIndex].size; }
     /// Throws `exhausted` naming the bytes, and the device's limit when it is that.
@@ -97,7 +99,7 @@ private:
     std::uint32_t queue_family_ = 0;
     std::uint32_t timestamp_bits_ = 0;
     VkPhysicalDeviceLimits limits_{};
-    std::uint64_t max_allocation_ = 0; ///< bytes in one piece
+    std::uint64_t max_allocation_ = 0;
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceInfo info_;
     bool layered_ = true;

@@ -6,6 +6,8 @@
 #include "graph/place.hpp"
 #include "graph/validate.hpp"
 
+#include <algorithm>
+
 namespace catoptric::graph {
 
 namespace {
@@ -23,8 +25,21 @@ void cull(const Graph& graph, Plan& plan) {
     }
 }
 
+/// Bytes of the largest allocation: kept images have one each, all else of a heap shares one.
+std::uint64_t largest_piece(const Graph& graph, const Plan& plan) {
+    std::uint64_t bytes = 0;
+    for (std::uint32_t i = 0; i < plan.images.size(); ++i)
+        if (plan.images[i].used)
+            bytes = std::max(bytes, plan.images[i].bytes + (graph.is_kept(i) ? 0 : plan.images[i].offset));
+    for (const Placement& buffer : plan.buffers)
+        if (buffer.used) bytes = std::max(bytes, buffer.offset + buffer.bytes);
+    return bytes;
+}
+
 void check_memory(const Graph& graph, const Plan& plan, const Limits& limits) {
-    if (plan.bytes <= limits.max_memory) return;
+    const std::uint64_t piece = largest_piece(graph, plan);
+    const bool too_much = plan.bytes > limits.max_memory;
+    if (!too_much && piece <= limits.max_allocation) return;
     std::uint64_t bytes = 0;
     std::string name;
     const auto look = [&](const Placement& placement, const std::string& candidate) {
@@ -36,9 +51,9 @@ void check_memory(const Graph& graph, const Plan& plan, const Limits& limits) {
         look(plan.images[i], graph.images()[i].name);
     for (std::size_t b = 0; b < plan.buffers.size(); ++b)
         look(plan.buffers[b], graph.buffers()[b].name);
-    fail(Failure::exhausted, "the frame wants ", plan.bytes,
-         " bytes of memory, device allows max_memory = ", limits.max_memory, "; the largest is '",
-         name, "' with ", bytes);
+    fail(Failure::exhausted, "the frame wants ", too_much ? plan.bytes : piece, " bytes of memory", too_much ? "" : " in one piece",
+         ", device allows ", too_much ? "max_memory = " : "max_allocation = ", too_much ? limits.max_memory : limits.max_allocation,
+         "; the largest is '", name, "' with ", bytes);
 }
 
 } // namespace

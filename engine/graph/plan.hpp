@@ -13,6 +13,7 @@ struct Limits {
     std::uint32_t max_layers = 2048;
     std::uint32_t max_framebuffer_layers = 2048;
     std::uint64_t max_memory = ~std::uint64_t{0};
+    std::uint64_t max_allocation = ~std::uint64_t{0}; ///< bytes in one piece
 };
 
 /// Memory that a device wants for one image or buffer. Resources of different `heap` never share.

@@ -40,7 +40,7 @@ Requirements placed(const gpu::Device& device, const VkMemoryRequirements& needs
 Limits Runner::limits() const {
     const VkPhysicalDeviceLimits& limits = device_.limits();
     return {limits.maxImageDimension2D, limits.maxImageDimensionCube, limits.maxImageArrayLayers,
-            limits.maxFramebufferLayers, device_.memory_budget()};
+            limits.maxFramebufferLayers, device_.memory_budget(), device_.max_allocation()};
 }
 
 Sizer Runner::sizer() const {

@@ -440,6 +440,14 @@ TEST_F(WrongGraph, OverMemory) {
               "largest is 'cubes' with 12288");
 }
 
+TEST_F(WrongGraph, OverMemoryInOnePiece) {
+    make(cubes);
+    g.want(cubes);
+    EXPECT_EQ(refusal(g, Failure::exhausted, {.max_allocation = 12287}),
+              "the frame wants 12288 bytes of memory in one piece, device allows max_allocation = 12287; the "
+              "largest is 'cubes' with 12288");
+}
+
 TEST_F(WrongGraph, JustAtEveryLimitIsAccepted) {
     make(cubes);
     g.want(cubes);
@@ -447,7 +455,8 @@ TEST_F(WrongGraph, JustAtEveryLimitIsAccepted) {
                         .max_size_cube = 8,
                         .max_layers = 24,
                         .max_framebuffer_layers = 24,
-                        .max_memory = 12288};
+                        .max_memory = 12288,
+                        .max_allocation = 12288};
     EXPECT_EQ(plan(g, limits, plain_sizer()).bytes, 12288u);
 }
 
