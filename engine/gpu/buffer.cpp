@@ -29,6 +29,7 @@ UniqueBuffer make_buffer(const Device& device, std::uint64_t bytes, VkBufferUsag
     return {device.handle(), buffer};
 }
 
+/// Who uses a buffer most.
 enum class Home { device, host_writes, host_reads };
 
 /// A memory type, and whether it is to be mapped.

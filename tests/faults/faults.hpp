@@ -31,7 +31,7 @@ struct Watched {
 /// The command with that layer over its driver. Its shader cache is kept for the whole program.
 class Faults : public Cli {
 protected:
-    /// Fails where the loader does not load the layer; skips there with sanitizers.
+    /// Fails where the loader does not load the layer.
     void SetUp() override;
 
     /// Runs in `place`, a folder below the test's own that must be there.

@@ -64,7 +64,8 @@ TEST(Captures, OfOtherMirrorsKnowWhatTheOwnDoesNot) {
 }
 
 // A pixel that no capture answers shows what it showed without asking. Before the middle of a flat mirror stand two
-// screens, all that two layers hold, behind which rays from its edges end; a ball is shut up in two boxes.
+// screens, all that two layers hold, behind which rays from its edges end; a ball far away is shut
+// up in two boxes, the inner as far from it as the second screen is from the mirror.
 TEST(Captures, ThatDoNotAnswerChangeNothing) {
     scene::Scene scene = test::room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true}), grey = test::add_material(scene, {.name = "grey"}),
@@ -72,9 +73,9 @@ TEST(Captures, ThatDoNotAnswerChangeNothing) {
     test::add_quad(scene, "panel", mirror, {-1.5, -1, 1.9}, {1.5, -1, 1.9}, {1.5, 1.2, 1.9}, {-1.5, 1.2, 1.9});
     test::add_quad(scene, "near", red, {-.4, -.3, 1.6}, {.4, -.3, 1.6}, {.4, .5, 1.6}, {-.4, .5, 1.6});
     test::add_quad(scene, "far", grey, {-.6, -.5, 1.3}, {.6, -.5, 1.3}, {.6, .7, 1.3}, {-.6, .7, 1.3});
-    const dvec3 shut(1.6, -1.6, 1.2);
+    const dvec3 shut(10, 0, 0);
     test::add_ball(scene, "ball", mirror, shut, .05);
-    for (const double half : {.1, .2})
+    for (const double half : {.6, .8})
         for (int face = 0; face < 6; ++face) test::add_mesh(scene, test::wall(face, shut - half, shut + half), grey);
     for (const std::string search : {"pyramid", "layered", "march", "secant"}) {
         app::Request request = test::request(scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"}, kSize);
