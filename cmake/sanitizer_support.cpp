@@ -1,7 +1,9 @@
-// Linked into programs of the asan preset only. The Vulkan loader unloads drivers and layers before the
-// leak check, which then cannot name them; kept loaded, their own leaks can be suppressed by module.
+// Linked into programs of the asan preset only. The Vulkan loader unloads drivers and layers before
+// the leak check, which then cannot name them; kept loaded, their own leaks can be suppressed by
+// module.
 extern "C" int dlclose(void*) { return 0; }
 
 extern "C" const char* __lsan_default_suppressions() {
-    return "leak:libvulkan_lvp.so\nleak:libVkLayer_khronos_validation.so\nleak:libLLVM\nleak:libvulkan.so\nleak:libOpenImageIO\n";
+    return "leak:libvulkan_lvp.so\nleak:libVkLayer_khronos_validation.so\nleak:libLLVM\nleak:"
+           "libvulkan.so\nleak:libOpenImageIO\n";
 }

@@ -18,7 +18,8 @@ struct Rendering {
     std::string technique;
     bool is_settled = false;  ///< history of this very instant: nothing is a frame late
     std::uint32_t mended = 0; ///< sum of shared::kMend...
-    bool drawn_as_seen = false; ///< pixels where the rasteriser and the ray see different mirrors are true
+    bool drawn_as_seen =
+        false; ///< pixels where the rasteriser and the ray see different mirrors are true
     auto operator<=>(const Rendering&) const = default;
 };
 
@@ -41,12 +42,14 @@ std::string with_full_distance(const std::string& technique) {
 }
 
 bool has_full_distance(const std::string& technique) {
-    return std::ranges::none_of(parse_technique(technique).settings,
-                                [](const auto& setting) { return setting.name == "distance" && setting.text != "r32f"; });
+    return std::ranges::none_of(parse_technique(technique).settings, [](const auto& setting) {
+        return setting.name == "distance" && setting.text != "r32f";
+    });
 }
 
 std::vector<Step> steps_of(const std::string& technique) {
-    const std::string full = has_full_distance(technique) ? technique : with_full_distance(technique);
+    const std::string full = has_full_distance(technique) ? technique
+                                                          : with_full_distance(technique);
     const Rendering row{technique};
     Rendering chain{full};
     std::vector<Step> steps{{"storage format", chain, {full}}};
@@ -80,7 +83,9 @@ Request request_for(const Request& base, const Rendering& rendering) {
         request.clock = nullptr;
     }
     request.frames = 1;
-    request.warmup = moves ? last - 1 : rendering.is_settled ? kSettled : std::min(last - 1, kSettled);
+    request.warmup = moves                  ? last - 1
+                     : rendering.is_settled ? kSettled
+                                            : std::min(last - 1, kSettled);
     request.techniques = {rendering.technique};
     request.progress = nullptr;
     return request;
@@ -89,11 +94,13 @@ Request request_for(const Request& base, const Rendering& rendering) {
 using Pictures = std::map<Rendering, measure::Picture>;
 
 /// All the pictures that the steps need, each technique and history run once.
-Pictures render(Engine& engine, const Request& base, const std::string& technique, const std::vector<Step>& steps) {
+Pictures render(Engine& engine, const Request& base, const std::string& technique,
+                const std::vector<Step>& steps) {
     std::map<std::pair<std::string, bool>, std::vector<std::uint32_t>> runs;
     const auto want = [&](const Rendering& rendering) {
         std::vector<std::uint32_t>& masks = runs[{rendering.technique, rendering.is_settled}];
-        if (rendering.mended && std::ranges::find(masks, rendering.mended) == masks.end()) masks.push_back(rendering.mended);
+        if (rendering.mended && std::ranges::find(masks, rendering.mended) == masks.end())
+            masks.push_back(rendering.mended);
     };
     want({technique});
     for (const Step& step : steps) want(step.in_turn), want(step.alone);
@@ -103,7 +110,8 @@ Pictures render(Engine& engine, const Request& base, const std::string& techniqu
         request.mended = masks;
         Part part = std::move(engine.run(request).parts.front());
         pictures[{run.first, run.second}] = std::move(part.hdr);
-        for (std::size_t i = 0; i < masks.size(); ++i) pictures[{run.first, run.second, masks[i]}] = std::move(part.mended[i]);
+        for (std::size_t i = 0; i < masks.size(); ++i)
+            pictures[{run.first, run.second, masks[i]}] = std::move(part.mended[i]);
     }
     return pictures;
 }
@@ -116,7 +124,8 @@ struct SquaredError {
 
 } // namespace
 
-CauseFinder::CauseFinder(Engine& engine, const Request& base, const measure::Picture& truth, const std::vector<std::uint32_t>& hits)
+CauseFinder::CauseFinder(Engine& engine, const Request& base, const measure::Picture& truth,
+                         const std::vector<std::uint32_t>& hits)
     : engine_(engine), base_(base), truth_(truth), hits_(hits) {
     for (const std::uint32_t hit : hits) mirrors_ = std::max(mirrors_, measure::first_mirror(hit));
     // A technique that follows no ray through other mirrors names the one that it draws.
@@ -141,12 +150,14 @@ report::Causes CauseFinder::find(const std::string& technique) const {
             return rmse * rmse;
         };
         SquaredError error{squared(measure::mirrors(hits_)), {}};
-        for (std::uint32_t mirror = 1; mirror <= mirrors_; ++mirror) error.per_mirror.push_back(squared(measure::of_mirror(hits_, mirror)));
+        for (std::uint32_t mirror = 1; mirror <= mirrors_; ++mirror)
+            error.per_mirror.push_back(squared(measure::of_mirror(hits_, mirror)));
         return error;
     };
     const auto fall = [](const SquaredError& from, const SquaredError& to) {
         SquaredError fallen{from.all - to.all, {}};
-        for (std::size_t i = 0; i < from.per_mirror.size(); ++i) fallen.per_mirror.push_back(from.per_mirror[i] - to.per_mirror[i]);
+        for (std::size_t i = 0; i < from.per_mirror.size(); ++i)
+            fallen.per_mirror.push_back(from.per_mirror[i] - to.per_mirror[i]);
         return fallen;
     };
     const SquaredError row = error_of({technique});
@@ -155,7 +166,8 @@ report::Causes CauseFinder::find(const std::string& technique) const {
     for (const Step& step : steps) {
         const SquaredError after = error_of(step.in_turn);
         const SquaredError in_turn = fall(before, after), alone = fall(row, error_of(step.alone));
-        causes.list.push_back({step.name, in_turn.all, alone.all, in_turn.per_mirror, alone.per_mirror});
+        causes.list.push_back(
+            {step.name, in_turn.all, alone.all, in_turn.per_mirror, alone.per_mirror});
         before = after;
     }
     causes.rest_rmse = std::sqrt(before.all);

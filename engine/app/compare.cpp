@@ -32,19 +32,25 @@ std::string sample_count(const TechniqueChoice& choice) {
 /// The text of the reference with `samples` set; text without that knob stays as it is.
 std::string reference_at(const std::string& reference, const std::string& samples) {
     if (samples == "1" || parse_technique(reference).technique != "raytrace") return reference;
-    return reference + (reference.find(':') == std::string::npos ? ":" : ",") + "samples=" + samples;
+    return reference + (reference.find(':') == std::string::npos ? ":" : ",") +
+           "samples=" + samples;
 }
 
-bool same(const TechniqueChoice& a, const TechniqueChoice& b) { return a.technique == b.technique && a.settings == b.settings; }
+bool same(const TechniqueChoice& a, const TechniqueChoice& b) {
+    return a.technique == b.technique && a.settings == b.settings;
+}
 
 bool is_set(const report::Row& row, std::string_view knob, std::string_view text) {
-    return std::ranges::any_of(row.settings, [&](const report::Setting& setting) { return setting.name == knob && setting.text == text; });
+    return std::ranges::any_of(row.settings, [&](const report::Setting& setting) {
+        return setting.name == knob && setting.text == text;
+    });
 }
 
 std::vector<report::Setting> settings_of(const TechniqueChoice& choice) {
     std::vector<report::Setting> settings;
     for (const auto& [name, text, is_number, is_default] : choice.settings)
-        settings.push_back({name, text, is_number ? std::optional(std::stod(text)) : std::nullopt, !is_default});
+        settings.push_back(
+            {name, text, is_number ? std::optional(std::stod(text)) : std::nullopt, !is_default});
     return settings;
 }
 
@@ -55,8 +61,8 @@ measure::Summary over_frames(const std::vector<Frame>& frames, Value&& value) {
     return measure::summarise(samples);
 }
 
-/// Times of the passes whose name begins with `prefix`, and of them together. Alone, the frame counts
-/// from its first to its last stamp.
+/// Times of the passes whose name begins with `prefix`, and of them together. Alone, the frame
+/// counts from its first to its last stamp.
 void fill_times(report::Row& row, const std::vector<Frame>& frames, const std::string& prefix) {
     const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
     row.gpu_ms = over_frames(frames, [&](const Frame& frame) {
@@ -75,18 +81,24 @@ void fill_times(report::Row& row, const std::vector<Frame>& frames, const std::s
     const std::vector<PassTime>& passes = frames.front().passes;
     for (std::size_t i = 0; i < passes.size(); ++i)
         if (mine(passes[i]))
-            row.passes.push_back({passes[i].name, over_frames(frames, [&](const Frame& frame) { return frame.passes[i].ms(); })});
+            row.passes.push_back({passes[i].name, over_frames(frames, [&](const Frame& frame) {
+                                      return frame.passes[i].ms();
+                                  })});
 }
 
-void fill_errors(report::Row& row, const Part& part, const Part& truth, const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
+void fill_errors(report::Row& row, const Part& part, const Part& truth,
+                 const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
     row.flip_map = measure::flip(part.display, truth.display);
-    const auto against = [&](const measure::Mask& mask) { return measure::difference(part.hdr, truth.hdr, mask, row.flip_map); };
+    const auto against = [&](const measure::Mask& mask) {
+        return measure::difference(part.hdr, truth.hdr, mask, row.flip_map);
+    };
     row.error = against(measure::mirrors(hits));
     row.error_first_order = against(measure::first_order(hits));
     row.error_mirror_in_mirror = against(measure::mirror_in_mirror(hits));
     row.error_non_mirror = against(measure::non_mirror(hits));
     row.error_all = against(measure::all_pixels(hits));
-    for (std::uint32_t mirror = 1; mirror <= mirrors; ++mirror) row.error_per_mirror.push_back(against(measure::of_mirror(hits, mirror)));
+    for (std::uint32_t mirror = 1; mirror <= mirrors; ++mirror)
+        row.error_per_mirror.push_back(against(measure::of_mirror(hits, mirror)));
     row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
     row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
 }
@@ -101,9 +113,11 @@ report::Row make_row(const std::string& text, const Part& part, const std::vecto
     row.scene_passes = part.scene_passes;
     row.scene_draws = part.scene_draws;
     row.memory_bytes = part.memory_bytes;
-    if (part.rays) row.rays = report::Rays{part.rays->primary, part.rays->mirror, part.rays->shadow};
+    if (part.rays)
+        row.rays = report::Rays{part.rays->primary, part.rays->mirror, part.rays->shadow};
     row.traced_fraction = part.traced_fraction;
-    if (part.auto_face) row.auto_face = report::AutoFace{part.auto_face->edge, part.auto_face->needs};
+    if (part.auto_face)
+        row.auto_face = report::AutoFace{part.auto_face->edge, part.auto_face->needs};
     row.hdr = part.hdr;
     row.display = part.display;
     fill_times(row, frames, part.prefix);
@@ -115,7 +129,8 @@ class Comparer {
 public:
     Comparer(Engine& engine, const CompareRequest& request) : engine_(engine), request_(request) {
         if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
-        for (const std::string& text : request_.base.techniques) parse_technique(text); // refused before any work
+        for (const std::string& text : request_.base.techniques)
+            parse_technique(text); // refused before any work
         mirrors_ = scene::mirrors(request_.base.scene).size();
     }
 
@@ -131,7 +146,8 @@ public:
             request_.together ? run_together() : run_apart();
             if (request_.lag) add_lag();
         } catch (const Error& error) {
-            const bool stopped = error.failure == Failure::interrupted || error.failure == Failure::terminated;
+            const bool stopped = error.failure == Failure::interrupted ||
+                                 error.failure == Failure::terminated;
             if (!stopped) throw;
             comparison_.complete = false;
         }
@@ -147,7 +163,8 @@ private:
         comparison_.commit = commit();
         comparison_.command = request_.command;
         comparison_.device = {device.name, device.driver, device.api, device.type, device.threads};
-        comparison_.scene = {base.scene.name, scene::triangle_count(base.scene), mirrors_, scene::hash(base.scene)};
+        comparison_.scene = {base.scene.name, scene::triangle_count(base.scene), mirrors_,
+                             scene::hash(base.scene)};
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);
         comparison_.frames = base.frames;
@@ -188,8 +205,8 @@ private:
         comparison_.reference_display = truth("1").part.display;
     }
 
-    /// Where the row's mirrors looked and what its captures cut off: a run of its own, since saying so costs time. No
-    /// lookup for rows that do not look into captures.
+    /// Where the row's mirrors looked and what its captures cut off: a run of its own, since saying
+    /// so costs time. No lookup for rows that do not look into captures.
     Part looked_up(const std::string& text) {
         Request request = request_.base;
         request.techniques = {text};
@@ -199,14 +216,16 @@ private:
         request.animate = false;
         request.with_lookup = true;
         Part part = std::move(engine_.run(request).parts.front());
-        const bool looks = std::ranges::any_of(part.lookup, [](const vec4& pixel) { return pixel.w > 0; });
+        const bool looks = std::ranges::any_of(part.lookup,
+                                               [](const vec4& pixel) { return pixel.w > 0; });
         if (!looks) part.lookup.clear();
         if (looks && !oracle_) oracle_.emplace(request);
         return part;
     }
 
     /// Splits the row's error by cause.
-    report::Causes causes_of(const std::string& text, const report::Row& row, const std::vector<vec4>& lookup) {
+    report::Causes causes_of(const std::string& text, const report::Row& row,
+                             const std::vector<vec4>& lookup) {
         if (!finder_) finder_.emplace(engine_, request_.base, truth("1").part.hdr, hits_);
         report::Causes causes = finder_->find(text);
         const auto face = std::ranges::find(row.settings, "face", &report::Setting::name);
@@ -214,8 +233,12 @@ private:
         measure::Mask at_edges = oracle_->at_light_edges(lookup, static_cast<std::uint32_t>(edge));
         for (std::size_t i = 0; i < at_edges.size(); ++i)
             if (measure::first_mirror(hits_[i]) == 0) at_edges[i] = 0;
-        const measure::Difference there = measure::difference(row.hdr, truth("1").part.hdr, at_edges, row.flip_map);
-        const auto sum = [](const measure::Difference& error) { return error.pixels > 0 ? error.rmse * error.rmse * static_cast<double>(error.pixels) : 0; };
+        const measure::Difference there = measure::difference(row.hdr, truth("1").part.hdr,
+                                                              at_edges, row.flip_map);
+        const auto sum = [](const measure::Difference& error) {
+            return error.pixels > 0 ? error.rmse * error.rmse * static_cast<double>(error.pixels)
+                                    : 0;
+        };
         causes.at_light_edges = sum(row.error) > 0 ? sum(there) / sum(row.error) : 0;
         return causes;
     }
@@ -226,14 +249,19 @@ private:
         const std::vector<vec4>& lookup = looked.lookup;
         row.saturated_texels = looked.saturated;
         if (looked.saturated.value_or(0) > 0)
-            comparison_.warnings.push_back("'" + text + "': " + std::to_string(*looked.saturated) +
-                                           " texels of its captures are brighter than 65504, where colour=half ends");
-        if (!lookup.empty()) row.lookup = measure::lookup_error(oracle_->judge(lookup, is_set(row, "mirrors", "left_out")));
+            comparison_.warnings.push_back(
+                "'" + text + "': " + std::to_string(*looked.saturated) +
+                " texels of its captures are brighter than 65504, where colour=half ends");
+        if (!lookup.empty())
+            row.lookup = measure::lookup_error(
+                oracle_->judge(lookup, is_set(row, "mirrors", "left_out")));
         const std::string samples = sample_count(parse_technique(text));
         fill_errors(row, part, truth(samples).part, hits_, mirrors_);
-        if (!lookup.empty() && request_.causes && same(parse_technique(request_.reference), parse_technique(kReference)))
+        if (!lookup.empty() && request_.causes &&
+            same(parse_technique(request_.reference), parse_technique(kReference)))
             row.causes = causes_of(text, row, lookup);
-        row.is_reference = same(parse_technique(text), parse_technique(reference_at(request_.reference, samples)));
+        row.is_reference = same(parse_technique(text),
+                                parse_technique(reference_at(request_.reference, samples)));
         comparison_.rows.push_back(std::move(row));
     }
 
@@ -251,19 +279,24 @@ private:
     void run_together() {
         if (request_.on_row) request_.on_row("all rows in one frame", 0, 1);
         const Result result = engine_.run(request_.base);
-        for (std::size_t i = 0; i < result.parts.size(); ++i) add(request_.base.techniques[i], result.parts[i], result.frames);
+        for (std::size_t i = 0; i < result.parts.size(); ++i)
+            add(request_.base.techniques[i], result.parts[i], result.frames);
     }
 
     void add_lag() {
-        comparison_.lag = measure_lag(engine_, {.base = request_.base, .reference = request_.reference, .on_row = request_.on_row});
+        comparison_.lag = measure_lag(
+            engine_,
+            {.base = request_.base, .reference = request_.reference, .on_row = request_.on_row});
         comparison_.complete = comparison_.lag->complete;
     }
 
     void finish() {
         std::vector<measure::Candidate> candidates;
-        constexpr double kNever = std::numeric_limits<double>::quiet_NaN(); // a failed row is on no front
+        constexpr double kNever =
+            std::numeric_limits<double>::quiet_NaN(); // a failed row is on no front
         for (const report::Row& row : comparison_.rows)
-            candidates.push_back({row.gpu_ms.median, row.error_all.nonfinite ? kNever : row.error.flip});
+            candidates.push_back(
+                {row.gpu_ms.median, row.error_all.nonfinite ? kNever : row.error.flip});
         comparison_.pareto = measure::pareto_front(candidates);
     }
 
@@ -280,12 +313,20 @@ private:
 } // namespace
 
 std::vector<std::string> default_techniques() {
-    return {"naive:bounces=0", "naive:bounces=1", "naive:bounces=2", "naive:bounces=3", "naive:bounces=4",
-            "reuse", "parallax", "secant:continue=0", "secant", "march", "pyramid", "layered", "hybrid",
-            "raytrace:depth=0", "raytrace:depth=1", "raytrace:depth=2", "raytrace:depth=3", "raytrace:depth=4",
+    return {"naive:bounces=0",  "naive:bounces=1",
+            "naive:bounces=2",  "naive:bounces=3",
+            "naive:bounces=4",  "reuse",
+            "parallax",         "secant:continue=0",
+            "secant",           "march",
+            "pyramid",          "layered",
+            "hybrid",           "raytrace:depth=0",
+            "raytrace:depth=1", "raytrace:depth=2",
+            "raytrace:depth=3", "raytrace:depth=4",
             "raytrace:depth=8", "raytrace:sphere=exact"};
 }
 
-report::Comparison compare(Engine& engine, const CompareRequest& request) { return Comparer(engine, request).run(); }
+report::Comparison compare(Engine& engine, const CompareRequest& request) {
+    return Comparer(engine, request).run();
+}
 
 } // namespace catoptric::app

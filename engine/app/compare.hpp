@@ -12,14 +12,14 @@ struct CompareRequest {
     std::string reference = kReference;
     bool together = false; ///< all rows in one frame
     bool causes = true;    ///< split each row's error by cause; only against the default reference
-    bool lag = false;      ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row
+    bool lag = false; ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row
     std::vector<std::string> command; ///< for the record
     /// Called before each row with its label, number from 0 and the count; may be empty.
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
 };
 
-/// The seed report's rows and what goes beyond them: naive 0..4, reuse, parallax, every search there is, ray
-/// tracing at depths 0..4 and 8, exact spheres.
+/// The seed report's rows and what goes beyond them: naive 0..4, reuse, parallax, every search
+/// there is, ray tracing at depths 0..4 and 8, exact spheres.
 std::vector<std::string> default_techniques();
 
 /// Renders every row and the reference, measures speed and error. A row with `samples` is judged

@@ -29,7 +29,8 @@ struct EngineOptions {
     std::string device;    ///< index or part of a name; empty = discrete, else integrated, else cpu
     bool validate = false; ///< the validation layer watches; any message makes the run fail
     bool layered = true;   ///< false: render captures face by face even where the device can do six
-    /// Shader builds to use in place of others, for benchmarks: "raytrace.comp" -> "raytrace.comp#naive".
+    /// Shader builds to use in place of others, for benchmarks: "raytrace.comp" ->
+    /// "raytrace.comp#naive".
     std::map<std::string, std::string> shader_variants = {};
 };
 
@@ -45,17 +46,18 @@ struct Request {
     std::vector<std::string> techniques;
     scene::Camera camera;
     uvec2 size{512, 512};
-    int frames = 20; ///< measured
-    int warmup = 8;  ///< before them; frames count from 1 at cold history, these included
-    double time = 0; ///< seconds into the scene's motion
+    int frames = 20;      ///< measured
+    int warmup = 8;       ///< before them; frames count from 1 at cold history, these included
+    double time = 0;      ///< seconds into the scene's motion
     bool animate = false; ///< frame k at time + (k-1)/60 s; otherwise all at `time`
     /// Seconds into the scene's motion of frame k, in place of `time` and `animate`; may be empty.
     std::function<double(int)> clock;
-    /// The scene of frame k, in place of `scene` at an instant of its motion, where light or materials change in
-    /// mid-run; units stay those of `scene`, and what the frame before left is kept. May be empty.
+    /// The scene of frame k, in place of `scene` at an instant of its motion, where light or
+    /// materials change in mid-run; units stay those of `scene`, and what the frame before left is
+    /// kept. May be empty.
     std::function<scene::Scene(int)> changed;
     double ambient = 0.05;
-    double exposure = 0; ///< stops
+    double exposure = 0;    ///< stops
     std::uint64_t seed = 1; ///< of sample patterns that are not a regular grid
     Timing timing = Timing::isolated;
     /// Renderings of the last frame beside the row's own, each with causes of error taken away:
@@ -93,33 +95,38 @@ struct RayCounts {
 
 /// The cube edge that face=auto stands for in one run.
 struct AutoFace {
-    std::uint32_t edge = 0;    ///< used for every mirror's capture, texels
-    std::vector<double> needs; ///< texels along an edge, entry n-1 of mirror n; 0: it is not in view
+    std::uint32_t edge = 0; ///< used for every mirror's capture, texels
+    std::vector<double>
+        needs; ///< texels along an edge, entry n-1 of mirror n; 0: it is not in view
 };
 
 /// What one technique made in the last frame.
 struct Part {
-    std::string label;   ///< as it was asked for
-    std::string prefix;  ///< of its passes' names; empty when it was alone
+    std::string label;  ///< as it was asked for
+    std::string prefix; ///< of its passes' names; empty when it was alone
     int scene_passes = 0;
-    int scene_draws = 0; ///< scene passes times the layers that each renders
-    bool remembers = false; ///< a pass of it reads what the frame before left
+    int scene_draws = 0;            ///< scene passes times the layers that each renders
+    bool remembers = false;         ///< a pass of it reads what the frame before left
     std::uint64_t memory_bytes = 0; ///< of the whole frame's images
-    measure::Picture hdr;     ///< linear radiance
-    measure::Picture display; ///< what the screen shows: multiples of 1/255
-    /// With `with_lookup`, techniques whose captures hold halves: their texels that are brighter than 65504 and cut off there.
+    measure::Picture hdr;           ///< linear radiance
+    measure::Picture display;       ///< what the screen shows: multiples of 1/255
+    /// With `with_lookup`, techniques whose captures hold halves: their texels that are brighter
+    /// than 65504 and cut off there.
     std::optional<std::size_t> saturated;
-    std::vector<vec4> lookup; ///< with `with_lookup`, techniques that search: see shaders/lib/mirror.glsl
+    std::vector<vec4>
+        lookup; ///< with `with_lookup`, techniques that search: see shaders/lib/mirror.glsl
     std::vector<measure::Picture> mended; ///< one for each Request::mended, linear radiance
-    std::vector<std::uint32_t> hits; ///< ray tracing only: first mirror | second mirror << 16
-    std::optional<RayCounts> rays;   ///< ray tracing only
-    std::optional<double> traced_fraction; ///< of its mirror pixels, where a search leaves some to tracing
+    std::vector<std::uint32_t> hits;      ///< ray tracing only: first mirror | second mirror << 16
+    std::optional<RayCounts> rays;        ///< ray tracing only
+    std::optional<double>
+        traced_fraction; ///< of its mirror pixels, where a search leaves some to tracing
     std::optional<AutoFace> auto_face; ///< where it was left to choose the cube edge (face=auto)
 };
 
 struct Result {
-    std::vector<Part> parts;   ///< one per technique, of the last frame
-    std::vector<Frame> frames; ///< the measured ones; fewer than asked for where `watch` ended the run
+    std::vector<Part> parts; ///< one per technique, of the last frame
+    std::vector<Frame>
+        frames; ///< the measured ones; fewer than asked for where `watch` ended the run
 };
 
 /// How the compiled plan of a request's frame is written.
@@ -143,7 +150,7 @@ std::vector<TechniqueInfo> techniques();
 struct TechniqueChoice {
     struct Setting {
         std::string name, text; ///< numbers in decimal
-        bool is_number = true; ///< false for a choice and for a special word
+        bool is_number = true;  ///< false for a choice and for a special word
         bool is_default = true;
         bool operator==(const Setting&) const = default;
     };
@@ -176,12 +183,12 @@ public:
     Result run(const Request& request);
     /// The plan of the request's second frame (when history exists), written out.
     std::string plan(const Request& request, PlanFormat format);
-    /// Median and samples are up to the caller: milliseconds of `frames` frames that clear the cubes
-    /// of the scene's mirrors once and draw nothing.
+    /// Median and samples are up to the caller: milliseconds of `frames` frames that clear the
+    /// cubes of the scene's mirrors once and draw nothing.
     std::vector<double> clear_ms(const Request& request);
 
-    /// Cubes of `face` texels around every mirror: no shadows, no ambient light, other mirrors black. For tests and
-    /// properties; render/captured.hpp says what it holds.
+    /// Cubes of `face` texels around every mirror: no shadows, no ambient light, other mirrors
+    /// black. For tests and properties; render/captured.hpp says what it holds.
     render::Captured capture(const scene::Scene& scene, std::uint32_t face, Format distance);
 
     const DeviceInfo& device() const;

@@ -15,9 +15,9 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kFrameCap = 30;        // of a still, and of each side of a cut
-constexpr int kWarmup = 16;          // frames along the path before the first that counts
-constexpr double kLongestPath = 10;  // seconds: a long animation is cut, or a run would take hours
+constexpr int kFrameCap = 30;       // of a still, and of each side of a cut
+constexpr int kWarmup = 16;         // frames along the path before the first that counts
+constexpr double kLongestPath = 10; // seconds: a long animation is cut, or a run would take hours
 constexpr double kFramesASecond = 60;
 
 /// Instants along the scene's motion that frames of every speed meet.
@@ -32,8 +32,11 @@ struct Path {
     double instant(int i) const { return start + step * i; }
     /// Frames of a speed in a step.
     int frames(double speed) const { return stride * static_cast<int>(fastest / speed); }
-    /// Where frame f, from 0 at the start, of a speed stands: exactly on an instant at every frames()-th.
-    double seconds(double speed, int f) const { return start + step * (static_cast<double>(f) / frames(speed)); }
+    /// Where frame f, from 0 at the start, of a speed stands: exactly on an instant at every
+    /// frames()-th.
+    double seconds(double speed, int f) const {
+        return start + step * (static_cast<double>(f) / frames(speed));
+    }
 };
 
 void check_speeds(const std::vector<double>& speeds) {
@@ -42,14 +45,16 @@ void check_speeds(const std::vector<double>& speeds) {
     for (const double speed : speeds) {
         const double ratio = fastest / speed;
         check(speed > 0 && std::isfinite(ratio) && ratio == std::trunc(ratio), Failure::usage,
-              "lag: wanted positive speeds that go a whole number of times into the fastest, ", fastest, ", found ", speed);
+              "lag: wanted positive speeds that go a whole number of times into the fastest, ",
+              fastest, ", found ", speed);
     }
 }
 
 /// As many instants as the fastest speed has frames, or as are allowed. One if nothing moves.
 Path path_of(const LagRequest& request) {
     check_speeds(request.speeds);
-    check(request.most_instants > 0, Failure::usage, "lag: wanted at least one instant, found ", request.most_instants);
+    check(request.most_instants > 0, Failure::usage, "lag: wanted at least one instant, found ",
+          request.most_instants);
     Path path{.start = request.base.time, .fastest = std::ranges::max(request.speeds)};
     const double frame = path.fastest / kFramesASecond;
     const double frames = std::min(scene::period(request.base.scene), kLongestPath) / frame;
@@ -80,7 +85,8 @@ measure::Difference apart(const measure::Picture& a, const measure::Picture& b) 
 }
 
 bool same_bytes(const measure::Picture& a, const measure::Picture& b) {
-    return a.pixels.size() == b.pixels.size() && std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
+    return a.pixels.size() == b.pixels.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
 }
 
 // Over the instants at which a mirror is in view; NaN when it is at none.
@@ -110,9 +116,11 @@ struct Still {
 class LagMeter {
 public:
     LagMeter(Engine& engine, const LagRequest& request)
-        : engine_(engine), request_(request), path_(path_of(request)), mirrors_(static_cast<int>(scene::mirrors(request.base.scene).size())) {
+        : engine_(engine), request_(request), path_(path_of(request)),
+          mirrors_(static_cast<int>(scene::mirrors(request.base.scene).size())) {
         check(!request_.base.techniques.empty(), Failure::usage, "lag: no technique was asked for");
-        for (const std::string& text : request_.base.techniques) parse_technique(text); // refused before any work
+        for (const std::string& text : request_.base.techniques)
+            parse_technique(text); // refused before any work
     }
 
     report::Lag run() {
@@ -125,7 +133,8 @@ public:
             for (int i = 0; i < path_.count; ++i) add_instant(path_.instant(i));
             for (std::size_t i = 0; i < request_.base.techniques.size(); ++i) add_technique(i);
         } catch (const Error& error) {
-            const bool stopped = error.failure == Failure::interrupted || error.failure == Failure::terminated;
+            const bool stopped = error.failure == Failure::interrupted ||
+                                 error.failure == Failure::terminated;
             if (!stopped) throw;
             lag_.complete = false;
         }
@@ -150,13 +159,16 @@ private:
     void run_in_row(Request request) {
         const int first = frames_done_, most = request.frames;
         if (request_.base.progress)
-            request.progress = [&, first](int k, int) { request_.base.progress(first + k, frames_expected_); };
+            request.progress = [&, first](int k, int) {
+                request_.base.progress(first + k, frames_expected_);
+            };
         engine_.run(request);
         frames_done_ = first + most;
     }
 
     /// A run of one technique whose frames stand where `clock` says.
-    Request moving(const std::string& technique, int frames, std::function<double(int)> clock) const {
+    Request moving(const std::string& technique, int frames,
+                   std::function<double(int)> clock) const {
         Request request = request_.base;
         request.techniques = {technique};
         request.frames = frames;
@@ -174,7 +186,8 @@ private:
             unchanged = same_bytes(part.hdr, still.part.hdr) ? unchanged + 1 : 0;
             still.part = std::move(part);
             still.frames = k - unchanged;
-            // What comes from one mirror to the next may be black on its way: equal for as many frames.
+            // What comes from one mirror to the next may be black on its way: equal for as many
+            // frames.
             still.rests = !still.part.remembers || unchanged >= mirrors_;
             return !still.rests;
         };
@@ -185,7 +198,8 @@ private:
     void add_instant(double seconds) {
         const Part reference = still(request_.reference, seconds).part;
         const bool traces = !reference.hits.empty();
-        const Pixels pixels = mirror_pixels(traces ? reference.hits : still("raytrace:depth=1", seconds).part.hits);
+        const Pixels pixels = mirror_pixels(traces ? reference.hits
+                                                   : still("raytrace:depth=1", seconds).part.hits);
         instants_.push_back({seconds, pixels, cut_out(reference.hdr, pixels)});
     }
 
@@ -200,9 +214,12 @@ private:
             if (!add_still(row, text, instant)) return lag_.without_history.push_back(label);
         row.mean_still_reference_rmse = mean_of(row.still_reference_rmse);
         row.after_black = settle(text, 0, [this](int) { return path_.start; });
-        row.after_jump = settle(text, kFrameCap, [this](int k) { return k <= kFrameCap ? lag_.jump_from : path_.start; });
+        row.after_jump = settle(text, kFrameCap, [this](int k) {
+            return k <= kFrameCap ? lag_.jump_from : path_.start;
+        });
         lag_.rows.push_back(std::move(row)); // what there is, should a signal come
-        for (const double speed : request_.speeds) lag_.rows.back().speeds.push_back(at_speed(text, speed));
+        for (const double speed : request_.speeds)
+            lag_.rows.back().speeds.push_back(at_speed(text, speed));
     }
 
     /// False where the technique does not remember.
@@ -222,7 +239,8 @@ private:
         Request request = moving(text, before + kFrameCap, std::move(clock));
         request.watch = [&](int k, const ReadParts& read) {
             if (k <= before) return true;
-            const measure::Difference error = apart(cut_out(read().front().hdr, instants_.front().pixels), stills_.front());
+            const measure::Difference error = apart(
+                cut_out(read().front().hdr, instants_.front().pixels), stills_.front());
             settling.rmse.push_back(error.rmse);
             settling.max.push_back(error.max);
             return true;
@@ -236,7 +254,9 @@ private:
     report::LagAtSpeed at_speed(const std::string& text, double speed) {
         report::LagAtSpeed lag{.speed = speed};
         const int between = path_.frames(speed);
-        Request request = moving(text, frames_at(speed), [=, this](int k) { return path_.seconds(speed, k - 1 - kWarmup); });
+        Request request = moving(text, frames_at(speed), [=, this](int k) {
+            return path_.seconds(speed, k - 1 - kWarmup);
+        });
         request.watch = [&](int k, const ReadParts& read) {
             const int frame = k - 1 - kWarmup;
             if (frame < 0 || frame % between != 0) return true;
@@ -254,7 +274,9 @@ private:
         return lag;
     }
 
-    int frames_at(double speed) const { return kWarmup + (path_.count - 1) * path_.frames(speed) + 1; }
+    int frames_at(double speed) const {
+        return kWarmup + (path_.count - 1) * path_.frames(speed) + 1;
+    }
     /// With every still at the cap.
     int frames_of_row() const {
         int frames = path_.count * kFrameCap + 3 * kFrameCap;
@@ -274,6 +296,8 @@ private:
 
 } // namespace
 
-report::Lag measure_lag(Engine& engine, const LagRequest& request) { return LagMeter(engine, request).run(); }
+report::Lag measure_lag(Engine& engine, const LagRequest& request) {
+    return LagMeter(engine, request).run();
+}
 
 } // namespace catoptric::app

@@ -6,20 +6,23 @@
 namespace catoptric::app {
 
 struct LagRequest {
-    Request base; ///< its techniques are measured one by one; its frames, warm-up and clock do not count
+    Request base; ///< its techniques are measured one by one; its frames, warm-up and clock do not
+                  ///< count
     std::string reference = "raytrace:depth=16";
-    /// Seconds of the scene's time in 60 frames. Each goes a whole number of times into the fastest.
+    /// Seconds of the scene's time in 60 frames. Each goes a whole number of times into the
+    /// fastest.
     std::vector<double> speeds{0.25, 0.5, 1, 2, 4, 8};
     int most_instants = 30; ///< at which pictures are compared, along the whole path
-    /// Called before the reference and each technique with its label, number from 0 and the count; may be empty.
+    /// Called before the reference and each technique with its label, number from 0 and the count;
+    /// may be empty.
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
 };
 
-/// Moves the scene along its path (one period, at most ten seconds, from `base.time`) at each speed, 60
-/// frames a second, and compares the moving picture with the still one of the same technique and instant.
-/// Techniques whose passes read nothing of the frame before are left out: they have no lag.
-/// After a stop signal what there is so far comes back with `complete` false. Throws `usage`.
-/// Costs about 2300 frames a technique for a path of four seconds.
+/// Moves the scene along its path (one period, at most ten seconds, from `base.time`) at each
+/// speed, 60 frames a second, and compares the moving picture with the still one of the same
+/// technique and instant. Techniques whose passes read nothing of the frame before are left out:
+/// they have no lag. After a stop signal what there is so far comes back with `complete` false.
+/// Throws `usage`. Costs about 2300 frames a technique for a path of four seconds.
 report::Lag measure_lag(Engine& engine, const LagRequest& request);
 
 } // namespace catoptric::app

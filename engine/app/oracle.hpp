@@ -10,19 +10,21 @@
 
 namespace catoptric::app {
 
-/// What rays really meet in a request's scene at its instant, found on the CPU with the device's own
-/// mathematics: where a mirror pixel should have looked, and what it looked at instead.
+/// What rays really meet in a request's scene at its instant, found on the CPU with the device's
+/// own mathematics: where a mirror pixel should have looked, and what it looked at instead.
 class Oracle {
 public:
     /// Traces every pixel centre: about a microsecond a ray.
     explicit Oracle(const Request& request);
 
-    /// `lookup`: a picture of where mirrors looked (shaders/lib/mirror.glsl), row-major. First-order
-    /// mirror pixels only, judged in the capture that the row looked into, whichever it was.
-    /// `left_out`: captures without the mirrors that are exact spheres.
-    std::vector<measure::LookedUp> judge(const std::vector<vec4>& lookup, bool left_out = false) const;
+    /// `lookup`: a picture of where mirrors looked (shaders/lib/mirror.glsl), row-major.
+    /// First-order mirror pixels only, judged in the capture that the row looked into, whichever it
+    /// was. `left_out`: captures without the mirrors that are exact spheres.
+    std::vector<measure::LookedUp> judge(const std::vector<vec4>& lookup,
+                                         bool left_out = false) const;
 
-    /// Pixels that looked within one texel of a light's outline, in captures of `face` texels an edge.
+    /// Pixels that looked within one texel of a light's outline, in captures of `face` texels an
+    /// edge.
     measure::Mask at_light_edges(const std::vector<vec4>& lookup, std::uint32_t face) const;
 
 private:
@@ -37,14 +39,15 @@ private:
 
     void trace(const Request& request);
     /// The object that capture `mirror` shows in a direction, in its first or second layer.
-    int captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer, bool left_out) const;
+    int captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer,
+                        bool left_out) const;
 
     render::Geometry geometry_;
-    std::vector<bool> emits_;         ///< by object
+    std::vector<bool> emits_; ///< by object
     std::vector<std::size_t> mirror_objects_;
-    std::vector<vec3> centres_;       ///< of the captures
+    std::vector<vec3> centres_; ///< of the captures
     bvh::Bvh everything_;
-    std::vector<bvh::Bvh> without_;   ///< everything but mirror n
+    std::vector<bvh::Bvh> without_; ///< everything but mirror n
     std::vector<Target> targets_;
 };
 

@@ -17,9 +17,9 @@ namespace catoptric::app {
 namespace {
 
 constexpr int kDraws = 1000;
-constexpr uvec2 kGrid{32, 32};            // of rays through the picture
-constexpr std::size_t kLeastSeen = 11;    // of its 1024
-constexpr double kMostUpright = .99;      // of the view's direction along the up axis
+constexpr uvec2 kGrid{32, 32};         // of rays through the picture
+constexpr std::size_t kLeastSeen = 11; // of its 1024
+constexpr double kMostUpright = .99;   // of the view's direction along the up axis
 constexpr double kNearest = 1.5, kNarrowest = 25, kWidest = 60;
 
 /// Uniform in [low, high). The library's distributions may differ from one to another.
@@ -28,14 +28,17 @@ double uniform(std::mt19937_64& random, double low, double high) {
 }
 
 dvec3 on_unit_sphere(std::mt19937_64& random) {
-    const double y = uniform(random, -1, 1), turn = uniform(random, 0, 2 * std::numbers::pi), r = std::sqrt(1 - y * y);
+    const double y = uniform(random, -1, 1), turn = uniform(random, 0, 2 * std::numbers::pi),
+                 r = std::sqrt(1 - y * y);
     return {r * std::cos(turn), y, r * std::sin(turn)};
 }
 
 /// A number as text with so many decimals, and the number that this text is.
 double rounded(double value, int decimals, std::string& text) {
     std::array<char, 400> digits; // the longest double has 309 before the point
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, decimals).ptr;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                   std::chars_format::fixed, decimals)
+                         .ptr;
     text.append(digits.data(), end);
     std::from_chars(digits.data(), end, value);
     return value;
@@ -57,18 +60,23 @@ std::vector<std::size_t> aims_of(const scene::Scene& now) {
         for (std::size_t i = 0; i < now.objects.size(); ++i) aims.push_back(i);
     std::erase_if(aims, [&](std::size_t i) {
         const Bounds<double> bounds = scene::bounds(now, now.objects[i]);
-        return !now.objects[i].seen_by_camera || bounds.empty() || !(glm::length(bounds.extent()) > 0);
+        return !now.objects[i].seen_by_camera || bounds.empty() ||
+               !(glm::length(bounds.extent()) > 0);
     });
     return aims;
 }
 
-scene::Camera draw(std::mt19937_64& random, const Bounds<double>& aim, const Bounds<double>& everything) {
-    const double nearest = kNearest * glm::length(aim.extent()) / 2, farthest = std::max(glm::length(everything.extent()), nearest);
+scene::Camera draw(std::mt19937_64& random, const Bounds<double>& aim,
+                   const Bounds<double>& everything) {
+    const double nearest = kNearest * glm::length(aim.extent()) / 2,
+                 farthest = std::max(glm::length(everything.extent()), nearest);
     scene::Camera camera;
-    for (int axis = 0; axis < 3; ++axis) camera.target[axis] = uniform(random, aim.lo[axis], aim.hi[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+        camera.target[axis] = uniform(random, aim.lo[axis], aim.hi[axis]);
     const double distance = nearest * std::pow(farthest / nearest, uniform(random, 0, 1));
     camera.eye = camera.target + distance * on_unit_sphere(random);
-    const int decimals = std::clamp(3 - static_cast<int>(std::floor(std::log10(glm::length(everything.extent())))), 0, 300);
+    const int decimals = std::clamp(
+        3 - static_cast<int>(std::floor(std::log10(glm::length(everything.extent())))), 0, 300);
     camera.eye = rounded(camera.eye, decimals, camera.name);
     camera.name += ':';
     camera.target = rounded(camera.target, decimals, camera.name);
@@ -78,14 +86,17 @@ scene::Camera draw(std::mt19937_64& random, const Bounds<double>& aim, const Bou
 }
 
 /// Rays of the grid that first meet the front of one of the aims.
-std::size_t count_seen(const render::Geometry& geometry, const bvh::Bvh& hierarchy, const shared::View& view,
-                       const std::vector<std::size_t>& aims) {
+std::size_t count_seen(const render::Geometry& geometry, const bvh::Bvh& hierarchy,
+                       const shared::View& view, const std::vector<std::size_t>& aims) {
     std::size_t seen = 0;
     for (std::size_t pixel = 0; pixel < std::size_t{kGrid.x} * kGrid.y; ++pixel) {
         const f32::Ray ray = camera_ray(view, kGrid, pixel);
-        const auto hit = bvh::closest_hit<float>(hierarchy, ray, std::numeric_limits<float>::max(), bvh::kHidden);
+        const auto hit = bvh::closest_hit<float>(hierarchy, ray, std::numeric_limits<float>::max(),
+                                                 bvh::kHidden);
         if (!hit || !std::ranges::binary_search(aims, std::size_t{hit->object})) continue;
-        const auto normal = [&](std::uint32_t j) { return geometry.vertices[geometry.indices[3 * hit->triangle + j]].normal; };
+        const auto normal = [&](std::uint32_t j) {
+            return geometry.vertices[geometry.indices[3 * hit->triangle + j]].normal;
+        };
         seen += dot(normal(0) + normal(1) + normal(2), ray.direction) < 0;
     }
     return seen;
@@ -105,10 +116,14 @@ scene::Camera seeded_camera(const scene::Scene& scene, double seconds, std::uint
         const scene::Object& aim = now.objects[aims[random() % aims.size()]];
         const scene::Camera camera = draw(random, scene::bounds(now, aim), everything);
         const dvec3 along = camera.target - camera.eye;
-        if (!(std::abs(along.y) <= kMostUpright * glm::length(along)) || along == dvec3(0)) continue;
-        if (count_seen(geometry, hierarchy, render::camera_view(camera, space, kGrid, 0), aims) >= kLeastSeen) return camera;
+        if (!(std::abs(along.y) <= kMostUpright * glm::length(along)) || along == dvec3(0))
+            continue;
+        if (count_seen(geometry, hierarchy, render::camera_view(camera, space, kGrid, 0), aims) >=
+            kLeastSeen)
+            return camera;
     }
-    fail(Failure::usage, "seeded camera: wanted one that sees a mirror of '", scene.name, "', found none in ", kDraws, " draws from seed ", seed);
+    fail(Failure::usage, "seeded camera: wanted one that sees a mirror of '", scene.name,
+         "', found none in ", kDraws, " draws from seed ", seed);
 }
 
 } // namespace catoptric::app

@@ -10,8 +10,13 @@ std::vector<TechniqueInfo> techniques() {
         TechniqueInfo info{std::string(row->name), std::string(row->summary), {}};
         const Settings defaults(row->knobs);
         for (const catoptric::Knob& knob : row->knobs)
-            info.knobs.push_back({std::string(knob.name), std::string(knob.help), knob.low, knob.high,
-                                  defaults.text(knob.name), {knob.choices.begin(), knob.choices.end()}, std::string(knob.special)});
+            info.knobs.push_back({std::string(knob.name),
+                                  std::string(knob.help),
+                                  knob.low,
+                                  knob.high,
+                                  defaults.text(knob.name),
+                                  {knob.choices.begin(), knob.choices.end()},
+                                  std::string(knob.special)});
         infos.push_back(std::move(info));
     }
     return infos;
@@ -19,7 +24,8 @@ std::vector<TechniqueInfo> techniques() {
 
 TechniqueChoice parse_technique(const std::string& text) {
     const reflect::Choice choice = reflect::parse_choice(text);
-    TechniqueChoice result{std::string(choice.technique->name), choice.label, choice.file_name(), {}};
+    TechniqueChoice result{
+        std::string(choice.technique->name), choice.label, choice.file_name(), {}};
     const Settings defaults(choice.technique->knobs);
     for (const catoptric::Knob& knob : choice.technique->knobs)
         result.settings.push_back({std::string(knob.name), choice.settings.text(knob.name),

@@ -16,7 +16,7 @@ namespace {
 using Box = Bounds<float>;
 
 constexpr int kBinCount = 16;
-constexpr double kTraversalCost = 2;    // of a node, in triangle tests
+constexpr double kTraversalCost = 2; // of a node, in triangle tests
 constexpr std::uint32_t kMaxTriangles = f32::kBvhIndexMask;
 
 /// A triangle while the tree is being built.
@@ -125,9 +125,9 @@ std::size_t halve(References references) {
     return middle;
 }
 
-/// One reference of each triangle where there are more of them in one place than a leaf holds: a ray
-/// would have to look at all copies, since all are at the same t, and it cannot tell those of one
-/// object apart. The lowest number stays.
+/// One reference of each triangle where there are more of them in one place than a leaf holds: a
+/// ray would have to look at all copies, since all are at the same t, and it cannot tell those of
+/// one object apart. The lowest number stays.
 References without_copies(References references, std::span<const Triangle> triangles) {
     const auto in_one_place = [&](const Reference& r) { return r.centre == references[0].centre; };
     if (references.size() <= kMaxLeaf || !std::ranges::all_of(references, in_one_place))
@@ -141,11 +141,13 @@ References without_copies(References references, std::span<const Triangle> trian
         return std::pair{t.object, t.flags};
     };
     std::ranges::sort(references, [&](const Reference& a, const Reference& b) {
-        return std::tuple{what(a), whose(a), a.triangle} < std::tuple{what(b), whose(b), b.triangle};
+        return std::tuple{what(a), whose(a), a.triangle} <
+               std::tuple{what(b), whose(b), b.triangle};
     });
-    const auto copies = std::ranges::unique(references, [&](const Reference& a, const Reference& b) {
-        return what(a) == what(b) && whose(a) == whose(b);
-    });
+    const auto copies = std::ranges::unique(references,
+                                            [&](const Reference& a, const Reference& b) {
+                                                return what(a) == what(b) && whose(a) == whose(b);
+                                            });
     return references.first(references.size() - copies.size());
 }
 
@@ -198,10 +200,9 @@ private:
         if (depth == 0 && references.size() <= kMaxLeaf) return references.size();
         const std::optional<Split> best = best_split(references, capacity(depth + 1));
         if (!best) return halve(references);
-        const auto middle =
-            std::partition(references.begin(), references.end(), [&](const Reference& r) {
-                return best->binning.bin(r) < best->first_right;
-            });
+        const auto middle = std::partition(
+            references.begin(), references.end(),
+            [&](const Reference& r) { return best->binning.bin(r) < best->first_right; });
         return static_cast<std::size_t>(middle - references.begin());
     }
 

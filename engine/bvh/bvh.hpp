@@ -15,9 +15,9 @@ struct Triangle {
     std::uint32_t flags = 0;  ///< kHidden | kShadowless | kSphere
 };
 
-inline constexpr std::uint32_t kHidden = f32::kBvhHidden; ///< camera rays pass through
+inline constexpr std::uint32_t kHidden = f32::kBvhHidden;         ///< camera rays pass through
 inline constexpr std::uint32_t kShadowless = f32::kBvhShadowless; ///< shadow rays pass through
-inline constexpr std::uint32_t kSphere = f32::kBvhSphere; ///< stands for an exact sphere
+inline constexpr std::uint32_t kSphere = f32::kBvhSphere;         ///< stands for an exact sphere
 inline constexpr std::uint32_t kMaxDepth = f32::kBvhMaxDepth;
 inline constexpr std::uint32_t kMaxLeaf = 4; ///< triangles in a leaf
 

@@ -19,7 +19,7 @@ using Ray = std::conditional_t<std::is_same_v<Real, float>, f32::Ray, f64::Ray>;
 template <typename Real>
 struct Hit {
     Real t = 0;
-    Vec<Real> barycentric{0}; ///< weights of a, b, c
+    Vec<Real> barycentric{0};   ///< weights of a, b, c
     std::uint32_t triangle = 0; ///< original number
     std::uint32_t object = 0;
     std::uint32_t place = 0; ///< in Bvh::triangles

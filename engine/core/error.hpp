@@ -18,15 +18,14 @@ enum class Failure {
     io = 74,            ///< reading or writing failed half-way
     exhausted = 75,     ///< out of memory or over a device limit
     device_lost = 76,
-    interrupted = 130,  ///< SIGINT
-    terminated = 143,   ///< SIGTERM
+    interrupted = 130, ///< SIGINT
+    terminated = 143,  ///< SIGTERM
 };
 
 /// Thrown by `check` and `fail`. `what()` says what, where, wanted and found.
 class Error : public std::runtime_error {
 public:
-    Error(Failure why, const std::string& message)
-        : std::runtime_error(message), failure(why) {}
+    Error(Failure why, const std::string& message) : std::runtime_error(message), failure(why) {}
     Failure failure;
 };
 

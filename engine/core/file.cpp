@@ -32,11 +32,13 @@ fs::path destination(fs::path path) {
 
 /// Writes, flushes and closes; throws `io` naming `path`, not the temporary.
 void write_all(File file, std::string_view content, const fs::path& path) {
-    const std::size_t written = content.empty() ? 0 : std::fwrite(content.data(), 1, content.size(), file.get());
+    const std::size_t written = content.empty()
+                                    ? 0
+                                    : std::fwrite(content.data(), 1, content.size(), file.get());
     const bool whole = written == content.size() && std::fflush(file.get()) == 0;
     const int error = errno;
-    check(whole, Failure::io, path.string(), ": wanted to write ", content.size(), " bytes: ",
-          reason(error));
+    check(whole, Failure::io, path.string(), ": wanted to write ", content.size(),
+          " bytes: ", reason(error));
     const bool closed = std::fclose(file.release()) == 0;
     const int close_error = errno;
     check(closed, Failure::io, path.string(), ": cannot be closed: ", reason(close_error));
@@ -72,8 +74,8 @@ void write_file(const fs::path& path, std::string_view content) {
     std::error_code error;
     const fs::path target = destination(path);
     const fs::file_status status = fs::status(target, error);
-    check(!fs::is_directory(status) && target.has_filename(), Failure::cannot_create,
-          path.string(), ": wanted a file name, found a folder");
+    check(!fs::is_directory(status) && target.has_filename(), Failure::cannot_create, path.string(),
+          ": wanted a file name, found a folder");
     if (!fs::exists(status) || fs::is_regular_file(status)) return replace(target, content, path);
 
     File file(std::fopen(target.c_str(), "wb")); // a device or a pipe
@@ -100,8 +102,8 @@ std::string read_file(const fs::path& path) {
     char block[1 << 16];
     while (const std::size_t count = std::fread(block, 1, sizeof block, file.get()))
         content.append(block, count);
-    check(std::ferror(file.get()) == 0, Failure::io, path.string(),
-          ": reading failed after ", content.size(), " bytes");
+    check(std::ferror(file.get()) == 0, Failure::io, path.string(), ": reading failed after ",
+          content.size(), " bytes");
     return content;
 }
 

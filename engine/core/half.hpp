@@ -12,9 +12,11 @@ inline constexpr std::uint16_t kLargestHalfBits = 0x7bff;
 /// The number that 16 bits stand for (IEEE 754 binary16).
 inline float from_half(std::uint16_t bits) {
     const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
-    const float size = exponent == 31 ? (mantissa ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity())
-                       : exponent == 0 ? std::ldexp(static_cast<float>(mantissa), -24)
-                                       : std::ldexp(static_cast<float>(1024 + mantissa), exponent - 25);
+    const float size = exponent == 31 ? (mantissa ? std::numeric_limits<float>::quiet_NaN()
+                                                  : std::numeric_limits<float>::infinity())
+                       : exponent == 0
+                           ? std::ldexp(static_cast<float>(mantissa), -24)
+                           : std::ldexp(static_cast<float>(1024 + mantissa), exponent - 25);
     return bits >> 15 ? -size : size;
 }
 

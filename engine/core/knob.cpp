@@ -49,7 +49,8 @@ bool Settings::has(std::string_view knob) const {
 
 double Settings::number(std::string_view knob) const {
     const std::size_t i = index(knob);
-    check(values_[i].has_value(), Failure::internal, "knob '", knob, "' is '", knobs_[i].special, "', no number");
+    check(values_[i].has_value(), Failure::internal, "knob '", knob, "' is '", knobs_[i].special,
+          "', no number");
     return *values_[i];
 }
 
@@ -83,12 +84,13 @@ void Settings::set(std::string_view owner, std::string_view name, std::string_vi
         values_[index(name)] = std::nullopt;
         return;
     }
-    const std::string range = format(knob.low) + " to " + format(knob.high) + (knob.special.empty() ? "" : " or " + std::string(knob.special));
+    const std::string range = format(knob.low) + " to " + format(knob.high) +
+                              (knob.special.empty() ? "" : " or " + std::string(knob.special));
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     check(error == std::errc{} && end == text.data() + text.size() && value == std::floor(value),
-          Failure::usage, "knob '", name, "' of '", owner, "' takes a whole number from ", range, ", not '", text, "'",
-          did_you_mean(text, std::vector{std::string(knob.special)}));
+          Failure::usage, "knob '", name, "' of '", owner, "' takes a whole number from ", range,
+          ", not '", text, "'", did_you_mean(text, std::vector{std::string(knob.special)}));
     check(value >= knob.low && value <= knob.high, Failure::usage, "knob '", name, "' of '", owner,
           "' takes ", range, ", not ", text);
     values_[index(name)] = value;

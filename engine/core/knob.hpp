@@ -19,7 +19,8 @@ struct Knob {
     double high = 1;
     double value = 0; ///< default; for a choice the index into `choices`
     std::span<const std::string_view> choices = {}; ///< names, when the knob is a choice
-    std::string_view special = {}; ///< a word allowed in place of the number, as "auto"; empty: none
+    std::string_view special =
+        {}; ///< a word allowed in place of the number, as "auto"; empty: none
 };
 
 /// A value for each of a technique's knobs.
@@ -27,8 +28,8 @@ class Settings {
 public:
     explicit Settings(std::span<const Knob> knobs);
 
-    /// The knob's number; a choice gives its index. A name that is no knob is `Failure::internal`, and so
-    /// is a knob whose special word stands in place of a number.
+    /// The knob's number; a choice gives its index. A name that is no knob is `Failure::internal`,
+    /// and so is a knob whose special word stands in place of a number.
     double number(std::string_view knob) const;
     int integer(std::string_view knob) const { return static_cast<int>(number(knob)); }
     std::string_view choice(std::string_view knob) const;

@@ -9,8 +9,8 @@ namespace {
 constexpr std::uint64_t kTexelBytes = 16; // rgba32f
 
 VkBufferUsageFlags usage(BufferUse use) {
-    VkBufferUsageFlags flags = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                               VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    VkBufferUsageFlags flags = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (has(use, BufferUse::vertex)) flags |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
     if (has(use, BufferUse::index)) flags |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
     if (has(use, BufferUse::uniform)) flags |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
@@ -24,7 +24,8 @@ UniqueBuffer make_buffer(const Device& device, std::uint64_t bytes, VkBufferUsag
     create.size = bytes;
     create.usage = flags;
     VkBuffer buffer = VK_NULL_HANDLE;
-    check_vk(vkCreateBuffer(device.handle(), &create, nullptr, &buffer), "create buffer '" + name + "'");
+    check_vk(vkCreateBuffer(device.handle(), &create, nullptr, &buffer),
+             "create buffer '" + name + "'");
     device.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
     return {device.handle(), buffer};
 }
@@ -39,22 +40,30 @@ struct Type {
 };
 
 Type type_for(const Device& device, const VkMemoryRequirements& needs, Home home) {
-    constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    const auto find = [&](VkMemoryPropertyFlags properties) { return device.memory_type(needs.memoryTypeBits, properties); };
+    constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                            VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    const auto find = [&](VkMemoryPropertyFlags properties) {
+        return device.memory_type(needs.memoryTypeBits, properties);
+    };
     if (home == Home::device) {
         // Where the host sees only a window of the device's memory, large buffers stay outside it.
         constexpr std::uint64_t kShareOfWindow = 16;
         const int seen = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHost);
-        const std::uint64_t window = seen < 0 ? 0 : device.heap_bytes(static_cast<std::uint32_t>(seen));
-        if (!device.staged() && (window == device.memory_budget() || needs.size <= window / kShareOfWindow)) return {seen, true};
+        const std::uint64_t window = seen < 0 ? 0
+                                              : device.heap_bytes(static_cast<std::uint32_t>(seen));
+        if (!device.staged() &&
+            (window == device.memory_budget() || needs.size <= window / kShareOfWindow))
+            return {seen, true};
         return {find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT), false};
     }
-    const int cached = home == Home::host_reads ? find(kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT) : -1;
+    const int cached = home == Home::host_reads ? find(kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT)
+                                                : -1;
     return {cached >= 0 ? cached : find(kHost), true};
 }
 
 /// Memory for `buffer`, bound; `mapped` is null when the memory is not visible to the host.
-UniqueMemory back(const Device& device, VkBuffer buffer, Home home, const std::string& name, void*& mapped) {
+UniqueMemory back(const Device& device, VkBuffer buffer, Home home, const std::string& name,
+                  void*& mapped) {
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
     const Type type = type_for(device, needs, home);
@@ -62,12 +71,13 @@ UniqueMemory back(const Device& device, VkBuffer buffer, Home home, const std::s
     UniqueMemory memory = device.allocate(needs.size, static_cast<std::uint32_t>(type.index), name);
     check_vk(vkBindBufferMemory(device.handle(), buffer, memory, 0), "bind buffer '" + name + "'");
     if (type.mapped)
-        check_vk(vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped), "map buffer '" + name + "'");
+        check_vk(vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+                 "map buffer '" + name + "'");
     return memory;
 }
 
-void copy(Device& device, const std::string& doing, VkBuffer from, std::uint64_t from_offset, VkBuffer to,
-          std::uint64_t to_offset, std::uint64_t bytes) {
+void copy(Device& device, const std::string& doing, VkBuffer from, std::uint64_t from_offset,
+          VkBuffer to, std::uint64_t to_offset, std::uint64_t bytes) {
     device.submit_now(doing, [&](VkCommandBuffer commands) {
         const VkBufferCopy region{from_offset, to_offset, bytes};
         vkCmdCopyBuffer(commands, from, to, 1, &region);
@@ -77,19 +87,23 @@ void copy(Device& device, const std::string& doing, VkBuffer from, std::uint64_t
 } // namespace
 
 Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use)
-    : device_(&device), name_(std::move(name)), bytes_(std::max<std::uint64_t>(bytes, kTexelBytes)) {
+    : device_(&device), name_(std::move(name)),
+      bytes_(std::max<std::uint64_t>(bytes, kTexelBytes)) {
     buffer_ = make_buffer(device, bytes_, usage(use), name_);
-    memory_ = back(device, buffer_, has(use, BufferUse::read_back) ? Home::host_reads : Home::device, name_, mapped_);
+    memory_ = back(device, buffer_,
+                   has(use, BufferUse::read_back) ? Home::host_reads : Home::device, name_,
+                   mapped_);
     if (!has(use, BufferUse::texels)) return;
-    check(bytes_ / kTexelBytes <= device.limits().maxTexelBufferElements, Failure::exhausted, "buffer '",
-          name_, "' wants ", bytes_ / kTexelBytes, " texels, the device allows ",
+    check(bytes_ / kTexelBytes <= device.limits().maxTexelBufferElements, Failure::exhausted,
+          "buffer '", name_, "' wants ", bytes_ / kTexelBytes, " texels, the device allows ",
           device.limits().maxTexelBufferElements);
     VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     view.buffer = buffer_;
     view.format = VK_FORMAT_R32G32B32A32_SFLOAT;
     view.range = bytes_ / kTexelBytes * kTexelBytes;
     VkBufferView handle = VK_NULL_HANDLE;
-    check_vk(vkCreateBufferView(device.handle(), &view, nullptr, &handle), "view buffer '" + name_ + "'");
+    check_vk(vkCreateBufferView(device.handle(), &view, nullptr, &handle),
+             "view buffer '" + name_ + "'");
     view_ = {device.handle(), handle};
 }
 
@@ -102,7 +116,8 @@ void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) {
         return;
     }
     void* mapped = nullptr;
-    const UniqueBuffer staging = make_buffer(*device_, data.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "staging");
+    const UniqueBuffer staging = make_buffer(*device_, data.size(),
+                                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "staging");
     const UniqueMemory memory = back(*device_, staging, Home::host_writes, "staging", mapped);
     std::memcpy(mapped, data.data(), data.size());
     copy(*device_, "write buffer '" + name_ + "'", staging, 0, buffer_, offset, data.size());
@@ -115,7 +130,8 @@ std::vector<std::byte> Buffer::read() const {
         return data;
     }
     void* mapped = nullptr;
-    const UniqueBuffer staging = make_buffer(*device_, bytes_, VK_BUFFER_USAGE_TRANSFER_DST_BIT, "read-back");
+    const UniqueBuffer staging = make_buffer(*device_, bytes_, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                             "read-back");
     const UniqueMemory memory = back(*device_, staging, Home::host_reads, "read-back", mapped);
     copy(*device_, "read back buffer '" + name_ + "'", buffer_, 0, staging, 0, bytes_);
     std::memcpy(data.data(), mapped, bytes_);

@@ -7,9 +7,16 @@
 
 namespace catoptric::gpu {
 
-/// What a buffer is for, beside being a storage buffer and a source and target of copies. `read_back`: filled by the
-/// device for the host, and so in the host's memory.
-enum class BufferUse : std::uint32_t { plain = 0, vertex = 1, index = 2, uniform = 4, texels = 8, read_back = 16 };
+/// What a buffer is for, beside being a storage buffer and a source and target of copies.
+/// `read_back`: filled by the device for the host, and so in the host's memory.
+enum class BufferUse : std::uint32_t {
+    plain = 0,
+    vertex = 1,
+    index = 2,
+    uniform = 4,
+    texels = 8,
+    read_back = 16
+};
 constexpr BufferUse operator|(BufferUse a, BufferUse b) {
     return static_cast<BufferUse>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
@@ -52,7 +59,8 @@ private:
 
 /// Grows `buffer` (a new one with the same name) when `data` does not fit, then writes it.
 template <typename T>
-void upload(Device& device, Buffer& buffer, const std::string& name, const std::vector<T>& data, BufferUse use) {
+void upload(Device& device, Buffer& buffer, const std::string& name, const std::vector<T>& data,
+            BufferUse use) {
     const std::uint64_t bytes = data.size() * sizeof(T);
     if (buffer.bytes() < bytes || !buffer.handle()) buffer = Buffer(device, name, bytes, use);
     buffer.write(std::span<const T>(data));

@@ -20,7 +20,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
 }
 
 VkDebugUtilsMessengerEXT make_messenger(VkInstance instance, std::vector<std::string>& messages) {
-    VkDebugUtilsMessengerCreateInfoEXT create{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    VkDebugUtilsMessengerCreateInfoEXT create{
+        VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     create.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
                              VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     create.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
@@ -105,16 +106,17 @@ void Device::choose(const DeviceOptions& options) {
     if (!options.wanted.empty())
         index = find_wanted(infos, options.wanted);
     else
-        index = static_cast<std::size_t>(std::ranges::find(infos, std::string(), &DeviceInfo::missing) -
-                                         infos.begin());
+        index = static_cast<std::size_t>(
+            std::ranges::find(infos, std::string(), &DeviceInfo::missing) - infos.begin());
     check(index < infos.size(), Failure::no_device, "no usable Vulkan device: '", infos[0].name,
           "' lacks ", infos[0].missing);
-    check(infos[index].missing.empty(), Failure::no_device, "device '", infos[index].name, "' lacks ",
-          infos[index].missing);
+    check(infos[index].missing.empty(), Failure::no_device, "device '", infos[index].name,
+          "' lacks ", infos[index].missing);
     physical_ = devices[index];
     info_ = infos[index];
     staged_ = options.staged;
-    VkPhysicalDeviceMaintenance3Properties pieces{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    VkPhysicalDeviceMaintenance3Properties pieces{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &pieces};
     vkGetPhysicalDeviceProperties2(physical_, &properties);
     limits_ = properties.properties.limits;
@@ -153,7 +155,8 @@ void Device::create_device() {
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
-    check_vk(vkCreateDevice(physical_, &create, nullptr, &device_), "open device '" + info_.name + "'");
+    check_vk(vkCreateDevice(physical_, &create, nullptr, &device_),
+             "open device '" + info_.name + "'");
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
     if (has_debug_utils_)
         set_object_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
@@ -175,7 +178,8 @@ void Device::create_device() {
 
 int Device::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const {
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
-        if ((type_bits >> i & 1) && (memory_.memoryTypes[i].propertyFlags & properties) == properties)
+        if ((type_bits >> i & 1) &&
+            (memory_.memoryTypes[i].propertyFlags & properties) == properties)
             return static_cast<int>(i);
     return -1;
 }
@@ -188,9 +192,10 @@ std::uint64_t Device::memory_budget() const {
     return bytes;
 }
 
-UniqueMemory Device::allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const {
-    check(bytes <= max_allocation_, Failure::exhausted, what, " wants ", bytes, " bytes in one piece, the device allows ",
-          max_allocation_);
+UniqueMemory Device::allocate(std::uint64_t bytes, std::uint32_t type,
+                              const std::string& what) const {
+    check(bytes <= max_allocation_, Failure::exhausted, what, " wants ", bytes,
+          " bytes in one piece, the device allows ", max_allocation_);
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocate.allocationSize = bytes;
     allocate.memoryTypeIndex = type;

@@ -12,10 +12,10 @@ namespace catoptric::gpu {
 /// What a user may know about a device.
 struct DeviceInfo {
     std::string name;
-    std::string driver; ///< name and version as the driver tells them
-    std::string api;    ///< "1.3.230"
-    std::string type;   ///< discrete | integrated | virtual | cpu | other
-    int threads = 0;    ///< of a cpu device: how many processors it may use; otherwise 0
+    std::string driver;  ///< name and version as the driver tells them
+    std::string api;     ///< "1.3.230"
+    std::string type;    ///< discrete | integrated | virtual | cpu | other
+    int threads = 0;     ///< of a cpu device: how many processors it may use; otherwise 0
     std::string missing; ///< features that the engine requires and the device lacks; empty = usable
 };
 
@@ -24,10 +24,10 @@ struct DeviceInfo {
 std::vector<DeviceInfo> list_devices();
 
 struct DeviceOptions {
-    std::string wanted;   ///< index into list_devices(), or part of a name; empty = the first usable
+    std::string wanted; ///< index into list_devices(), or part of a name; empty = the first usable
     bool validate = false; ///< Khronos validation layer: core, synchronization, queue submit
-    bool layered = true;  ///< false: pretend that a vertex shader cannot write gl_Layer
-    bool staged = false;  ///< true: pretend that device memory cannot be mapped
+    bool layered = true;   ///< false: pretend that a vertex shader cannot write gl_Layer
+    bool staged = false;   ///< true: pretend that device memory cannot be mapped
 };
 
 /// Instance, device and its one queue (graphics, compute, copies). Not copyable; everything made
@@ -61,16 +61,19 @@ public:
     /// Bytes that the device gives in one piece.
     std::uint64_t max_allocation() const { return max_allocation_; }
     /// Bytes of the heap of a memory type.
-    std::uint64_t heap_bytes(std::uint32_t type) const { return memory_.memoryHeaps[memory_.memoryTypes[type].heapIndex].size; }
+    std::uint64_t heap_bytes(std::uint32_t type) const {
+        return memory_.memoryHeaps[memory_.memoryTypes[type].heapIndex].size;
+    }
     /// Throws `exhausted` naming the bytes, and the device's limit when it is that.
     UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
-    /// Gives the object a name for validation messages and debuggers; nothing without that extension.
+    /// Gives the object a name for validation messages and debuggers; nothing without that
+    /// extension.
     void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
     bool has_labels() const { return has_debug_utils_; }
 
-    /// Records copies with `record`, submits and waits; what they wrote is visible to the host and to all
-    /// later commands. For uploads and read-back, never inside a timed frame. `doing` reads on from
-    /// "Vulkan: cannot " when it throws `exhausted` or `device_lost`.
+    /// Records copies with `record`, submits and waits; what they wrote is visible to the host and
+    /// to all later commands. For uploads and read-back, never inside a timed frame. `doing` reads
+    /// on from "Vulkan: cannot " when it throws `exhausted` or `device_lost`.
     template <typename Record>
     void submit_now(const std::string& doing, Record&& record) {
         begin_one_shot(doing);

@@ -27,8 +27,9 @@ bool has_layer(const char* name) {
 bool has_instance_extension(const char* layer, const char* name) {
     std::uint32_t count = 0;
     const VkResult result = vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
-    check(result == VK_SUCCESS, Failure::no_device, kNoDriver, " (the Vulkan loader cannot read its driver files: ",
-          name_of(result), "; is VK_DRIVER_FILES or VK_ICD_FILENAMES set?)");
+    check(result == VK_SUCCESS, Failure::no_device, kNoDriver,
+          " (the Vulkan loader cannot read its driver files: ", name_of(result),
+          "; is VK_DRIVER_FILES or VK_ICD_FILENAMES set?)");
     std::vector<VkExtensionProperties> list(count);
     vkEnumerateInstanceExtensionProperties(layer, &count, list.data());
     return std::ranges::any_of(list, [&](const auto& e) { return !strcmp(e.extensionName, name); });
@@ -56,7 +57,8 @@ int cpu_threads() {
     return threads;
 }
 
-constexpr VkFormatFeatureFlags kCaptured = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+constexpr VkFormatFeatureFlags kCaptured = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
+                                           VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
 
 /// Of images in optimal tiling. Formats that Vulkan itself demands are not asked for.
 bool allows(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags features) {
@@ -66,16 +68,20 @@ bool allows(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags featu
 }
 
 bool adds_in_subgroups(VkPhysicalDevice device) {
-    VkPhysicalDeviceSubgroupProperties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups};
+    VkPhysicalDeviceSubgroupProperties subgroups{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                           &subgroups};
     vkGetPhysicalDeviceProperties2(device, &properties);
-    return (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) && (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT);
+    return (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+           (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT);
 }
 
 std::uint32_t largest_work_group(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device, &properties);
-    return std::min(properties.limits.maxComputeWorkGroupInvocations, properties.limits.maxComputeWorkGroupSize[0]);
+    return std::min(properties.limits.maxComputeWorkGroupInvocations,
+                    properties.limits.maxComputeWorkGroupSize[0]);
 }
 
 } // namespace
@@ -89,10 +95,12 @@ VkInstance make_instance(bool validate, bool& has_debug_utils) {
         // The layer of Vulkan 1.3 takes this one from the environment only.
         setenv("VK_LAYER_ENABLES",
                "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT:"
-               "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 0);
+               "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT",
+               0);
     }
     has_debug_utils = has_instance_extension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
-                      (validate && has_instance_extension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
+                      (validate &&
+                       has_instance_extension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
     if (has_debug_utils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
@@ -182,7 +190,8 @@ std::string Features::missing(VkPhysicalDevice device) {
         {"subgroup arithmetic in compute shaders", adds_in_subgroups(device)},
         {"work groups of 256", largest_work_group(device) >= 256},
         {"linear filtering of R32_SFLOAT", allows(device, VK_FORMAT_R32_SFLOAT, kCaptured)},
-        {"linear filtering of R32G32B32A32_SFLOAT", allows(device, VK_FORMAT_R32G32B32A32_SFLOAT, kCaptured)},
+        {"linear filtering of R32G32B32A32_SFLOAT",
+         allows(device, VK_FORMAT_R32G32B32A32_SFLOAT, kCaptured)},
     };
     std::string names;
     for (const auto& [name, there] : required)

@@ -4,8 +4,9 @@
 
 namespace catoptric::gpu {
 
-/// Creates an instance, with the validation layer on request and VK_EXT_debug_utils where it exists.
-/// Throws `no_device` when no driver is installed, `usage` when validation is asked for and absent.
+/// Creates an instance, with the validation layer on request and VK_EXT_debug_utils where it
+/// exists. Throws `no_device` when no driver is installed, `usage` when validation is asked for and
+/// absent.
 VkInstance make_instance(bool validate, bool& has_debug_utils);
 
 /// Physical devices in order of preference.

@@ -14,33 +14,39 @@ namespace {
 std::string key_of(const Constants& constants) {
     std::string key;
     for (const auto& [name, value] : constants)
-        key += ";" + name + "=" + std::visit([](auto v) { return std::to_string(std::bit_cast<std::uint32_t>(v)); }, value);
+        key += ";" + name + "=" +
+               std::visit([](auto v) { return std::to_string(std::bit_cast<std::uint32_t>(v)); },
+                          value);
     return key;
 }
 
 /// One stage: its module and its specialisation, which must outlive the create call.
 struct Stage {
-    Stage(const Device& device, const std::string& name, VkShaderStageFlagBits stage, const Constants& constants)
+    Stage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
+          const Constants& constants)
         : bit(stage) {
         const EmbeddedShader& shader = find_shader(name);
         reflection = reflect(name, shader.words);
-        check(!reflection.doubles || device.doubles(), Failure::no_device, "shader '", name, "' computes with doubles, which device '",
-              device.info().name, "' cannot");
+        check(!reflection.doubles || device.doubles(), Failure::no_device, "shader '", name,
+              "' computes with doubles, which device '", device.info().name, "' cannot");
         VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
         create.codeSize = shader.words.size_bytes();
         create.pCode = shader.words.data();
         VkShaderModule handle = VK_NULL_HANDLE;
-        check_vk(vkCreateShaderModule(device.handle(), &create, nullptr, &handle), "load shader '" + name + "'");
+        check_vk(vkCreateShaderModule(device.handle(), &create, nullptr, &handle),
+                 "load shader '" + name + "'");
         module = {device.handle(), handle};
         for (const auto& [constant, value] : constants) {
             const auto found = std::ranges::find(reflection.constants, constant, &Constant::name);
             if (found == reflection.constants.end()) continue;
             entries.push_back({found->id, static_cast<std::uint32_t>(values.size() * 4), 4});
-            values.push_back(std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value));
+            values.push_back(
+                std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value));
         }
     }
     VkPipelineShaderStageCreateInfo info() {
-        specialisation = {static_cast<std::uint32_t>(entries.size()), entries.data(), values.size() * 4, values.data()};
+        specialisation = {static_cast<std::uint32_t>(entries.size()), entries.data(),
+                          values.size() * 4, values.data()};
         VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
         stage.stage = bit;
         stage.module = module;
@@ -49,7 +55,8 @@ struct Stage {
         return stage;
     }
     bool knows(const std::string& constant) const {
-        return std::ranges::find(reflection.constants, constant, &Constant::name) != reflection.constants.end();
+        return std::ranges::find(reflection.constants, constant, &Constant::name) !=
+               reflection.constants.end();
     }
 
     VkShaderStageFlagBits bit;
@@ -72,8 +79,8 @@ VkDescriptorType descriptor_type(BindingKind kind) {
 }
 
 /// Checks that every constant is known to a stage, merges bindings, makes the layouts.
-void lay_out(const Device& device, const std::string& name, std::span<Stage> stages, const Constants& constants,
-             Pipeline& pipeline) {
+void lay_out(const Device& device, const std::string& name, std::span<Stage> stages,
+             const Constants& constants, Pipeline& pipeline) {
     for (const auto& [constant, value] : constants)
         check(std::ranges::any_of(stages, [&](const Stage& s) { return s.knows(constant); }),
               Failure::internal, "pipeline '", name, "' has no constant '", constant, "'");
@@ -81,22 +88,26 @@ void lay_out(const Device& device, const std::string& name, std::span<Stage> sta
         pipeline.stages |= stage.bit;
         pipeline.push_bytes = std::max(pipeline.push_bytes, stage.reflection.push_bytes);
         for (const Binding& binding : stage.reflection.bindings) {
-            const auto same = std::ranges::find(pipeline.bindings, binding.binding, &Binding::binding);
+            const auto same = std::ranges::find(pipeline.bindings, binding.binding,
+                                                &Binding::binding);
             if (same == pipeline.bindings.end())
                 pipeline.bindings.push_back(binding);
             else
-                check(same->name == binding.name && same->kind == binding.kind, Failure::internal, "pipeline '",
-                      name, "': binding ", binding.binding, " is '", same->name, "' and '", binding.name, "'");
+                check(same->name == binding.name && same->kind == binding.kind, Failure::internal,
+                      "pipeline '", name, "': binding ", binding.binding, " is '", same->name,
+                      "' and '", binding.name, "'");
         }
     }
     std::vector<VkDescriptorSetLayoutBinding> slots;
     for (const Binding& binding : pipeline.bindings)
-        slots.push_back({binding.binding, descriptor_type(binding.kind), 1, pipeline.stages, nullptr});
+        slots.push_back(
+            {binding.binding, descriptor_type(binding.kind), 1, pipeline.stages, nullptr});
     VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     set.bindingCount = static_cast<std::uint32_t>(slots.size());
     set.pBindings = slots.data();
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    check_vk(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &set_layout), "lay out '" + name + "'");
+    check_vk(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &set_layout),
+             "lay out '" + name + "'");
     pipeline.set_layout = {device.handle(), set_layout};
 
     const VkPushConstantRange push{pipeline.stages, 0, pipeline.push_bytes};
@@ -106,39 +117,50 @@ void lay_out(const Device& device, const std::string& name, std::span<Stage> sta
     create.pushConstantRangeCount = pipeline.push_bytes ? 1 : 0;
     create.pPushConstantRanges = &push;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    check_vk(vkCreatePipelineLayout(device.handle(), &create, nullptr, &layout), "lay out '" + name + "'");
+    check_vk(vkCreatePipelineLayout(device.handle(), &create, nullptr, &layout),
+             "lay out '" + name + "'");
     pipeline.layout = {device.handle(), layout};
 }
 
 /// The fixed-function part that every raster pipeline of the engine shares.
-VkPipeline make_raster(const Device& device, std::span<const VkPipelineShaderStageCreateInfo> stages,
-                       const Attachments& attachments, VkPipelineLayout layout, const std::string& name) {
-    const VkVertexInputBindingDescription vertex_binding{0, sizeof(shared::Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
-    const std::array<VkVertexInputAttributeDescription, 2> vertex_attributes{{
-        {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::Vertex, position)},
-        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::Vertex, normal)}}};
-    VkPipelineVertexInputStateCreateInfo vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+VkPipeline make_raster(const Device& device,
+                       std::span<const VkPipelineShaderStageCreateInfo> stages,
+                       const Attachments& attachments, VkPipelineLayout layout,
+                       const std::string& name) {
+    const VkVertexInputBindingDescription vertex_binding{0, sizeof(shared::Vertex),
+                                                         VK_VERTEX_INPUT_RATE_VERTEX};
+    const std::array<VkVertexInputAttributeDescription, 2> vertex_attributes{
+        {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::Vertex, position)},
+         {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::Vertex, normal)}}};
+    VkPipelineVertexInputStateCreateInfo vertices{
+        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     vertices.vertexBindingDescriptionCount = 1;
     vertices.pVertexBindingDescriptions = &vertex_binding;
     vertices.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(vertex_attributes.size());
     vertices.pVertexAttributeDescriptions = vertex_attributes.data();
-    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    VkPipelineInputAssemblyStateCreateInfo assembly{
+        VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    VkPipelineViewportStateCreateInfo viewport{
+        VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
     viewport.viewportCount = viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    VkPipelineRasterizationStateCreateInfo raster{
+        VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
     raster.polygonMode = VK_POLYGON_MODE_FILL;
     raster.cullMode = VK_CULL_MODE_NONE;
     raster.lineWidth = 1;
-    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    VkPipelineMultisampleStateCreateInfo samples{
+        VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
     samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-    VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    VkPipelineDepthStencilStateCreateInfo depth{
+        VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthTestEnable = depth.depthWriteEnable = attachments.depth;
     depth.depthCompareOp = VK_COMPARE_OP_GREATER;
     VkPipelineColorBlendAttachmentState write{};
     write.colorWriteMask = 0xf;
     const std::vector<VkPipelineColorBlendAttachmentState> writes(attachments.colour.size(), write);
-    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    VkPipelineColorBlendStateCreateInfo blend{
+        VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = static_cast<std::uint32_t>(writes.size());
     blend.pAttachments = writes.data();
     const std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
@@ -152,7 +174,8 @@ VkPipeline make_raster(const Device& device, std::span<const VkPipelineShaderSta
     rendering.pColorAttachmentFormats = formats.data();
     if (attachments.depth) rendering.depthAttachmentFormat = vk_format(Format::d32f);
 
-    VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
+    VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                        &rendering};
     create.stageCount = static_cast<std::uint32_t>(stages.size());
     create.pStages = stages.data();
     create.pVertexInputState = &vertices;
@@ -165,8 +188,9 @@ VkPipeline make_raster(const Device& device, std::span<const VkPipelineShaderSta
     create.pDynamicState = &dynamic;
     create.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check_vk(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
-             "create pipeline '" + name + "'");
+    check_vk(
+        vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
+        "create pipeline '" + name + "'");
     return pipeline;
 }
 
@@ -185,14 +209,18 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
 
     Pipeline pipeline;
     std::vector<Stage> stages;
-    stages.emplace_back(device_, variant_of(state.vertex), VK_SHADER_STAGE_VERTEX_BIT, state.constants);
+    stages.emplace_back(device_, variant_of(state.vertex), VK_SHADER_STAGE_VERTEX_BIT,
+                        state.constants);
     if (!state.fragment.empty())
-        stages.emplace_back(device_, variant_of(state.fragment), VK_SHADER_STAGE_FRAGMENT_BIT, state.constants);
+        stages.emplace_back(device_, variant_of(state.fragment), VK_SHADER_STAGE_FRAGMENT_BIT,
+                            state.constants);
     lay_out(device_, key, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
     for (Stage& stage : stages) infos.push_back(stage.info());
-    pipeline.pipeline = {device_.handle(), make_raster(device_, infos, attachments, pipeline.layout, key)};
-    device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), key);
+    pipeline.pipeline = {device_.handle(),
+                         make_raster(device_, infos, attachments, pipeline.layout, key)};
+    device_.set_name(VK_OBJECT_TYPE_PIPELINE,
+                     reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), key);
     return made_.emplace(key, std::move(pipeline)).first->second;
 }
 
@@ -208,8 +236,9 @@ const Pipeline& Pipelines::compute(const ComputeState& state) {
     create.stage = stage.info();
     create.layout = pipeline.layout;
     VkPipeline handle = VK_NULL_HANDLE;
-    check_vk(vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &handle),
-             "create pipeline '" + key + "'");
+    check_vk(
+        vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &handle),
+        "create pipeline '" + key + "'");
     pipeline.pipeline = {device_.handle(), handle};
     device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), key);
     return made_.emplace(key, std::move(pipeline)).first->second;

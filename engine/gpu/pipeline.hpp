@@ -46,8 +46,8 @@ struct Pipeline {
 /// On a software driver the first use of a pipeline still compiles it inside the frame.
 class Pipelines {
 public:
-    /// `variants`: shaders to use in place of others ("raytrace.comp" -> "raytrace.comp#naive"), for
-    /// benchmarks that compare two builds of one shader.
+    /// `variants`: shaders to use in place of others ("raytrace.comp" -> "raytrace.comp#naive"),
+    /// for benchmarks that compare two builds of one shader.
     explicit Pipelines(Device& device, std::map<std::string, std::string> variants = {})
         : device_(device), variants_(std::move(variants)) {}
     const Pipeline& raster(const RasterState& state, const Attachments& attachments);

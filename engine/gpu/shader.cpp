@@ -15,14 +15,36 @@ namespace {
 
 // The part of SPIR-V that is looked at (specification 1.6, sections 3.20, 3.42, 3.49).
 enum Op : std::uint32_t {
-    kName = 5, kCapability = 17, kTypeInt = 21, kTypeFloat = 22, kTypeVector = 23, kTypeMatrix = 24, kTypeImage = 25,
-    kTypeSampledImage = 27, kTypeArray = 28, kTypeRuntimeArray = 29, kTypeStruct = 30,
-    kTypePointer = 32, kConstant = 43, kFunctionCall = 57, kVariable = 59, kImageTexelPointer = 60,
-    kLoad = 61, kAccessChain = 65, kInBoundsAccessChain = 66, kArrayLength = 68, kDecorate = 71,
+    kName = 5,
+    kCapability = 17,
+    kTypeInt = 21,
+    kTypeFloat = 22,
+    kTypeVector = 23,
+    kTypeMatrix = 24,
+    kTypeImage = 25,
+    kTypeSampledImage = 27,
+    kTypeArray = 28,
+    kTypeRuntimeArray = 29,
+    kTypeStruct = 30,
+    kTypePointer = 32,
+    kConstant = 43,
+    kFunctionCall = 57,
+    kVariable = 59,
+    kImageTexelPointer = 60,
+    kLoad = 61,
+    kAccessChain = 65,
+    kInBoundsAccessChain = 66,
+    kArrayLength = 68,
+    kDecorate = 71,
     kMemberDecorate = 72,
 };
 enum Decoration : std::uint32_t { kSpecId = 1, kBinding = 33, kDescriptorSet = 34, kOffset = 35 };
-enum Storage : std::uint32_t { kUniformConstant = 0, kUniform = 2, kPushConstant = 9, kStorageBuffer = 12 };
+enum Storage : std::uint32_t {
+    kUniformConstant = 0,
+    kUniform = 2,
+    kPushConstant = 9,
+    kStorageBuffer = 12
+};
 constexpr std::uint32_t kFloat64 = 10; // a capability
 enum Dim : std::uint32_t { kDim2D = 1, kDimCube = 3, kDimBuffer = 5 };
 
@@ -37,10 +59,12 @@ struct Variable {
 class Module {
 public:
     Module(std::string_view name, std::span<const std::uint32_t> words) : name_(name) {
-        check(words.size() > 5 && words[0] == 0x07230203, Failure::internal, "shader '", name, "' is not SPIR-V");
+        check(words.size() > 5 && words[0] == 0x07230203, Failure::internal, "shader '", name,
+              "' is not SPIR-V");
         for (std::size_t i = 5; i < words.size();) {
             const std::uint32_t length = words[i] >> 16;
-            check(length > 0 && i + length <= words.size(), Failure::internal, "shader '", name, "' is cut off");
+            check(length > 0 && i + length <= words.size(), Failure::internal, "shader '", name,
+                  "' is cut off");
             read(words[i] & 0xffff, words.subspan(i + 1, length - 1));
             i += length;
         }
@@ -72,15 +96,23 @@ private:
         case kMemberDecorate:
             if (words[2] == kOffset) member_offsets_[{words[0], words[1]}] = words[3];
             break;
-        case kTypeInt: case kTypeFloat: case kTypeVector: case kTypeMatrix: case kTypeImage:
-        case kTypeSampledImage: case kTypeArray: case kTypeRuntimeArray: case kTypeStruct: case kTypePointer:
-            types_[words[0]] = {op, {words.begin() + 1, words.end()}};
-            break;
+        case kTypeInt:
+        case kTypeFloat:
+        case kTypeVector:
+        case kTypeMatrix:
+        case kTypeImage:
+        case kTypeSampledImage:
+        case kTypeArray:
+        case kTypeRuntimeArray:
+        case kTypeStruct:
+        case kTypePointer: types_[words[0]] = {op, {words.begin() + 1, words.end()}}; break;
         case kConstant: constants_[words[1]] = words[2]; break;
         case kVariable: variables_.push_back({words[1], words[0], words[2]}); break;
-        case kLoad: case kAccessChain: case kInBoundsAccessChain: case kImageTexelPointer: case kArrayLength:
-            used_.insert(words[2]);
-            break;
+        case kLoad:
+        case kAccessChain:
+        case kInBoundsAccessChain:
+        case kImageTexelPointer:
+        case kArrayLength: used_.insert(words[2]); break;
         case kFunctionCall: used_.insert(words.begin() + 3, words.end()); break;
         default: break;
         }
@@ -94,14 +126,18 @@ private:
         const auto found = names_.find(id);
         return found == names_.end() ? "" : found->second;
     }
-    std::uint32_t pointee(const Variable& variable) const { return types_.at(variable.type).words[1]; }
+    std::uint32_t pointee(const Variable& variable) const {
+        return types_.at(variable.type).words[1];
+    }
 
     /// Bytes of a type in the scalar layout.
     std::uint32_t size_of(std::uint32_t id) const {
         const Type& type = types_.at(id);
         switch (type.op) {
-        case kTypeInt: case kTypeFloat: return type.words[0] / 8;
-        case kTypeVector: case kTypeMatrix: return size_of(type.words[0]) * type.words[1];
+        case kTypeInt:
+        case kTypeFloat: return type.words[0] / 8;
+        case kTypeVector:
+        case kTypeMatrix: return size_of(type.words[0]) * type.words[1];
         case kTypeArray: return size_of(type.words[0]) * constants_.at(type.words[1]);
         case kTypeStruct: {
             if (type.words.empty()) return 0;
@@ -116,18 +152,20 @@ private:
         Binding result;
         result.name = name_of(variable.id);
         result.binding = *decoration(variable.id, kBinding);
-        check(decoration(variable.id, kDescriptorSet).value_or(0) == 0, Failure::internal, "shader '",
-              name_, "': '", result.name, "' is not in set 0");
+        check(decoration(variable.id, kDescriptorSet).value_or(0) == 0, Failure::internal,
+              "shader '", name_, "': '", result.name, "' is not in set 0");
         const Type* type = &types_.at(pointee(variable));
         if (type->op == kTypeStruct) {
             if (result.name.empty()) result.name = name_of(pointee(variable));
-            result.kind = variable.storage == kUniform ? BindingKind::uniform_buffer : BindingKind::storage_buffer;
+            result.kind = variable.storage == kUniform ? BindingKind::uniform_buffer
+                                                       : BindingKind::storage_buffer;
             return result;
         }
-        check(type->op == kTypeImage || type->op == kTypeSampledImage, Failure::internal, "shader '",
-              name_, "': '", result.name, "' is an array of resources");
+        check(type->op == kTypeImage || type->op == kTypeSampledImage, Failure::internal,
+              "shader '", name_, "': '", result.name, "' is an array of resources");
         if (type->op == kTypeSampledImage) type = &types_.at(type->words[0]);
-        const std::uint32_t dim = type->words[1], arrayed = type->words[3], sampled = type->words[5];
+        const std::uint32_t dim = type->words[1], arrayed = type->words[3],
+                            sampled = type->words[5];
         result.kind = dim == kDimBuffer ? BindingKind::texel_buffer
                       : sampled == 2    ? BindingKind::storage_image
                                         : BindingKind::sampled_image;

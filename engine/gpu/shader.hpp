@@ -17,7 +17,13 @@ std::span<const EmbeddedShader> embedded_shaders();
 /// Throws `Failure::internal` for a name that was not compiled in.
 const EmbeddedShader& find_shader(std::string_view name);
 
-enum class BindingKind { uniform_buffer, storage_buffer, texel_buffer, sampled_image, storage_image };
+enum class BindingKind {
+    uniform_buffer,
+    storage_buffer,
+    texel_buffer,
+    sampled_image,
+    storage_image
+};
 enum class ImageShape { flat, flat_array, cube, cube_array };
 
 /// One resource that a shader's code really uses, in set 0.

@@ -39,7 +39,8 @@ void check_vk(VkResult result, const std::string& doing) {
     case VK_ERROR_DEVICE_LOST: failure = Failure::device_lost; break;
     default: break;
     }
-    fail(failure, "Vulkan: cannot ", doing, ": ", name_of(result), " (", static_cast<int>(result), ")");
+    fail(failure, "Vulkan: cannot ", doing, ": ", name_of(result), " (", static_cast<int>(result),
+         ")");
 }
 
 VkFormat vk_format(Format format) {

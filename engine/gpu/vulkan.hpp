@@ -10,8 +10,8 @@
 
 namespace catoptric::gpu {
 
-/// Throws unless `result` is VK_SUCCESS: out of memory -> `exhausted`, device lost -> `device_lost`,
-/// anything else -> `internal`. `doing` reads on from "Vulkan: cannot ".
+/// Throws unless `result` is VK_SUCCESS: out of memory -> `exhausted`, device lost ->
+/// `device_lost`, anything else -> `internal`. `doing` reads on from "Vulkan: cannot ".
 void check_vk(VkResult result, const std::string& doing);
 const char* name_of(VkResult result);
 

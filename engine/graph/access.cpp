@@ -27,15 +27,13 @@ std::vector<Access> accesses(const Pass& pass) {
 }
 
 Touch touch_of(const Access& access, const Pass& pass) {
-    return {.nothing = false,
-            .use = access.use,
-            .write = access.write,
-            .raster = pass.is_raster()};
+    return {.nothing = false, .use = access.use, .write = access.write, .raster = pass.is_raster()};
 }
 
 std::string quoted_name(const Graph& graph, const Access& access) {
-    return "'" + (access.is_buffer ? graph.buffers()[access.id].name
-                                   : graph.images()[access.id].name) + "'";
+    return "'" +
+           (access.is_buffer ? graph.buffers()[access.id].name : graph.images()[access.id].name) +
+           "'";
 }
 
 std::string layers_text(std::uint64_t first, std::uint64_t end) {

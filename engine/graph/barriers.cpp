@@ -73,8 +73,9 @@ public:
             if (state.latest().empty()) {
                 emit(access, l, {}, touch, last_users_of_memory(access), barriers);
             } else {
-                std::vector<Touch> awaited =
-                    touch.write ? state.latest() : awaited_by_read(state, touch, access.is_buffer);
+                std::vector<Touch> awaited = touch.write
+                                                 ? state.latest()
+                                                 : awaited_by_read(state, touch, access.is_buffer);
                 wait(access, l, std::move(awaited), touch, barriers);
             }
             advance(state, touch, access.is_buffer);
@@ -124,8 +125,8 @@ private:
     }
 
     std::vector<Touch> last_users_of_memory(const Access& access) {
-        const Placement& mine =
-            access.is_buffer ? plan_.buffers[access.id] : plan_.images[access.id];
+        const Placement& mine = access.is_buffer ? plan_.buffers[access.id]
+                                                 : plan_.images[access.id];
         std::vector<Touch> touches;
         const auto collect = [&](bool is_buffer, const std::vector<Placement>& placements) {
             for (std::uint32_t id = 0; id < placements.size(); ++id) {

@@ -10,7 +10,8 @@ namespace catoptric::graph {
 void Commands::use(gpu::RasterState state) {
     gpu::Attachments attachments;
     for (const ImageUse& use : pass_.images) {
-        if (use.use == Use::colour) attachments.colour.push_back(graph_.images()[use.image.id].format);
+        if (use.use == Use::colour)
+            attachments.colour.push_back(graph_.images()[use.image.id].format);
         if (use.use == Use::depth) attachments.depth = true;
     }
     if (layer_count_ > 1) state.vertex += "#layered";
@@ -31,10 +32,12 @@ void Commands::require_declared(Image image, std::string_view name) const {
     const auto same = [&](const ImageUse& use) {
         return use.image.id == image.id && use.image.previous == image.previous &&
                use.image.first_layer <= image.first_layer &&
-               image.first_layer + image.layer_count <= use.image.first_layer + use.image.layer_count;
+               image.first_layer + image.layer_count <=
+                   use.image.first_layer + use.image.layer_count;
     };
-    check(std::ranges::any_of(pass_.images, same), Failure::internal, "pass '", pass_.name, "' uses image '",
-          graph_.images()[image.id].name, "' as '", name, "' but does not declare it");
+    check(std::ranges::any_of(pass_.images, same), Failure::internal, "pass '", pass_.name,
+          "' uses image '", graph_.images()[image.id].name, "' as '", name,
+          "' but does not declare it");
 }
 
 void Commands::bind(std::string_view name, Image image, Filter filter) {
@@ -44,9 +47,10 @@ void Commands::bind(std::string_view name, Image image, Filter filter) {
 }
 
 void Commands::require_declared(Buffer buffer, std::string_view name) const {
-    check(std::ranges::any_of(pass_.buffers, [&](const BufferUse& use) { return use.buffer.id == buffer.id; }),
-          Failure::internal, "pass '", pass_.name, "' uses buffer '", graph_.buffers()[buffer.id].name,
-          "' as '", name, "' but does not declare it");
+    check(std::ranges::any_of(pass_.buffers,
+                              [&](const BufferUse& use) { return use.buffer.id == buffer.id; }),
+          Failure::internal, "pass '", pass_.name, "' uses buffer '",
+          graph_.buffers()[buffer.id].name, "' as '", name, "' but does not declare it");
 }
 
 void Commands::bind(std::string_view name, Buffer buffer) {
@@ -82,9 +86,12 @@ void Commands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
 }
 
 void Commands::dispatch_indirect(Buffer arguments, std::uint64_t offset) {
-    const auto same = [&](const BufferUse& use) { return use.buffer.id == arguments.id && use.use == Use::indirect; };
-    check(std::ranges::any_of(pass_.buffers, same), Failure::internal, "pass '", pass_.name, "' dispatches what buffer '",
-          graph_.buffers()[arguments.id].name, "' says but does not declare it as indirect");
+    const auto same = [&](const BufferUse& use) {
+        return use.buffer.id == arguments.id && use.use == Use::indirect;
+    };
+    check(std::ranges::any_of(pass_.buffers, same), Failure::internal, "pass '", pass_.name,
+          "' dispatches what buffer '", graph_.buffers()[arguments.id].name,
+          "' says but does not declare it as indirect");
     flush();
     vkCmdDispatchIndirect(commands_, runner_.buffer(arguments), offset);
 }
@@ -104,7 +111,8 @@ void Commands::copy(Image from, Image to) {
     require_declared(from, "source of a copy");
     require_declared(to, "target of a copy");
     const ImageDesc& desc = graph_.images()[from.id];
-    const VkImageAspectFlags aspect = is_depth(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    const VkImageAspectFlags aspect = is_depth(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                            : VK_IMAGE_ASPECT_COLOR_BIT;
     VkImageCopy region{};
     region.srcSubresource = {aspect, 0, from.first_layer, from.layer_count};
     region.dstSubresource = {aspect, 0, to.first_layer, to.layer_count};
@@ -118,9 +126,9 @@ void Commands::fill(Buffer buffer, std::uint32_t word) {
     vkCmdFillBuffer(commands_, runner_.buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
-VkWriteDescriptorSet Commands::write(const gpu::Binding& binding, const Bound& bound, VkDescriptorSet set,
-                                     VkDescriptorImageInfo& image, VkDescriptorBufferInfo& buffer,
-                                     VkBufferView& texels) {
+VkWriteDescriptorSet Commands::write(const gpu::Binding& binding, const Bound& bound,
+                                     VkDescriptorSet set, VkDescriptorImageInfo& image,
+                                     VkDescriptorBufferInfo& buffer, VkBufferView& texels) {
     using gpu::BindingKind;
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstSet = set;
@@ -129,27 +137,32 @@ VkWriteDescriptorSet Commands::write(const gpu::Binding& binding, const Bound& b
     write.pImageInfo = &image;
     write.pBufferInfo = &buffer;
     write.pTexelBufferView = &texels;
-    const bool wants_image = binding.kind == BindingKind::sampled_image || binding.kind == BindingKind::storage_image;
+    const bool wants_image = binding.kind == BindingKind::sampled_image ||
+                             binding.kind == BindingKind::storage_image;
     const auto* bound_image = std::get_if<BoundImage>(&bound);
-    check(wants_image == (bound_image != nullptr), Failure::internal, "pass '", pass_.name, "': '", binding.name,
-          "' of ", pipeline_name_, wants_image ? " is an image, bound is a buffer" : " is a buffer, bound is an image");
+    check(wants_image == (bound_image != nullptr), Failure::internal, "pass '", pass_.name, "': '",
+          binding.name, "' of ", pipeline_name_,
+          wants_image ? " is an image, bound is a buffer" : " is a buffer, bound is an image");
     if (bound_image) {
         const bool sampled = binding.kind == BindingKind::sampled_image;
         image.sampler = sampled ? runner_.sampler(bound_image->filter) : VK_NULL_HANDLE;
         image.imageView = runner_.physical(bound_image->image)
                               .view(runner_.device(), binding.shape, bound_image->image.first_layer,
                                     bound_image->image.layer_count);
-        image.imageLayout = sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL;
-        write.descriptorType = sampled ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        image.imageLayout = sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+                                    : VK_IMAGE_LAYOUT_GENERAL;
+        write.descriptorType = sampled ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                       : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         return write;
     }
     const auto* owned = std::get_if<const gpu::Buffer*>(&bound);
     buffer = {owned ? (*owned)->handle() : std::get<VkBuffer>(bound), 0, VK_WHOLE_SIZE};
-    write.descriptorType = binding.kind == BindingKind::uniform_buffer ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                                                      : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    write.descriptorType = binding.kind == BindingKind::uniform_buffer
+                               ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                               : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     if (binding.kind == BindingKind::texel_buffer) {
-        check(owned && (*owned)->texels(), Failure::internal, "pass '", pass_.name, "': '", binding.name,
-              "' wants a buffer made with BufferUse::texels");
+        check(owned && (*owned)->texels(), Failure::internal, "pass '", pass_.name, "': '",
+              binding.name, "' wants a buffer made with BufferUse::texels");
         texels = (*owned)->texels();
         write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     }
@@ -158,7 +171,8 @@ VkWriteDescriptorSet Commands::write(const gpu::Binding& binding, const Bound& b
 
 /// Writes a fresh descriptor set when pipeline or bindings changed, then the push constants.
 void Commands::flush() {
-    check(pipeline_, Failure::internal, "pass '", pass_.name, "' draws or dispatches without a pipeline");
+    check(pipeline_, Failure::internal, "pass '", pass_.name,
+          "' draws or dispatches without a pipeline");
     if (dirty_ && !pipeline_->bindings.empty()) {
         const VkDescriptorSet set = runner_.descriptor_set(pipeline_->set_layout);
         const std::size_t count = pipeline_->bindings.size();
@@ -169,18 +183,22 @@ void Commands::flush() {
         for (std::size_t i = 0; i < count; ++i) {
             const gpu::Binding& binding = pipeline_->bindings[i];
             const auto bound = bound_.find(binding.name);
-            check(bound != bound_.end(), Failure::internal, "pass '", pass_.name, "': nothing is bound to '",
-                  binding.name, "' of ", pipeline_name_);
+            check(bound != bound_.end(), Failure::internal, "pass '", pass_.name,
+                  "': nothing is bound to '", binding.name, "' of ", pipeline_name_);
             writes.push_back(write(binding, bound->second, set, images[i], buffers[i], texels[i]));
         }
-        vkUpdateDescriptorSets(runner_.device().handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
-        vkCmdBindDescriptorSets(commands_, pipeline_->bind_point, pipeline_->layout, 0, 1, &set, 0, nullptr);
+        vkUpdateDescriptorSets(runner_.device().handle(), static_cast<std::uint32_t>(writes.size()),
+                               writes.data(), 0, nullptr);
+        vkCmdBindDescriptorSets(commands_, pipeline_->bind_point, pipeline_->layout, 0, 1, &set, 0,
+                                nullptr);
     }
     dirty_ = false;
     if (pipeline_->push_bytes) {
-        check(push_.size() == pipeline_->push_bytes, Failure::internal, "pass '", pass_.name, "': ", pipeline_name_,
-              " wants ", pipeline_->push_bytes, " bytes of push constants, got ", push_.size());
-        vkCmdPushConstants(commands_, pipeline_->layout, pipeline_->stages, 0, pipeline_->push_bytes, push_.data());
+        check(push_.size() == pipeline_->push_bytes, Failure::internal, "pass '", pass_.name,
+              "': ", pipeline_name_, " wants ", pipeline_->push_bytes,
+              " bytes of push constants, got ", push_.size());
+        vkCmdPushConstants(commands_, pipeline_->layout, pipeline_->stages, 0,
+                           pipeline_->push_bytes, push_.data());
     }
 }
 

@@ -19,17 +19,18 @@ struct Physical;
 enum class Filter { nearest, linear, compare /*depth >= reference, 2x2 PCF*/ };
 
 /// What a pass body records with. Bindings have the names they have in the shaders and stay bound
-/// until the pass ends; a name that the current pipeline does not use is ignored, one that it uses and
-/// nobody bound is refused. Valid only during the call of the body.
+/// until the pass ends; a name that the current pipeline does not use is ignored, one that it uses
+/// and nobody bound is refused. Valid only during the call of the body.
 class Commands {
 public:
     Commands(Runner& runner, const Graph& graph, const Pass& pass, VkCommandBuffer commands,
              std::uint32_t first_layer, std::uint32_t layer_count)
-        : runner_(runner), graph_(graph), pass_(pass), commands_(commands), first_layer_(first_layer),
-          layer_count_(layer_count) {}
+        : runner_(runner), graph_(graph), pass_(pass), commands_(commands),
+          first_layer_(first_layer), layer_count_(layer_count) {}
 
-    /// In a pass of several layers the vertex shader's "#layered" build is used where the device can;
-    /// otherwise the body is called once for each layer. Either way gl_InstanceIndex is the layer.
+    /// In a pass of several layers the vertex shader's "#layered" build is used where the device
+    /// can; otherwise the body is called once for each layer. Either way gl_InstanceIndex is the
+    /// layer.
     void use(gpu::RasterState state);
     void use(const gpu::ComputeState& state);
     /// The image must be declared by the pass.
@@ -38,7 +39,8 @@ public:
     void bind(std::string_view name, const gpu::Buffer& buffer);
     template <typename T>
     void push(const T& value) {
-        push_.assign(reinterpret_cast<const std::byte*>(&value), reinterpret_cast<const std::byte*>(&value) + sizeof value);
+        push_.assign(reinterpret_cast<const std::byte*>(&value),
+                     reinterpret_cast<const std::byte*>(&value) + sizeof value);
     }
     /// 32-bit indices into vertices as shaders/shared.h has them.
     void geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices);
@@ -46,7 +48,8 @@ public:
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
               std::uint32_t layer_count = 1);
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
-    /// Group counts x, y, z are read from the buffer, which the pass declares as indirect, at `offset` bytes.
+    /// Group counts x, y, z are read from the buffer, which the pass declares as indirect, at
+    /// `offset` bytes.
     void dispatch_indirect(Buffer arguments, std::uint64_t offset = 0);
     /// Makes what the dispatches so far wrote visible to the following ones of this pass.
     void barrier();

@@ -7,10 +7,9 @@ namespace {
 PerLayer<char> wanted_layers(const Graph& graph) {
     PerLayer<char> live(graph, false);
     for (const Image& image : graph.wanted_images())
-        live.set({.id = image.id,
-                  .first_layer = image.first_layer,
-                  .layer_count = image.layer_count},
-                 true);
+        live.set(
+            {.id = image.id, .first_layer = image.first_layer, .layer_count = image.layer_count},
+            true);
     for (const Buffer& buffer : graph.wanted_buffers())
         live.set({.is_buffer = true, .id = buffer.id}, true);
     return live;
@@ -21,8 +20,8 @@ std::vector<char> sweep(const Graph& graph, PerLayer<char> live) {
     std::vector<char> survives(graph.passes().size(), false);
     for (std::size_t p = survives.size(); p-- > 0;) {
         const std::vector<Access> all = accesses(graph.passes()[p]);
-        survives[p] = std::ranges::any_of(
-            all, [&](const Access& a) { return a.write && live.any(a); });
+        survives[p] = std::ranges::any_of(all,
+                                          [&](const Access& a) { return a.write && live.any(a); });
         if (!survives[p]) continue;
         for (const Access& a : all)
             if (a.write) live.set(a, false);

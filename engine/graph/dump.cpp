@@ -69,8 +69,10 @@ Json access_json(const Graph& graph, const Access& a) {
     Json json{{"image", graph.images()[a.id].name},
               {"layers", {a.first_layer, a.layer_count}},
               {"use", graph::name_of(a.use)}};
-    if (a.write) json["clear"] = a.clears;
-    else json["previous"] = a.previous;
+    if (a.write)
+        json["clear"] = a.clears;
+    else
+        json["previous"] = a.previous;
     return json;
 }
 
@@ -137,8 +139,9 @@ void write_dot_pass(std::ostream& out, const Graph& graph, std::uint32_t index, 
 
 std::string to_text(const Graph& graph, const Plan& plan) {
     std::ostringstream out;
-    out << counted(plan.passes.size(), "pass", "es") << ", scene_passes " << plan.scene_passes << ", "
-        << plan.bytes << " bytes (" << plan.bytes_unshared << " without sharing)\n\npasses\n";
+    out << counted(plan.passes.size(), "pass", "es") << ", scene_passes " << plan.scene_passes
+        << ", " << plan.bytes << " bytes (" << plan.bytes_unshared
+        << " without sharing)\n\npasses\n";
     for (std::size_t p = 0; p < plan.passes.size(); ++p) {
         const Pass& pass = pass_of(graph, plan.passes[p]);
         out << "  " << p + 1 << " '" << pass.name << "'"

@@ -29,7 +29,7 @@ enum class Use {
     depth,         ///< depth attachment
     copy_from,
     copy_to,
-    indirect,      ///< buffer of draw or dispatch arguments
+    indirect, ///< buffer of draw or dispatch arguments
 };
 std::string_view name_of(Use use);
 

@@ -15,12 +15,14 @@ VkImageCreateInfo image_create_info(const ImageDesc& desc) {
     create.mipLevels = 1;
     create.arrayLayers = desc.layers;
     create.samples = VK_SAMPLE_COUNT_1_BIT;
-    create.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    create.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                   VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     create.usage |= is_depth(desc.format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                           : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     // Storage images are demanded by the core only for these (table of mandatory formats).
-    if (desc.format == Format::rgba32f || desc.format == Format::rgba16f || desc.format == Format::r32f ||
-        desc.format == Format::r32ui || desc.format == Format::rgba8_unorm)
+    if (desc.format == Format::rgba32f || desc.format == Format::rgba16f ||
+        desc.format == Format::r32f || desc.format == Format::r32ui ||
+        desc.format == Format::rgba8_unorm)
         create.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
     return create;
 }
@@ -28,7 +30,8 @@ VkImageCreateInfo image_create_info(const ImageDesc& desc) {
 Physical make_physical(const gpu::Device& device, const ImageDesc& desc) {
     const VkImageCreateInfo create = image_create_info(desc);
     VkImage image = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateImage(device.handle(), &create, nullptr, &image), "create image '" + desc.name + "'");
+    gpu::check_vk(vkCreateImage(device.handle(), &create, nullptr, &image),
+                  "create image '" + desc.name + "'");
     device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), desc.name);
     Physical physical;
     physical.desc = desc;
@@ -36,26 +39,34 @@ Physical make_physical(const gpu::Device& device, const ImageDesc& desc) {
     return physical;
 }
 
-VkImageView Physical::view(const gpu::Device& device, gpu::ImageShape shape, std::uint32_t first_layer,
-                           std::uint32_t layer_count) {
+VkImageView Physical::view(const gpu::Device& device, gpu::ImageShape shape,
+                           std::uint32_t first_layer, std::uint32_t layer_count) {
     using gpu::ImageShape;
     const Key key{shape, first_layer, layer_count};
     if (const auto found = views_.find(key); found != views_.end()) return found->second;
     const auto wants = [&](bool ok, const char* what) {
-        check(ok, Failure::internal, "image '", desc.name, "' has ", layer_count, " layers in this view, a shader wants ", what);
+        check(ok, Failure::internal, "image '", desc.name, "' has ", layer_count,
+              " layers in this view, a shader wants ", what);
     };
     VkImageViewCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     switch (shape) {
-    case ImageShape::flat: create.viewType = VK_IMAGE_VIEW_TYPE_2D, wants(layer_count == 1, "1"); break;
+    case ImageShape::flat:
+        create.viewType = VK_IMAGE_VIEW_TYPE_2D, wants(layer_count == 1, "1");
+        break;
     case ImageShape::flat_array: create.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY; break;
-    case ImageShape::cube: create.viewType = VK_IMAGE_VIEW_TYPE_CUBE, wants(layer_count == 6, "6"); break;
-    case ImageShape::cube_array: create.viewType = VK_IMAGE_VIEW_TYPE_CUBE_ARRAY, wants(layer_count % 6 == 0, "6 each"); break;
+    case ImageShape::cube:
+        create.viewType = VK_IMAGE_VIEW_TYPE_CUBE, wants(layer_count == 6, "6");
+        break;
+    case ImageShape::cube_array:
+        create.viewType = VK_IMAGE_VIEW_TYPE_CUBE_ARRAY, wants(layer_count % 6 == 0, "6 each");
+        break;
     }
     create.image = image;
     create.format = gpu::vk_format(desc.format);
     create.subresourceRange = {aspect_of(desc.format), 0, 1, first_layer, layer_count};
     VkImageView handle = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateImageView(device.handle(), &create, nullptr, &handle), "view image '" + desc.name + "'");
+    gpu::check_vk(vkCreateImageView(device.handle(), &create, nullptr, &handle),
+                  "view image '" + desc.name + "'");
     device.set_name(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<std::uint64_t>(handle), desc.name);
     return views_.emplace(key, gpu::UniqueImageView(device.handle(), handle)).first->second;
 }

@@ -89,8 +89,8 @@ void place(const Graph& graph, const Sizer& sizer, Plan& plan) {
             plan.heap_bytes.resize(placement.heap + 1, 0);
         }
         std::uint64_t& heap = plan.heap_bytes[placement.heap];
-        placement.offset =
-            placement.alone ? align_up(heap, item.alignment) : first_fit(item, placed);
+        placement.offset = placement.alone ? align_up(heap, item.alignment)
+                                           : first_fit(item, placed);
         heap = std::max(heap, end_of(placement));
         std::uint64_t& alone = unshared[placement.heap];
         alone = align_up(alone, item.alignment) + placement.bytes;

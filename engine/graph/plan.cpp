@@ -30,7 +30,8 @@ std::uint64_t largest_piece(const Graph& graph, const Plan& plan) {
     std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
         if (plan.images[i].used)
-            bytes = std::max(bytes, plan.images[i].bytes + (graph.is_kept(i) ? 0 : plan.images[i].offset));
+            bytes = std::max(bytes,
+                             plan.images[i].bytes + (graph.is_kept(i) ? 0 : plan.images[i].offset));
     for (const Placement& buffer : plan.buffers)
         if (buffer.used) bytes = std::max(bytes, buffer.offset + buffer.bytes);
     return bytes;
@@ -51,9 +52,11 @@ void check_memory(const Graph& graph, const Plan& plan, const Limits& limits) {
         look(plan.images[i], graph.images()[i].name);
     for (std::size_t b = 0; b < plan.buffers.size(); ++b)
         look(plan.buffers[b], graph.buffers()[b].name);
-    fail(Failure::exhausted, "the frame wants ", too_much ? plan.bytes : piece, " bytes of memory", too_much ? "" : " in one piece",
-         ", device allows ", too_much ? "max_memory = " : "max_allocation = ", too_much ? limits.max_memory : limits.max_allocation,
-         "; the largest is '", name, "' with ", bytes);
+    fail(Failure::exhausted, "the frame wants ", too_much ? plan.bytes : piece, " bytes of memory",
+         too_much ? "" : " in one piece", ", device allows ",
+         too_much ? "max_memory = " : "max_allocation = ",
+         too_much ? limits.max_memory : limits.max_allocation, "; the largest is '", name,
+         "' with ", bytes);
 }
 
 } // namespace

@@ -46,7 +46,7 @@ struct Barrier {
     bool previous = false; ///< the image's contents of the last frame
     std::uint32_t first_layer = 0;
     std::uint32_t layer_count = 0;
-    Touch before;          ///< `nothing`: the old contents are discarded
+    Touch before; ///< `nothing`: the old contents are discarded
     Touch after;
     /// More to wait for: other readers before a write or a change of layout; with
     /// `before.nothing`, the last touches of what used the same memory earlier in the frame.
@@ -54,7 +54,7 @@ struct Barrier {
 };
 
 struct PlannedPass {
-    std::uint32_t pass = 0; ///< index into Graph::passes()
+    std::uint32_t pass = 0;        ///< index into Graph::passes()
     std::vector<Barrier> barriers; ///< to be executed before it
 };
 
@@ -81,12 +81,12 @@ struct Plan {
     /// the next frame too, where `previous` is sampled without a barrier.
     std::vector<Barrier> last;
     std::vector<Culled> culled;
-    std::vector<Placement> images;  ///< one per Graph::images()
-    std::vector<Placement> buffers; ///< one per Graph::buffers()
+    std::vector<Placement> images;         ///< one per Graph::images()
+    std::vector<Placement> buffers;        ///< one per Graph::buffers()
     std::vector<std::uint64_t> heap_bytes; ///< size of each heap
-    std::uint64_t bytes = 0;          ///< of all heaps together; a kept image counts twice
-    std::uint64_t bytes_unshared = 0; ///< what it would be without sharing
-    int scene_passes = 0;             ///< executed passes tagged Tag::scene
+    std::uint64_t bytes = 0;               ///< of all heaps together; a kept image counts twice
+    std::uint64_t bytes_unshared = 0;      ///< what it would be without sharing
+    int scene_passes = 0;                  ///< executed passes tagged Tag::scene
 };
 
 /// Validates, culls, places and orders. Pure: no device. Passes run in order of declaration.

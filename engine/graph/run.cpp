@@ -18,8 +18,10 @@ double milliseconds(Clock::duration duration) {
 
 gpu::UniqueSampler make_sampler(const gpu::Device& device, Filter filter) {
     VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    create.magFilter = create.minFilter = filter == Filter::nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
-    create.addressModeU = create.addressModeV = create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    create.magFilter = create.minFilter = filter == Filter::nearest ? VK_FILTER_NEAREST
+                                                                    : VK_FILTER_LINEAR;
+    create.addressModeU = create.addressModeV = create.addressModeW =
+        VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     create.compareEnable = filter == Filter::compare;
     create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depth: not behind what is stored
     VkSampler sampler = VK_NULL_HANDLE;
@@ -32,14 +34,16 @@ VkCommandBuffer make_commands(const gpu::Device& device, gpu::UniqueCommandPool&
     create.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     create.queueFamilyIndex = device.queue_family();
     VkCommandPool handle = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateCommandPool(device.handle(), &create, nullptr, &handle), "create a command pool");
+    gpu::check_vk(vkCreateCommandPool(device.handle(), &create, nullptr, &handle),
+                  "create a command pool");
     pool = {device.handle(), handle};
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = handle;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    gpu::check_vk(vkAllocateCommandBuffers(device.handle(), &allocate, &commands), "allocate a command buffer");
+    gpu::check_vk(vkAllocateCommandBuffers(device.handle(), &allocate, &commands),
+                  "allocate a command buffer");
     return commands;
 }
 
@@ -48,27 +52,32 @@ gpu::UniqueSemaphore make_timeline(const gpu::Device& device) {
     type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     const VkSemaphoreCreateInfo create{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
     VkSemaphore semaphore = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateSemaphore(device.handle(), &create, nullptr, &semaphore), "create a semaphore");
+    gpu::check_vk(vkCreateSemaphore(device.handle(), &create, nullptr, &semaphore),
+                  "create a semaphore");
     return {device.handle(), semaphore};
 }
 
 VkExtent2D extent_of(const Graph& graph, const Pass& pass) {
-    const ImageDesc& desc = graph.images()[std::ranges::find_if(pass.images, [](const ImageUse& use) {
-        return use.use == Use::colour || use.use == Use::depth;
-    })->image.id];
+    const ImageDesc& desc =
+        graph.images()[std::ranges::find_if(pass.images, [](const ImageUse& use) {
+                           return use.use == Use::colour || use.use == Use::depth;
+                       })->image.id];
     return {desc.width, desc.height};
 }
 
 } // namespace
 
-Runner::Runner(gpu::Device& device, gpu::Pipelines& pipelines) : device_(device), pipelines_(pipelines) {
+Runner::Runner(gpu::Device& device, gpu::Pipelines& pipelines)
+    : device_(device), pipelines_(pipelines) {
     for (Filter filter : {Filter::nearest, Filter::linear, Filter::compare})
         samplers_[static_cast<std::size_t>(filter)] = make_sampler(device, filter);
     commands_ = make_commands(device, pool_);
     timeline_ = make_timeline(device);
     if (!device.has_labels()) return;
-    begin_label_ = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(vkGetDeviceProcAddr(device.handle(), "vkCmdBeginDebugUtilsLabelEXT"));
-    end_label_ = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
+    begin_label_ = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
+        vkGetDeviceProcAddr(device.handle(), "vkCmdBeginDebugUtilsLabelEXT"));
+    end_label_ = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(
+        vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
 }
 
 Runner::~Runner() { vkDeviceWaitIdle(device_.handle()); }
@@ -126,11 +135,13 @@ void Runner::full_barrier() {
 void Runner::stamp(Timing timing) {
     vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, next_query_++);
     if (timing == Timing::isolated)
-        vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0,
-                             0, nullptr, 0, nullptr, 0, nullptr);
+        vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                             VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 0,
+                             nullptr);
 }
 
-void Runner::barriers(const Graph& graph, const Plan&, const std::vector<Barrier>& list, bool last) {
+void Runner::barriers(const Graph& graph, const Plan&, const std::vector<Barrier>& list,
+                      bool last) {
     std::vector<VkImageMemoryBarrier2> images;
     std::vector<VkBufferMemoryBarrier2> buffers;
     for (const Barrier& barrier : list) {
@@ -155,10 +166,12 @@ void Runner::barriers(const Graph& graph, const Plan&, const std::vector<Barrier
         VkImageMemoryBarrier2 b{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
         b.srcStageMask = before.stages, b.srcAccessMask = before.access;
         b.dstStageMask = after.stages, b.dstAccessMask = after.access;
-        b.oldLayout = barrier.before.nothing ? VK_IMAGE_LAYOUT_UNDEFINED : layout_of(barrier.before.use);
+        b.oldLayout = barrier.before.nothing ? VK_IMAGE_LAYOUT_UNDEFINED
+                                             : layout_of(barrier.before.use);
         b.newLayout = layout_of(barrier.after.use);
         b.image = physical({barrier.id, 0, 0, barrier.previous}).image;
-        b.subresourceRange = {aspect_of(graph.images()[barrier.id].format), 0, 1, barrier.first_layer, barrier.layer_count};
+        b.subresourceRange = {aspect_of(graph.images()[barrier.id].format), 0, 1,
+                              barrier.first_layer, barrier.layer_count};
         images.push_back(b);
     }
     if (images.empty() && buffers.empty()) return;
@@ -182,25 +195,30 @@ void Runner::record_pass(const Graph& graph, const Pass& pass) {
     } else if (pass.layer_count == 1 || device_.layered()) {
         render(graph, pass, 0, pass.layer_count);
     } else {
-        for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer) render(graph, pass, layer, 1);
+        for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer)
+            render(graph, pass, layer, 1);
     }
     if (end_label_) end_label_(commands_);
 }
 
 /// One rendering scope over some layers of the pass's attachments.
-void Runner::render(const Graph& graph, const Pass& pass, std::uint32_t first_layer, std::uint32_t layer_count) {
+void Runner::render(const Graph& graph, const Pass& pass, std::uint32_t first_layer,
+                    std::uint32_t layer_count) {
     std::vector<VkRenderingAttachmentInfo> colours;
     VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     bool has_depth = false;
-    const gpu::ImageShape shape = layer_count > 1 ? gpu::ImageShape::flat_array : gpu::ImageShape::flat;
+    const gpu::ImageShape shape = layer_count > 1 ? gpu::ImageShape::flat_array
+                                                  : gpu::ImageShape::flat;
     for (const ImageUse& use : pass.images) {
         if (use.use != Use::colour && use.use != Use::depth) continue;
         VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-        info.imageView = physical(use.image).view(device_, shape, use.image.first_layer + first_layer, layer_count);
+        info.imageView = physical(use.image).view(device_, shape,
+                                                  use.image.first_layer + first_layer, layer_count);
         info.imageLayout = layout_of(use.use);
         info.loadOp = use.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
         info.storeOp = use.write ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE;
-        if (use.clear && use.use == Use::colour) std::ranges::copy(*use.clear, info.clearValue.color.float32);
+        if (use.clear && use.use == Use::colour)
+            std::ranges::copy(*use.clear, info.clearValue.color.float32);
         if (use.clear && use.use == Use::depth) info.clearValue.depthStencil = {(*use.clear)[0], 0};
         if (use.use == Use::colour)
             colours.push_back(info);
@@ -215,7 +233,8 @@ void Runner::render(const Graph& graph, const Pass& pass, std::uint32_t first_la
     rendering.pColorAttachments = colours.data();
     rendering.pDepthAttachment = has_depth ? &depth : nullptr;
     vkCmdBeginRendering(commands_, &rendering);
-    const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
+    const VkViewport viewport{
+        0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
     const VkRect2D scissor{{0, 0}, extent};
     vkCmdSetViewport(commands_, 0, 1, &viewport);
     vkCmdSetScissor(commands_, 0, 1, &scissor);
@@ -227,7 +246,8 @@ void Runner::render(const Graph& graph, const Pass& pass, std::uint32_t first_la
 /// The number of the frame and its passes: which of them a device was lost in, nobody knows.
 std::string Runner::name_of_frame(const Graph& graph, const Plan& plan) const {
     std::string name = "frame " + std::to_string(frame_) + " (passes";
-    for (const PlannedPass& planned : plan.passes) name += " '" + graph.passes()[planned.pass].name + "'";
+    for (const PlannedPass& planned : plan.passes)
+        name += " '" + graph.passes()[planned.pass].name + "'";
     return name + ")";
 }
 
@@ -258,14 +278,17 @@ double Runner::submit_and_wait(const Graph& graph, const Plan& plan) {
 
 FrameTimes Runner::read_times(const Graph& graph, const Plan& plan, Timing timing) const {
     std::vector<std::uint64_t> stamps(next_query_);
-    gpu::check_vk(vkGetQueryPoolResults(device_.handle(), queries_, 0, next_query_, stamps.size() * 8, stamps.data(), 8,
+    gpu::check_vk(vkGetQueryPoolResults(device_.handle(), queries_, 0, next_query_,
+                                        stamps.size() * 8, stamps.data(), 8,
                                         VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
                   "read the time stamps of " + name_of_frame(graph, plan));
-    const std::vector<double> at = milliseconds_since_first(stamps, device_.timestamp_bits(), static_cast<double>(device_.limits().timestampPeriod));
+    const std::vector<double> at = milliseconds_since_first(
+        stamps, device_.timestamp_bits(), static_cast<double>(device_.limits().timestampPeriod));
     FrameTimes times;
     for (std::size_t i = 0; i < plan.passes.size(); ++i) {
         const bool isolated = timing == Timing::isolated;
-        times.passes.push_back({graph.passes()[plan.passes[i].pass].name, isolated ? at[i] : at[2 * i],
+        times.passes.push_back({graph.passes()[plan.passes[i].pass].name,
+                                isolated ? at[i] : at[2 * i],
                                 isolated ? at[i + 1] : at[2 * i + 1]});
         times.span_ms = std::max(times.span_ms, times.passes.back().end_ms);
     }

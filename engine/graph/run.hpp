@@ -13,7 +13,8 @@
 namespace catoptric::graph {
 
 /// isolated: an execution barrier follows each stamp, so the times of passes add up and no two
-/// passes overlap. pipelined: only the barriers that the plan needs; believe the span, not the parts.
+/// passes overlap. pipelined: only the barriers that the plan needs; believe the span, not the
+/// parts.
 enum class Timing { isolated, pipelined };
 
 struct PassTime {
@@ -26,9 +27,9 @@ struct PassTime {
 /// One frame on the clock. On a cpu device "gpu" time is processor time of the driver's threads.
 struct FrameTimes {
     std::vector<PassTime> passes; ///< in order of execution
-    double span_ms = 0;   ///< first to last stamp
-    double record_ms = 0; ///< filling the command buffer, host clock
-    double wall_ms = 0;   ///< submit until the device has finished, host clock
+    double span_ms = 0;           ///< first to last stamp
+    double record_ms = 0;         ///< filling the command buffer, host clock
+    double wall_ms = 0;           ///< submit until the device has finished, host clock
 };
 
 /// Executes plans: one command buffer, one submit, one timeline semaphore a frame. Keeps images,
@@ -50,7 +51,8 @@ public:
     /// `stays`: a frame beside the sequence; the next one has the history that this one had.
     FrameTimes run(const Graph& graph, const Plan& plan, Timing timing, bool stays = false);
 
-    /// Texels of a wanted image of the graph that ran last: rows top down, layers one after the other.
+    /// Texels of a wanted image of the graph that ran last: rows top down, layers one after the
+    /// other.
     std::vector<std::byte> read(Image image);
     std::vector<std::byte> read(Buffer buffer);
 
@@ -74,8 +76,10 @@ private:
     void make_kept(const ImageDesc& desc);
     void record(const Graph& graph, const Plan& plan, Timing timing);
     void record_pass(const Graph& graph, const Pass& pass);
-    void render(const Graph& graph, const Pass& pass, std::uint32_t first_layer, std::uint32_t layer_count);
-    void barriers(const Graph& graph, const Plan& plan, const std::vector<Barrier>& list, bool last);
+    void render(const Graph& graph, const Pass& pass, std::uint32_t first_layer,
+                std::uint32_t layer_count);
+    void barriers(const Graph& graph, const Plan& plan, const std::vector<Barrier>& list,
+                  bool last);
     void full_barrier();
     void stamp(Timing timing);
     std::string name_of_frame(const Graph& graph, const Plan& plan) const;

@@ -2,11 +2,14 @@
 
 namespace catoptric::graph {
 
-std::vector<double> milliseconds_since_first(std::span<const std::uint64_t> stamps, std::uint32_t valid_bits, double tick_ns) {
+std::vector<double> milliseconds_since_first(std::span<const std::uint64_t> stamps,
+                                             std::uint32_t valid_bits, double tick_ns) {
     // Differences modulo the valid bits survive one wrap of the counter.
-    const std::uint64_t mask = valid_bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << valid_bits) - 1;
+    const std::uint64_t mask = valid_bits >= 64 ? ~std::uint64_t{0}
+                                                : (std::uint64_t{1} << valid_bits) - 1;
     std::vector<double> times;
-    for (const std::uint64_t stamp : stamps) times.push_back(static_cast<double>((stamp - stamps.front()) & mask) * tick_ns * 1e-6);
+    for (const std::uint64_t stamp : stamps)
+        times.push_back(static_cast<double>((stamp - stamps.front()) & mask) * tick_ns * 1e-6);
     return times;
 }
 

@@ -27,27 +27,33 @@ VkBufferCreateInfo buffer_create_info(const BufferDesc& desc) {
     return create;
 }
 
-Requirements placed(const gpu::Device& device, const VkMemoryRequirements& needs, const std::string& name) {
+Requirements placed(const gpu::Device& device, const VkMemoryRequirements& needs,
+                    const std::string& name) {
     const int type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(type >= 0, Failure::internal, "no memory type for '", name, "'");
-    // Linear buffers and optimal images share heaps: the granularity keeps them on pages of their own.
+    // Linear buffers and optimal images share heaps: the granularity keeps them on pages of their
+    // own.
     const auto granularity = device.limits().bufferImageGranularity;
-    return {needs.size, std::max<std::uint64_t>(needs.alignment, granularity), static_cast<std::uint32_t>(type)};
+    return {needs.size, std::max<std::uint64_t>(needs.alignment, granularity),
+            static_cast<std::uint32_t>(type)};
 }
 
 } // namespace
 
 Limits Runner::limits() const {
     const VkPhysicalDeviceLimits& limits = device_.limits();
-    return {limits.maxImageDimension2D, limits.maxImageDimensionCube, limits.maxImageArrayLayers,
-            limits.maxFramebufferLayers, device_.memory_budget(), device_.max_allocation()};
+    return {limits.maxImageDimension2D,  limits.maxImageDimensionCube, limits.maxImageArrayLayers,
+            limits.maxFramebufferLayers, device_.memory_budget(),      device_.max_allocation()};
 }
 
 Sizer Runner::sizer() const {
-    return {[this](const ImageDesc& desc) { return placed(device_, requirements(device_, desc), desc.name); },
+    return {[this](const ImageDesc& desc) {
+                return placed(device_, requirements(device_, desc), desc.name);
+            },
             [this](const BufferDesc& desc) {
                 const VkBufferCreateInfo create = buffer_create_info(desc);
-                VkDeviceBufferMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS};
+                VkDeviceBufferMemoryRequirements info{
+                    VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS};
                 info.pCreateInfo = &create;
                 VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
                 vkGetDeviceBufferMemoryRequirements(device_.handle(), &info, &needs);
@@ -76,7 +82,8 @@ void Runner::prepare(const Graph& graph, const Plan& plan) {
         create.queryType = VK_QUERY_TYPE_TIMESTAMP;
         create.queryCount = query_count_ = queries;
         VkQueryPool pool = VK_NULL_HANDLE;
-        gpu::check_vk(vkCreateQueryPool(device_.handle(), &create, nullptr, &pool), "create time stamps");
+        gpu::check_vk(vkCreateQueryPool(device_.handle(), &create, nullptr, &pool),
+                      "create time stamps");
         queries_ = {device_.handle(), pool};
     }
     vkResetQueryPool(device_.handle(), queries_, 0, query_count_);
@@ -88,23 +95,32 @@ void Runner::prepare(const Graph& graph, const Plan& plan) {
     for (std::size_t i = 0; i < plan.images.size(); ++i) {
         const bool kept = plan.images[i].used && graph.is_kept(static_cast<std::uint32_t>(i));
         if (kept) kept_ids.insert(static_cast<std::uint32_t>(i));
-        offsets.push_back(!plan.images[i].used ? ~std::uint64_t{0} : kept ? ~std::uint64_t{1} : plan.images[i].offset);
+        offsets.push_back(!plan.images[i].used ? ~std::uint64_t{0}
+                          : kept               ? ~std::uint64_t{1}
+                                               : plan.images[i].offset);
     }
-    for (const Placement& placement : plan.buffers) offsets.push_back(placement.used ? placement.offset : ~std::uint64_t{0});
-    if (graph.images() == image_descs_ && graph.buffers() == buffer_descs_ && offsets == offsets_) return;
+    for (const Placement& placement : plan.buffers)
+        offsets.push_back(placement.used ? placement.offset : ~std::uint64_t{0});
+    if (graph.images() == image_descs_ && graph.buffers() == buffer_descs_ && offsets == offsets_)
+        return;
     image_descs_ = graph.images(), buffer_descs_ = graph.buffers();
     offsets_ = std::move(offsets), kept_ids_ = std::move(kept_ids);
     images_.clear(), owned_buffers_.clear(), buffers_.clear(), heaps_.clear();
 
     std::vector<std::uint64_t> heap_bytes(plan.heap_bytes.size(), 0);
-    const auto grow = [&](const Placement& p) { heap_bytes[p.heap] = std::max(heap_bytes[p.heap], p.offset + p.bytes); };
+    const auto grow = [&](const Placement& p) {
+        heap_bytes[p.heap] = std::max(heap_bytes[p.heap], p.offset + p.bytes);
+    };
     for (std::size_t i = 0; i < plan.images.size(); ++i)
-        if (plan.images[i].used && !kept_ids_.contains(static_cast<std::uint32_t>(i))) grow(plan.images[i]);
+        if (plan.images[i].used && !kept_ids_.contains(static_cast<std::uint32_t>(i)))
+            grow(plan.images[i]);
     for (const Placement& placement : plan.buffers)
         if (placement.used) grow(placement);
     for (std::size_t type = 0; type < heap_bytes.size(); ++type)
-        heaps_.push_back(heap_bytes[type] ? device_.allocate(heap_bytes[type], static_cast<std::uint32_t>(type), "images of the frame")
-                                          : gpu::UniqueMemory());
+        heaps_.push_back(heap_bytes[type]
+                             ? device_.allocate(heap_bytes[type], static_cast<std::uint32_t>(type),
+                                                "images of the frame")
+                             : gpu::UniqueMemory());
     for (std::size_t i = 0; i < plan.images.size(); ++i) {
         const Placement& placement = plan.images[i];
         images_.emplace_back();
@@ -114,7 +130,8 @@ void Runner::prepare(const Graph& graph, const Plan& plan) {
             continue;
         }
         images_.back() = make_physical(device_, image_descs_[i]);
-        gpu::check_vk(vkBindImageMemory(device_.handle(), images_.back().image, heaps_[placement.heap], placement.offset),
+        gpu::check_vk(vkBindImageMemory(device_.handle(), images_.back().image,
+                                        heaps_[placement.heap], placement.offset),
                       "place image '" + image_descs_[i].name + "'");
     }
     for (std::size_t i = 0; i < plan.buffers.size(); ++i) {
@@ -123,10 +140,13 @@ void Runner::prepare(const Graph& graph, const Plan& plan) {
         buffers_.push_back(VK_NULL_HANDLE);
         if (!placement.used) continue;
         const VkBufferCreateInfo create = buffer_create_info(buffer_descs_[i]);
-        gpu::check_vk(vkCreateBuffer(device_.handle(), &create, nullptr, &buffers_.back()), "create buffer '" + buffer_descs_[i].name + "'");
+        gpu::check_vk(vkCreateBuffer(device_.handle(), &create, nullptr, &buffers_.back()),
+                      "create buffer '" + buffer_descs_[i].name + "'");
         owned_buffers_.back() = {device_.handle(), buffers_.back()};
-        device_.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffers_.back()), buffer_descs_[i].name);
-        gpu::check_vk(vkBindBufferMemory(device_.handle(), buffers_.back(), heaps_[placement.heap], placement.offset),
+        device_.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffers_.back()),
+                         buffer_descs_[i].name);
+        gpu::check_vk(vkBindBufferMemory(device_.handle(), buffers_.back(), heaps_[placement.heap],
+                                         placement.offset),
                       "place buffer '" + buffer_descs_[i].name + "'");
     }
 }
@@ -139,12 +159,14 @@ void Runner::make_kept(const ImageDesc& desc) {
     }
     Kept kept;
     const Requirements needs = sizer().image(desc);
-    const std::uint64_t second = (needs.bytes + needs.alignment - 1) / needs.alignment * needs.alignment;
+    const std::uint64_t second = (needs.bytes + needs.alignment - 1) / needs.alignment *
+                                 needs.alignment;
     kept.memory = device_.allocate(second + needs.bytes, needs.heap, desc.name);
     for (std::size_t i = 0; i < 2; ++i) {
         kept.copies[i] = make_physical(device_, desc);
-        gpu::check_vk(vkBindImageMemory(device_.handle(), kept.copies[i].image, kept.memory, i * second),
-                      "place image '" + desc.name + "'");
+        gpu::check_vk(
+            vkBindImageMemory(device_.handle(), kept.copies[i].image, kept.memory, i * second),
+            "place image '" + desc.name + "'");
     }
     device_.submit_now("clear image '" + desc.name + "'", [&](VkCommandBuffer commands) {
         for (const Physical& copy : kept.copies) {
@@ -161,8 +183,10 @@ void Runner::make_kept(const ImageDesc& desc) {
             vkCmdPipelineBarrier2(commands, &dependency);
             const VkClearColorValue black{};
             vkCmdClearColorImage(commands, copy.image, barrier.newLayout, &black, 1, &range);
-            barrier.srcStageMask = barrier.dstStageMask, barrier.srcAccessMask = barrier.dstAccessMask;
-            barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
+            barrier.srcStageMask = barrier.dstStageMask,
+            barrier.srcAccessMask = barrier.dstAccessMask;
+            barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
             barrier.oldLayout = barrier.newLayout, barrier.newLayout = layout_of(Use::sampled);
             vkCmdPipelineBarrier2(commands, &dependency);
         }
@@ -174,17 +198,19 @@ VkDescriptorSet Runner::descriptor_set(VkDescriptorSetLayout layout) {
     for (;; ++next_pool_) {
         const bool fresh = next_pool_ == descriptor_pools_.size();
         if (fresh) {
-            const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * kSetsPerPool},
-                                                  {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSetsPerPool},
-                                                  {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 4 * kSetsPerPool},
-                                                  {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * kSetsPerPool},
-                                                  {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4 * kSetsPerPool}};
+            const VkDescriptorPoolSize sizes[] = {
+                {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * kSetsPerPool},
+                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSetsPerPool},
+                {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 4 * kSetsPerPool},
+                {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * kSetsPerPool},
+                {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4 * kSetsPerPool}};
             VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
             create.maxSets = kSetsPerPool;
             create.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
             create.pPoolSizes = sizes;
             VkDescriptorPool pool = VK_NULL_HANDLE;
-            gpu::check_vk(vkCreateDescriptorPool(device_.handle(), &create, nullptr, &pool), "create a descriptor pool");
+            gpu::check_vk(vkCreateDescriptorPool(device_.handle(), &create, nullptr, &pool),
+                          "create a descriptor pool");
             descriptor_pools_.emplace_back(device_.handle(), pool);
         }
         VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
@@ -194,7 +220,8 @@ VkDescriptorSet Runner::descriptor_set(VkDescriptorSetLayout layout) {
         VkDescriptorSet set = VK_NULL_HANDLE;
         const VkResult result = vkAllocateDescriptorSets(device_.handle(), &allocate, &set);
         if (result == VK_SUCCESS) return set;
-        const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;
+        const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY ||
+                          result == VK_ERROR_FRAGMENTED_POOL;
         if (fresh || !full) gpu::check_vk(result, "allocate a descriptor set");
     }
 }
@@ -204,7 +231,8 @@ std::vector<std::byte> Runner::read(Image image) {
     image.previous = kept; // the frame is over: what it wrote is the "last frame" now
     const ImageDesc& desc = image_descs_[image.id];
     Physical& source = physical(image);
-    const std::uint64_t bytes = std::uint64_t{desc.width} * desc.height * image.layer_count * bytes_per_texel(desc.format);
+    const std::uint64_t bytes = std::uint64_t{desc.width} * desc.height * image.layer_count *
+                                bytes_per_texel(desc.format);
     gpu::Buffer target(device_, "read-back of " + desc.name, bytes, gpu::BufferUse::read_back);
     device_.submit_now("read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
         VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
@@ -212,7 +240,8 @@ std::vector<std::byte> Runner::read(Image image) {
         barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
         barrier.oldLayout = layout_of(Use::sampled), barrier.newLayout = layout_of(Use::copy_from);
         barrier.image = source.image;
-        barrier.subresourceRange = {aspect_of(desc.format), 0, 1, image.first_layer, image.layer_count};
+        barrier.subresourceRange = {aspect_of(desc.format), 0, 1, image.first_layer,
+                                    image.layer_count};
         VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
         dependency.imageMemoryBarrierCount = 1;
         dependency.pImageMemoryBarriers = &barrier;
@@ -220,7 +249,8 @@ std::vector<std::byte> Runner::read(Image image) {
         VkBufferImageCopy region{};
         region.imageSubresource = {aspect_of(desc.format), 0, image.first_layer, image.layer_count};
         region.imageExtent = {desc.width, desc.height, 1};
-        vkCmdCopyImageToBuffer(commands, source.image, layout_of(Use::copy_from), target.handle(), 1, &region);
+        vkCmdCopyImageToBuffer(commands, source.image, layout_of(Use::copy_from), target.handle(),
+                               1, &region);
         std::swap(barrier.oldLayout, barrier.newLayout);
         if (kept) vkCmdPipelineBarrier2(commands, &dependency);
     });

@@ -46,8 +46,8 @@ void check_names(const Graph& graph) {
 void check_image(const ImageDesc& desc, const Limits& limits) {
     check(desc.width > 0 && desc.height > 0 && desc.layers > 0, kWrong, "image '", desc.name,
           "' is empty: ", desc.width, "x", desc.height, ", ", desc.layers, " layers");
-    check(!desc.cube || desc.layers % 6 == 0, kWrong, "image '", desc.name,
-          "' is a cube, but its ", desc.layers, " layers are not a multiple of 6");
+    check(!desc.cube || desc.layers % 6 == 0, kWrong, "image '", desc.name, "' is a cube, but its ",
+          desc.layers, " layers are not a multiple of 6");
     check(!desc.cube || desc.width == desc.height, kWrong, "image '", desc.name,
           "' is a cube, but not square: ", desc.width, "x", desc.height);
     const std::uint32_t size = std::max(desc.width, desc.height);
@@ -67,12 +67,11 @@ void check_order(const Graph& graph) {
         for (const Access& a : all) {
             if (!a.needs || a.previous) continue;
             const std::string missing = missing_layers(written, a);
-            const char* verb = !a.write              ? "reads "
+            const char* verb = !a.write                ? "reads "
                                : a.use == Use::storage ? "reads and writes "
                                                        : "loads (has no clear for) ";
             check(missing.empty(), kWrong, "pass '", pass.name, "' ", verb, describe(graph, a),
-                  " as ", name_of(a.use), " before any pass writes ",
-                  a.is_buffer ? "it" : missing);
+                  " as ", name_of(a.use), " before any pass writes ", a.is_buffer ? "it" : missing);
         }
         for (const Access& a : all)
             if (a.write) written.set(a, true);

@@ -23,9 +23,10 @@ dvec3 clamped(const vec3& pixel) {
 bool counts(const Mask& mask, std::size_t pixel) { return mask.empty() || mask[pixel] != 0; }
 
 void check_sizes(const Picture& a, const Picture& b, const Mask& mask, std::size_t flip_size) {
-    check(a.width == b.width && a.height == b.height, Failure::bad_data, "a difference wants two "
-          "pictures of the same size, found ", a.width, "x", a.height, " and ", b.width, "x",
-          b.height);
+    check(a.width == b.width && a.height == b.height, Failure::bad_data,
+          "a difference wants two "
+          "pictures of the same size, found ",
+          a.width, "x", a.height, " and ", b.width, "x", b.height);
     check(mask.empty() || mask.size() == a.pixels.size(), Failure::bad_data, "a difference of ",
           a.pixels.size(), " pixels wants a mask of as many, found ", mask.size());
     check(flip_size == a.pixels.size(), Failure::bad_data, "a difference of ", a.pixels.size(),

@@ -17,10 +17,9 @@ namespace {
 // --- colour spaces -------------------------------------------------------------------------------
 
 /// Columns are the XYZ of red, green and blue, the constants of the authors' program.
-const dmat3 kXyzFromRgb = {
-    {10135552.0 / 24577794, 2613072.0 / 12288897, 1425312.0 / 73733382},
-    {8788810.0 / 24577794, 8788810.0 / 12288897, 8788810.0 / 73733382},
-    {4435075.0 / 24577794, 887015.0 / 12288897, 70074185.0 / 73733382}};
+const dmat3 kXyzFromRgb = {{10135552.0 / 24577794, 2613072.0 / 12288897, 1425312.0 / 73733382},
+                           {8788810.0 / 24577794, 8788810.0 / 12288897, 8788810.0 / 73733382},
+                           {4435075.0 / 24577794, 887015.0 / 12288897, 70074185.0 / 73733382}};
 const dmat3 kRgbFromXyz = glm::inverse(kXyzFromRgb);
 const dvec3 kWhite = kXyzFromRgb * dvec3(1);
 
@@ -85,8 +84,8 @@ Plane blurred(const Plane& channel, const std::vector<Kernel>& kernels) {
 std::vector<dvec3> perceived(const Picture& display, double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi;
     constexpr double kWidest = 0.04; // the largest b below
-    const int radius =
-        static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixels_per_degree));
+    const int radius = static_cast<int>(
+        std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixels_per_degree));
     const auto gaussian = [&](double a, double b) {
         return sensitivity(a, b, radius, pixels_per_degree);
     };
@@ -97,8 +96,8 @@ std::vector<dvec3> perceived(const Picture& display, double pixels_per_degree) {
     std::vector<dvec3> result(display.pixels.size());
     for (std::size_t i = 0; i < result.size(); ++i) {
         const vec3& p = display.pixels[i];
-        result[i] = ycxcz_from_rgb({linear_from_srgb(p.x), linear_from_srgb(p.y),
-                                    linear_from_srgb(p.z)});
+        result[i] = ycxcz_from_rgb(
+            {linear_from_srgb(p.x), linear_from_srgb(p.y), linear_from_srgb(p.z)});
     }
     for (int channel = 0; channel < 3; ++channel) {
         Plane plane(display.width, display.height);
@@ -131,8 +130,8 @@ private:
     static constexpr double kKneeIn = 0.4;   // p_c
     static constexpr double kKneeOut = 0.95; // p_t
     // Green against blue is the largest difference in the sRGB gamut.
-    double largest_ = std::pow(
-        hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), kExponent);
+    double largest_ = std::pow(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})),
+                               kExponent);
 };
 
 // --- section 4.2: feature pipeline ---------------------------------------------------------------
@@ -191,8 +190,10 @@ double feature_difference(double edge_a, double edge_b, double point_a, double p
 } // namespace
 
 std::vector<float> flip(const Picture& a, const Picture& b, double pixels_per_degree) {
-    check(a.width == b.width && a.height == b.height, Failure::bad_data, "FLIP wants two pictures "
-          "of the same size, found ", a.width, "x", a.height, " and ", b.width, "x", b.height);
+    check(a.width == b.width && a.height == b.height, Failure::bad_data,
+          "FLIP wants two pictures "
+          "of the same size, found ",
+          a.width, "x", a.height, " and ", b.width, "x", b.height);
     check(a.width > 0 && a.height > 0, Failure::bad_data, "FLIP wants at least one pixel, found ",
           a.width, "x", a.height);
     check(pixels_per_degree >= 1 && pixels_per_degree <= 1000, Failure::usage,
@@ -208,9 +209,8 @@ std::vector<float> flip(const Picture& a, const Picture& b, double pixels_per_de
         const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width);
         for (std::size_t i = first; i < first + static_cast<std::size_t>(a.width); ++i) {
             const double colour = colour_difference(seen_a[i], seen_b[i]);
-            const double feature =
-                feature_difference(of_a.edge.values[i], of_b.edge.values[i],
-                                   of_a.point.values[i], of_b.point.values[i]);
+            const double feature = feature_difference(of_a.edge.values[i], of_b.edge.values[i],
+                                                      of_a.point.values[i], of_b.point.values[i]);
             map[i] = static_cast<float>(std::pow(colour, 1 - feature)); // eq. 8
         }
     });

@@ -12,15 +12,9 @@ namespace {
 /// A colour, in eighths of the way up the map.
 constexpr std::size_t kSteps = 8;
 const std::array<vec3, kSteps + 1> kAnchors = {
-    vec3(0.0F, 0.0F, 0.0F),
-    vec3(0.126F, 0.068F, 0.349F),
-    vec3(0.353F, 0.088F, 0.49F),
-    vec3(0.578F, 0.159F, 0.508F),
-    vec3(0.801F, 0.244F, 0.453F),
-    vec3(0.95F, 0.405F, 0.366F),
-    vec3(0.986F, 0.617F, 0.418F),
-    vec3(0.984F, 0.815F, 0.556F),
-    vec3(0.99F, 0.99F, 0.78F)};
+    vec3(0.0F, 0.0F, 0.0F),       vec3(0.126F, 0.068F, 0.349F), vec3(0.353F, 0.088F, 0.49F),
+    vec3(0.578F, 0.159F, 0.508F), vec3(0.801F, 0.244F, 0.453F), vec3(0.95F, 0.405F, 0.366F),
+    vec3(0.986F, 0.617F, 0.418F), vec3(0.984F, 0.815F, 0.556F), vec3(0.99F, 0.99F, 0.78F)};
 
 constexpr vec3 kNotANumber{0, 1, 1};
 

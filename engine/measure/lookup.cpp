@@ -16,7 +16,9 @@ LookupError lookup_error(std::span<const LookedUp> pixels) {
     std::vector<double> angles;
     for (const LookedUp& pixel : pixels) angles.push_back(pixel.angle_degrees);
     const auto count = static_cast<double>(pixels.size());
-    const auto share = [&](auto&& is) { return static_cast<double>(std::ranges::count_if(pixels, is)) / count; };
+    const auto share = [&](auto&& is) {
+        return static_cast<double>(std::ranges::count_if(pixels, is)) / count;
+    };
     error.mean_degrees = std::accumulate(angles.begin(), angles.end(), 0.0) / count;
     error.p95_degrees = percentile(angles, 0.95);
     error.p99_degrees = percentile(angles, 0.99);

@@ -24,21 +24,18 @@ Mask mirrors(std::span<const std::uint32_t> hits) {
 }
 
 Mask first_order(std::span<const std::uint32_t> hits) {
-    return where(hits, [](std::uint32_t hit) {
-        return first_mirror(hit) != 0 && second_mirror(hit) == 0;
-    });
+    return where(
+        hits, [](std::uint32_t hit) { return first_mirror(hit) != 0 && second_mirror(hit) == 0; });
 }
 
 Mask mirror_in_mirror(std::span<const std::uint32_t> hits) {
-    return where(hits, [](std::uint32_t hit) {
-        return first_mirror(hit) != 0 && second_mirror(hit) != 0;
-    });
+    return where(
+        hits, [](std::uint32_t hit) { return first_mirror(hit) != 0 && second_mirror(hit) != 0; });
 }
 
 Mask of_mirror(std::span<const std::uint32_t> hits, std::uint32_t number) {
-    return where(hits, [number](std::uint32_t hit) {
-        return number != 0 && first_mirror(hit) == number;
-    });
+    return where(
+        hits, [number](std::uint32_t hit) { return number != 0 && first_mirror(hit) == number; });
 }
 
 Mask non_mirror(std::span<const std::uint32_t> hits) {

@@ -67,8 +67,8 @@ void check_shape(const OIIO::ImageSpec& spec, const std::string& name) {
     check(spec.width > 0 && spec.height > 0 && spec.width <= kLargestSide &&
               spec.height <= kLargestSide && spec.nchannels > 0 && !spec.deep,
           Failure::bad_data, name, ": wanted a flat picture of 1 to ", kLargestSide,
-          " pixels a side, found ", spec.deep ? "a deep one of " : "", spec.width, "x",
-          spec.height, " with ", spec.nchannels, " channels");
+          " pixels a side, found ", spec.deep ? "a deep one of " : "", spec.width, "x", spec.height,
+          " with ", spec.nchannels, " channels");
     check(spec.image_pixels() * static_cast<OIIO::imagesize_t>(spec.nchannels) <= kMostValues,
           Failure::bad_data, name, ": wanted at most ", kMostValues, " values, found ", spec.width,
           "x", spec.height, " with ", spec.nchannels, " channels");
@@ -97,8 +97,8 @@ Raw decode(const std::filesystem::path& path) {
     raw.channel_count = static_cast<std::size_t>(spec.nchannels);
     raw.rgb = find_rgb(spec);
     raw.values.resize(static_cast<std::size_t>(spec.image_pixels()) * raw.channel_count);
-    const bool read =
-        input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, raw.values.data());
+    const bool read = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat,
+                                        raw.values.data());
     check(read, Failure::bad_data, name, ": cannot be decoded", reason(*input));
     input->close();
     return raw;
@@ -116,8 +116,8 @@ Raw decode_or_say_memory(const std::filesystem::path& path) {
 template <typename Value>
 std::string encode(const std::string& format, const Picture& picture,
                    const std::vector<Value>& values, OIIO::TypeDesc type) {
-    check(picture.width > 0 && picture.height > 0, Failure::internal,
-          "a picture of ", picture.width, "x", picture.height, " cannot be written");
+    check(picture.width > 0 && picture.height > 0, Failure::internal, "a picture of ",
+          picture.width, "x", picture.height, " cannot be written");
     OIIO::ImageSpec spec(picture.width, picture.height, 3, type);
     spec.attribute("DateTime", "2000:01:01 00:00:00"); // not the clock: same picture, same bytes
     spec.attribute("oiio:ColorSpace", format == "png" ? "sRGB" : "Linear");

@@ -1,19 +1,24 @@
-// Search first, trace only what the search cannot know. Pixels whose search ends UNKNOWN go into a list
-// as long as need be; an indirect dispatch traces just those from the camera with the ray tracer's own
-// function. A pixel is either found or traced: weights 1 and 0, so they always add up to 1.
+// Search first, trace only what the search cannot know. Pixels whose search ends UNKNOWN go into a
+// list as long as need be; an indirect dispatch traces just those from the camera with the ray
+// tracer's own function. A pixel is either found or traced: weights 1 and 0, so they always add up
+// to 1.
 #include "reflect/pyramid.hpp"
 
 namespace catoptric::reflect {
 
 namespace {
 
-/// What the view searches with: of the searches, the one with the fewest wrong answers that call themselves
-/// right (`march` misses what is thinner than its step).
+/// What the view searches with: of the searches, the one with the fewest wrong answers that call
+/// themselves right (`march` misses what is thinner than its step).
 constexpr const char* kSearch = "reflect/pyramid.frag";
 
 constexpr std::array<std::string_view, 2> kForceChoices{"search", "unknown"};
 constexpr auto kKnobs = [] {
-    auto knobs = search_knobs(std::array{Knob{.name = "force", .help = "trace what the search does not know, or take every answer as unknown", .high = 1, .choices = kForceChoices}});
+    auto knobs = search_knobs(std::array{
+        Knob{.name = "force",
+             .help = "trace what the search does not know, or take every answer as unknown",
+             .high = 1,
+             .choices = kForceChoices}});
     std::ranges::find(knobs, "captures", &Knob::name)->value = 1; // before anything is traced
     return knobs;
 }();
@@ -23,7 +28,8 @@ struct List {
     graph::Buffer pixels, arguments, counters;
 };
 
-List add_list(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings, graph::Image lookup) {
+List add_list(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+              graph::Image lookup) {
     using graph::Use;
     const uvec2 size = inputs.size;
     List list;
@@ -42,7 +48,8 @@ List add_list(graph::Graph& graph, const render::FrameInputs& inputs, const Sett
         .writes(list.counters, Use::storage)
         .writes(list.arguments, Use::storage)
         .writes(list.pixels, Use::storage_write)
-        .record([=, every = settings.choice("force") == "unknown" ? 1u : 0u](graph::Commands& commands) {
+        .record([=, every = settings.choice("force") == "unknown" ? 1u
+                                                                  : 0u](graph::Commands& commands) {
             commands.bind("lookup", lookup);
             commands.bind("counters", list.counters);
             commands.bind("arguments", list.arguments);
@@ -54,7 +61,8 @@ List add_list(graph::Graph& graph, const render::FrameInputs& inputs, const Sett
     return list;
 }
 
-void add_trace(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings, const List& list, graph::Image hdr) {
+void add_trace(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+               const List& list, graph::Image hdr) {
     using graph::Use;
     const std::uint32_t shadow_rays = settings.choice("shadow") == "none" ? 0 : 2;
     graph.pass(inputs.prefix + "trace")
@@ -67,7 +75,9 @@ void add_trace(graph::Graph& graph, const render::FrameInputs& inputs, const Set
             commands.bind("picture", hdr);
             commands.bind("counters", list.counters);
             commands.bind("List", list.pixels);
-            commands.use(gpu::ComputeState{"reflect/hybrid_trace.comp", {{"max_depth", render::kReferenceDepth}, {"shadow", shadow_rays}}});
+            commands.use(gpu::ComputeState{
+                "reflect/hybrid_trace.comp",
+                {{"max_depth", render::kReferenceDepth}, {"shadow", shadow_rays}}});
             commands.push(size);
             commands.dispatch_indirect(list.arguments);
         });
@@ -81,7 +91,11 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     const render::View view = render::add_view(graph, inputs, captured.lighting, look, true);
     const List list = add_list(graph, inputs, settings, *view.lookup);
     add_trace(graph, inputs, settings, list, view.hdr);
-    return {view.hdr, {}, list.counters, inputs.with_lookup ? view.lookup : std::nullopt, half_colour(*captured.cubes, captured.options)};
+    return {view.hdr,
+            {},
+            list.counters,
+            inputs.with_lookup ? view.lookup : std::nullopt,
+            half_colour(*captured.cubes, captured.options)};
 }
 
 constexpr Technique kHybrid{

@@ -12,24 +12,41 @@ inline constexpr std::array<std::string_view, 3> kDistanceChoices{"r32f", "r16f"
 inline constexpr std::array<std::string_view, 2> kColourChoices{"half", "float"};
 inline constexpr std::array<std::string_view, 2> kShadowChoices{"map", "none"};
 
-inline constexpr Knob kFace{.name = "face",
-                            .help = "cube face edge in texels; auto: as many as the picture can show",
-                            .low = 1,
-                            .high = 16384,
-                            .value = 256,
-                            .special = "auto"};
+inline constexpr Knob kFace{
+    .name = "face",
+    .help = "cube face edge in texels; auto: as many as the picture can show",
+    .low = 1,
+    .high = 16384,
+    .value = 256,
+    .special = "auto"};
 inline constexpr Knob kColour{
-    .name = "colour", .help = "how captures store colour: half, which ends at 65504, or float", .high = 1, .choices = kColourChoices};
-inline constexpr Knob kShadow{.name = "shadow", .help = "shadow map or none", .high = 1, .choices = kShadowChoices};
-inline constexpr Knob kShadowMapEdge{
-    .name = "shadow_map", .help = "shadow map edge in texels", .low = 1, .high = 16384, .value = 1024};
-inline constexpr Knob kDistance{
-    .name = "distance", .help = "how captures store distance", .high = 2, .choices = kDistanceChoices};
-inline constexpr Knob kRange{
-    .name = "range", .help = "world units of a stored 1 with distance=unorm8", .low = 1, .high = 1000000, .value = 200};
+    .name = "colour",
+    .help = "how captures store colour: half, which ends at 65504, or float",
+    .high = 1,
+    .choices = kColourChoices};
+inline constexpr Knob kShadow{
+    .name = "shadow", .help = "shadow map or none", .high = 1, .choices = kShadowChoices};
+inline constexpr Knob kShadowMapEdge{.name = "shadow_map",
+                                     .help = "shadow map edge in texels",
+                                     .low = 1,
+                                     .high = 16384,
+                                     .value = 1024};
+inline constexpr Knob kDistance{.name = "distance",
+                                .help = "how captures store distance",
+                                .high = 2,
+                                .choices = kDistanceChoices};
+inline constexpr Knob kRange{.name = "range",
+                             .help = "world units of a stored 1 with distance=unorm8",
+                             .low = 1,
+                             .high = 1000000,
+                             .value = 200};
 
 inline constexpr Knob kContinue{
-    .name = "continue", .help = "mirrors the reflected ray is followed through before it is looked up", .low = 0, .high = 8, .value = 4};
+    .name = "continue",
+    .help = "mirrors the reflected ray is followed through before it is looked up",
+    .low = 0,
+    .high = 8,
+    .value = 4};
 
 inline constexpr std::array<std::string_view, 2> kLookupChoices{"bilinear", "object"};
 inline constexpr std::array<std::string_view, 2> kCapturesChoices{"own", "all"};
@@ -40,19 +57,41 @@ inline constexpr std::array<std::string_view, 3> kShowChoices{"colour", "state",
 template <std::size_t N>
 constexpr std::array<Knob, N + 11> search_knobs(const std::array<Knob, N>& own) {
     const std::array<Knob, 11> shared{
-        kFace, kColour, kDistance, kRange, kContinue,
-        Knob{.name = "lookup", .help = "mix the colours of four texels, or only of those that show one object", .high = 1, .value = 1, .choices = kLookupChoices},
-        Knob{.name = "captures", .help = "captures asked where the search knows no answer: the mirror's own, or then the others", .high = 1, .choices = kCapturesChoices},
-        Knob{.name = "mirrors", .help = "left_out: captures without mirrors that are exact spheres, which rays are followed through anyway", .high = 1, .choices = kMirrorsChoices},
-        Knob{.name = "show", .help = "what mirrors show: their colour, whether the search ended in a hit (green), unknown (red) or a miss (blue), or its residual", .high = 2, .choices = kShowChoices},
-        kShadow, kShadowMapEdge};
+        kFace,
+        kColour,
+        kDistance,
+        kRange,
+        kContinue,
+        Knob{.name = "lookup",
+             .help = "mix the colours of four texels, or only of those that show one object",
+             .high = 1,
+             .value = 1,
+             .choices = kLookupChoices},
+        Knob{.name = "captures",
+             .help = "captures asked where the search knows no answer: the mirror's own, or then "
+                     "the others",
+             .high = 1,
+             .choices = kCapturesChoices},
+        Knob{.name = "mirrors",
+             .help = "left_out: captures without mirrors that are exact spheres, which rays are "
+                     "followed through anyway",
+             .high = 1,
+             .choices = kMirrorsChoices},
+        Knob{.name = "show",
+             .help = "what mirrors show: their colour, whether the search ended in a hit (green), "
+                     "unknown (red) or a miss (blue), or its residual",
+             .high = 2,
+             .choices = kShowChoices},
+        kShadow,
+        kShadowMapEdge};
     std::array<Knob, N + 11> knobs{};
     std::ranges::copy(shared, std::ranges::copy(own, knobs.begin()).out);
     return knobs;
 }
 
 /// The shadow pass that the knobs ask for.
-render::Lighting add_lighting(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings);
+render::Lighting add_lighting(graph::Graph& graph, const render::FrameInputs& inputs,
+                              const Settings& settings);
 
 /// Shadow passes: one a light, none without shadows.
 int shadow_passes(int lights, const Settings& settings);
@@ -62,7 +101,8 @@ render::CaptureOptions capture_options(const render::FrameInputs& inputs, const 
                                        const render::Lighting& lighting);
 
 /// A mirror that looks into `cubes` with the technique's fragment shader.
-render::MirrorLook look_into(std::string fragment, const render::Cubes& cubes, const render::CaptureOptions& options);
+render::MirrorLook look_into(std::string fragment, const render::Cubes& cubes,
+                             const render::CaptureOptions& options);
 
 /// The captures of part two and its followers.
 struct Captured {
@@ -73,16 +113,20 @@ struct Captured {
 
 /// Shadow pass, then every mirror captured once (twice with a second layer). In a capture the other
 /// mirrors look into last frame's captures with `fragment`.
-Captured add_feedback(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                      const std::string& fragment, bool second_layer = false);
+Captured add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
+                      const Settings& settings, const std::string& fragment,
+                      bool second_layer = false);
 
-/// The view of what was captured, mirrors drawn with `fragment`; hops are set where there is a `continue`.
-render::MirrorLook view_look(const Captured& captured, const Settings& settings, const std::string& fragment);
-Outputs add_view_of(graph::Graph& graph, const render::FrameInputs& inputs, const Captured& captured,
-                    const render::MirrorLook& look);
+/// The view of what was captured, mirrors drawn with `fragment`; hops are set where there is a
+/// `continue`.
+render::MirrorLook view_look(const Captured& captured, const Settings& settings,
+                             const std::string& fragment);
+Outputs add_view_of(graph::Graph& graph, const render::FrameInputs& inputs,
+                    const Captured& captured, const render::MirrorLook& look);
 
 /// Their colours, where captures store them as halves.
-std::optional<graph::Image> half_colour(const render::Cubes& cubes, const render::CaptureOptions& options);
+std::optional<graph::Image> half_colour(const render::Cubes& cubes,
+                                        const render::CaptureOptions& options);
 
 /// R = N + 2 with one light.
 inline int feedback_passes(int mirrors, int lights, const Settings& settings) {

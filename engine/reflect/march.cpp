@@ -1,13 +1,17 @@
-// A march along the reflected ray in steps of equal angle, then refinement: finds the first crossing,
-// where the secant finds any.
+// A march along the reflected ray in steps of equal angle, then refinement: finds the first
+// crossing, where the secant finds any.
 #include "reflect/knobs.hpp"
 
 namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kKnobs = search_knobs(std::array{
-    Knob{.name = "steps", .help = "steps of equal angle along the reflected ray", .low = 1, .high = 256, .value = 16}});
+constexpr auto kKnobs = search_knobs(
+    std::array{Knob{.name = "steps",
+                    .help = "steps of equal angle along the reflected ray",
+                    .low = 1,
+                    .high = 256,
+                    .value = 16}});
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
     const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
@@ -18,7 +22,8 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
 
 constexpr Technique kMarch{
     .name = "march",
-    .summary = "Marches along the reflected ray in steps of equal angle and refines the first crossing.",
+    .summary =
+        "Marches along the reflected ray in steps of equal angle and refines the first crossing.",
     .order = 12,
     .knobs = kKnobs,
     .scene_passes = feedback_passes,

@@ -1,15 +1,22 @@
 // Part one of the report: every inter-reflection is rendered again in each frame, from black.
-// Bounce k looks into the cubes of bounce k-1, so with i bounces R = N i + 2. The two cube images that
-// the report swaps by hand fall out of lifetimes: bounce k+1's cubes lie where bounce k-1's were.
+// Bounce k looks into the cubes of bounce k-1, so with i bounces R = N i + 2. The two cube images
+// that the report swaps by hand fall out of lifetimes: bounce k+1's cubes lie where bounce k-1's
+// were.
 #include "reflect/knobs.hpp"
 
 namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kKnobs[] = {
-    {.name = "bounces", .help = "inter-reflections rendered each frame; 0 leaves mirrors black", .low = 0, .high = 8, .value = 3},
-    kFace, kColour, kShadow, kShadowMapEdge};
+constexpr Knob kKnobs[] = {{.name = "bounces",
+                            .help = "inter-reflections rendered each frame; 0 leaves mirrors black",
+                            .low = 0,
+                            .high = 8,
+                            .value = 3},
+                           kFace,
+                           kColour,
+                           kShadow,
+                           kShadowMapEdge};
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
     const render::Lighting lighting = add_lighting(graph, inputs, settings);
@@ -26,15 +33,17 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     return {view.hdr, {}, {}, view.lookup, last ? half_colour(*last, options) : std::nullopt};
 }
 
-constexpr Technique kNaive{
-    .name = "naive",
-    .summary = "Renders every bounce again in each frame, from black; looks up the reflected direction as it is.",
-    .order = 1,
-    .knobs = kKnobs,
-    .scene_passes = [](int mirrors, int lights, const Settings& settings) {
-        return mirrors * settings.integer("bounces") + shadow_passes(lights, settings) + 1;
-    },
-    .add = add};
+constexpr Technique kNaive{.name = "naive",
+                           .summary = "Renders every bounce again in each frame, from black; looks "
+                                      "up the reflected direction as it is.",
+                           .order = 1,
+                           .knobs = kKnobs,
+                           .scene_passes =
+                               [](int mirrors, int lights, const Settings& settings) {
+                                   return mirrors * settings.integer("bounces") +
+                                          shadow_passes(lights, settings) + 1;
+                               },
+                           .add = add};
 const Row kRow{kNaive};
 
 } // namespace

@@ -1,5 +1,6 @@
-// Part three of the report: captures hold the distance too, and the reflected direction is corrected by
-// one step. distance=unorm8 stores it as the report did, clamped at `range` in eight bits.
+// Part three of the report: captures hold the distance too, and the reflected direction is
+// corrected by one step. distance=unorm8 stores it as the report did, clamped at `range` in eight
+// bits.
 #include "reflect/knobs.hpp"
 
 namespace catoptric::reflect {
@@ -9,19 +10,29 @@ namespace {
 constexpr const char* kFragment = "reflect/parallax.frag";
 constexpr std::array<std::string_view, 3> kRules{"none", "saturation", "void_test"};
 constexpr Knob kKnobs[] = {
-    kFace, kColour, kDistance, kRange, kShadow, kShadowMapEdge,
-    {.name = "without", .help = "rule of robustness to leave out, only for measuring what it costs", .high = 2, .choices = kRules}};
+    kFace,
+    kColour,
+    kDistance,
+    kRange,
+    kShadow,
+    kShadowMapEdge,
+    {.name = "without",
+     .help = "rule of robustness to leave out, only for measuring what it costs",
+     .high = 2,
+     .choices = kRules}};
 
 constexpr Technique kParallax{
     .name = "parallax",
-    .summary = "As reuse, with the reflected direction corrected by one step from the captured distance.",
+    .summary =
+        "As reuse, with the reflected direction corrected by one step from the captured distance.",
     .order = 3,
     .knobs = kKnobs,
     .scene_passes = feedback_passes,
     .add = [](graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
         const Captured captured = add_feedback(graph, inputs, settings, kFragment);
         render::MirrorLook look = view_look(captured, settings, kFragment);
-        if (captured.cubes && settings.choice("without") == "void_test") look.constants.emplace_back("tests_void", 0u);
+        if (captured.cubes && settings.choice("without") == "void_test")
+            look.constants.emplace_back("tests_void", 0u);
         return add_view_of(graph, inputs, captured, look);
     }};
 const Row kRow{kParallax};

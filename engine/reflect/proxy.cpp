@@ -8,19 +8,24 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kShapes{"box", "sphere"};
 constexpr auto kKnobs = [] {
-    auto knobs = search_knobs(std::array{Knob{.name = "shape", .help = "what stands for the surroundings", .high = 1, .choices = kShapes}});
+    auto knobs = search_knobs(std::array{Knob{.name = "shape",
+                                              .help = "what stands for the surroundings",
+                                              .high = 1,
+                                              .choices = kShapes}});
     std::ranges::find(knobs, "continue", &Knob::name)->value = 0; // as it was known
     return knobs;
 }();
 constexpr std::uint64_t kProxyBytes = 28; // Proxy of shaders/reflect/proxy.glsl
 
 /// One proxy a mirror.
-graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs, const Captured& captured) {
+graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs,
+                          const Captured& captured) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
     const graph::Image distance = *captured.cubes->distance;
     const graph::Buffer proxies = graph.buffer({inputs.prefix + "proxies", kProxyBytes * mirrors});
-    const gpu::Constants constants{{"stored_unit", captured.options.stored_unit},
-                                   {"range_ends", captured.options.distance == Format::r8_unorm ? 1u : 0u}};
+    const gpu::Constants constants{
+        {"stored_unit", captured.options.stored_unit},
+        {"range_ends", captured.options.distance == Format::r8_unorm ? 1u : 0u}};
     graph.pass(inputs.prefix + "proxies")
         .reads(distance, graph::Use::sampled)
         .writes(proxies, graph::Use::storage_write)
@@ -43,7 +48,8 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
 
 constexpr Technique kProxy{
     .name = "proxy",
-    .summary = "Takes each mirror's surroundings for one box or sphere, derived from what was captured.",
+    .summary =
+        "Takes each mirror's surroundings for one box or sphere, derived from what was captured.",
     .order = 10,
     .knobs = kKnobs,
     .scene_passes = feedback_passes,

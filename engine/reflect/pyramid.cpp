@@ -1,5 +1,5 @@
-// Least and largest distance of ever larger cells of the captures, and a search that passes a cell in one
-// step wherever these bounds allow it: exact to the texel, where a march takes its chances.
+// Least and largest distance of ever larger cells of the captures, and a search that passes a cell
+// in one step wherever these bounds allow it: exact to the texel, where a march takes its chances.
 #include "reflect/pyramid.hpp"
 
 #include <bit>
@@ -11,16 +11,22 @@ namespace {
 constexpr auto kKnobs = search_knobs(std::array<Knob, 0>{});
 
 /// The topmost level, one cell a face; level_edge and top_level of shaders/reflect/pyramid.glsl.
-std::uint32_t top_level(std::uint32_t face) { return face <= 2 ? 1 : static_cast<std::uint32_t>(std::bit_width(face - 1)); }
-std::uint32_t level_edge(std::uint32_t face, std::uint32_t level) { return (face + (1u << level) - 1) >> level; }
+std::uint32_t top_level(std::uint32_t face) {
+    return face <= 2 ? 1 : static_cast<std::uint32_t>(std::bit_width(face - 1));
+}
+std::uint32_t level_edge(std::uint32_t face, std::uint32_t level) {
+    return (face + (1u << level) - 1) >> level;
+}
 
 } // namespace
 
-graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs, const Captured& captured) {
-    const std::uint32_t face = captured.options.face, layers = 6 * inputs.scene.mirror_count(), top = top_level(face);
+graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
+                         const Captured& captured) {
+    const std::uint32_t face = captured.options.face, layers = 6 * inputs.scene.mirror_count(),
+                        top = top_level(face);
     const graph::Image distance = *captured.cubes->distance;
-    const graph::Image bounds =
-        graph.image({inputs.prefix + "pyramid", Format::r32ui, 1u << top, level_edge(face, 1), layers});
+    const graph::Image bounds = graph.image(
+        {inputs.prefix + "pyramid", Format::r32ui, 1u << top, level_edge(face, 1), layers});
     graph.pass(inputs.prefix + "pyramid")
         .reads(distance, graph::Use::sampled)
         .writes(bounds, graph::Use::storage_write)
@@ -29,7 +35,8 @@ graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
             commands.bind("bounds", bounds);
             for (std::uint32_t level = 1; level <= top; ++level) {
                 if (level > 1) commands.barrier();
-                commands.use(gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
+                commands.use(gpu::ComputeState{"reflect/pyramid.comp",
+                                               {{"from_cells", level > 1 ? 1u : 0u}}});
                 commands.push(static_cast<std::int32_t>(level));
                 const std::uint32_t groups = (level_edge(face, level) + 7) / 8;
                 commands.dispatch(groups, groups, layers);
@@ -49,7 +56,8 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
 
 constexpr Technique kPyramid{
     .name = "pyramid",
-    .summary = "Follows the reflected ray through bounds of the captured distance, exact to the texel.",
+    .summary =
+        "Follows the reflected ray through bounds of the captured distance, exact to the texel.",
     .order = 13,
     .knobs = kKnobs,
     .scene_passes = feedback_passes,

@@ -6,6 +6,7 @@
 namespace catoptric::reflect {
 
 /// All levels of all faces, one layer a face: a dispatch a level. To be bound as "bounds".
-graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs, const Captured& captured);
+graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
+                         const Captured& captured);
 
 } // namespace catoptric::reflect

@@ -6,25 +6,30 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kKnobs = search_knobs(std::array{
-    Knob{.name = "steps", .help = "secant steps after the first; 0 equals parallax", .low = 0, .high = 8, .value = 2}});
+constexpr auto kKnobs = search_knobs(
+    std::array{Knob{.name = "steps",
+                    .help = "secant steps after the first; 0 equals parallax",
+                    .low = 0,
+                    .high = 8,
+                    .value = 2}});
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
     const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
     if (settings.integer("steps") == 0 && captured.cubes) // parallax has no other knobs
-        return add_view_of(graph, inputs, captured, look_into("reflect/parallax.frag", *captured.cubes, captured.options));
+        return add_view_of(graph, inputs, captured,
+                           look_into("reflect/parallax.frag", *captured.cubes, captured.options));
     render::MirrorLook look = view_look(captured, settings, "reflect/secant.frag");
     look.constants.emplace_back("steps", static_cast<std::uint32_t>(settings.integer("steps")));
     return add_view_of(graph, inputs, captured, look);
 }
 
-constexpr Technique kSecant{
-    .name = "secant",
-    .summary = "Searches the captured distance for the point that the reflected ray meets, by secant steps.",
-    .order = 11,
-    .knobs = kKnobs,
-    .scene_passes = feedback_passes,
-    .add = add};
+constexpr Technique kSecant{.name = "secant",
+                            .summary = "Searches the captured distance for the point that the "
+                                       "reflected ray meets, by secant steps.",
+                            .order = 11,
+                            .knobs = kKnobs,
+                            .scene_passes = feedback_passes,
+                            .add = add};
 const Row kRow{kSecant};
 
 } // namespace

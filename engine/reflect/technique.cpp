@@ -19,7 +19,8 @@ Row::Row(const Technique& technique) { table().push_back(&technique); }
 
 std::vector<const Technique*> techniques() {
     std::vector<const Technique*> rows = table();
-    std::ranges::sort(rows, {}, [](const Technique* row) { return std::pair(row->order, row->name); });
+    std::ranges::sort(rows, {},
+                      [](const Technique* row) { return std::pair(row->order, row->name); });
     return rows;
 }
 
@@ -31,13 +32,15 @@ const Technique& find_technique(std::string_view name) {
     }
     std::string all;
     for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
-    fail(Failure::usage, "no technique '", name, "'", did_you_mean(name, names), "; there are ", all);
+    fail(Failure::usage, "no technique '", name, "'", did_you_mean(name, names), "; there are ",
+         all);
 }
 
 std::string Choice::file_name() const {
     std::string name = label;
     std::erase(name, '=');
-    std::ranges::replace_if(name, [](char c) { return c == ':' || c == ','; }, '-');
+    std::ranges::replace_if(
+        name, [](char c) { return c == ':' || c == ','; }, '-');
     return name;
 }
 

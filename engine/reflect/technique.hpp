@@ -14,11 +14,13 @@ namespace catoptric::reflect {
 
 /// What a technique leaves in the graph.
 struct Outputs {
-    graph::Image hdr;                       ///< linear radiance, rgba32f
-    std::optional<graph::Image> hits;       ///< r32ui: mirror of the first hit, second hit << 16 (0: none)
-    std::optional<graph::Buffer> counters;  ///< shared::Counters
-    std::optional<graph::Image> lookup;     ///< rgba32f: where mirrors looked, if the inputs ask for it
-    std::optional<graph::Image> captures;   ///< rgba16f: colours of the captures that the view looks into
+    graph::Image hdr; ///< linear radiance, rgba32f
+    std::optional<graph::Image>
+        hits; ///< r32ui: mirror of the first hit, second hit << 16 (0: none)
+    std::optional<graph::Buffer> counters; ///< shared::Counters
+    std::optional<graph::Image> lookup; ///< rgba32f: where mirrors looked, if the inputs ask for it
+    std::optional<graph::Image>
+        captures; ///< rgba16f: colours of the captures that the view looks into
 };
 
 struct Technique {
@@ -29,7 +31,8 @@ struct Technique {
     /// Scene renders a frame as the report counts its R; a cube counts once.
     int (*scene_passes)(int mirrors, int lights, const Settings& settings) = nullptr;
     /// Declares the passes of one frame.
-    Outputs (*add)(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) = nullptr;
+    Outputs (*add)(graph::Graph& graph, const render::FrameInputs& inputs,
+                   const Settings& settings) = nullptr;
 };
 
 /// A namespace-scope Row puts its technique into the table.
@@ -51,10 +54,13 @@ struct Choice {
     /// The label fit for a file name: "naive-bounces3".
     std::string file_name() const;
     /// Same technique, same value of each knob, whatever was spelled out.
-    bool same_as(const Choice& other) const { return technique == other.technique && settings == other.settings; }
+    bool same_as(const Choice& other) const {
+        return technique == other.technique && settings == other.settings;
+    }
 };
 
-/// Reads "name[:knob=value,...]". Throws `Failure::usage` naming what is wrong and the nearest name.
+/// Reads "name[:knob=value,...]". Throws `Failure::usage` naming what is wrong and the nearest
+/// name.
 Choice parse_choice(std::string_view text);
 
 } // namespace catoptric::reflect

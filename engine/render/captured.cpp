@@ -8,7 +8,8 @@
 
 namespace catoptric::render {
 
-std::size_t Captured::index(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y) const {
+std::size_t Captured::index(std::uint32_t mirror, int cube_face, std::uint32_t x,
+                            std::uint32_t y) const {
     return ((std::size_t{6} * mirror + static_cast<std::size_t>(cube_face)) * face + y) * face + x;
 }
 
@@ -18,7 +19,8 @@ vec3 Captured::colour(std::uint32_t mirror, int cube_face, std::uint32_t x, std:
     return {from_half(halves[0]), from_half(halves[1]), from_half(halves[2])};
 }
 
-float Captured::distance(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y, Format format) const {
+float Captured::distance(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y,
+                         Format format) const {
     const std::size_t i = index(mirror, cube_face, x, y);
     if (format == Format::r8_unorm) return static_cast<float>(distance_bytes[i]) / 255;
     if (format == Format::r16f) {
@@ -31,10 +33,12 @@ float Captured::distance(std::uint32_t mirror, int cube_face, std::uint32_t x, s
     return value;
 }
 
-Captured capture(gpu::Device& device, gpu::Pipelines& pipelines, const scene::Scene& scene, std::uint32_t face, Format distance,
-                 double range_world) {
+Captured capture(gpu::Device& device, gpu::Pipelines& pipelines, const scene::Scene& scene,
+                 std::uint32_t face, Format distance, double range_world) {
     GpuScene gpu_scene(device, scene);
-    gpu_scene.update(scene, scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front(), {16, 16}, 0);
+    gpu_scene.update(scene,
+                     scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front(),
+                     {16, 16}, 0);
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
     const FrameInputs inputs{gpu_scene, {16, 16}, ""};

@@ -15,7 +15,8 @@ using Place = std::array<float, 3>;
 
 Place place_of(vec3 p) { return {p.x, p.y, p.z}; }
 
-/// Whether each edge is run through as often one way as the other, by places rather than by vertices.
+/// Whether each edge is run through as often one way as the other, by places rather than by
+/// vertices.
 bool is_closed(const Geometry& geometry, const DrawRange& range) {
     std::map<std::pair<Place, Place>, int> runs;
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3)
@@ -28,8 +29,8 @@ bool is_closed(const Geometry& geometry, const DrawRange& range) {
     return std::ranges::all_of(runs, [](const auto& run) { return run.second == 0; });
 }
 
-/// Solid angle of the triangle seen from the origin, signed by its winding (Van Oosterom and Strackee 1983);
-/// 0 in its plane.
+/// Solid angle of the triangle seen from the origin, signed by its winding (Van Oosterom and
+/// Strackee 1983); 0 in its plane.
 double solid_angle(dvec3 a, dvec3 b, dvec3 c) {
     const double volume = dot(a, cross(b, c)), x = length(a), y = length(b), z = length(c);
     if (volume == 0) return 0;
@@ -39,13 +40,17 @@ double solid_angle(dvec3 a, dvec3 b, dvec3 c) {
 } // namespace
 
 bool encloses(const Geometry& geometry, const DrawRange& range, vec3 point) {
-    if (!(all(lessThanEqual(range.bounds.lo, point)) && all(lessThanEqual(point, range.bounds.hi)))) return false;
+    if (!(all(lessThanEqual(range.bounds.lo, point)) && all(lessThanEqual(point, range.bounds.hi))))
+        return false;
     double seen = 0;
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
-        const auto corner = [&](std::uint32_t j) { return dvec3(geometry.vertices[geometry.indices[k + j]].position) - dvec3(point); };
+        const auto corner = [&](std::uint32_t j) {
+            return dvec3(geometry.vertices[geometry.indices[k + j]].position) - dvec3(point);
+        };
         seen += solid_angle(corner(0), corner(1), corner(2));
     }
-    // Inside the whole sphere of directions, on a face half of it, on an edge or a corner a part, outside nothing.
+    // Inside the whole sphere of directions, on a face half of it, on an edge or a corner a part,
+    // outside nothing.
     return std::abs(seen) > kRoundings && is_closed(geometry, range);
 }
 

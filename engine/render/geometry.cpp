@@ -22,7 +22,8 @@ Geometry make_geometry(const scene::Scene& now, const Space& space) {
             const dvec3 world(object.world_from_object * dvec4(mesh.positions[i], 1));
             const vec3 position = space.point(world);
             range.bounds.add(position);
-            geometry.vertices.push_back({position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))});
+            geometry.vertices.push_back(
+                {position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))});
         }
         for (const uvec3& triangle : mesh.triangles)
             for (int i = 0; i < 3; ++i) geometry.indices.push_back(first_vertex + triangle[i]);
@@ -47,7 +48,8 @@ float squared_distance(vec3 p, vec3 a, vec3 b, vec3 c) {
     const float vb = d5 * d2 - d1 * d6;
     if (vb <= 0 && d2 >= 0 && d6 <= 0) return to(a + ac * (d2 / (d2 - d6)));
     const float va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return to(b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))));
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+        return to(b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))));
     return to(a + ab * (vb / (va + vb + vc)) + ac * (vc / (va + vb + vc)));
 }
 

@@ -18,7 +18,7 @@ struct DrawRange {
     bool mirror = false;
     bool casts_shadow = true; ///< a light's own mesh does not: it would hide the light
     bool seen_by_camera = true;
-    bool exact_sphere = false;   ///< the mesh stands for one
+    bool exact_sphere = false; ///< the mesh stands for one
 };
 
 /// All triangles of a frame in scene units; one range for each object, in the scene's order.
@@ -43,8 +43,11 @@ float nearest_distance(const Geometry& geometry, vec3 point, Skip&& skip) {
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
         if (skip(i, range)) continue;
-        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
-            const auto corner = [&](std::uint32_t j) { return geometry.vertices[geometry.indices[k + j]].position; };
+        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count;
+             k += 3) {
+            const auto corner = [&](std::uint32_t j) {
+                return geometry.vertices[geometry.indices[k + j]].position;
+            };
             nearest = std::min(nearest, squared_distance(point, corner(0), corner(1), corner(2)));
         }
     }

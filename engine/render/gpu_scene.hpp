@@ -14,7 +14,8 @@ public:
     GpuScene(gpu::Device& device, const scene::Scene& scene);
 
     /// Writes what stands where now. `now` is scene::at of the scene given above; not while a frame
-    /// is in flight. Rebuilds everything: O(n log n) in triangles, some 20 ms for the built-in scene.
+    /// is in flight. Rebuilds everything: O(n log n) in triangles, some 20 ms for the built-in
+    /// scene.
     void update(const scene::Scene& now, const scene::Camera& camera, uvec2 size, double ambient);
 
     std::uint32_t mirror_count() const { return mirror_count_; }
@@ -27,10 +28,12 @@ public:
     const std::vector<shared::View>& views() const { return views_; }
     /// Index of the object that is mirror n, n from 0.
     std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
-    /// Whether the object is a closed mirror with the camera inside, where no light from outside arrives.
+    /// Whether the object is a closed mirror with the camera inside, where no light from outside
+    /// arrives.
     bool hides_all_from_camera(std::size_t object) const { return hides_all_[object]; }
-    /// Texels that the edge of each mirror's cube needs (render/footprint.hpp); 0 for a mirror that is not in
-    /// the picture. Found at the first update and kept: cubes that change their size lose what the frame before left.
+    /// Texels that the edge of each mirror's cube needs (render/footprint.hpp); 0 for a mirror that
+    /// is not in the picture. Found at the first update and kept: cubes that change their size lose
+    /// what the frame before left.
     const std::vector<double>& face_needs() const { return face_needs_; }
     /// One edge for all: the largest need, as far as the device allows.
     std::uint32_t common_face() const;
@@ -39,7 +42,9 @@ public:
 
     static constexpr std::uint32_t kCameraView = 0;
     std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }
-    std::uint32_t shadow_view(std::uint32_t light) const { return 1 + 6 * mirror_count_ + shadow_faces_ * light; }
+    std::uint32_t shadow_view(std::uint32_t light) const {
+        return 1 + 6 * mirror_count_ + shadow_faces_ * light;
+    }
 
     /// Binds every buffer of the scene under the name it has in shaders/lib.
     void bind(graph::Commands& commands) const;
@@ -61,7 +66,8 @@ private:
     std::vector<bool> hides_all_; ///< by object
     std::vector<double> face_needs_;
     std::uint32_t mirror_count_ = 0, light_count_ = 0, shadow_faces_ = 6;
-    gpu::Buffer vertex_buffer_, index_buffer_, frame_, view_buffer_, surface_buffer_, light_buffer_, probe_buffer_;
+    gpu::Buffer vertex_buffer_, index_buffer_, frame_, view_buffer_, surface_buffer_, light_buffer_,
+        probe_buffer_;
     gpu::Buffer bvh_nodes_, bvh_triangles_, normals_;
 };
 

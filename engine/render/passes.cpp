@@ -21,8 +21,8 @@ constexpr Clear kBlack{0, 0, 0, 1};
 constexpr Clear kFarthest{0, 0, 0, 0}; // reversed depth
 
 /// One object in the layers whose view it may meet; neighbouring layers in one draw.
-void draw_object(Commands& commands, const GpuScene& scene, std::size_t object, std::uint32_t first_view,
-                 std::uint32_t layers, std::uint32_t mended = 0) {
+void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
+                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended = 0) {
     const DrawRange& range = scene.ranges()[object];
     shared::Draw draw = scene.draw_of(object, first_view);
     draw.mended = mended;
@@ -36,11 +36,14 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object, 
 }
 
 /// Everything that is no mirror, then the mirrors, except where `skip` says so. With `peeled`, the
-/// distances of a first layer: only what lies behind them. `store`: how distances are kept, and what else.
+/// distances of a first layer: only what lies behind them. `store`: how distances are kept, and
+/// what else.
 template <typename Skip>
-void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_view, std::uint32_t layers,
-                const Lighting& lighting, const MirrorLook& look, gpu::Constants store, std::optional<Image> peeled, Skip&& skip) {
-    std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed", black = "mirror_black.frag";
+void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_view,
+                std::uint32_t layers, const Lighting& lighting, const MirrorLook& look,
+                gpu::Constants store, std::optional<Image> peeled, Skip&& skip) {
+    std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed",
+                black = "mirror_black.frag";
     scene.bind(commands);
     if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
     if (peeled) {
@@ -49,15 +52,23 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
     }
     commands.use(gpu::RasterState{"scene.vert", diffuse, store});
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
-        if (!scene.ranges()[i].mirror && !skip(i)) draw_object(commands, scene, i, first_view, layers);
+        if (!scene.ranges()[i].mirror && !skip(i))
+            draw_object(commands, scene, i, first_view, layers);
     gpu::RasterState mirrors{"scene.vert", black, store};
-    const auto is_black = [&](std::size_t object) { return first_view == GpuScene::kCameraView && scene.hides_all_from_camera(object); };
+    const auto is_black = [&](std::size_t object) {
+        return first_view == GpuScene::kCameraView && scene.hides_all_from_camera(object);
+    };
     if (look.cubes && !look.blank) {
-        mirrors.fragment = look.fragment + (peeled ? "#peel" : !look.mended ? "" : lighting.shadow_map ? "#mend" : "#mend_unshadowed");
-        mirrors.constants.insert(mirrors.constants.end(), look.constants.begin(), look.constants.end());
+        mirrors.fragment = look.fragment + (peeled                ? "#peel"
+                                            : !look.mended        ? ""
+                                            : lighting.shadow_map ? "#mend"
+                                                                  : "#mend_unshadowed");
+        mirrors.constants.insert(mirrors.constants.end(), look.constants.begin(),
+                                 look.constants.end());
         commands.bind("colour_cubes", look.cubes->colour, Filter::linear);
         // The shader has the binding either way; without surfaces nothing reads it.
-        commands.bind("surface_cubes", look.cubes->surfaces.value_or(look.cubes->colour), Filter::nearest);
+        commands.bind("surface_cubes", look.cubes->surfaces.value_or(look.cubes->colour),
+                      Filter::nearest);
         if (look.cubes->distance) {
             commands.bind("distance_cubes", *look.cubes->distance, Filter::linear);
             commands.bind("distance_cubes_nearest", *look.cubes->distance, Filter::nearest);
@@ -67,7 +78,8 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
     }
     commands.use(mirrors);
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
-        if (scene.ranges()[i].mirror && !skip(i) && !is_black(i)) draw_object(commands, scene, i, first_view, layers, look.mended);
+        if (scene.ranges()[i].mirror && !skip(i) && !is_black(i))
+            draw_object(commands, scene, i, first_view, layers, look.mended);
     for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
         if (!is_black(i) || skip(i)) continue;
         commands.use(gpu::RasterState{"scene.vert", black, store});
@@ -86,12 +98,16 @@ void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const
 }
 
 /// A mirror's six faces; with `peeled`, of what lies behind these distances.
-void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options, std::uint32_t mirror,
-                 const std::string& pass_name, const Cubes& cubes, std::optional<Image> peeled) {
+void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
+                 std::uint32_t mirror, const std::string& pass_name, const Cubes& cubes,
+                 std::optional<Image> peeled) {
     // "Nothing there" is +infinity; unorm8 has none, so there it is the end of the range.
-    const float nothing = options.distance == Format::r8_unorm ? 1.0f : std::numeric_limits<float>::infinity();
+    const float nothing = options.distance == Format::r8_unorm
+                              ? 1.0f
+                              : std::numeric_limits<float>::infinity();
     const std::string name = inputs.prefix + pass_name;
-    const Image depth = graph.image({name + ".depth", Format::d32f, options.face, options.face, 6, true});
+    const Image depth = graph.image(
+        {name + ".depth", Format::d32f, options.face, options.face, 6, true});
     graph::PassBuilder pass = graph.pass(name, Tag::scene);
     read_surroundings(pass, options.lighting, options.look);
     if (peeled) pass.reads(*peeled, Use::sampled);
@@ -99,17 +115,20 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
     if (cubes.distance) pass.writes(*cubes.distance, Use::colour, Clear{nothing, 0, 0, 0});
     if (cubes.surfaces) pass.writes(*cubes.surfaces, Use::colour, Clear{});
     gpu::Constants store{{"distance_scale", 1 / options.stored_unit}};
-    if (options.colour == Format::rgba16f && options.saturates) store.emplace_back("largest_colour", kLargestHalf);
+    if (options.colour == Format::rgba16f && options.saturates)
+        store.emplace_back("largest_colour", kLargestHalf);
     if (cubes.surfaces) store.emplace_back("keeps_surface", 1u);
     if (peeled && options.distance == Format::r8_unorm) store.emplace_back("half_step", 0.5f / 255);
     pass.writes(depth, Use::depth, kFarthest)
         .layers(6)
-        .record([&scene = inputs.scene, mirror, lighting = options.lighting, look = options.look, store,
-                 leaves_out = options.leaves_out_spheres, peeled](Commands& commands) {
-            draw_scene(commands, scene, scene.capture_view(mirror), 6, lighting, look, store, peeled, [&](std::size_t object) {
-                const DrawRange& range = scene.ranges()[object];
-                return object == scene.mirror_object(mirror) || (leaves_out && range.mirror && range.exact_sphere);
-            });
+        .record([&scene = inputs.scene, mirror, lighting = options.lighting, look = options.look,
+                 store, leaves_out = options.leaves_out_spheres, peeled](Commands& commands) {
+            draw_scene(commands, scene, scene.capture_view(mirror), 6, lighting, look, store,
+                       peeled, [&](std::size_t object) {
+                           const DrawRange& range = scene.ranges()[object];
+                           return object == scene.mirror_object(mirror) ||
+                                  (leaves_out && range.mirror && range.exact_sphere);
+                       });
         });
 }
 
@@ -117,21 +136,26 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
 MirrorLook mended(MirrorLook look, const FrameInputs& inputs, const Lighting& lighting) {
     if (!inputs.mended) return look;
     look.mended = inputs.mended;
-    for (const auto& [name, value] : {std::pair{"picture_width", inputs.size.x}, {"picture_height", inputs.size.y},
-                                      {"max_depth", kReferenceDepth}, {"shadow", lighting.shadow_map ? 1u : 0u}})
+    for (const auto& [name, value] : {std::pair{"picture_width", inputs.size.x},
+                                      {"picture_height", inputs.size.y},
+                                      {"max_depth", kReferenceDepth},
+                                      {"shadow", lighting.shadow_map ? 1u : 0u}})
         look.constants.emplace_back(name, value);
     return look;
 }
 
 } // namespace
 
-std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t edge) {
+std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs,
+                                std::uint32_t edge) {
     const GpuScene& scene = inputs.scene;
     if (scene.light_count() == 0) return std::nullopt;
     const std::uint32_t faces = scene.shadow_faces();
-    const Image map = graph.image({inputs.prefix + "shadow_map", Format::d32f, edge, edge, faces * scene.light_count()});
+    const Image map = graph.image(
+        {inputs.prefix + "shadow_map", Format::d32f, edge, edge, faces * scene.light_count()});
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
-        const std::string name = scene.light_count() == 1 ? "shadow" : "shadow/" + std::to_string(light + 1);
+        const std::string name = scene.light_count() == 1 ? "shadow"
+                                                          : "shadow/" + std::to_string(light + 1);
         graph.pass(inputs.prefix + name, Tag::scene)
             .writes(map.layers(faces * light, faces), Use::depth, kFarthest)
             .layers(faces)
@@ -139,7 +163,8 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
                 scene.bind(commands);
                 commands.use(gpu::RasterState{"scene.vert", "", {}});
                 for (std::size_t i = 0; i < scene.ranges().size(); ++i)
-                    if (scene.ranges()[i].casts_shadow) draw_object(commands, scene, i, scene.shadow_view(light), faces);
+                    if (scene.ranges()[i].casts_shadow)
+                        draw_object(commands, scene, i, scene.shadow_view(light), faces);
             });
     }
     return map;
@@ -149,36 +174,47 @@ Cubes declare_cubes(graph::Graph& graph, const FrameInputs& inputs, const Captur
     const std::uint32_t layers = 6 * inputs.scene.mirror_count();
     const std::string name = inputs.prefix + options.name + "/cubes.";
     Cubes cubes;
-    cubes.colour = graph.image({name + "colour", options.colour, options.face, options.face, layers, true});
+    cubes.colour = graph.image(
+        {name + "colour", options.colour, options.face, options.face, layers, true});
     if (options.distance)
-        cubes.distance = graph.image({name + "distance", *options.distance, options.face, options.face, layers, true});
+        cubes.distance = graph.image(
+            {name + "distance", *options.distance, options.face, options.face, layers, true});
     if (options.surfaces) {
-        check(options.distance.has_value(), Failure::internal, "captures '", options.name, "' want surfaces, which follow the distance");
-        cubes.surfaces = graph.image({name + "surfaces", Format::rgba16f, options.face, options.face, layers, true});
+        check(options.distance.has_value(), Failure::internal, "captures '", options.name,
+              "' want surfaces, which follow the distance");
+        cubes.surfaces = graph.image(
+            {name + "surfaces", Format::rgba16f, options.face, options.face, layers, true});
     }
     if (options.second_layer) {
         check(options.distance.has_value(), Failure::internal, "captures '", options.name,
               "' want a second layer, which needs the distance of the first");
-        cubes.colour2 = graph.image({name + "colour2", options.colour, options.face, options.face, layers, true});
-        cubes.distance2 = graph.image({name + "distance2", *options.distance, options.face, options.face, layers, true});
+        cubes.colour2 = graph.image(
+            {name + "colour2", options.colour, options.face, options.face, layers, true});
+        cubes.distance2 = graph.image(
+            {name + "distance2", *options.distance, options.face, options.face, layers, true});
     }
     return cubes;
 }
 
-void add_captures(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options, const Cubes& cubes) {
+void add_captures(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
+                  const Cubes& cubes) {
     for (std::uint32_t mirror = 0; mirror < inputs.scene.mirror_count(); ++mirror) {
-        const auto part_of = [&](std::optional<Image> image) { return image ? std::optional(image->layers(6 * mirror, 6)) : image; };
+        const auto part_of = [&](std::optional<Image> image) {
+            return image ? std::optional(image->layers(6 * mirror, 6)) : image;
+        };
         const std::string number = "/" + std::to_string(mirror + 1);
-        const Cubes first{*part_of(cubes.colour), part_of(cubes.distance), {}, {}, part_of(cubes.surfaces)};
+        const Cubes first{
+            *part_of(cubes.colour), part_of(cubes.distance), {}, {}, part_of(cubes.surfaces)};
         add_capture(graph, inputs, options, mirror, options.name + number, first, {});
         if (cubes.colour2)
-            add_capture(graph, inputs, options, mirror, options.name + "2" + number, {*part_of(cubes.colour2), part_of(cubes.distance2), {}, {}, {}},
+            add_capture(graph, inputs, options, mirror, options.name + "2" + number,
+                        {*part_of(cubes.colour2), part_of(cubes.distance2), {}, {}, {}},
                         first.distance);
     }
 }
 
-View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, const MirrorLook& look,
-              bool with_lookup) {
+View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting,
+              const MirrorLook& look, bool with_lookup) {
     const uvec2 size = inputs.size;
     const Image hdr = graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
     const Image depth = graph.image({inputs.prefix + "view.depth", Format::d32f, size.x, size.y});
@@ -187,19 +223,24 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
     View view{hdr, {}};
     pass.writes(hdr, Use::colour, kBlack);
     if (with_lookup || inputs.with_lookup) {
-        // Attachments have the locations of the shaders: the distance's, which nobody reads here, then the lookup's.
-        const Image distance = graph.image({inputs.prefix + "view.distance", Format::r32f, size.x, size.y});
+        // Attachments have the locations of the shaders: the distance's, which nobody reads here,
+        // then the lookup's.
+        const Image distance = graph.image(
+            {inputs.prefix + "view.distance", Format::r32f, size.x, size.y});
         view.lookup = graph.image({inputs.prefix + "lookup", Format::rgba32f, size.x, size.y});
         pass.writes(distance, Use::colour, Clear{}).writes(*view.lookup, Use::colour, Clear{});
     }
-    pass.writes(depth, Use::depth, kFarthest).record([&scene = inputs.scene, lighting, look = mended(look, inputs, lighting)](Commands& commands) {
-        draw_scene(commands, scene, GpuScene::kCameraView, 1, lighting, look, {}, {},
-                   [&](std::size_t object) { return !scene.ranges()[object].seen_by_camera; });
-    });
+    pass.writes(depth, Use::depth, kFarthest)
+        .record([&scene = inputs.scene, lighting,
+                 look = mended(look, inputs, lighting)](Commands& commands) {
+            draw_scene(commands, scene, GpuScene::kCameraView, 1, lighting, look, {}, {},
+                       [&](std::size_t object) { return !scene.ranges()[object].seen_by_camera; });
+        });
     return view;
 }
 
-Image add_compose(graph::Graph& graph, const FrameInputs& inputs, Image hdr, double exposure_stops) {
+Image add_compose(graph::Graph& graph, const FrameInputs& inputs, Image hdr,
+                  double exposure_stops) {
     const uvec2 size = inputs.size;
     const Image picture = graph.image({inputs.prefix + "ldr", Format::rgba8_unorm, size.x, size.y});
     graph.pass(inputs.prefix + "compose")

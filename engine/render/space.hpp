@@ -4,9 +4,9 @@
 
 namespace catoptric::render {
 
-/// Scene units: world positions minus the scene's centre, times a power of two that makes its largest
-/// extent about 1. Done in double before anything becomes a float, so that neither the scale of a
-/// scene nor its distance from the origin reaches the device.
+/// Scene units: world positions minus the scene's centre, times a power of two that makes its
+/// largest extent about 1. Done in double before anything becomes a float, so that neither the
+/// scale of a scene nor its distance from the origin reaches the device.
 struct Space {
     dvec3 centre_world{0};
     double scale = 1; ///< scene units per world unit, a power of two

@@ -10,8 +10,8 @@ namespace catoptric::render {
 
 namespace {
 
-// Depth is a float with reversed range: its relative precision does not depend on the near plane, so
-// near only has to be above 0 and below everything. 2^-24: the rounding of a coordinate about 1.
+// Depth is a float with reversed range: its relative precision does not depend on the near plane,
+// so near only has to be above 0 and below everything. 2^-24: the rounding of a coordinate about 1.
 constexpr float kSmallestNear = 0x1p-24f;
 // In scene sizes: the square of a distance must stay a float.
 constexpr float kFarthestEye = 1e18f;
@@ -33,19 +33,25 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
     view.forward = vec3(forward);
     view.near = std::max(kSmallestNear, 0.5f * gap * static_cast<float>(along));
     // Written so that a NaN is refused too.
-    check(length(view.eye) <= kFarthestEye && length(view.forward) > .5f && length(view.right) > 0 && length(view.down) > 0, Failure::usage, "camera '",
-          camera.name, "': wanted an eye within ", kFarthestEye, " sizes of the scene, a target away from it and an up that is not along, found eye ",
+    check(length(view.eye) <= kFarthestEye && length(view.forward) > .5f &&
+              length(view.right) > 0 && length(view.down) > 0,
+          Failure::usage, "camera '", camera.name, "': wanted an eye within ", kFarthestEye,
+          " sizes of the scene, a target away from it and an up that is not along, found eye ",
           camera.eye.x, ",", camera.eye.y, ",", camera.eye.z);
     return view;
 }
 
-std::vector<shared::View> cube_views(vec3 eye, float gap) { return turned_cube_views(eye, vec3(0), gap); }
+std::vector<shared::View> cube_views(vec3 eye, float gap) {
+    return turned_cube_views(eye, vec3(0), gap);
+}
 
 std::vector<shared::View> turned_cube_views(vec3 eye, vec3 forward, float gap) {
     glm::mat3 world_from_cube(1);
     if (forward != vec3(0)) {
         const vec3 size = abs(forward);
-        const vec3 other = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0) : size.y <= size.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
+        const vec3 other = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0)
+                           : size.y <= size.z                   ? vec3(0, 1, 0)
+                                                                : vec3(0, 0, 1);
         const vec3 x = normalize(cross(other, forward));
         world_from_cube = glm::mat3(x, cross(forward, x), forward);
     }
@@ -64,8 +70,9 @@ std::vector<shared::View> turned_cube_views(vec3 eye, vec3 forward, float gap) {
 }
 
 bool may_meet(const shared::View& view, const Bounds<float>& box) {
-    const std::array<vec3, 5> inward{view.forward, view.forward + view.right, view.forward - view.right,
-                                     view.forward + view.down, view.forward - view.down};
+    const std::array<vec3, 5> inward{view.forward, view.forward + view.right,
+                                     view.forward - view.right, view.forward + view.down,
+                                     view.forward - view.down};
     for (const vec3& plane : inward) {
         const vec3 furthest(plane.x > 0 ? box.hi.x : box.lo.x, plane.y > 0 ? box.hi.y : box.lo.y,
                             plane.z > 0 ? box.hi.z : box.lo.z);

@@ -28,19 +28,27 @@ Table cause_table(const Comparison& comparison) {
                 {{"Row", false}},
                 {},
                 {},
-                "Share of a row's squared error over the mirrors, in %, that goes when one thing is replaced by the "
-                "reference's own: in turn, from left to right, and below it each alone. Between the two lies what "
-                "causes do together; a negative share uncovers another's error. storage format: distances as 32-bit "
-                "floats; stored distance: exact ones; search direction: where the ray really ends; hidden target: what "
-                "the capture's centre does not see; texels: the captured surface at the very point; mirror in mirror, "
-                "own reflection: what other mirrors and the mirror itself show there; last frame: history of this "
-                "instant; shadow map: shadow rays; silhouettes: pixels where rasteriser and ray see different mirrors. "
-                "Left: the rmse when all is replaced; near 0, no cause is missing. At light edges: share of the squared "
+                "Share of a row's squared error over the mirrors, in %, that goes when one thing "
+                "is replaced by the "
+                "reference's own: in turn, from left to right, and below it each alone. Between "
+                "the two lies what "
+                "causes do together; a negative share uncovers another's error. storage format: "
+                "distances as 32-bit "
+                "floats; stored distance: exact ones; search direction: where the ray really ends; "
+                "hidden target: what "
+                "the capture's centre does not see; texels: the captured surface at the very "
+                "point; mirror in mirror, "
+                "own reflection: what other mirrors and the mirror itself show there; last frame: "
+                "history of this "
+                "instant; shadow map: shadow rays; silhouettes: pixels where rasteriser and ray "
+                "see different mirrors. "
+                "Left: the rmse when all is replaced; near 0, no cause is missing. At light edges: "
+                "share of the squared "
                 "error in pixels that looked within a texel of a light's outline."};
-    const auto split = std::ranges::find_if(comparison.rows, [](const Row& row) { return row.causes.has_value(); });
+    const auto split = std::ranges::find_if(comparison.rows,
+                                            [](const Row& row) { return row.causes.has_value(); });
     if (split == comparison.rows.end()) return table;
-    for (const Cause& cause : split->causes->list)
-        table.columns.push_back({cause.name});
+    for (const Cause& cause : split->causes->list) table.columns.push_back({cause.name});
     table.columns.push_back({"Left"});
     table.columns.push_back({"At light edges"});
     for (const Row& row : comparison.rows) {

@@ -57,11 +57,13 @@ struct Row {
     std::string label;             ///< as it was asked for: "naive:bounces=1"
     std::vector<Setting> settings; ///< all knobs
     std::string model = "everything";
-    int scene_passes = 0;  ///< counted in the executed plan; a cube counts once, as in the seed report
-    int scene_draws = 0;   ///< the same with every cube face counted
+    int scene_passes =
+        0; ///< counted in the executed plan; a cube counts once, as in the seed report
+    int scene_draws = 0; ///< the same with every cube face counted
     measure::Summary gpu_ms, cpu_record_ms, wall_ms;
     std::vector<PassFacts> passes; ///< in order of execution
-    /// Sum of all the frame's passes over wall_ms, frame by frame: near 1 where stamps tell the truth.
+    /// Sum of all the frame's passes over wall_ms, frame by frame: near 1 where stamps tell the
+    /// truth.
     measure::Summary closure;
     measure::Difference error;                  ///< over the pixels whose first hit is a mirror
     measure::Difference error_first_order;      ///< ... whose reflected ray meets no second mirror
@@ -69,19 +71,19 @@ struct Row {
     measure::Difference error_non_mirror;       ///< everything else
     measure::Difference error_all;
     std::vector<measure::Difference> error_per_mirror; ///< entry n-1 is mirror n
-    std::uint64_t memory_bytes = 0; ///< of the frame's images
-    std::optional<Rays> rays;       ///< of ray tracing, one frame
+    std::uint64_t memory_bytes = 0;                    ///< of the frame's images
+    std::optional<Rays> rays;                          ///< of ray tracing, one frame
     std::optional<std::size_t> saturated_texels; ///< of captures that hold halves: cut off at 65504
-    std::optional<measure::LookupError> lookup; ///< first-order pixels: where mirrors looked
-    std::optional<Causes> causes;               ///< of rows that look into captures
+    std::optional<measure::LookupError> lookup;  ///< first-order pixels: where mirrors looked
+    std::optional<Causes> causes;                ///< of rows that look into captures
     std::optional<double> traced_fraction;
     std::optional<AutoFace> auto_face;
     measure::Mean mean, mean_clamped;
-    measure::Picture hdr;           ///< the last frame, linear
-    measure::Picture display;       ///< the same as shown
-    std::vector<float> flip_map;    ///< against the reference, row-major
-    std::string image;   ///< file name without folder and ending: "naive-bounces1"
-    bool is_reference = false;      ///< same technique and settings as the reference
+    measure::Picture hdr;        ///< the last frame, linear
+    measure::Picture display;    ///< the same as shown
+    std::vector<float> flip_map; ///< against the reference, row-major
+    std::string image;           ///< file name without folder and ending: "naive-bounces1"
+    bool is_reference = false;   ///< same technique and settings as the reference
 };
 
 struct Comparison {
@@ -105,7 +107,7 @@ struct Comparison {
     std::optional<measure::Summary> clear_ms;
     std::vector<Row> rows;
     std::vector<std::size_t> pareto; ///< rows on the front of gpu_ms.median against error.flip
-    std::optional<Lag> lag; ///< of the rows that remember, when it was asked for
+    std::optional<Lag> lag;          ///< of the rows that remember, when it was asked for
     std::vector<std::string> warnings;
 };
 

@@ -15,8 +15,7 @@ namespace {
 std::string quoted(const std::string& field) {
     if (field.find_first_of("\",\r\n") == std::string::npos) return field;
     std::string result = "\"";
-    for (const char c : field)
-        result += c == '"' ? "\"\"" : std::string(1, c);
+    for (const char c : field) result += c == '"' ? "\"\"" : std::string(1, c);
     return result + "\"";
 }
 
@@ -108,8 +107,7 @@ Line line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) 
 
 std::string to_csv(const Comparison& comparison) {
     std::size_t mirrors = 0;
-    for (const Row& row : comparison.rows)
-        mirrors = std::max(mirrors, row.error_per_mirror.size());
+    for (const Row& row : comparison.rows) mirrors = std::max(mirrors, row.error_per_mirror.size());
     std::string csv = joined(line_of(comparison, Row{}, mirrors).names, ",") + "\r\n";
     for (const Row& row : comparison.rows)
         csv += joined(line_of(comparison, row, mirrors).fields, ",") + "\r\n";

@@ -10,8 +10,8 @@ namespace catoptric::report {
 namespace {
 
 std::string device_text(const DeviceFacts& device) {
-    const std::string threads =
-        device.threads > 0 ? fmt::format(", {} threads", device.threads) : std::string();
+    const std::string threads = device.threads > 0 ? fmt::format(", {} threads", device.threads)
+                                                   : std::string();
     return fmt::format("{} ({}{})", device.name, device.type, threads);
 }
 

@@ -19,13 +19,9 @@ using Sentence = std::optional<std::string>;
 /// One step of an 8-bit picture.
 constexpr double kStep = 1.0 / 255;
 
-double ms_of(const Row& row) {
-    return row.gpu_ms.median;
-}
+double ms_of(const Row& row) { return row.gpu_ms.median; }
 
-std::string percent(double share) {
-    return fixed(100 * share, share < 0.1 ? 1 : 0) + " %";
-}
+std::string percent(double share) { return fixed(100 * share, share < 0.1 ? 1 : 0) + " %"; }
 
 /// What a clear would do to our part one, which renders and clears no cube without
 /// inter-reflections.
@@ -51,14 +47,14 @@ Sentence clears(const Comparison& comparison) {
     const Row* two = find_row(comparison, "reuse");
     if (one == nullptr || two == nullptr) return {};
     const bool slower = ms_of(*one) > ms_of(*two);
-    std::string text =
-        fmt::format("Clears: the report's part one without inter-reflections took {:.1f} ms more "
-                    "than its part two "
-                    "({:.1f} against {:.1f} ms), which it puts down to clearing the cube maps. "
-                    "Here part one, {}, "
-                    "is {} than part two ({} against {} ms)",
-                    kSeedPartOne.ms - kSeedPartTwo.ms, kSeedPartOne.ms, kSeedPartTwo.ms, one->label,
-                    slower ? "slower" : "not slower", ms_text(ms_of(*one)), ms_text(ms_of(*two)));
+    std::string text = fmt::format(
+        "Clears: the report's part one without inter-reflections took {:.1f} ms more "
+        "than its part two "
+        "({:.1f} against {:.1f} ms), which it puts down to clearing the cube maps. "
+        "Here part one, {}, "
+        "is {} than part two ({} against {} ms)",
+        kSeedPartOne.ms - kSeedPartTwo.ms, kSeedPartOne.ms, kSeedPartTwo.ms, one->label,
+        slower ? "slower" : "not slower", ms_text(ms_of(*one)), ms_text(ms_of(*two)));
     if (!comparison.clear_ms) return text + "; what a clear costs was not measured.";
     const double clear = comparison.clear_ms->median;
     return text + ". Clearing the cubes of all mirrors costs " + ms_text(clear) +
@@ -96,8 +92,7 @@ Sentence inter_reflections(const Comparison& comparison) {
         steps.push_back(find_naive(comparison, i));
     if (steps.size() < 2) return {};
     std::vector<std::string> figures;
-    for (const Row* row : steps)
-        figures.push_back(error_text(row->error.rmse));
+    for (const Row* row : steps) figures.push_back(error_text(row->error.rmse));
     std::string text = fmt::format(
         "Inter-reflections: with i = 1 to {} the rmse of part one over the mirrors is {}. ",
         steps.size(), joined(figures, ", "));
@@ -149,9 +144,8 @@ Sentence ray_tracing(const Comparison& comparison) {
 
 std::vector<std::string> findings(const Comparison& comparison) {
     std::vector<std::string> list;
-    for (const auto finding :
-         {clears, inter_reflections, stored_distance, price_of_correction, ray_tracing,
-                               lag_in_words})
+    for (const auto finding : {clears, inter_reflections, stored_distance, price_of_correction,
+                               ray_tracing, lag_in_words})
         if (const Sentence sentence = finding(comparison)) list.push_back(*sentence);
     return list;
 }

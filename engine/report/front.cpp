@@ -25,8 +25,8 @@ std::vector<const Row*> front_rows(const Comparison& comparison) {
 
 /// The fastest row on the front that beats this one; null when none does.
 const Row* winner_over(const std::vector<const Row*>& front, const Row& loser) {
-    const auto found =
-        std::ranges::find_if(front, [&](const Row* row) { return beats(*row, loser); });
+    const auto found = std::ranges::find_if(front,
+                                            [&](const Row* row) { return beats(*row, loser); });
     return found == front.end() ? nullptr : *found;
 }
 
@@ -81,8 +81,7 @@ std::vector<std::string> front_in_words(const Comparison& comparison) {
     const std::vector<const Row*> front = front_rows(comparison);
     if (front.empty()) return {"No row could be judged, so there is no front."};
     std::vector<std::string> names;
-    for (const Row* row : front)
-        names.push_back(figures(*row));
+    for (const Row* row : front) names.push_back(figures(*row));
     std::vector<std::string> words{"On the front (no other row is as fast and as close, and better "
                                    "in one), from fast to close: " +
                                    joined(names, "; ") + "."};

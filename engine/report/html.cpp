@@ -27,10 +27,10 @@ std::string cell(const Column& column, const char* tag, const char* scope,
 std::string to_html(const Table& table, const std::string& look, bool linked) {
     if (table.rows.empty()) return "";
     const std::string title = html_escaped(table.title);
-    std::string html =
-        fmt::format("<section><h2>{0}</h2><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-                    "aria-label=\"{0}\"><table class=\"{1}\"><thead><tr>",
-                    title, look);
+    std::string html = fmt::format(
+        "<section><h2>{0}</h2><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+        "aria-label=\"{0}\"><table class=\"{1}\"><thead><tr>",
+        title, look);
     for (const Column& column : table.columns)
         html += cell(column, "th", " scope=\"col\"", html_escaped(column.name));
     html += "</tr></thead><tbody>";
@@ -51,8 +51,7 @@ std::string to_html(const Table& table, const std::string& look, bool linked) {
 
 std::string list_of(const std::vector<std::string>& sentences) {
     std::string html = "<ul>";
-    for (const std::string& sentence : sentences)
-        html += "<li>" + html_escaped(sentence) + "</li>";
+    for (const std::string& sentence : sentences) html += "<li>" + html_escaped(sentence) + "</li>";
     return html + "</ul>";
 }
 
@@ -130,8 +129,8 @@ std::string article(const Comparison& comparison, std::size_t index) {
          {std::pair(on_front(comparison, row), "on the front"),
           std::pair(row.is_reference, "the reference"), std::pair(failed(row), "failed")})
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
-    html +=
-        "</div><div class=\"pair\">" + figure(row.display, "Picture by " + row.label, "Picture");
+    html += "</div><div class=\"pair\">" +
+            figure(row.display, "Picture by " + row.label, "Picture");
     if (!row.flip_map.empty())
         html += figure(measure::heat(row.flip_map, row.display.width, row.display.height),
                        "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
@@ -158,8 +157,7 @@ std::string pictures(const Comparison& comparison) {
                "Reference: " + comparison.reference_label) +
         "<div><p>Each row: its last frame, and where it differs from the reference.</p>" +
         heat_scale() + "</div></div><div class=\"rows\">";
-    for (std::size_t i = 0; i < comparison.rows.size(); ++i)
-        html += article(comparison, i);
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) html += article(comparison, i);
     return html + "</div></section>\n";
 }
 

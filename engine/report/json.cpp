@@ -25,8 +25,7 @@ Json number_or_null(const std::optional<Value>& value) {
 Json to_json(const measure::Summary& summary) {
     if (summary.n == 0) return nullptr; // never measured
     Json samples = Json::array();
-    for (const double sample : summary.samples)
-        samples.push_back(number(sample));
+    for (const double sample : summary.samples) samples.push_back(number(sample));
     return {{"median", number(summary.median)},
             {"p05", number(summary.p05)},
             {"p95", number(summary.p95)},
@@ -98,8 +97,7 @@ Json to_json(const std::optional<measure::LookupError>& lookup) {
 
 Json numbers(const std::vector<double>& values) {
     Json list = Json::array();
-    for (const double value : values)
-        list.push_back(number(value));
+    for (const double value : values) list.push_back(number(value));
     return list;
 }
 
@@ -122,8 +120,7 @@ Json to_json(const std::optional<Causes>& causes) {
 Json to_json(const std::optional<AutoFace>& face) {
     if (!face) return nullptr;
     Json needs = Json::array();
-    for (const double need : face->needs)
-        needs.push_back(number(need));
+    for (const double need : face->needs) needs.push_back(number(need));
     return {{"edge", face->edge}, {"needs", std::move(needs)}};
 }
 
@@ -206,8 +203,7 @@ std::string to_json(const Comparison& comparison) {
     if (comparison.clear_ms) json["clear_ms"] = to_json(*comparison.clear_ms);
     json["model"] = comparison.model;
     json["rows"] = Json::array();
-    for (const Row& row : comparison.rows)
-        json["rows"].push_back(to_json(row));
+    for (const Row& row : comparison.rows) json["rows"].push_back(to_json(row));
     json["pareto"] = comparison.pareto;
     if (comparison.lag) json["lag"] = to_json(*comparison.lag);
     // Names from files may be any bytes; JSON is UTF-8.

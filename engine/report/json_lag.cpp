@@ -7,14 +7,11 @@ namespace {
 
 Json numbers(const std::vector<double>& values) {
     Json list = Json::array();
-    for (const double value : values)
-        list.push_back(number(value));
+    for (const double value : values) list.push_back(number(value));
     return list;
 }
 
-Json frames(const std::optional<int>& count) {
-    return count ? Json(*count) : Json(nullptr);
-}
+Json frames(const std::optional<int>& count) { return count ? Json(*count) : Json(nullptr); }
 
 Json to_json(const Settling& settling) {
     return {{"rmse_settled", frames(settling.rmse_settled)},
@@ -42,8 +39,7 @@ Json to_json(const LagRow& row) {
               {"after_black", to_json(row.after_black)},
               {"after_jump", to_json(row.after_jump)}};
     json["speeds"] = Json::array();
-    for (const LagAtSpeed& at : row.speeds)
-        json["speeds"].push_back(to_json(at));
+    for (const LagAtSpeed& at : row.speeds) json["speeds"].push_back(to_json(at));
     return json;
 }
 
@@ -58,8 +54,7 @@ Json to_json(const Lag& lag) {
               {"seconds", numbers(lag.seconds)},
               {"without_history", lag.without_history}};
     json["rows"] = Json::array();
-    for (const LagRow& row : lag.rows)
-        json["rows"].push_back(to_json(row));
+    for (const LagRow& row : lag.rows) json["rows"].push_back(to_json(row));
     return json;
 }
 

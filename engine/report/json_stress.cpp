@@ -7,15 +7,24 @@ namespace catoptric::report {
 namespace {
 
 Json to_json(const StressRow& row) {
-    Json json{{"id", row.id}, {"stimulus", row.stimulus}, {"property", row.property}, {"verdict", name_of(row.verdict)}, {"remark", row.remark}};
+    Json json{{"id", row.id},
+              {"stimulus", row.stimulus},
+              {"property", row.property},
+              {"verdict", name_of(row.verdict)},
+              {"remark", row.remark}};
     const StressCase* worst = row.worst();
     json["measured"] = worst ? number(worst->measured) : Json(nullptr);
     json["threshold"] = worst ? number(worst->limit) : Json(nullptr);
     json["cases"] = Json::array();
     for (const StressCase& one : row.cases)
-        json["cases"].push_back({{"what", one.what}, {"measured", number(one.measured)}, {"threshold", number(one.limit)}, {"holds", one.holds()}, {"quality", one.is_quality}});
+        json["cases"].push_back({{"what", one.what},
+                                 {"measured", number(one.measured)},
+                                 {"threshold", number(one.limit)},
+                                 {"holds", one.holds()},
+                                 {"quality", one.is_quality}});
     json["pictures"] = Json::array();
-    for (const StressPicture& picture : row.pictures) json["pictures"].push_back("images/" + picture.name + ".png");
+    for (const StressPicture& picture : row.pictures)
+        json["pictures"].push_back("images/" + picture.name + ".png");
     json["seconds"] = number(row.seconds);
     return json;
 }
@@ -23,9 +32,15 @@ Json to_json(const StressRow& row) {
 } // namespace
 
 std::string to_json(const Stress& stress) {
-    Json json{{"schema", "catoptric/stress/1"}, {"version", stress.version}, {"commit", stress.commit}, {"command", stress.command},
+    Json json{{"schema", "catoptric/stress/1"},
+              {"version", stress.version},
+              {"commit", stress.commit},
+              {"command", stress.command},
               {"complete", stress.complete}};
-    json["device"] = {{"name", stress.device.name}, {"driver", stress.device.driver}, {"api", stress.device.api}, {"type", stress.device.type},
+    json["device"] = {{"name", stress.device.name},
+                      {"driver", stress.device.driver},
+                      {"api", stress.device.api},
+                      {"type", stress.device.type},
                       {"threads", stress.device.threads}};
     json["size"] = Json::array({stress.width, stress.height});
     json["seed"] = stress.seed;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-// How far rows that read last frame's captures are behind a moving scene, as plain data. Every error
-// is an rmse over the pixels whose first hit is a mirror, on linear colours clamped to [0,1].
+// How far rows that read last frame's captures are behind a moving scene, as plain data. Every
+// error is an rmse over the pixels whose first hit is a mirror, on linear colours clamped to [0,1].
 namespace catoptric::report {
 
 /// A picture that changes too little to be seen: one step of 8 bits, linear.
@@ -30,14 +30,15 @@ struct Settling {
 
 struct LagRow {
     std::string label;
-    /// The still picture of an instant: the scene stands, rendered from black captures until nothing
-    /// changes any more. Most frames that one took; how many still changed at the cap.
+    /// The still picture of an instant: the scene stands, rendered from black captures until
+    /// nothing changes any more. Most frames that one took; how many still changed at the cap.
     int still_frames = 0;
     int restless_stills = 0;
     std::vector<double> still_reference_rmse; ///< against the reference, one an instant
     double mean_still_reference_rmse = 0;
     Settling after_black; ///< captures start black, as in a run's first frame
-    Settling after_jump;  ///< the scene jumps to `seconds[0]` from `jump_from`, whose still was reached
+    Settling
+        after_jump; ///< the scene jumps to `seconds[0]` from `jump_from`, whose still was reached
     std::vector<LagAtSpeed> speeds;
 };
 
@@ -47,8 +48,9 @@ struct Lag {
     double jump_from = 0;        ///< seconds: half the path after the first instant
     int frame_cap = 0;           ///< most frames that a still or a cut was given
     std::vector<LagRow> rows;
-    std::vector<std::string> without_history; ///< asked for, but their frames read nothing of the last
-    bool complete = true;                     ///< false: interrupted, what there was so far
+    std::vector<std::string>
+        without_history;  ///< asked for, but their frames read nothing of the last
+    bool complete = true; ///< false: interrupted, what there was so far
 };
 
 } // namespace catoptric::report

@@ -36,13 +36,11 @@ std::string against_speed(const Lag& lag) {
                   .y_name = "rmse to the still picture, mean",
                   .says = "Mean lag against speed, one line a row",
                   .log_x = true};
-    for (const LagAtSpeed& at : lag.rows.front().speeds)
-        plot.x.push_back(at.speed);
+    for (const LagAtSpeed& at : lag.rows.front().speeds) plot.x.push_back(at.speed);
     plot.x_ticks = plot.x;
     for (std::size_t k = 0; k < lag.rows.size(); ++k) {
         PlotLine line{lag.rows[k].label, {}, strength(k, lag.rows.size())};
-        for (const LagAtSpeed& at : lag.rows[k].speeds)
-            line.y.push_back(at.mean_rmse);
+        for (const LagAtSpeed& at : lag.rows[k].speeds) line.y.push_back(at.mean_rmse);
         plot.lines.push_back(std::move(line));
     }
     return line_plot(plot);
@@ -58,7 +56,8 @@ std::string after_jump(const Lag& lag) {
         const std::size_t shown = std::min(kShown, rmse.size());
         for (std::size_t i = plot.x.size(); i < shown; ++i)
             plot.x.push_back(static_cast<double>(i + 1));
-        const std::vector<double> first(rmse.begin(), rmse.begin() + static_cast<std::ptrdiff_t>(shown));
+        const std::vector<double> first(rmse.begin(),
+                                        rmse.begin() + static_cast<std::ptrdiff_t>(shown));
         plot.lines.push_back({lag.rows[k].label, first, strength(k, lag.rows.size())});
     }
     plot.x_ticks = plot.x;

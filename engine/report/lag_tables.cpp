@@ -10,9 +10,7 @@ namespace catoptric::report {
 
 namespace {
 
-std::string speed_text(double speed) {
-    return fmt::format("{:g}x", speed);
-}
+std::string speed_text(double speed) { return fmt::format("{:g}x", speed); }
 
 /// The instant of the largest error, seconds.
 std::string worst_instant(const Lag& lag, const LagAtSpeed& at) {
@@ -44,14 +42,14 @@ std::string behind(const LagRow& row) {
     std::vector<std::string> parts;
     for (const LagAtSpeed& at : row.speeds)
         parts.push_back(fmt::format("{} (median {}, largest {}) at {}", error_text(at.mean_rmse),
-                                    error_text(at.median_rmse), error_text(at.max_rmse), speed_text(at.speed)));
+                                    error_text(at.median_rmse), error_text(at.max_rmse),
+                                    speed_text(at.speed)));
     return row.label + " is behind its own still picture by an rmse of " + joined(parts, ", ");
 }
 
 std::string settles(const LagRow& row, int cap) {
     const auto counts = [&](const Settling& settling) {
-        return fmt::format("{} by rmse, {} in every pixel",
-                           count_text(settling.rmse_settled, cap),
+        return fmt::format("{} by rmse, {} in every pixel", count_text(settling.rmse_settled, cap),
                            count_text(settling.max_settled, cap));
     };
     return fmt::format("after a cut from black it is within 1/255 from frame {}; after a jump of "
@@ -116,7 +114,8 @@ std::optional<std::string> lag_in_words(const Comparison& comparison) {
     const Lag& lag = *comparison.lag;
     std::vector<std::string> sentences;
     for (const LagRow& row : lag.rows)
-        if (!row.speeds.empty()) sentences.push_back(behind(row) + "; " + settles(row, lag.frame_cap));
+        if (!row.speeds.empty())
+            sentences.push_back(behind(row) + "; " + settles(row, lag.frame_cap));
     if (!lag.without_history.empty())
         sentences.push_back("Left out, since their frames read nothing of the frame before and "
                             "have no lag: " +

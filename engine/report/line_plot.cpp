@@ -26,9 +26,7 @@ double x_place(const LinePlot& plot, double x) {
     return last > first ? kLeft + (along(x) - first) / (last - first) * (kRight - kLeft) : kLeft;
 }
 
-double y_place(const Scale& scale, double y) {
-    return y > 0 ? scale(y) : kZero;
-}
+double y_place(const Scale& scale, double y) { return y > 0 ? scale(y) : kZero; }
 
 std::vector<double> y_ticks(const Scale& scale) {
     std::vector<double> values = svg::ticks(scale);
@@ -63,7 +61,8 @@ std::string path_of(const LinePlot& plot, const PlotLine& line, const Scale& y) 
         if (std::isfinite(line.y[i]))
             path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L",
                                 x_place(plot, plot.x[i]), y_place(y, line.y[i]));
-    return fmt::format(R"(<path class="line" style="opacity:{:.2f}" d="{}"/>)", line.strength, path);
+    return fmt::format(R"(<path class="line" style="opacity:{:.2f}" d="{}"/>)", line.strength,
+                       path);
 }
 
 /// Names right of the lines' ends, moved up where they would lie on one another.
@@ -97,8 +96,7 @@ std::string line_plot(const LinePlot& plot) {
     std::string drawn = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)",
                                     kWidth, kHeight, html_escaped(plot.says));
     drawn += axes(plot, y);
-    for (const PlotLine& line : plot.lines)
-        drawn += path_of(plot, line, y);
+    for (const PlotLine& line : plot.lines) drawn += path_of(plot, line, y);
     return drawn + names(plot, y) + "</svg>";
 }
 

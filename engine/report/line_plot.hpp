@@ -6,14 +6,14 @@
 namespace catoptric::report {
 
 struct PlotLine {
-    std::string name;     ///< at its right end
+    std::string name;      ///< at its right end
     std::vector<double> y; ///< one for each of LinePlot::x, at least 0; NaN: no point there
-    double strength = 1;  ///< opacity, 0..1
+    double strength = 1;   ///< opacity, 0..1
 };
 
 struct LinePlot {
     std::string x_name, y_name;
-    std::string says; ///< for who cannot see it
+    std::string says;      ///< for who cannot see it
     std::vector<double> x; ///< increasing; positive if `log_x`
     std::vector<double> x_ticks;
     bool log_x = false;

@@ -42,8 +42,7 @@ std::string line_of(const std::vector<std::string>& cells, const std::vector<std
 
 std::string list_of(const std::vector<std::string>& sentences) {
     std::string text;
-    for (const std::string& sentence : sentences)
-        text += "- " + escaped(sentence) + "\n";
+    for (const std::string& sentence : sentences) text += "- " + escaped(sentence) + "\n";
     return text + "\n";
 }
 
@@ -52,12 +51,10 @@ std::string list_of(const std::vector<std::string>& sentences) {
 std::string to_markdown(const Table& table) {
     if (table.rows.empty()) return "";
     std::vector<std::vector<std::string>> lines(1);
-    for (const Column& column : table.columns)
-        lines[0].push_back(escaped(column.name));
+    for (const Column& column : table.columns) lines[0].push_back(escaped(column.name));
     for (const std::vector<std::string>& row : table.rows) {
         std::vector<std::string>& cells = lines.emplace_back();
-        for (const std::string& cell : row)
-            cells.push_back(escaped(cell));
+        for (const std::string& cell : row) cells.push_back(escaped(cell));
     }
     std::vector<std::size_t> widths(table.columns.size(), 2);
     for (const std::vector<std::string>& cells : lines)

@@ -59,17 +59,16 @@ std::string stairs(std::vector<Point> points) {
         points, [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y > b.y; });
     if (points.empty()) return "";
     std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, kTop);
-    for (const Point& point : points)
-        path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
+    for (const Point& point : points) path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
     return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kRight) + "\"/>";
 }
 
 /// Ray-traced rows are squares, all others discs; what one says on hover.
 std::string mark(const Point& point) {
     const char* kind = point.front ? "mark front" : "mark";
-    const std::string title =
-        fmt::format("<title>{}: {} ms, FLIP {}</title>", html_escaped(point.row->label),
-                    ms_text(point.row->gpu_ms.median), error_text(point.row->error.flip));
+    const std::string title = fmt::format(
+        "<title>{}: {} ms, FLIP {}</title>", html_escaped(point.row->label),
+        ms_text(point.row->gpu_ms.median), error_text(point.row->error.flip));
     if (is_ray_traced(*point.row))
         return fmt::format(
             R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9">{}</rect>)", kind,
@@ -88,8 +87,8 @@ Box place_label(const Point& point, const std::vector<Box>& taken) {
             const double x = first != point.front ? point.x + 9 : point.x - 9 - width;
             const double y = point.y + rise * kLine;
             box = {x, y - kLine / 2, x + width, y + kLine / 2};
-            const bool inside =
-                box.x0 >= kLeft && box.x1 <= kRight && box.y0 >= kTop && box.y1 <= kBottom;
+            const bool inside = box.x0 >= kLeft && box.x1 <= kRight && box.y0 >= kTop &&
+                                box.y1 <= kBottom;
             if (inside &&
                 std::ranges::none_of(taken, [&](const Box& other) { return box.meets(other); }))
                 return box;
@@ -129,13 +128,12 @@ std::string plot(const Comparison& comparison) {
             points.push_back({x(row.gpu_ms.median),
                               row.error.flip > 0 ? y(row.error.flip) : (kLane + kBottom) / 2, &row,
                               on_front(comparison, row)});
-    std::string svg =
-        fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of GPU time )"
-                    R"(against FLIP; the figures are in the table of every row">)",
-                    kWidth, kHeight);
+    std::string svg = fmt::format(
+        R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of GPU time )"
+        R"(against FLIP; the figures are in the table of every row">)",
+        kWidth, kHeight);
     svg += axes(x, y, !errors.empty()) + stairs(points);
-    for (const Point& point : points)
-        svg += mark(point);
+    for (const Point& point : points) svg += mark(point);
     return svg + labels(points) + "</svg>";
 }
 

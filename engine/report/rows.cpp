@@ -49,17 +49,13 @@ const Row* find_naive(const Comparison& comparison, int bounces) {
     return find_row(comparison, "naive", wanted);
 }
 
-bool failed(const Row& row) {
-    return row.error.nonfinite > 0 || row.error_all.nonfinite > 0;
-}
+bool failed(const Row& row) { return row.error.nonfinite > 0 || row.error_all.nonfinite > 0; }
 
 bool judged(const Row* row) {
     return row != nullptr && !failed(*row) && std::isfinite(row->error.rmse);
 }
 
-bool is_ray_traced(const Row& row) {
-    return row.technique == "raytrace";
-}
+bool is_ray_traced(const Row& row) { return row.technique == "raytrace"; }
 
 bool on_front(const Comparison& comparison, const Row& row) {
     return std::ranges::any_of(comparison.pareto, [&](std::size_t index) {

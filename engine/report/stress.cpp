@@ -28,17 +28,30 @@ std::string figure(double value) { return fmt::format("{:.3g}", value); }
 
 /// One line a property: its worst case beside the threshold.
 Table table_of(const Stress& stress) {
-    Table table{"Properties", {{"Id", false}, {"Verdict", false}, {"Measured"}, {"Threshold"}, {"Stimulus", false}, {"Property", false}, {"Worst case", false}}, {}, {}, {}};
+    Table table{"Properties",
+                {{"Id", false},
+                 {"Verdict", false},
+                 {"Measured"},
+                 {"Threshold"},
+                 {"Stimulus", false},
+                 {"Property", false},
+                 {"Worst case", false}},
+                {},
+                {},
+                {}};
     for (const StressRow& row : stress.rows) {
         const StressCase* worst = row.worst();
-        table.rows.push_back({row.id, name_of(row.verdict), worst ? figure(worst->measured) : "–", worst ? figure(worst->limit) : "–", row.stimulus, row.property,
-                              worst ? worst->what + (row.remark.empty() ? "" : "; " + row.remark) : row.remark});
+        table.rows.push_back(
+            {row.id, name_of(row.verdict), worst ? figure(worst->measured) : "–",
+             worst ? figure(worst->limit) : "–", row.stimulus, row.property,
+             worst ? worst->what + (row.remark.empty() ? "" : "; " + row.remark) : row.remark});
     }
     return table;
 }
 
 std::string lead_of(const Stress& stress) {
-    return fmt::format("{}, {}x{}, seed {}. Each row: its worst case beside the threshold.", stress.device.name, stress.width, stress.height, stress.seed);
+    return fmt::format("{}, {}x{}, seed {}. Each row: its worst case beside the threshold.",
+                       stress.device.name, stress.width, stress.height, stress.seed);
 }
 
 } // namespace
@@ -55,46 +68,61 @@ std::string name_of(Verdict verdict) {
 }
 
 const StressCase* StressRow::worst() const {
-    const auto found = std::ranges::max_element(cases, {}, [](const StressCase& one) { return std::pair(!one.holds() && !one.is_quality, load(one)); });
+    const auto found = std::ranges::max_element(cases, {}, [](const StressCase& one) {
+        return std::pair(!one.holds() && !one.is_quality, load(one));
+    });
     return found == cases.end() ? nullptr : &*found;
 }
 
 bool Stress::failed() const {
-    return std::ranges::any_of(rows, [](const StressRow& row) { return row.verdict == Verdict::fail; });
+    return std::ranges::any_of(rows,
+                               [](const StressRow& row) { return row.verdict == Verdict::fail; });
 }
 
 std::string to_html(const Stress& stress) {
-    std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-                       "content=\"width=device-width, initial-scale=1\"><title>Rendering at the extremes</title><style>" +
-                       std::string(kStyle) + "</style></head>\n<body><header><p class=\"kicker\">Rendering at the extremes</p><h1>Stress</h1>" +
-                       "<p class=\"lede\">" + html_escaped(lead_of(stress)) + "</p></header><main><section><div class=\"scroll\"><table class=\"words\"><thead><tr>";
+    std::string html =
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+        "content=\"width=device-width, initial-scale=1\"><title>Rendering at the "
+        "extremes</title><style>" +
+        std::string(kStyle) +
+        "</style></head>\n<body><header><p class=\"kicker\">Rendering at the "
+        "extremes</p><h1>Stress</h1>" +
+        "<p class=\"lede\">" + html_escaped(lead_of(stress)) +
+        "</p></header><main><section><div class=\"scroll\"><table class=\"words\"><thead><tr>";
     const Table table = table_of(stress);
     for (const Column& column : table.columns)
-        html += fmt::format("<th{} scope=\"col\">{}</th>", column.is_number ? "" : " class=\"text\"", html_escaped(column.name));
+        html += fmt::format("<th{} scope=\"col\">{}</th>",
+                            column.is_number ? "" : " class=\"text\"", html_escaped(column.name));
     html += "</tr></thead><tbody>\n";
     for (const std::vector<std::string>& row : table.rows) {
         html += "<tr>";
         for (std::size_t i = 0; i < row.size(); ++i)
-            html += fmt::format("<td{}>{}</td>", table.columns[i].is_number ? "" : " class=\"text\"", html_escaped(row[i]));
+            html += fmt::format("<td{}>{}</td>",
+                                table.columns[i].is_number ? "" : " class=\"text\"",
+                                html_escaped(row[i]));
         html += "</tr>\n";
     }
     html += "</tbody></table></div></section>\n";
     for (const StressRow& row : stress.rows)
         for (const StressPicture& picture : row.pictures)
-            html += fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                                picture.display.width, picture.display.height, html_escaped(picture.name), data_uri(picture.display),
+            html += fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" "
+                                "src=\"{}\"><figcaption>{}</figcaption></figure>\n",
+                                picture.display.width, picture.display.height,
+                                html_escaped(picture.name), data_uri(picture.display),
                                 html_escaped(picture.name));
     return html + "</main></body></html>\n";
 }
 
 std::string to_markdown(const Stress& stress) {
-    return "# Rendering at the extremes\n\n" + lead_of(stress) + "\n\n" + to_markdown(table_of(stress));
+    return "# Rendering at the extremes\n\n" + lead_of(stress) + "\n\n" +
+           to_markdown(table_of(stress));
 }
 
 void write(const Stress& stress, const std::filesystem::path& folder) {
     create_folder(folder);
     for (const StressRow& row : stress.rows)
-        for (const StressPicture& picture : row.pictures) measure::write_png(picture.display, folder / "images" / (picture.name + ".png"));
+        for (const StressPicture& picture : row.pictures)
+            measure::write_png(picture.display, folder / "images" / (picture.name + ".png"));
     write_file(folder / "stress.html", to_html(stress));
     write_file(folder / "stress.md", to_markdown(stress));
     write_file(folder / "stress.json", to_json(stress));

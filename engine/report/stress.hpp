@@ -34,8 +34,8 @@ struct StressRow {
     std::vector<StressCase> cases;
     std::vector<StressPicture> pictures; ///< of cases that do not hold
     double seconds = 0;
-    /// The case nearest to or furthest beyond its limit, one that is wrong before all that look worse; null when there
-    /// is none.
+    /// The case nearest to or furthest beyond its limit, one that is wrong before all that look
+    /// worse; null when there is none.
     const StressCase* worst() const;
 };
 
@@ -56,7 +56,8 @@ std::string to_json(const Stress& stress);
 std::string to_html(const Stress& stress);
 /// The same table as Markdown.
 std::string to_markdown(const Stress& stress);
-/// stress.json, stress.html, stress.md and images/ID-*.png in `folder`, made as for a comparison. Throws `cannot_create`, `io`.
+/// stress.json, stress.html, stress.md and images/ID-*.png in `folder`, made as for a comparison.
+/// Throws `cannot_create`, `io`.
 void write(const Stress& stress, const std::filesystem::path& folder);
 
 } // namespace catoptric::report

@@ -11,9 +11,7 @@ namespace catoptric::report {
 
 namespace {
 
-std::string nothing() {
-    return std::string(kNothing);
-}
+std::string nothing() { return std::string(kNothing); }
 
 std::string range_text(const measure::Summary& times, int decimals) {
     return fixed(times.p05, decimals) + "–" + fixed(times.p95, decimals);
@@ -164,8 +162,7 @@ Table mirror_table(const Comparison& comparison) {
     Table table{
         "Mirror by mirror", {{"Row", false}}, {}, {}, "rmse over the pixels of each mirror."};
     std::size_t mirrors = 0;
-    for (const Row& row : comparison.rows)
-        mirrors = std::max(mirrors, row.error_per_mirror.size());
+    for (const Row& row : comparison.rows) mirrors = std::max(mirrors, row.error_per_mirror.size());
     for (std::size_t i = 1; i <= mirrors; ++i)
         table.columns.push_back({"Mirror " + std::to_string(i)});
     for (const Row& row : comparison.rows) {
@@ -180,22 +177,33 @@ Table mirror_table(const Comparison& comparison) {
 
 Table lookup_table(const Comparison& comparison) {
     Table table{"Where mirrors looked",
-                {{"Row", false}, {"Pixels"}, {"Mean, degrees"}, {"95 %"}, {"99 %"}, {"Wrong object, %"},
-                 {"Unknown, %"}, {"Miss, %"}, {"Traced, %"}},
+                {{"Row", false},
+                 {"Pixels"},
+                 {"Mean, degrees"},
+                 {"95 %"},
+                 {"99 %"},
+                 {"Wrong object, %"},
+                 {"Unknown, %"},
+                 {"Miss, %"},
+                 {"Traced, %"}},
                 {},
                 {},
-                "Angle between the looked-up and the true direction from the centre of the capture that was looked into, over mirror pixels "
-                "whose reflected ray meets no second mirror, in whichever capture the row looked; wrong object: "
-                "the capture shows another one there; unknown and miss: what the search says of itself; traced: of "
+                "Angle between the looked-up and the true direction from the centre of the capture "
+                "that was looked into, over mirror pixels "
+                "whose reflected ray meets no second mirror, in whichever capture the row looked; "
+                "wrong object: "
+                "the capture shows another one there; unknown and miss: what the search says of "
+                "itself; traced: of "
                 "all mirror pixels."};
     const auto percent = [](double share) { return fmt::format("{:.2f}", 100 * share); };
     for (const Row& row : comparison.rows) {
         if (!row.lookup) continue;
         const measure::LookupError& error = *row.lookup;
-        table.rows.push_back({row.label, std::to_string(error.pixels), fmt::format("{:.3f}", error.mean_degrees),
-                              fmt::format("{:.2f}", error.p95_degrees), fmt::format("{:.2f}", error.p99_degrees),
-                              percent(error.wrong_object), percent(error.unknown), percent(error.miss),
-                              row.traced_fraction ? percent(*row.traced_fraction) : nothing()});
+        table.rows.push_back(
+            {row.label, std::to_string(error.pixels), fmt::format("{:.3f}", error.mean_degrees),
+             fmt::format("{:.2f}", error.p95_degrees), fmt::format("{:.2f}", error.p99_degrees),
+             percent(error.wrong_object), percent(error.unknown), percent(error.miss),
+             row.traced_fraction ? percent(*row.traced_fraction) : nothing()});
     }
     return table;
 }

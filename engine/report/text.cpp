@@ -20,7 +20,8 @@ int decimals_for(double value) {
 std::string fixed(double value, int decimals) {
     if (!std::isfinite(value)) return std::string(kNothing);
     std::string text = fmt::format("{:.{}f}", value, decimals);
-    if (text.find_first_of("123456789") == std::string::npos && text.front() == '-') text.erase(0, 1); // no -0.0
+    if (text.find_first_of("123456789") == std::string::npos && text.front() == '-')
+        text.erase(0, 1); // no -0.0
     return text;
 }
 
@@ -30,9 +31,7 @@ std::string error_text(double error) {
     return tiny ? fmt::format("{:.0e}", error) : fixed(error, 4);
 }
 
-std::string ms_text(double ms) {
-    return fixed(ms, decimals_for(ms));
-}
+std::string ms_text(double ms) { return fixed(ms, decimals_for(ms)); }
 
 int ms_decimals(const Comparison& comparison) {
     double fastest = INFINITY;
@@ -51,8 +50,7 @@ std::string mebibytes(std::uint64_t bytes) {
 
 std::string settings_text(const Row& row) {
     std::vector<std::string> parts;
-    for (const Setting& setting : row.settings)
-        parts.push_back(setting.name + "=" + setting.text);
+    for (const Setting& setting : row.settings) parts.push_back(setting.name + "=" + setting.text);
     return joined(parts, ", ");
 }
 

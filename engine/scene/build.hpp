@@ -12,9 +12,11 @@ std::size_t add_material(Scene& scene, Material material);
 void add_mesh(Scene& scene, Mesh mesh, std::size_t material);
 
 /// Two triangles (a b c) (a c d).
-void add_quad(Scene& scene, const std::string& name, std::size_t material, dvec3 a, dvec3 b, dvec3 c, dvec3 d);
+void add_quad(Scene& scene, const std::string& name, std::size_t material, dvec3 a, dvec3 b,
+              dvec3 c, dvec3 d);
 
 /// A ball of 4^(levels+1) triangles that stands for an exact sphere.
-void add_ball(Scene& scene, const std::string& name, std::size_t material, dvec3 centre, double radius, int levels = 3);
+void add_ball(Scene& scene, const std::string& name, std::size_t material, dvec3 centre,
+              double radius, int levels = 3);
 
 } // namespace catoptric::scene

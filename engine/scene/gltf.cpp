@@ -101,11 +101,10 @@ std::optional<Sphere> world_sphere(const Sphere& sphere, const Mesh& mesh,
     for (const dvec3& position : mesh.positions)
         if (!(std::abs(glm::length(position - sphere.centre) - sphere.radius) <= relative * reach))
             return std::nullopt;
-    const double skew = std::max({std::abs(glm::dot(axes[0], axes[1])),
-                                  std::abs(glm::dot(axes[1], axes[2])),
-                                  std::abs(glm::dot(axes[2], axes[0])),
-                                  std::abs(scale.x - scale.y) * scale.x,
-                                  std::abs(scale.x - scale.z) * scale.x});
+    const double skew = std::max(
+        {std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
+         std::abs(glm::dot(axes[2], axes[0])), std::abs(scale.x - scale.y) * scale.x,
+         std::abs(scale.x - scale.z) * scale.x});
     if (!(skew <= relative * scale.x * scale.x)) return std::nullopt;
     return Sphere{transform_point(world_from_node, sphere.centre), sphere.radius * scale.x};
 }
@@ -152,8 +151,8 @@ void Builder::add_objects(const Node& node, const Placed& placed) {
         object.seen_by_camera = node.marks.seen_by_camera;
         object.mesh = mesh_for({*node.mesh, material, turns_inside_out(placed.world_from_node)});
         if (node.marks.sphere) {
-            object.sphere =
-                world_sphere(*node.marks.sphere, scene.meshes[object.mesh], placed.world_from_node);
+            object.sphere = world_sphere(*node.marks.sphere, scene.meshes[object.mesh],
+                                         placed.world_from_node);
             if (!object.sphere)
                 scene.warnings.push_back(file + ": node '" + object.name +
                                          "' is marked as a sphere, but its mesh or scale is not");

@@ -41,8 +41,8 @@ double component_at(const unsigned char* bytes, Component component) {
 } // namespace
 
 std::vector<double> decode(const Accessor& accessor, const std::string& place) {
-    const auto& [buffer, view_offset, view_length, given_stride, offset, count, width, component] =
-        accessor;
+    const auto& [buffer, view_offset, view_length, given_stride, offset, count, width,
+                 component] = accessor;
     check(view_offset <= buffer.size() && view_length <= buffer.size() - view_offset,
           Failure::bad_data, place, ": wanted ", view_length, " bytes from ", view_offset,
           " on, found a buffer of ", buffer.size());

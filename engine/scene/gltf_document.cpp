@@ -169,10 +169,11 @@ void Reader::read_cameras() {
 
 void Reader::read_nodes() {
     for (const tinygltf::Node& from : model.nodes) {
-        const std::string place =
-            "node " + std::to_string(document.nodes.size()) + " '" + from.name + "'";
-        Node node{.name = from.name, .parent_from_node = matrix_of(from.matrix, from.translation,
-                                                                 from.rotation, from.scale)};
+        const std::string place = "node " + std::to_string(document.nodes.size()) + " '" +
+                                  from.name + "'";
+        Node node{.name = from.name,
+                  .parent_from_node = matrix_of(from.matrix, from.translation, from.rotation,
+                                                from.scale)};
         node.mesh = index(from.mesh, model.meshes, place + ": mesh");
         node.camera = index(from.camera, model.cameras, place + ": camera");
         node.marks = marks(from.extras_json_string, file + ": " + place);
@@ -211,11 +212,11 @@ void Reader::read_animations() {
                 warn(place + ": its " + channel.target_path + " channel is left out");
                 continue;
             }
-            const tinygltf::AnimationSampler& from =
-                item(channel.sampler, animation.samplers, place);
-            document.nodes[*target].motion =
-                keyframes(from.interpolation, scalars(from.input, place + ": input"),
-                          vectors(from.output, place + ": output"), file + ": " + place);
+            const tinygltf::AnimationSampler& from = item(channel.sampler, animation.samplers,
+                                                          place);
+            document.nodes[*target].motion = keyframes(
+                from.interpolation, scalars(from.input, place + ": input"),
+                vectors(from.output, place + ": output"), file + ": " + place);
         }
 }
 
@@ -227,24 +228,24 @@ bool ignore_image(tinygltf::Image*, int, std::string*, std::string*, int, int, c
 /// tinygltf's only way to the disk: files of the folder that `folder` points to (preflight has
 /// looked at their names), and nothing else.
 tinygltf::FsCallbacks files_of(fs::path& folder) {
-    return {.FileExists =
-                [](const std::string& name, void* its_folder) {
-                    std::error_code ignored;
-                    const fs::path inside =
-                        fs::path(name).lexically_relative(*static_cast<fs::path*>(its_folder));
-                    return !inside.empty() && *inside.begin() != ".." &&
-                           fs::is_regular_file(name, ignored);
-                },
-            .ExpandFilePath = [](const std::string& name, void*) { return name; },
-            .ReadWholeFile =
-                [](std::vector<unsigned char>* bytes, std::string*, const std::string& name,
-                   void*) {
-                    const std::string content = read_file(name);
-                    bytes->assign(content.begin(), content.end());
-                    return true;
-                },
-            .WriteWholeFile = nullptr,
-            .user_data = &folder};
+    return {
+        .FileExists =
+            [](const std::string& name, void* its_folder) {
+                std::error_code ignored;
+                const fs::path inside = fs::path(name).lexically_relative(
+                    *static_cast<fs::path*>(its_folder));
+                return !inside.empty() && *inside.begin() != ".." &&
+                       fs::is_regular_file(name, ignored);
+            },
+        .ExpandFilePath = [](const std::string& name, void*) { return name; },
+        .ReadWholeFile =
+            [](std::vector<unsigned char>* bytes, std::string*, const std::string& name, void*) {
+                const std::string content = read_file(name);
+                bytes->assign(content.begin(), content.end());
+                return true;
+            },
+        .WriteWholeFile = nullptr,
+        .user_data = &folder};
 }
 
 tinygltf::Model parse(const fs::path& path, const std::string& bytes) {
@@ -258,13 +259,13 @@ tinygltf::Model parse(const fs::path& path, const std::string& bytes) {
     const auto length = static_cast<unsigned>(bytes.size());
     tinygltf::Model model;
     std::string error, warning;
-    const bool read =
-        is_binary(bytes)
-            ? parser.LoadBinaryFromMemory(&model, &error, &warning,
-                                          reinterpret_cast<const unsigned char*>(bytes.data()),
-                                          length, folder.string())
-            : parser.LoadASCIIFromString(&model, &error, &warning, bytes.data(), length,
-                                         folder.string());
+    const bool read = is_binary(bytes)
+                          ? parser.LoadBinaryFromMemory(
+                                &model, &error, &warning,
+                                reinterpret_cast<const unsigned char*>(bytes.data()), length,
+                                folder.string())
+                          : parser.LoadASCIIFromString(&model, &error, &warning, bytes.data(),
+                                                       length, folder.string());
     while (error.ends_with('\n')) error.pop_back();
     check(read, Failure::bad_data, path.string(), ": ", error);
     return model;

@@ -27,8 +27,7 @@ std::optional<Sphere> sphere(const Json& value, const std::string& place) {
         check(number.is_number(), Failure::bad_data, place, ": wanted numbers, found ",
               number.dump());
     const auto number = [&](std::size_t i) { return value[i].get<double>(); };
-    return Sphere{.centre = {number(0), number(1), number(2)},
-                  .radius = positive(value[3], place)};
+    return Sphere{.centre = {number(0), number(1), number(2)}, .radius = positive(value[3], place)};
 }
 
 } // namespace

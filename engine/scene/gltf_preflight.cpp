@@ -107,8 +107,8 @@ void preflight(const fs::path& path, std::string_view bytes) {
     const std::string file = path.string();
     const nlohmann::json root = parse(file, json_text(file, bytes));
     const nlohmann::json asset = root.is_object() ? root.value("asset", nlohmann::json()) : root;
-    const nlohmann::json version =
-        asset.is_object() ? asset.value("version", nlohmann::json()) : nlohmann::json();
+    const nlohmann::json version = asset.is_object() ? asset.value("version", nlohmann::json())
+                                                     : nlohmann::json();
     check(version.is_string() && version.get<std::string_view>().starts_with("2."),
           Failure::bad_data, file, ": asset.version: wanted \"2.0\", found ", version.dump());
     check_extensions(file, root);

@@ -138,11 +138,10 @@ void Writer::add_motion(const Keyframes& keys, const dvec3& rest, std::size_t no
         if (is_cubic) output.emplace_back(keys.out_tangents[i]);
     }
     const std::size_t input = times({keys.times.begin(), keys.times.end()});
-    animated.push_back({{"sampler", samplers.size()},
-                        {"target", {{"node", node}, {"path", "translation"}}}});
+    animated.push_back(
+        {{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", "translation"}}}});
     const char* name = is_cubic ? "CUBICSPLINE" : keys.interpolation == step ? "STEP" : "LINEAR";
-    samplers.push_back(
-        {{"input", input}, {"output", vectors(output)}, {"interpolation", name}});
+    samplers.push_back({{"input", input}, {"output", vectors(output)}, {"interpolation", name}});
 }
 
 Json json(const dmat4& matrix) {

@@ -17,10 +17,8 @@ struct Hasher {
             state = (state ^ std::to_integer<std::uint64_t>(byte)) * 1099511628211ull;
     }
     template <typename Number>
-        requires std::is_arithmetic_v<Number>
-    void add(Number number) {
-        bytes(std::as_bytes(std::span(&number, 1)));
-    }
+    requires std::is_arithmetic_v<Number>
+    void add(Number number) { bytes(std::as_bytes(std::span(&number, 1))); }
     void add(const std::string& text) {
         add(std::uint64_t(text.size()));
         bytes(std::as_bytes(std::span(text)));

@@ -32,8 +32,7 @@ dvec3 hermite(const Keyframes& keys, std::size_t k, double s, double interval) {
     const double s2 = s * s, s3 = s2 * s;
     return (2 * s3 - 3 * s2 + 1) * keys.values[k] +
            interval * (s3 - 2 * s2 + s) * keys.out_tangents[k] +
-           (3 * s2 - 2 * s3) * keys.values[k + 1] +
-           interval * (s3 - s2) * keys.in_tangents[k + 1];
+           (3 * s2 - 2 * s3) * keys.values[k + 1] + interval * (s3 - s2) * keys.in_tangents[k + 1];
 }
 
 dvec3 offset_at(const Keyframes& keys, double seconds) {

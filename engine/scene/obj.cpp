@@ -119,9 +119,8 @@ Scene load_obj(const std::filesystem::path& path) {
     const obj::Text text = obj::read_text(path);
     const std::vector<tinyobj::shape_t> shapes = parse(text, file);
     check_names(text.remarks, shapes);
-    Scene scene{.name = path.stem().string(),
-                .materials = text.materials,
-                .cameras = text.remarks.cameras};
+    Scene scene{
+        .name = path.stem().string(), .materials = text.materials, .cameras = text.remarks.cameras};
     for (const tinyobj::shape_t& shape : shapes) add_shape(scene, text, shape, file);
     finish(scene, file);
     return scene;

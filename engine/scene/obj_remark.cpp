@@ -1,7 +1,6 @@
 #include "core/error.hpp"
 #include "scene/obj_text.hpp"
 
-
 namespace catoptric::scene::obj {
 
 namespace {

@@ -59,8 +59,8 @@ std::string motion_text(const Keyframes& keys) {
 
 std::string remarks(const Object& object, const std::string& name) {
     std::string text;
-    const std::string motion =
-        std::visit([](const auto& its) { return motion_text(its); }, object.motion);
+    const std::string motion = std::visit([](const auto& its) { return motion_text(its); },
+                                          object.motion);
     if (!motion.empty()) text += "# catoptric motion " + name + " " + motion + "\n";
     if (object.sphere)
         text += "# catoptric sphere " + name + " " + text_of(object.sphere->centre) + " " +

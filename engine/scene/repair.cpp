@@ -26,9 +26,8 @@ dvec3 normal_of(const Mesh& mesh, const uvec3& t) {
 }
 
 std::size_t drop_flat_triangles(Mesh& mesh) {
-    return std::erase_if(mesh.triangles, [&](const uvec3& t) {
-        return normal_of(mesh, t) == dvec3(0);
-    });
+    return std::erase_if(mesh.triangles,
+                         [&](const uvec3& t) { return normal_of(mesh, t) == dvec3(0); });
 }
 
 /// Gives every corner without a normal a vertex of its own.
@@ -105,8 +104,8 @@ bool is_radiance(const vec3& emission) {
 void finish(Scene& scene, const std::string& file) {
     for (const Object& object : scene.objects)
         for (const dvec3& position : scene.meshes[object.mesh].positions)
-            check(is_finite(transform_point(object.world_from_object, position)),
-                  Failure::bad_data, file, ": object '", object.name,
+            check(is_finite(transform_point(object.world_from_object, position)), Failure::bad_data,
+                  file, ": object '", object.name,
                   "': wanted finite world coordinates, found an overflow");
     std::erase_if(scene.objects, [&](const Object& object) {
         if (has_area(scene, object)) return false;

@@ -22,8 +22,8 @@ struct Mesh {
 /// Lambertian surface, light, or perfect mirror (contract: "Light and materials").
 struct Material {
     std::string name;
-    vec3 albedo{0};      ///< kd in [0,1]
-    vec3 emission{0};    ///< radiance Ke; non-zero makes each connected mesh a light
+    vec3 albedo{0};   ///< kd in [0,1]
+    vec3 emission{0}; ///< radiance Ke; non-zero makes each connected mesh a light
     bool mirror = false;
     vec3 reflectance{1}; ///< of a mirror, in [0,1]
 };
@@ -57,8 +57,8 @@ struct Object {
     std::size_t material = 0; ///< index into Scene::materials
     dmat4 world_from_object{1};
     Motion motion;
-    std::optional<Sphere> sphere;  ///< set when the mesh stands for this sphere
-    bool seen_by_camera = true;    ///< false: camera rays pass through, everything else meets it
+    std::optional<Sphere> sphere; ///< set when the mesh stands for this sphere
+    bool seen_by_camera = true;   ///< false: camera rays pass through, everything else meets it
 };
 
 /// Looks from `eye` to `target`; +x of the picture is cross(forward, up).

@@ -16,10 +16,9 @@ using Midpoints = std::map<std::pair<Vertex, Vertex>, Vertex>;
 
 /// The vertex on the sphere over the middle of the edge, made when first asked for.
 Vertex midpoint(Mesh& mesh, Midpoints& known, Vertex a, Vertex b) {
-    const auto [entry, is_new] =
-        known.try_emplace(std::minmax(a, b), static_cast<Vertex>(mesh.positions.size()));
-    if (is_new)
-        mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
+    const auto [entry, is_new] = known.try_emplace(std::minmax(a, b),
+                                                   static_cast<Vertex>(mesh.positions.size()));
+    if (is_new) mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
     return entry->second;
 }
 
@@ -55,7 +54,8 @@ Mesh wall(int face, dvec3 lo, dvec3 hi) {
         corners[i][v] = i >= 2 ? hi[v] : lo[v];
     }
     // (a b c d) counter-clockwise seen from +axis: right for the wall on the low side.
-    if (face % 2) return quad("wall" + std::to_string(face), corners[0], corners[1], corners[2], corners[3]);
+    if (face % 2)
+        return quad("wall" + std::to_string(face), corners[0], corners[1], corners[2], corners[3]);
     return quad("wall" + std::to_string(face), corners[3], corners[2], corners[1], corners[0]);
 }
 

@@ -24,13 +24,14 @@ inline dvec3 normalized_or_zero(const dvec3& v) {
     return length > 0 && std::isfinite(length) ? v / length : dvec3(0);
 }
 
-/// Unit normal in the world. Where a singular matrix leaves none of `normal`: that of the plane that everything lies
-/// in, or any where there is not even a plane.
+/// Unit normal in the world. Where a singular matrix leaves none of `normal`: that of the plane
+/// that everything lies in, or any where there is not even a plane.
 inline dvec3 world_normal(const dmat3& normal_to_world, const dvec3& normal) {
     const dvec3 turned = normalized_or_zero(normal_to_world * normal);
     if (turned != dvec3(0)) return turned;
     for (int i = 0; i < 3; ++i)
-        if (const dvec3 of_plane = normalized_or_zero(normal_to_world[i]); of_plane != dvec3(0)) return of_plane;
+        if (const dvec3 of_plane = normalized_or_zero(normal_to_world[i]); of_plane != dvec3(0))
+            return of_plane;
     return {0, 0, 1};
 }
 

@@ -29,7 +29,8 @@ bool names_limit(const std::string& text) {
     return std::regex_search(text, limit);
 }
 
-app::Request Bench::asked(const scene::Scene& scene, const std::string& technique, int frames) const {
+app::Request Bench::asked(const scene::Scene& scene, const std::string& technique,
+                          int frames) const {
     app::Request request;
     request.scene = scene;
     request.techniques = {technique};
@@ -40,9 +41,12 @@ app::Request Bench::asked(const scene::Scene& scene, const std::string& techniqu
     return request;
 }
 
-app::Part Bench::render(const app::Request& request) { return std::move(engine_.run(request).parts.front()); }
+app::Part Bench::render(const app::Request& request) {
+    return std::move(engine_.run(request).parts.front());
+}
 
-void Bench::add_flip(const std::string& what, const app::Part& found, const app::Part& wanted, double limit) {
+void Bench::add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,
+                     double limit) {
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
     add(what, nonfinite(found.hdr) > 0 ? std::nan("") : flip, limit);
     if (row_.cases.back().holds()) return;
@@ -61,18 +65,22 @@ bool Bench::add_done_or_refused(const std::string& what, const std::function<voi
         add(what + ": done", 0, 0);
         return true;
     } catch (const Error& error) {
-        add(what + (error.failure == Failure::exhausted ? ": refused: " : ": fails: ") + error.what(), error.failure == Failure::exhausted && names_limit(error.what()) ? 0 : 1, 0);
+        add(what + (error.failure == Failure::exhausted ? ": refused: " : ": fails: ") +
+                error.what(),
+            error.failure == Failure::exhausted && names_limit(error.what()) ? 0 : 1, 0);
         return false;
     }
 }
 
-void Bench::add_refused(const std::string& what, Failure failure, const std::string& limit, const std::function<void()>& work) {
+void Bench::add_refused(const std::string& what, Failure failure, const std::string& limit,
+                        const std::function<void()>& work) {
     std::string text = "not refused";
     try {
         work();
     } catch (const Error& error) {
         text = error.what();
-        if (error.failure == failure && text.find(limit) != text.npos) return add(what + ": refused: " + text, 0, 0);
+        if (error.failure == failure && text.find(limit) != text.npos)
+            return add(what + ": refused: " + text, 0, 0);
     }
     add(what + ": wanted a refusal that names " + limit + ", found: " + text, 1, 0);
 }
@@ -85,7 +93,8 @@ std::size_t nonfinite(const measure::Picture& picture) {
 
 double brightest(const measure::Picture& picture) {
     double most = 0;
-    for (const vec3& pixel : picture.pixels) most = std::max({most, double{pixel.x}, double{pixel.y}, double{pixel.z}});
+    for (const vec3& pixel : picture.pixels)
+        most = std::max({most, double{pixel.x}, double{pixel.y}, double{pixel.z}});
     return nonfinite(picture) > 0 ? std::nan("") : most;
 }
 

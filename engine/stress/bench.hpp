@@ -11,32 +11,45 @@ namespace catoptric::stress {
 /// What a property judges with: pictures of scenes, and the row that its figures go to.
 class Bench {
 public:
-    Bench(app::Engine& engine, uvec2 size, std::uint64_t seed, report::StressRow& row) : engine_(engine), size_(size), random_(seed), row_(row) {}
+    Bench(app::Engine& engine, uvec2 size, std::uint64_t seed, report::StressRow& row)
+        : engine_(engine), size_(size), random_(seed), row_(row) {}
 
-    /// Seen by the scene's first camera; the picture after `frames` frames at rest. Fields of `request` that a
-    /// property needs otherwise are set by it: `asked` is this bench's default for it.
-    app::Request asked(const scene::Scene& scene, const std::string& technique, int frames = 4) const;
+    /// Seen by the scene's first camera; the picture after `frames` frames at rest. Fields of
+    /// `request` that a property needs otherwise are set by it: `asked` is this bench's default for
+    /// it.
+    app::Request asked(const scene::Scene& scene, const std::string& technique,
+                       int frames = 4) const;
     app::Part render(const app::Request& request);
-    app::Part render(const scene::Scene& scene, const std::string& technique, int frames = 4) { return render(asked(scene, technique, frames)); }
+    app::Part render(const scene::Scene& scene, const std::string& technique, int frames = 4) {
+        return render(asked(scene, technique, frames));
+    }
 
     /// A figure and its limit.
-    void add(std::string what, double measured, double limit) { row_.cases.push_back({std::move(what), measured, limit, false}); }
+    void add(std::string what, double measured, double limit) {
+        row_.cases.push_back({std::move(what), measured, limit, false});
+    }
     /// The same where more looks worse but is not wrong.
-    void add_quality(std::string what, double measured, double limit) { row_.cases.push_back({std::move(what), measured, limit, true}); }
+    void add_quality(std::string what, double measured, double limit) {
+        row_.cases.push_back({std::move(what), measured, limit, true});
+    }
     /// Mean FLIP of two pictures; both are kept where it is above the limit.
-    void add_flip(const std::string& what, const app::Part& found, const app::Part& wanted, double limit);
+    void add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,
+                  double limit);
     /// Pixels that are no numbers; limit 0.
     void add_nonfinite(const std::string& what, const app::Part& part);
     /// That `work` is done, or ends in an error that says what the device allows; limit 0.
     /// True when it was done.
     bool add_done_or_refused(const std::string& what, const std::function<void()>& work);
     /// That `work` ends in an error of this kind whose text names `limit`; limit 0.
-    void add_refused(const std::string& what, Failure failure, const std::string& limit, const std::function<void()>& work);
+    void add_refused(const std::string& what, Failure failure, const std::string& limit,
+                     const std::function<void()>& work);
 
     app::Engine& engine() { return engine_; }
     uvec2 size() const { return size_; }
     /// In [low, high).
-    double random(double low, double high) { return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53; }
+    double random(double low, double high) {
+        return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
+    }
 
 private:
     app::Engine& engine_;

@@ -45,9 +45,12 @@ void judge_contact(Bench& bench) {
         {"one in the other", {{{0, 0, 1}, 1}, {{0, 0, 1}, .5}}}};
     for (const auto& [what, balls] : contacts) {
         const scene::Scene scene = furnace(balls);
-        bench.add(std::string(what) + ", raytrace:depth=64: dark pixels", look(bench, scene, "raytrace:depth=64", 1).dark, .0001);
-        bench.add(std::string(what) + ", reuse, frame 100: brightest of 1", look(bench, scene, "reuse:face=32", 100).brightest, 1.002);
-        bench.add(std::string(what) + ", pyramid: brightest of 1", look(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
+        bench.add(std::string(what) + ", raytrace:depth=64: dark pixels",
+                  look(bench, scene, "raytrace:depth=64", 1).dark, .0001);
+        bench.add(std::string(what) + ", reuse, frame 100: brightest of 1",
+                  look(bench, scene, "reuse:face=32", 100).brightest, 1.002);
+        bench.add(std::string(what) + ", pyramid: brightest of 1",
+                  look(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
     }
 }
 
@@ -55,14 +58,17 @@ void judge_vanishing(Bench& bench) {
     const scene::Scene scene = room(bench, 2);
     const std::size_t mirror = scene.materials.size() - 1;
     const dvec3 place(0, 0, -.3);
-    const std::pair<const char*, dvec3> sizes[] = {{"radius 0", dvec3(0)}, {"radius 1e-9", dvec3(1e-9)}, {"flattened", dvec3(1e-7, 1e-7, 1e-12)}};
+    const std::pair<const char*, dvec3> sizes[] = {{"radius 0", dvec3(0)},
+                                                   {"radius 1e-9", dvec3(1e-9)},
+                                                   {"flattened", dvec3(1e-7, 1e-7, 1e-12)}};
     for (const std::string technique : {"raytrace", "parallax", "pyramid"}) {
         const app::Part without = bench.render(scene, technique);
         for (const auto& [what, size] : sizes) {
             scene::Scene with = scene;
             add_ball(with, mirror, {place, 1});
             with.objects.back().sphere.reset();
-            for (int axis = 0; axis < 3; ++axis) with.objects.back().world_from_object[axis][axis] = size[axis];
+            for (int axis = 0; axis < 3; ++axis)
+                with.objects.back().world_from_object[axis][axis] = size[axis];
             bench.add_flip(technique + ", " + what, bench.render(with, technique), without, .0002);
         }
     }
@@ -73,15 +79,18 @@ void judge_many(Bench& bench) {
         scene::Scene scene = furnace({});
         const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
         for (int i = 0; i < mirrors; ++i)
-            add_ball(scene, mirror, {{-3.5 + .7 * (i % 10), -2.5 + .5 * (i / 10 % 10), .5 * (i / 100)}, .15}, 1);
+            add_ball(scene, mirror,
+                     {{-3.5 + .7 * (i % 10), -2.5 + .5 * (i / 10 % 10), .5 * (i / 100)}, .15}, 1);
         const std::string what = std::to_string(mirrors) + " mirrors";
         try {
             const app::Part part = bench.render(scene, "reuse:face=8,shadow=none", 2);
             bench.add_nonfinite(what, part);
             bench.add(what + ": passes off N + 1", std::abs(part.scene_passes - (mirrors + 1)), 0);
         } catch (const Error& error) {
-            const bool by_budget = error.failure == Failure::exhausted && names_limit(error.what()) && mirrors == 1000;
-            bench.add(what + ": refused otherwise than by a budget: " + error.what(), by_budget ? 0 : 1, 0);
+            const bool by_budget = error.failure == Failure::exhausted &&
+                                   names_limit(error.what()) && mirrors == 1000;
+            bench.add(what + ": refused otherwise than by a budget: " + error.what(),
+                      by_budget ? 0 : 1, 0);
         }
     }
 }
@@ -90,7 +99,9 @@ void judge_faces(Bench& bench) {
     const scene::Scene scene = room(bench, 1);
     const app::Part truth = bench.render(scene, "raytrace");
     const measure::Mask mirrors = measure::mirrors(truth.hits);
-    const auto mean_of = [&](const app::Part& part) { return measure::mean_of(part.hdr, measure::Range::clamped, mirrors).all; };
+    const auto mean_of = [&](const app::Part& part) {
+        return measure::mean_of(part.hdr, measure::Range::clamped, mirrors).all;
+    };
     const double wanted = mean_of(truth);
     for (const char* face : {"1", "2", "3"})
         for (const std::string technique : {"reuse", "parallax", "pyramid", "layered"}) {
@@ -100,20 +111,28 @@ void judge_faces(Bench& bench) {
             // Of a few texels it is chance whether one of them looks at the lamp.
             const double mean = mean_of(part);
             bench.add(text + ": mirrors are black", mean > 0 ? 0 : 1, 0);
-            bench.add_quality(text + ": factor between the mean of mirrors and that of ray tracing", std::max(mean / wanted, wanted / mean), 4);
+            bench.add_quality(text + ": factor between the mean of mirrors and that of ray tracing",
+                              std::max(mean / wanted, wanted / mean), 4);
         }
-    // What one large capture shows is what a small one shows; whether the device has the memory, the plan says.
+    // What one large capture shows is what a small one shows; whether the device has the memory,
+    // the plan says.
     const app::Part usual = bench.render(scene, "naive:bounces=1,face=1024", 1);
     for (const char* face : {"4096", "16384"})
         for (const std::string technique : {"naive:bounces=1,face=", "parallax:face="}) {
             const app::Request request = bench.asked(scene, technique + face, 1);
-            if (!bench.add_done_or_refused(technique + face + " planned", [&] { bench.engine().plan(request, app::PlanFormat::text); })) continue;
+            if (!bench.add_done_or_refused(technique + face + " planned", [&] {
+                    bench.engine().plan(request, app::PlanFormat::text);
+                }))
+                continue;
             if (std::stoi(face) > 4096) continue; // 10 GiB and more
             const app::Part large = bench.render(request);
-            if (technique.starts_with("naive")) bench.add_flip(technique + face, large, usual, .01);
-            else bench.add_nonfinite(technique + face, large);
+            if (technique.starts_with("naive"))
+                bench.add_flip(technique + face, large, usual, .01);
+            else
+                bench.add_nonfinite(technique + face, large);
         }
-    bench.add_refused("face=32769", Failure::usage, "16384", [] { app::parse_technique("parallax:face=32769"); });
+    bench.add_refused("face=32769", Failure::usage, "16384",
+                      [] { app::parse_technique("parallax:face=32769"); });
 }
 
 /// Ball 4 through its whole path.
@@ -143,21 +162,32 @@ void judge_correction(Bench& bench) {
         request.size = {512, 512}; // ball 4 is some 30 pixels wide at half of it
         return bench.render(request);
     };
-    const app::Part truth = contract("raytrace:depth=16", 1), plain = contract("reuse", 8), corrected = contract("parallax", 8);
+    const app::Part truth = contract("raytrace:depth=16", 1), plain = contract("reuse", 8),
+                    corrected = contract("parallax", 8);
     const std::vector<float> no_flip(truth.hdr.pixels.size());
     const auto share = [&](const measure::Mask& mask) {
-        return measure::difference(corrected.hdr, truth.hdr, mask, no_flip).rmse / measure::difference(plain.hdr, truth.hdr, mask, no_flip).rmse;
+        return measure::difference(corrected.hdr, truth.hdr, mask, no_flip).rmse /
+               measure::difference(plain.hdr, truth.hdr, mask, no_flip).rmse;
     };
-    for (std::uint32_t ball = 1; ball <= 4; ++ball) bench.add(fmt::format("ball {}: rmse over uncorrected", ball), share(measure::of_mirror(truth.hits, ball)), .65);
+    for (std::uint32_t ball = 1; ball <= 4; ++ball)
+        bench.add(fmt::format("ball {}: rmse over uncorrected", ball),
+                  share(measure::of_mirror(truth.hits, ball)), .65);
     bench.add("together: rmse over uncorrected", share(measure::mirrors(truth.hits)), .5);
 }
 
-const Row kCorrection{{"N12", "parallax against ray tracing, contract camera, 512x512", "better than uncorrected for every ball", judge_correction}};
-const Row kContact{{"C1", "balls that touch wall and floor, each other, overlap, are concentric", "no dark ring, no blow-up in 100 frames", judge_contact}};
-const Row kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened", "the others are untouched (FLIP)", judge_vanishing}};
-const Row kMany{{"C9", "0, 1, 2, 16, 64, 1000 mirrors", "0: no capture; 1000: runs, or a budget message", judge_many}};
-const Row kFaces{{"C10", "face 1, 2, 3, 4096, 16384, 32769", "runs, or says the bytes, or is refused", judge_faces, "rendering at 16384, which is planned only"}};
-const Row kPath{{"C13", "ball 4 through its whole path, 120 frames", "no single-frame pop", judge_path}};
+const Row kCorrection{{"N12", "parallax against ray tracing, contract camera, 512x512",
+                       "better than uncorrected for every ball", judge_correction}};
+const Row kContact{{"C1", "balls that touch wall and floor, each other, overlap, are concentric",
+                    "no dark ring, no blow-up in 100 frames", judge_contact}};
+const Row kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened",
+                      "the others are untouched (FLIP)", judge_vanishing}};
+const Row kMany{{"C9", "0, 1, 2, 16, 64, 1000 mirrors",
+                 "0: no capture; 1000: runs, or a budget message", judge_many}};
+const Row kFaces{{"C10", "face 1, 2, 3, 4096, 16384, 32769",
+                  "runs, or says the bytes, or is refused", judge_faces,
+                  "rendering at 16384, which is planned only"}};
+const Row kPath{
+    {"C13", "ball 4 through its whole path, 120 frames", "no single-frame pop", judge_path}};
 
 } // namespace
 

@@ -26,7 +26,8 @@ scene::Scene room_with(std::size_t mirror) {
     scene::Scene scene = scene::cornell_mirrors();
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     for (std::size_t i = mirrors.size(); i-- > 0;)
-        if (i != mirror) scene.objects.erase(scene.objects.begin() + static_cast<std::ptrdiff_t>(mirrors[i]));
+        if (i != mirror)
+            scene.objects.erase(scene.objects.begin() + static_cast<std::ptrdiff_t>(mirrors[i]));
     return scene;
 }
 
@@ -39,18 +40,23 @@ void judge_distances(Bench& bench) {
     for (const Format format : {Format::r32f, Format::r16f})
         for (std::size_t mirror = 0; mirror < mirrors; ++mirror) {
             const scene::Scene scene = room_with(mirror);
-            const dvec3 centre = scene::bounds(scene, scene.objects[scene::mirrors(scene).front()]).centre();
+            const dvec3 centre =
+                scene::bounds(scene, scene.objects[scene::mirrors(scene).front()]).centre();
             const render::Captured captured = bench.engine().capture(scene, kEdge, format);
             std::size_t off = 0, clamped = 0, far = 0, judged = 0;
-            for_texels(kEdge, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-                const double wanted = tracer.distance(centre, normalize(direction));
-                const double found = captured.distance(0, face, x, y, format) / captured.space.scale;
-                ++judged, far += wanted > 2 * kClamp;
-                off += !(std::isinf(wanted) ? std::isinf(found) : std::abs(found / wanted - 1) <= 0x1p-10);
-                clamped += wanted > 1.01 * kClamp && !(found > kClamp);
-            });
+            for_texels(kEdge,
+                       [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+                           const double wanted = tracer.distance(centre, normalize(direction));
+                           const double found = captured.distance(0, face, x, y, format) /
+                                                captured.space.scale;
+                           ++judged, far += wanted > 2 * kClamp;
+                           off += !(std::isinf(wanted) ? std::isinf(found)
+                                                       : std::abs(found / wanted - 1) <= 0x1p-10);
+                           clamped += wanted > 1.01 * kClamp && !(found > kClamp);
+                       });
             const std::string what = fmt::format("ball {}, {}", mirror + 1, name_of(format));
-            bench.add(what + ": share of texels off by more than 2^-10", double(off) / double(judged), .001);
+            bench.add(what + ": share of texels off by more than 2^-10",
+                      double(off) / double(judged), .001);
             bench.add(what + ": texels clamped at 200", double(clamped), 0);
             bench.add(what + ": no texel beyond 400", far > 0 ? 0 : 1, 0);
         }
@@ -64,11 +70,15 @@ void judge_near_wall(Bench& bench) {
         scene::Scene scene = furnace({{{0, 0, 0}, .5}});
         dvec3 lo(-4, -3, -5), hi(4, 3, 5);
         (face % 2 ? lo : hi)[face / 2] = face % 2 ? -kGap : kGap;
-        for (int wall = 0; wall < 6; ++wall) scene.meshes[static_cast<std::size_t>(wall)] = scene::wall(wall, lo, hi);
+        for (int wall = 0; wall < 6; ++wall)
+            scene.meshes[static_cast<std::size_t>(wall)] = scene::wall(wall, lo, hi);
         const render::Captured captured = bench.engine().capture(scene, kEdge, Format::r32f);
-        const double found = captured.distance(0, face, kEdge / 2, kEdge / 2, Format::r32f) / captured.space.scale;
-        bench.add(fmt::format("face {}: central texel off {} by a share of", face, kGap), std::abs(found / kGap - 1), .01);
-        bench.add(fmt::format("face {}: central texel shows no wall", face), captured.colour(0, face, kEdge / 2, kEdge / 2) == vec3(1) ? 0 : 1, 0);
+        const double found = captured.distance(0, face, kEdge / 2, kEdge / 2, Format::r32f) /
+                             captured.space.scale;
+        bench.add(fmt::format("face {}: central texel off {} by a share of", face, kGap),
+                  std::abs(found / kGap - 1), .01);
+        bench.add(fmt::format("face {}: central texel shows no wall", face),
+                  captured.colour(0, face, kEdge / 2, kEdge / 2) == vec3(1) ? 0 : 1, 0);
     }
 }
 
@@ -87,30 +97,41 @@ void judge_glyphs(Bench& bench) {
     });
     for (std::size_t wall = 0; wall < 6; ++wall) {
         bench.add(fmt::format("wall {}: texels of another colour", wall), double(wrong[wall]), 0);
-        bench.add(fmt::format("wall {}: fewer than 100 texels of its letter", wall), inked[wall] < 100 ? 1 : 0, 0);
+        bench.add(fmt::format("wall {}: fewer than 100 texels of its letter", wall),
+                  inked[wall] < 100 ? 1 : 0, 0);
     }
-    bench.add("share of texels on an edge", 1 - double(std::accumulate(judged.begin(), judged.end(), std::size_t{0})) / (6.0 * kEdge * kEdge), .05);
+    bench.add("share of texels on an edge",
+              1 - double(std::accumulate(judged.begin(), judged.end(), std::size_t{0})) /
+                      (6.0 * kEdge * kEdge),
+              .05);
 }
 
 /// A unit ball around 0, seen so that the middle of the picture reflects along `wanted`.
 scene::Camera looking_along(dvec3 wanted) {
     const dvec3 n = normalize(wanted + .4 * normalize(cross(wanted, dvec3(.3, -.5, .8))));
     const dvec3 incoming = wanted - 2 * dot(wanted, n) * n;
-    return {.eye = n - 2.0 * incoming, .target = n, .up = normalize(cross(incoming, dvec3(.1, .7, -.2))), .vertical_fov_degrees = 1};
+    return {.eye = n - 2.0 * incoming,
+            .target = n,
+            .up = normalize(cross(incoming, dvec3(.1, .7, -.2))),
+            .vertical_fov_degrees = 1};
 }
 
 /// Pixels whose ray a unit ball around 0 sends within two texels of an edge of a cube.
 std::size_t near_edges(const scene::Camera& camera, uvec2 size, double edge) {
     std::size_t near = 0;
-    const dvec3 forward = normalize(camera.target - camera.eye), right = normalize(cross(forward, camera.up)), up = cross(right, forward);
+    const dvec3 forward = normalize(camera.target - camera.eye),
+                right = normalize(cross(forward, camera.up)), up = cross(right, forward);
     const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     for (std::uint32_t y = 0; y < size.y; ++y)
         for (std::uint32_t x = 0; x < size.x; ++x) {
-            const double u = ((x + .5) / size.x * 2 - 1) * tangent * size.x / size.y, v = (1 - (y + .5) / size.y * 2) * tangent;
+            const double u = ((x + .5) / size.x * 2 - 1) * tangent * size.x / size.y,
+                         v = (1 - (y + .5) / size.y * 2) * tangent;
             const dvec3 d = normalize(forward + u * right + v * up);
             const double b = dot(camera.eye, d), c = dot(camera.eye, camera.eye) - 1;
-            const dvec3 n = camera.eye + (-b - std::sqrt(b * b - c)) * d, sent = d - 2 * dot(d, n) * n, most = abs(sent);
-            const double first = std::max({most.x, most.y, most.z}), least = std::min({most.x, most.y, most.z});
+            const dvec3 n = camera.eye + (-b - std::sqrt(b * b - c)) * d,
+                        sent = d - 2 * dot(d, n) * n, most = abs(sent);
+            const double first = std::max({most.x, most.y, most.z}),
+                         least = std::min({most.x, most.y, most.z});
             near += (most.x + most.y + most.z - first - least) / first > 1 - 4 / edge;
         }
     return near;
@@ -131,7 +152,8 @@ void judge_cube_edges(Bench& bench) {
         wanted[along] = bench.random(-1, 1);
         wanted[(along + 1) % 3] = edge & 1 ? 1 : -1;
         wanted[(along + 2) % 3] = edge & 2 ? 1 : -1;
-        app::Request request = bench.asked(scene, fmt::format("naive:bounces=1,shadow=none,face={}", kEdge), 1);
+        app::Request request = bench.asked(
+            scene, fmt::format("naive:bounces=1,shadow=none,face={}", kEdge), 1);
         request.camera = looking_along(normalize(wanted));
         request.size = kSize;
         const measure::Picture picture = bench.render(request).hdr;
@@ -139,7 +161,8 @@ void judge_cube_edges(Bench& bench) {
         for (int y = 1; y < picture.height; ++y)
             for (int x = 1; x < picture.width; ++x) {
                 const float here = picture.at(x, y).x;
-                step = std::max<double>({step, std::abs(here - picture.at(x - 1, y).x) / kColour, std::abs(here - picture.at(x, y - 1).x) / kColour});
+                step = std::max<double>({step, std::abs(here - picture.at(x - 1, y).x) / kColour,
+                                         std::abs(here - picture.at(x, y - 1).x) / kColour});
                 off = std::max<double>(off, std::abs(here - kColour) / kColour);
                 if (!std::isfinite(here)) step = std::nan("");
             }
@@ -149,10 +172,14 @@ void judge_cube_edges(Bench& bench) {
     bench.add("directions within two texels of an edge: fewer than 1e5", near < 100000 ? 1 : 0, 0);
 }
 
-const Row kDistances{{"N11", "distance cubes of the room's four mirrors, r32f and r16f", "equal the analytic distance, nothing is clamped at 200", judge_distances}};
-const Row kNearWall{{"C3", "a ball with a wall .6 units from its centre", "the wall is in the capture, at its distance", judge_near_wall}};
-const Row kCubeEdges{{"C11", "a room of one colour, 1e5 directions near cube edges", "continuous", judge_cube_edges}};
-const Row kGlyphs{{"C12", "six coloured walls with a letter each", "each face sees its wall, letters read right", judge_glyphs}};
+const Row kDistances{{"N11", "distance cubes of the room's four mirrors, r32f and r16f",
+                      "equal the analytic distance, nothing is clamped at 200", judge_distances}};
+const Row kNearWall{{"C3", "a ball with a wall .6 units from its centre",
+                     "the wall is in the capture, at its distance", judge_near_wall}};
+const Row kCubeEdges{{"C11", "a room of one colour, 1e5 directions near cube edges", "continuous",
+                      judge_cube_edges}};
+const Row kGlyphs{{"C12", "six coloured walls with a letter each",
+                   "each face sees its wall, letters read right", judge_glyphs}};
 
 } // namespace
 

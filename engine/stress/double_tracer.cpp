@@ -11,32 +11,41 @@ constexpr double kGap = 1e-9; // of scenes about 1 in size
 
 } // namespace
 
-DoubleTracer::DoubleTracer(const scene::Scene& scene, double ambient) : scene_(scene), ambient_(ambient) {
+DoubleTracer::DoubleTracer(const scene::Scene& scene, double ambient)
+    : scene_(scene), ambient_(ambient) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
         const scene::Mesh& mesh = scene.meshes[object.mesh];
         if (object.sphere) continue;
-        const auto corner = [&](std::uint32_t v) { return dvec3(object.world_from_object * dvec4(mesh.positions[v], 1)); };
-        for (const uvec3& t : mesh.triangles) triangles_.push_back({corner(t.x), corner(t.y), corner(t.z), i});
+        const auto corner = [&](std::uint32_t v) {
+            return dvec3(object.world_from_object * dvec4(mesh.positions[v], 1));
+        };
+        for (const uvec3& t : mesh.triangles)
+            triangles_.push_back({corner(t.x), corner(t.y), corner(t.z), i});
         if (scene.materials[object.material].emission != vec3(0)) add_lamp(object, mesh);
     }
 }
 
-dvec3 DoubleTracer::pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x, std::uint32_t y, int depth) const {
+dvec3 DoubleTracer::pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x, std::uint32_t y,
+                          int depth) const {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
-    const dvec3 right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+    const dvec3 right = glm::normalize(glm::cross(forward, camera.up)),
+                up = glm::cross(right, forward);
     const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
-    const double u = ((x + .5) / size.x * 2 - 1) * tangent * size.x / size.y, v = (1 - (y + .5) / size.y * 2) * tangent;
+    const double u = ((x + .5) / size.x * 2 - 1) * tangent * size.x / size.y,
+                 v = (1 - (y + .5) / size.y * 2) * tangent;
     return radiance(camera.eye, glm::normalize(forward + u * right + v * up), depth);
 }
 
 /// One flat lamp: mean of its corners, its normal, its area.
 void DoubleTracer::add_lamp(const scene::Object& object, const scene::Mesh& mesh) {
     Lamp lamp{dvec3(0), dvec3(0), dvec3(0)};
-    for (const dvec3& p : mesh.positions) lamp.position += p / static_cast<double>(mesh.positions.size());
+    for (const dvec3& p : mesh.positions)
+        lamp.position += p / static_cast<double>(mesh.positions.size());
     double area = 0;
     for (const uvec3& t : mesh.triangles) {
-        const dvec3 twice = glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
+        const dvec3 twice = glm::cross(mesh.positions[t.y] - mesh.positions[t.x],
+                                       mesh.positions[t.z] - mesh.positions[t.x]);
         area += glm::length(twice) / 2;
         lamp.normal = glm::normalize(twice);
     }
@@ -44,16 +53,19 @@ void DoubleTracer::add_lamp(const scene::Object& object, const scene::Mesh& mesh
     lamps_.push_back(lamp);
 }
 
-DoubleTracer::Hit DoubleTracer::closest(dvec3 origin, dvec3 direction, double most, bool for_shadow) const {
+DoubleTracer::Hit DoubleTracer::closest(dvec3 origin, dvec3 direction, double most,
+                                        bool for_shadow) const {
     Hit hit;
     hit.t = most;
     for (const Triangle& triangle : triangles_) {
         if (for_shadow && material(triangle.object).emission != vec3(0)) continue;
-        const dvec3 ab = triangle.b - triangle.a, ac = triangle.c - triangle.a, p = glm::cross(direction, ac);
+        const dvec3 ab = triangle.b - triangle.a, ac = triangle.c - triangle.a,
+                    p = glm::cross(direction, ac);
         const double det = glm::dot(ab, p);
         if (det == 0) continue;
         const dvec3 s = origin - triangle.a, q = glm::cross(s, ab);
-        const double u = glm::dot(s, p) / det, v = glm::dot(direction, q) / det, t = glm::dot(ac, q) / det;
+        const double u = glm::dot(s, p) / det, v = glm::dot(direction, q) / det,
+                     t = glm::dot(ac, q) / det;
         if (u < 0 || v < 0 || u + v > 1 || t <= kGap || t >= hit.t) continue;
         hit = {t, glm::normalize(glm::cross(ab, ac)), triangle.object};
     }
@@ -61,7 +73,8 @@ DoubleTracer::Hit DoubleTracer::closest(dvec3 origin, dvec3 direction, double mo
         const auto& sphere = scene_.objects[i].sphere;
         if (!sphere) continue;
         const dvec3 f = origin - sphere->centre;
-        const double b = glm::dot(f, direction), c = glm::dot(f, f) - sphere->radius * sphere->radius, d = b * b - c;
+        const double b = glm::dot(f, direction),
+                     c = glm::dot(f, f) - sphere->radius * sphere->radius, d = b * b - c;
         if (d < 0) continue;
         for (const double t : {-b - std::sqrt(d), -b + std::sqrt(d)})
             if (t > kGap && t < hit.t) hit = {t, (f + t * direction) / sphere->radius, i};

@@ -22,7 +22,8 @@ double saturated(Bench& bench, const scene::Scene& scene, const std::string& tec
 /// Frames from 1 while the lamp of 1e30 is there and after it has been taken away.
 constexpr int kWith = 4, kSoon = kWith + 2, kLate = kWith + 20;
 
-void judge_removal(Bench& bench, const scene::Scene& lit, const scene::Scene& dark, const std::string& technique, const std::string& what) {
+void judge_removal(Bench& bench, const scene::Scene& lit, const scene::Scene& dark,
+                   const std::string& technique, const std::string& what) {
     app::Request request = bench.asked(lit, technique, kLate);
     request.changed = [&](int frame) { return frame <= kWith ? lit : dark; };
     app::Part soon;
@@ -34,12 +35,15 @@ void judge_removal(Bench& bench, const scene::Scene& lit, const scene::Scene& da
     const app::Part late = bench.render(request);
     app::Request untouched = bench.asked(lit, technique, kLate); // whose units are the same
     untouched.changed = [&](int) { return dark; };
-    bench.add(what + ", frame 20 without it: pixels unlike a run that never had it", double(different_pixels(late.hdr, bench.render(untouched).hdr)), 0);
+    bench.add(what + ", frame 20 without it: pixels unlike a run that never had it",
+              double(different_pixels(late.hdr, bench.render(untouched).hdr)), 0);
     const std::string early = what + ", frame 2 without it: pixels unlike frame 20";
     const double unlike = double(different_pixels(soon.hdr, late.hdr));
     // Between mirrors that look into last frame's captures light goes on for a frame a mirror.
-    if (late.remembers && scene::mirrors(dark).size() > 1) bench.add_quality(early, unlike, 0);
-    else bench.add(early, unlike, 0);
+    if (late.remembers && scene::mirrors(dark).size() > 1)
+        bench.add_quality(early, unlike, 0);
+    else
+        bench.add(early, unlike, 0);
 }
 
 void judge_emission(Bench& bench) {
@@ -49,30 +53,40 @@ void judge_emission(Bench& bench) {
         add_quad(dark, lamp, {-1.2, 1.2, .8}, {-.9, 1.2, .8}, {-.9, 1.2, 1.1}, {-1.2, 1.2, 1.1});
         scene::Scene lit = dark;
         lit.materials[lamp].emission = vec3(1e30f);
-        for (const std::string technique : {"raytrace", "reuse:face=128", "parallax:face=128", "pyramid:face=128"})
-            judge_removal(bench, lit, dark, technique, fmt::format("emission 1e30, {} balls, {}", balls, technique));
+        for (const std::string technique :
+             {"raytrace", "reuse:face=128", "parallax:face=128", "pyramid:face=128"})
+            judge_removal(bench, lit, dark, technique,
+                          fmt::format("emission 1e30, {} balls, {}", balls, technique));
         for (const std::string technique : {"reuse:face=64", "hybrid:face=64"}) {
             const double full = saturated(bench, lit, technique);
-            bench.add(fmt::format("emission 1e30, {} balls, {}: none of {} saturated texels is counted", balls, technique, full), full > 0 ? 0 : 1, 0);
-            bench.add(fmt::format("without it, {} balls, {}: texels saturated", balls, technique), saturated(bench, dark, technique), 0);
+            bench.add(
+                fmt::format("emission 1e30, {} balls, {}: none of {} saturated texels is counted",
+                            balls, technique, full),
+                full > 0 ? 0 : 1, 0);
+            bench.add(fmt::format("without it, {} balls, {}: texels saturated", balls, technique),
+                      saturated(bench, dark, technique), 0);
         }
     }
     scene::Scene dim = room(bench, 3), black = dim;
     dim.materials.front().albedo = vec3(1e-40f);
     black.materials.front().albedo = vec3(0);
     for (const std::string technique : {"raytrace", "pyramid"}) {
-        const app::Part found = bench.render(dim, technique), wanted = bench.render(black, technique);
+        const app::Part found = bench.render(dim, technique),
+                        wanted = bench.render(black, technique);
         double most = 0;
         for (std::size_t i = 0; i < found.hdr.pixels.size(); ++i) {
             const dvec3 off = abs(dvec3(found.hdr.pixels[i]) - dvec3(wanted.hdr.pixels[i]));
             most = std::max({most, off.x, off.y, off.z});
         }
-        bench.add(technique + ", albedo 1e-40: radiance unlike that of black", most, std::numeric_limits<float>::min());
-        bench.add(technique + ", albedo 1e-40: pixels shown unlike black", double(different_pixels(found.display, wanted.display)), 0);
+        bench.add(technique + ", albedo 1e-40: radiance unlike that of black", most,
+                  std::numeric_limits<float>::min());
+        bench.add(technique + ", albedo 1e-40: pixels shown unlike black",
+                  double(different_pixels(found.display, wanted.display)), 0);
     }
 }
 
-const Row kEmission{{"N26", "emission 1e30, taken away in mid-run; albedo 1e-40", "saturates, is counted, later frames unharmed; equals black", judge_emission}};
+const Row kEmission{{"N26", "emission 1e30, taken away in mid-run; albedo 1e-40",
+                     "saturates, is counted, later frames unharmed; equals black", judge_emission}};
 
 } // namespace
 

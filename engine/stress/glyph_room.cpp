@@ -13,8 +13,9 @@ namespace catoptric::stress {
 namespace {
 
 void add_cell(scene::Mesh& mesh, const GlyphRoom& room, int face, const GlyphRoom::Stroke& cell) {
-    const scene::Mesh quad = scene::quad("", room.place(face, cell.u0, cell.v0), room.place(face, cell.u1, cell.v0),
-                                         room.place(face, cell.u1, cell.v1), room.place(face, cell.u0, cell.v1));
+    const scene::Mesh quad = scene::quad(
+        "", room.place(face, cell.u0, cell.v0), room.place(face, cell.u1, cell.v0),
+        room.place(face, cell.u1, cell.v1), room.place(face, cell.u0, cell.v1));
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), quad.positions.begin(), quad.positions.end());
     mesh.normals.insert(mesh.normals.end(), quad.normals.begin(), quad.normals.end());
@@ -29,13 +30,16 @@ void add_wall(scene::Scene& scene, const GlyphRoom& room, int face) {
     for (std::size_t i = 0; i + 1 < us.size(); ++i)
         for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
             const double um = (us[i] + us[i + 1]) / 2, vm = (vs[j] + vs[j + 1]) / 2;
-            const bool inked = std::ranges::any_of(GlyphRoom::kStrokes, [&](const GlyphRoom::Stroke& s) {
-                return um > s.u0 && um < s.u1 && vm > s.v0 && vm < s.v1;
-            });
+            const bool inked = std::ranges::any_of(
+                GlyphRoom::kStrokes, [&](const GlyphRoom::Stroke& s) {
+                    return um > s.u0 && um < s.u1 && vm > s.v0 && vm < s.v1;
+                });
             add_cell(meshes[inked], room, face, {us[i], us[i + 1], vs[j], vs[j + 1]});
         }
-    add_mesh(scene, std::move(meshes[0]), add_material(scene, {.name = "wall", .emission = GlyphRoom::wall_colour(face)}));
-    add_mesh(scene, std::move(meshes[1]), add_material(scene, {.name = "glyph", .emission = GlyphRoom::glyph_colour(face)}));
+    add_mesh(scene, std::move(meshes[0]),
+             add_material(scene, {.name = "wall", .emission = GlyphRoom::wall_colour(face)}));
+    add_mesh(scene, std::move(meshes[1]),
+             add_material(scene, {.name = "glyph", .emission = GlyphRoom::glyph_colour(face)}));
 }
 
 } // namespace

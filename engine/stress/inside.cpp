@@ -1,5 +1,5 @@
-// An eye inside a mirror (the rule is in docs/design.md): mirrors have two sides, so that nothing from outside
-// arrives in a closed one.
+// An eye inside a mirror (the rule is in docs/design.md): mirrors have two sides, so that nothing
+// from outside arrives in a closed one.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -39,17 +39,25 @@ void judge_places(Bench& bench, const scene::Scene& scene, const scene::Sphere& 
             return bench.render(request);
         };
         const app::Part traced = render("raytrace:depth=16");
-        if (place.inside) bench.add(fmt::format("{}, raytrace: brightest of 0", place.what), brightest(traced.hdr), 0);
+        if (place.inside)
+            bench.add(fmt::format("{}, raytrace: brightest of 0", place.what),
+                      brightest(traced.hdr), 0);
         for (const std::string technique : {"parallax", "pyramid", "hybrid"})
-            bench.add_flip(fmt::format("{}, {}", place.what, technique), render(technique), traced, .03);
+            bench.add_flip(fmt::format("{}, {}", place.what, technique), render(technique), traced,
+                           .03);
         const app::Part plain = render("reuse");
         if (place.inside) bench.add_flip(fmt::format("{}, reuse", place.what), plain, traced, .03);
-        // From outside an uncorrected look-up is off wherever the eye is, and most where the ball fills the picture.
-        else bench.add_quality(fmt::format("{}, reuse", place.what), measure::flip_mean(measure::flip(plain.display, traced.display)), .05);
+        // From outside an uncorrected look-up is off wherever the eye is, and most where the ball
+        // fills the picture.
+        else
+            bench.add_quality(fmt::format("{}, reuse", place.what),
+                              measure::flip_mean(measure::flip(plain.display, traced.display)),
+                              .05);
     }
 }
 
-/// The ball moves over the eye and on: black in those frames, and in those only, in which the eye is inside.
+/// The ball moves over the eye and on: black in those frames, and in those only, in which the eye
+/// is inside.
 void judge_motion(Bench& bench, scene::Scene scene) {
     constexpr int kFrames = 16;
     scene::Object& object = scene.objects.back();
@@ -64,15 +72,21 @@ void judge_motion(Bench& bench, scene::Scene scene) {
         int wrong = 0, inside = 0;
         request.watch = [&](int frame, const app::ReadParts& read) {
             const scene::Scene now = scene::at(scene, request.clock(frame));
-            const double depth = 1 - length(camera.eye - now.objects.back().sphere->centre) / object.sphere->radius;
+            const double depth = 1 - length(camera.eye - now.objects.back().sphere->centre) /
+                                         object.sphere->radius;
             if (std::abs(depth) < .01) return true; // between the mesh and its sphere
             inside += depth > 0;
             wrong += (brightest(read().front().hdr) == 0) != (depth > 0);
             return true;
         };
         bench.engine().run(request);
-        bench.add(fmt::format("a ball moves over the eye, {}: frames that are black outside or lit inside", technique), wrong, 0);
-        bench.add(fmt::format("a ball moves over the eye, {}: too few frames inside or outside", technique), inside < 4 || inside > kFrames - 4 ? 1 : 0, 0);
+        bench.add(fmt::format(
+                      "a ball moves over the eye, {}: frames that are black outside or lit inside",
+                      technique),
+                  wrong, 0);
+        bench.add(fmt::format("a ball moves over the eye, {}: too few frames inside or outside",
+                              technique),
+                  inside < 4 || inside > kFrames - 4 ? 1 : 0, 0);
     }
 }
 
@@ -82,8 +96,10 @@ void judge_inside(Bench& bench) {
     judge_motion(bench, scene);
 }
 
-const Row kInside{{"C5", "camera inside a ball, at its centre, touching it; a ball moves over it", "a closed mirror is black from inside, in both worlds (FLIP)", judge_inside,
-                   "things inside with the eye: ray tracing also shows their images in the wall around them"}};
+const Row kInside{
+    {"C5", "camera inside a ball, at its centre, touching it; a ball moves over it",
+     "a closed mirror is black from inside, in both worlds (FLIP)", judge_inside,
+     "things inside with the eye: ray tracing also shows their images in the wall around them"}};
 
 } // namespace
 

@@ -25,16 +25,21 @@ void judge_light(Bench& bench) {
     dvec3 ball(0), lamp(0);
     for (const scene::Object& object : scene.objects) {
         if (object.sphere) ball = object.sphere->centre;
-        if (scene.materials[object.material].emission != vec3(0)) lamp = scene.meshes[object.mesh].positions[0];
+        if (scene.materials[object.material].emission != vec3(0))
+            lamp = scene.meshes[object.mesh].positions[0];
     }
     const double ceiling = scene::bounds(scene).hi.y;
     const auto flat = [](dvec3 p, double y) { return dvec3(p.x, y, p.z); };
     const std::pair<const char*, scene::Scene> places[] = {
         {"inside a ball", with_lamp(scene, [&](dvec3 p) { return ball + (p - lamp) * .05; })},
         {"on the ceiling's plane", with_lamp(scene, [&](dvec3 p) { return flat(p, ceiling); })},
-        {"at the camera", with_lamp(scene, [&](dvec3 p) { return scene.cameras.front().eye + (p - lamp - dvec3(.5, 0, .5)) * .1; })}};
+        {"at the camera", with_lamp(scene, [&](dvec3 p) {
+             return scene.cameras.front().eye + (p - lamp - dvec3(.5, 0, .5)) * .1;
+         })}};
     for (const auto& [what, moved] : places)
-        for (const std::string technique : {"raytrace", "parallax"}) bench.add_nonfinite(std::string(what) + ", " + technique, bench.render(moved, technique));
+        for (const std::string technique : {"raytrace", "parallax"})
+            bench.add_nonfinite(std::string(what) + ", " + technique,
+                                bench.render(moved, technique));
     // Above the ceiling and turned upwards: what is left is the ambient term alone.
     scene::Scene away = with_lamp(scene, [&](dvec3 p) { return flat(p, ceiling + 1); });
     for (const scene::Object& object : away.objects)
@@ -42,11 +47,14 @@ void judge_light(Bench& bench) {
             for (vec3& normal : away.meshes[object.mesh].normals) normal = -normal;
     scene::Scene dark = away;
     for (const scene::Object& object : dark.objects)
-        if (dark.materials[object.material].emission != vec3(0)) dark.materials[object.material].emission = vec3(0);
+        if (dark.materials[object.material].emission != vec3(0))
+            dark.materials[object.material].emission = vec3(0);
     for (const std::string technique : {"raytrace", "reuse"}) {
         const app::Part a = bench.render(away, technique), b = bench.render(dark, technique);
         std::size_t differ = 0;
-        for (std::size_t i = 0; i < a.hdr.pixels.size(); ++i) differ += a.hdr.pixels[i] != b.hdr.pixels[i] && a.hdr.pixels[i].x < 1; // the lamp itself may be seen
+        for (std::size_t i = 0; i < a.hdr.pixels.size(); ++i)
+            differ += a.hdr.pixels[i] != b.hdr.pixels[i] &&
+                      a.hdr.pixels[i].x < 1; // the lamp itself may be seen
         bench.add("facing away, " + technique + ": lit pixels", double(differ), 0);
     }
 }
@@ -55,7 +63,8 @@ void judge_light(Bench& bench) {
 int largest_shadow_map(Bench& bench, const scene::Scene& scene) {
     int edge = 16384;
     while (edge > 1 && !bench.add_done_or_refused(fmt::format("edge {} planned", edge), [&] {
-        bench.engine().plan(bench.asked(scene, fmt::format("reuse:shadow_map={}", edge), 1), app::PlanFormat::text);
+        bench.engine().plan(bench.asked(scene, fmt::format("reuse:shadow_map={}", edge), 1),
+                            app::PlanFormat::text);
     }))
         edge /= 2;
     return edge;
@@ -71,15 +80,19 @@ void judge_shadow_map(Bench& bench) {
                 request.ambient = 0; // what is not black is lit by the lamp
                 return bench.render(request);
             };
-            const app::Part with = render(fmt::format("reuse:shadow_map={}", edge)), without = render("reuse:shadow=none");
+            const app::Part with = render(fmt::format("reuse:shadow_map={}", edge)),
+                            without = render("reuse:shadow=none");
             std::size_t lit = 0, judged = 0;
             for (std::size_t i = 0; i < with.hdr.pixels.size(); ++i) {
                 if (!(without.hdr.pixels[i].x > 0)) continue;
                 ++judged;
                 lit += with.hdr.pixels[i].x >= .999f * without.hdr.pixels[i].x;
             }
-            bench.add(fmt::format("edge {}, times {}: less than a tenth of the picture is lit", edge, factor), judged * 10 < with.hdr.pixels.size() ? 1 : 0, 0);
-            bench.add(fmt::format("edge {}, times {}: plane in shadow of itself", edge, factor), 1 - double(lit) / double(judged), .005);
+            bench.add(fmt::format("edge {}, times {}: less than a tenth of the picture is lit",
+                                  edge, factor),
+                      judged * 10 < with.hdr.pixels.size() ? 1 : 0, 0);
+            bench.add(fmt::format("edge {}, times {}: plane in shadow of itself", edge, factor),
+                      1 - double(lit) / double(judged), .005);
         }
 }
 
@@ -89,24 +102,28 @@ void judge_sizes(Bench& bench) {
         for (const std::string technique : {"raytrace", "parallax:face=32"}) {
             app::Request request = bench.asked(scene, technique, 2);
             request.size = size;
-            bench.add_nonfinite(fmt::format("{}x{}, {}", size.x, size.y, technique), bench.render(request));
+            bench.add_nonfinite(fmt::format("{}x{}, {}", size.x, size.y, technique),
+                                bench.render(request));
         }
     for (const uvec2 size : {uvec2(0, 0), uvec2(0, 7)})
-        bench.add_refused(fmt::format("{}x{}", size.x, size.y), Failure::usage, "at least 1x1", [&] {
-            app::Request request = bench.asked(scene, "raytrace");
-            request.size = size;
-            bench.render(request);
-        });
+        bench.add_refused(fmt::format("{}x{}", size.x, size.y), Failure::usage, "at least 1x1",
+                          [&] {
+                              app::Request request = bench.asked(scene, "raytrace");
+                              request.size = size;
+                              bench.render(request);
+                          });
     for (const uvec2 size : {uvec2(65536, 65536), uvec2(~0u, 1)})
-        bench.add_refused(fmt::format("{}x{}", size.x, size.y), Failure::exhausted, "allows max_", [&] {
-            app::Request request = bench.asked(scene, "raytrace");
-            request.size = size;
-            bench.engine().plan(request, app::PlanFormat::text);
-        });
+        bench.add_refused(fmt::format("{}x{}", size.x, size.y), Failure::exhausted, "allows max_",
+                          [&] {
+                              app::Request request = bench.asked(scene, "raytrace");
+                              request.size = size;
+                              bench.engine().plan(request, app::PlanFormat::text);
+                          });
     for (const std::string technique : {"raytrace", "parallax:face=32"}) {
         app::Request request = bench.asked(scene, technique, 1);
         request.size = {16384, 16384};
-        bench.add_done_or_refused("16384x16384, " + technique + ", planned", [&] { bench.engine().plan(request, app::PlanFormat::text); });
+        bench.add_done_or_refused("16384x16384, " + technique + ", planned",
+                                  [&] { bench.engine().plan(request, app::PlanFormat::text); });
     }
     app::Request large = bench.asked(scene, "raytrace", 1);
     large.size = {4096, 4096};
@@ -117,7 +134,8 @@ void judge_sizes(Bench& bench) {
 double holes(const measure::Picture& picture) {
     std::size_t black = 0;
     for (int y = picture.height / 3; y < picture.height * 2 / 3; ++y)
-        for (int x = picture.width / 3; x < picture.width * 2 / 3; ++x) black += picture.at(x, y) == vec3(0);
+        for (int x = picture.width / 3; x < picture.width * 2 / 3; ++x)
+            black += picture.at(x, y) == vec3(0);
     return double(black);
 }
 
@@ -144,9 +162,13 @@ void judge_triangles(Bench& bench) {
     empty.cameras.push_back({.eye = {0, 0, -3}, .target = {0, 0, 0}});
     scene::Scene one = empty, many = empty;
     const std::size_t hot = add_material(one, {.name = "hot", .emission = vec3(1)});
-    one.meshes.push_back({"triangle", {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 0, -1}, {0, 0, -1}, {0, 0, -1}}, {{0, 1, 2}}});
+    one.meshes.push_back({"triangle",
+                          {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}},
+                          {{0, 0, -1}, {0, 0, -1}, {0, 0, -1}},
+                          {{0, 1, 2}}});
     one.objects.push_back({.name = "triangle", .mesh = 0, .material = hot});
-    add_ball(many, add_material(many, {.name = "hot", .emission = vec3(1)}), {{0, 0, 0}, 1}, 9); // 4^10
+    add_ball(many, add_material(many, {.name = "hot", .emission = vec3(1)}), {{0, 0, 0}, 1},
+             9); // 4^10
     for (const std::string technique : {"raytrace", "parallax"}) {
         const auto sum = [&](const scene::Scene& scene, const std::string& what) {
             const app::Part part = bench.render(scene, technique, 2);
@@ -155,27 +177,37 @@ void judge_triangles(Bench& bench) {
             for (const vec3& pixel : part.hdr.pixels) bright += pixel.x > .5f;
             return bright / double(part.hdr.pixels.size());
         };
-        bench.add("empty, " + technique + ": pixels that are not background", sum(empty, "empty"), 0);
-        bench.add("one triangle, " + technique + ": not seen", sum(one, "one triangle") > .1 ? 0 : 1, 0);
+        bench.add("empty, " + technique + ": pixels that are not background", sum(empty, "empty"),
+                  0);
+        bench.add("one triangle, " + technique + ": not seen",
+                  sum(one, "one triangle") > .1 ? 0 : 1, 0);
     }
     const auto start = std::chrono::steady_clock::now();
     const app::Part part = bench.render(many, "raytrace", 1);
-    bench.add("1,048,576 triangles, raytrace: seconds from mesh to picture", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
+    bench.add("1,048,576 triangles, raytrace: seconds from mesh to picture",
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
     bench.add_nonfinite("1,048,576 triangles, raytrace", part);
     scene::Scene ten = empty;
     add_mesh(ten, grid(2237), add_material(ten, {.name = "grey", .albedo = vec3(.5f)}));
     bench.add_done_or_refused("10,008,338 triangles, raytrace", [&] {
         const app::Part seen = bench.render(ten, "raytrace", 1);
         bench.add_nonfinite("10,008,338 triangles, raytrace", seen);
-        bench.add("10,008,338 triangles, raytrace: pixels of the middle that show none", holes(seen.hdr), 0);
+        bench.add("10,008,338 triangles, raytrace: pixels of the middle that show none",
+                  holes(seen.hdr), 0);
     });
 }
 
-const Row kLight{{"L1", "light inside a ball, on the ceiling, at the camera, facing away", "finite; unlit where it faces away", judge_light}};
-const Row kShadowMap{{"L2", "shadow map edge 1, 16, 1024, the largest up to 16384; scene times 1e-6, 1, 1e6", "no acne on an open plane", judge_shadow_map}};
-const Row kSizes{{"Z1", "picture 1x1, 1x16384, 16384x1, 4096x4096, 16384x16384, 0x0, 65536x65536", "works, or is refused with the limit", judge_sizes,
+const Row kLight{{"L1", "light inside a ball, on the ceiling, at the camera, facing away",
+                  "finite; unlit where it faces away", judge_light}};
+const Row kShadowMap{
+    {"L2", "shadow map edge 1, 16, 1024, the largest up to 16384; scene times 1e-6, 1, 1e6",
+     "no acne on an open plane", judge_shadow_map}};
+const Row kSizes{{"Z1", "picture 1x1, 1x16384, 16384x1, 4096x4096, 16384x16384, 0x0, 65536x65536",
+                  "works, or is refused with the limit", judge_sizes,
                   "rendering 16384x16384, which is planned only"}};
-const Row kTriangles{{"Z2", "empty scene, one triangle, a million, ten million", "background; finite; a million in 30 s; runs or names the limit", judge_triangles}};
+const Row kTriangles{{"Z2", "empty scene, one triangle, a million, ten million",
+                      "background; finite; a million in 30 s; runs or names the limit",
+                      judge_triangles}};
 
 } // namespace
 

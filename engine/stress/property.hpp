@@ -6,8 +6,8 @@
 #include <span>
 #include <string_view>
 
-/// The table of properties that pictures must have at the extremes of what a scene or a user may ask. A property
-/// is one row that registers itself; nothing else lists it.
+/// The table of properties that pictures must have at the extremes of what a scene or a user may
+/// ask. A property is one row that registers itself; nothing else lists it.
 namespace catoptric::stress {
 
 struct Property {

@@ -20,15 +20,25 @@ report::Verdict verdict_of(const report::StressRow& row) {
     return looks_worse ? report::Verdict::quality_warning : report::Verdict::pass;
 }
 
-report::StressRow judged(app::Engine& engine, const StressRequest& request, const Property& property) {
-    report::StressRow row{std::string(property.id), std::string(property.stimulus), std::string(property.property), {}, std::string(property.not_covered), {}, {}, 0};
+report::StressRow judged(app::Engine& engine, const StressRequest& request,
+                         const Property& property) {
+    report::StressRow row{std::string(property.id),
+                          std::string(property.stimulus),
+                          std::string(property.property),
+                          {},
+                          std::string(property.not_covered),
+                          {},
+                          {},
+                          0};
     const auto start = std::chrono::steady_clock::now();
     Bench bench(engine, request.size, request.seed, row);
     try {
         property.judge(bench);
         row.verdict = verdict_of(row);
     } catch (const Error& error) {
-        if (error.failure == Failure::interrupted || error.failure == Failure::terminated || error.failure == Failure::device_lost) throw;
+        if (error.failure == Failure::interrupted || error.failure == Failure::terminated ||
+            error.failure == Failure::device_lost)
+            throw;
         row.verdict = report::Verdict::fail;
         row.remark = error.what();
     }
@@ -43,14 +53,22 @@ report::Stress run(app::Engine& engine, const StressRequest& request) {
     for (const std::string& id : request.only) chosen.push_back(&find_property(id));
     if (chosen.empty()) chosen = properties();
     const app::DeviceInfo& device = engine.device();
-    report::Stress stress{app::version(), app::commit(), request.command, true, {device.name, device.driver, device.api, device.type, device.threads},
-                          static_cast<int>(request.size.x), static_cast<int>(request.size.y), request.seed, {}};
+    report::Stress stress{app::version(),
+                          app::commit(),
+                          request.command,
+                          true,
+                          {device.name, device.driver, device.api, device.type, device.threads},
+                          static_cast<int>(request.size.x),
+                          static_cast<int>(request.size.y),
+                          request.seed,
+                          {}};
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         if (request.on_row) request.on_row(std::string(chosen[i]->id), i, chosen.size());
         try {
             stress.rows.push_back(judged(engine, request, *chosen[i]));
         } catch (const Error& error) {
-            if (error.failure != Failure::interrupted && error.failure != Failure::terminated) throw;
+            if (error.failure != Failure::interrupted && error.failure != Failure::terminated)
+                throw;
             stress.complete = false;
             break;
         }

@@ -14,9 +14,9 @@ struct StressRequest {
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
 };
 
-/// Judges every property, in minutes at 256x256. An error that a property did not ask for makes its row fail, with
-/// the error's text. After a stop signal the rows so far come back with `complete` false.
-/// Throws `usage` for an unknown id.
+/// Judges every property, in minutes at 256x256. An error that a property did not ask for makes its
+/// row fail, with the error's text. After a stop signal the rows so far come back with `complete`
+/// false. Throws `usage` for an unknown id.
 report::Stress run(app::Engine& engine, const StressRequest& request);
 
 } // namespace catoptric::stress

@@ -10,7 +10,9 @@ namespace {
 
 bool is_free(const scene::Scene& scene, const Ball& ball) {
     for (const scene::Object& object : scene.objects)
-        if (object.sphere && length(object.sphere->centre - ball.centre) < object.sphere->radius + ball.radius + .05) return false;
+        if (object.sphere &&
+            length(object.sphere->centre - ball.centre) < object.sphere->radius + ball.radius + .05)
+            return false;
     return true;
 }
 
@@ -21,44 +23,59 @@ void add_quad(scene::Scene& scene, std::size_t material, dvec3 a, dvec3 b, dvec3
 }
 
 void add_ball(scene::Scene& scene, std::size_t material, const Ball& ball, int levels) {
-    scene::add_ball(scene, "ball" + std::to_string(scene.objects.size()), material, ball.centre, ball.radius, levels);
+    scene::add_ball(scene, "ball" + std::to_string(scene.objects.size()), material, ball.centre,
+                    ball.radius, levels);
 }
 
 scene::Scene room(Bench& bench, int balls) {
     scene::Scene scene{.name = "room"};
-    const auto colour = [&] { return vec3(bench.random(.1, .8), bench.random(.1, .8), bench.random(.1, .8)); };
-    const dvec3 hi(bench.random(1.8, 2.2), bench.random(1.6, 2.0), bench.random(1.8, 2.4)), lo = -hi;
-    for (int face = 0; face < 5; ++face) add_mesh(scene, scene::wall(face, lo, hi), add_material(scene, {.name = "wall", .albedo = colour()}));
+    const auto colour = [&] {
+        return vec3(bench.random(.1, .8), bench.random(.1, .8), bench.random(.1, .8));
+    };
+    const dvec3 hi(bench.random(1.8, 2.2), bench.random(1.6, 2.0), bench.random(1.8, 2.4)),
+        lo = -hi;
+    for (int face = 0; face < 5; ++face)
+        add_mesh(scene, scene::wall(face, lo, hi),
+                 add_material(scene, {.name = "wall", .albedo = colour()}));
     const std::size_t lamp = add_material(scene, {.name = "lamp", .emission = vec3(6, 5, 4)});
     const double x = bench.random(-.5, .5), z = bench.random(-.5, .5), y = hi.y - .01;
-    add_quad(scene, lamp, {x - .5, y, z - .5}, {x + .5, y, z - .5}, {x + .5, y, z + .5}, {x - .5, y, z + .5});
+    add_quad(scene, lamp, {x - .5, y, z - .5}, {x + .5, y, z - .5}, {x + .5, y, z + .5},
+             {x - .5, y, z + .5});
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (int made = 0; made < balls;) {
         const double radius = bench.random(.2, .5);
-        const Ball ball{{bench.random(lo.x + radius + .05, hi.x - radius - .05), lo.y + radius + bench.random(.01, .6),
-                         bench.random(lo.z + radius + .05, hi.z - radius - .05)}, radius};
+        const Ball ball{{bench.random(lo.x + radius + .05, hi.x - radius - .05),
+                         lo.y + radius + bench.random(.01, .6),
+                         bench.random(lo.z + radius + .05, hi.z - radius - .05)},
+                        radius};
         if (!is_free(scene, ball)) continue;
         add_ball(scene, mirror, ball);
         ++made;
     }
-    scene.cameras.push_back({.eye = {bench.random(-.4, .4), bench.random(-.3, .3), lo.z - 4}, .target = {0, -.3, 0}, .vertical_fov_degrees = 42});
+    scene.cameras.push_back({.eye = {bench.random(-.4, .4), bench.random(-.3, .3), lo.z - 4},
+                             .target = {0, -.3, 0},
+                             .vertical_fov_degrees = 42});
     return scene;
 }
 
 scene::Scene furnace(const std::vector<Ball>& balls) {
     scene::Scene scene{.name = "furnace"};
     const std::size_t hot = add_material(scene, {.name = "hot", .emission = vec3(1)});
-    for (int face = 0; face < 6; ++face) add_mesh(scene, scene::wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
+    for (int face = 0; face < 6; ++face)
+        add_mesh(scene, scene::wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (const Ball& ball : balls) add_ball(scene, mirror, ball);
-    scene.cameras.push_back({.eye = {.2, .1, -4.5}, .target = {0, 0, 1}, .vertical_fov_degrees = 50});
+    scene.cameras.push_back(
+        {.eye = {.2, .1, -4.5}, .target = {0, 0, 1}, .vertical_fov_degrees = 50});
     return scene;
 }
 
 scene::Scene plane() {
     scene::Scene scene{.name = "plane"};
-    add_quad(scene, add_material(scene, {.name = "grey", .albedo = vec3(.7f)}), {-10, 0, -10}, {-10, 0, 10}, {10, 0, 10}, {10, 0, -10});
-    add_quad(scene, add_material(scene, {.name = "lamp", .emission = vec3(40)}), {-.2, 4, -.2}, {.2, 4, -.2}, {.2, 4, .2}, {-.2, 4, .2});
+    add_quad(scene, add_material(scene, {.name = "grey", .albedo = vec3(.7f)}), {-10, 0, -10},
+             {-10, 0, 10}, {10, 0, 10}, {10, 0, -10});
+    add_quad(scene, add_material(scene, {.name = "lamp", .emission = vec3(40)}), {-.2, 4, -.2},
+             {.2, 4, -.2}, {.2, 4, .2}, {-.2, 4, .2});
     scene.cameras.push_back({.eye = {0, 3, -9}, .target = {0, 0, 0}, .vertical_fov_degrees = 50});
     return scene;
 }
@@ -69,8 +86,11 @@ scene::Scene through(const scene::Scene& scene, const dmat4& root) {
     const auto point = [&](dvec3 p) { return dvec3(root * dvec4(p, 1)); };
     for (scene::Object& object : result.objects) {
         object.world_from_object = root * object.world_from_object;
-        if (object.sphere) object.sphere = scene::Sphere{point(object.sphere->centre), object.sphere->radius * factor};
-        if (auto* swing = std::get_if<scene::Harmonic>(&object.motion)) swing->amplitude = dmat3(root) * swing->amplitude;
+        if (object.sphere)
+            object.sphere = scene::Sphere{point(object.sphere->centre),
+                                          object.sphere->radius * factor};
+        if (auto* swing = std::get_if<scene::Harmonic>(&object.motion))
+            swing->amplitude = dmat3(root) * swing->amplitude;
     }
     for (scene::Camera& camera : result.cameras) {
         camera.eye = point(camera.eye);

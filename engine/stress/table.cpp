@@ -20,7 +20,9 @@ Row::Row(const Property& property) { table().push_back(property); }
 std::vector<const Property*> properties() {
     std::vector<const Property*> rows;
     for (const Property& property : table()) rows.push_back(&property);
-    std::ranges::sort(rows, {}, [](const Property* row) { return std::pair(row->id[0], std::stoi(std::string(row->id.substr(1)))); });
+    std::ranges::sort(rows, {}, [](const Property* row) {
+        return std::pair(row->id[0], std::stoi(std::string(row->id.substr(1))));
+    });
     return rows;
 }
 
@@ -30,7 +32,8 @@ const Property& find_property(std::string_view id) {
         if (row->id == id) return *row;
         ids.emplace_back(row->id);
     }
-    fail(Failure::usage, "wanted the id of a property (", ids.front(), " ... ", ids.back(), "), found '", id, "'", did_you_mean(id, ids));
+    fail(Failure::usage, "wanted the id of a property (", ids.front(), " ... ", ids.back(),
+         "), found '", id, "'", did_you_mean(id, ids));
 }
 
 } // namespace catoptric::stress

@@ -37,8 +37,7 @@ struct Options {
 /// The list takes every word that follows it, a scene too.
 void check_no_scene(const std::string& text) {
     bool scene = text.ends_with(".glb") || text.ends_with(".gltf") || text.ends_with(".obj");
-    for (const scene::BuiltIn& built_in : scene::built_in_scenes())
-        scene |= built_in.name == text;
+    for (const scene::BuiltIn& built_in : scene::built_in_scenes()) scene |= built_in.name == text;
     check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
           "'; SCENE comes before --techniques");
 }
@@ -71,8 +70,7 @@ std::vector<std::string> broken_rows(const report::Comparison& comparison) {
 
 void show(const Options& options, const report::Comparison& comparison) {
     const Manners& manners = options.common.manners;
-    for (const std::string& warning : comparison.warnings)
-        detail(manners, "warning: " + warning);
+    for (const std::string& warning : comparison.warnings) detail(manners, "warning: " + warning);
     put(manners.json ? report::to_json(comparison) : compare_table(comparison));
     note(manners, "written: " + options.folder);
 }
@@ -94,8 +92,8 @@ int run(const Options& options) {
     require_given(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
     check_folder_can_be_made(options.folder);
     app::CompareRequest request = make_compare_request(options);
-    const std::size_t row_count =
-        options.techniques.empty() ? app::default_techniques().size() : options.techniques.size();
+    const std::size_t row_count = options.techniques.empty() ? app::default_techniques().size()
+                                                             : options.techniques.size();
     app::Engine engine(engine_options(options.common));
     detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
 

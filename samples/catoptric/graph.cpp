@@ -27,8 +27,8 @@ struct Options {
 };
 
 app::PlanFormat format_of(const Options& options) {
-    const app::PlanFormat asked =
-        options.common.manners.json ? app::PlanFormat::json : app::PlanFormat::text;
+    const app::PlanFormat asked = options.common.manners.json ? app::PlanFormat::json
+                                                              : app::PlanFormat::text;
     const app::PlanFormat format = options.format.value_or(asked);
     check(!options.common.manners.json || format == app::PlanFormat::json, Failure::usage,
           "--json and --format: stdout has room for one of them");

@@ -26,8 +26,7 @@ InfoFacts gather(const std::string& device) {
     std::vector<std::string> techniques, scenes;
     for (const app::TechniqueInfo& technique : app::techniques())
         techniques.push_back(technique.name);
-    for (const scene::BuiltIn& scene : scene::built_in_scenes())
-        scenes.push_back(scene.name);
+    for (const scene::BuiltIn& scene : scene::built_in_scenes()) scenes.push_back(scene.name);
     facts.features = {{"techniques", techniques},
                       {"scenes", scenes},
                       {"scene_files", {"glb", "gltf", "obj"}},
@@ -41,8 +40,8 @@ std::string text_of(const InfoFacts& facts) {
     std::string text = fmt::format("catoptric {} ({})\n", app::version(), app::commit());
     if (facts.device) {
         const app::DeviceInfo& device = *facts.device;
-        const std::string threads =
-            device.threads > 0 ? fmt::format(", {} threads", device.threads) : "";
+        const std::string threads = device.threads > 0 ? fmt::format(", {} threads", device.threads)
+                                                       : "";
         text += fmt::format("{:<14} {} ({}, Vulkan {}, {}{})\n", "device", device.name, device.type,
                             device.api, device.driver, threads);
     } else {

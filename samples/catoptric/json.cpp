@@ -14,9 +14,7 @@ std::string written(const Json& document) {
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json to_json(const dvec3& v) {
-    return {v.x, v.y, v.z};
-}
+Json to_json(const dvec3& v) { return {v.x, v.y, v.z}; }
 
 Json to_json(const measure::Summary& s) {
     return {{"median", s.median}, {"p05", s.p05}, {"p95", s.p95},
@@ -37,8 +35,7 @@ Json to_json(const app::DeviceInfo& device) {
 template <typename Value>
 Json over_frames(const std::vector<app::Frame>& frames, Value&& value) {
     std::vector<double> samples;
-    for (const app::Frame& frame : frames)
-        samples.push_back(value(frame));
+    for (const app::Frame& frame : frames) samples.push_back(value(frame));
     return to_json(measure::summarise(samples));
 }
 
@@ -54,7 +51,8 @@ Json passes_json(const std::vector<app::Frame>& frames) {
 Json settings_json(const app::TechniqueChoice& choice) {
     Json settings = Json::object();
     for (const auto& setting : choice.settings)
-        settings[setting.name] = setting.is_number ? Json(std::stoll(setting.text)) : Json(setting.text);
+        settings[setting.name] = setting.is_number ? Json(std::stoll(setting.text))
+                                                   : Json(setting.text);
     return settings;
 }
 
@@ -105,8 +103,8 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
     document["gpu_ms"] = over_frames(result.frames, [](const auto& f) { return f.gpu_ms; });
-    document["cpu_record_ms"] =
-        over_frames(result.frames, [](const auto& f) { return f.record_ms; });
+    document["cpu_record_ms"] = over_frames(result.frames,
+                                            [](const auto& f) { return f.record_ms; });
     document["wall_ms"] = over_frames(result.frames, [](const auto& f) { return f.wall_ms; });
     document["passes"] = passes_json(result.frames);
     document["memory_bytes"] = part.memory_bytes;
@@ -140,8 +138,7 @@ std::string trace_json(const app::Frame& frame, const std::string& process) {
 
 std::string devices_json(const std::vector<app::DeviceInfo>& devices) {
     Json rows = Json::array();
-    for (const app::DeviceInfo& device : devices)
-        rows.push_back(to_json(device));
+    for (const app::DeviceInfo& device : devices) rows.push_back(to_json(device));
     return written({{"schema", "catoptric/list/1"}, {"devices", rows}});
 }
 
@@ -167,8 +164,7 @@ std::string techniques_json(const std::vector<app::TechniqueInfo>& techniques) {
 
 std::string named_json(const std::string& kind, const std::vector<Named>& named) {
     Json rows = Json::array();
-    for (const Named& row : named)
-        rows.push_back({{"name", row.name}, {"summary", row.summary}});
+    for (const Named& row : named) rows.push_back({{"name", row.name}, {"summary", row.summary}});
     return written({{"schema", "catoptric/list/1"}, {kind, rows}});
 }
 
@@ -178,8 +174,7 @@ std::string info_json(const InfoFacts& facts) {
     document["device"] = facts.device ? to_json(*facts.device) : Json();
     if (!facts.device) document["no_device"] = facts.why_no_device;
     Json features = Json::object();
-    for (const auto& [group, names] : facts.features)
-        features[group] = names;
+    for (const auto& [group, names] : facts.features) features[group] = names;
     document["features"] = features;
     return written(document);
 }

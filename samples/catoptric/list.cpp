@@ -34,7 +34,7 @@ const std::vector<Named> kMetrics{
 std::string knob_text(const app::Knob& knob) {
     const std::string range = knob.choices.empty()
                                   ? fmt::format("{:.0f} to {:.0f}{}", knob.low, knob.high,
-                                              knob.special.empty() ? "" : " or " + knob.special)
+                                                knob.special.empty() ? "" : " or " + knob.special)
                                   : fmt::format("{}", fmt::join(knob.choices, "|"));
     return fmt::format("    {:<12} {} ({}; default {})\n", knob.name, knob.help, range, knob.value);
 }
@@ -43,8 +43,7 @@ std::string techniques_text(const std::vector<app::TechniqueInfo>& techniques) {
     std::string text;
     for (const app::TechniqueInfo& technique : techniques) {
         text += fmt::format("{:<12} {}\n", technique.name, technique.summary);
-        for (const app::Knob& knob : technique.knobs)
-            text += knob_text(knob);
+        for (const app::Knob& knob : technique.knobs) text += knob_text(knob);
     }
     return text;
 }
@@ -62,8 +61,7 @@ std::string devices_text(const std::vector<app::DeviceInfo>& devices) {
 
 std::string named_text(const std::vector<Named>& rows) {
     std::string text;
-    for (const Named& row : rows)
-        text += fmt::format("{:<24} {}\n", row.name, row.summary);
+    for (const Named& row : rows) text += fmt::format("{:<24} {}\n", row.name, row.summary);
     return text;
 }
 

@@ -32,8 +32,7 @@ void say(const std::string& message) {
 /// The first word is a verb, or asks for help or the version.
 void check_verb(const CLI::App& program, const std::string& word) {
     std::vector<std::string> names;
-    for (const CLI::App* verb : program.get_subcommands(nullptr))
-        names.push_back(verb->get_name());
+    for (const CLI::App* verb : program.get_subcommands(nullptr)) names.push_back(verb->get_name());
     const std::vector<std::string> flags{"-h", "--help", "--version"};
     for (const auto& known : {names, flags})
         if (std::find(known.begin(), known.end(), word) != known.end()) return;
@@ -53,8 +52,7 @@ void name_parts_of_help(CLI::App& program) {
 
 /// Help without runs of empty lines.
 std::string tidy(std::string text) {
-    for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;)
-        text.erase(at, 1);
+    for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
     return text;
 }
 

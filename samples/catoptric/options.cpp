@@ -32,7 +32,8 @@ void add_numbers(CLI::App& verb, Common& common) {
              [&](const std::string& text) { common.time = parse_real("--time", text); });
     verb.add_flag("--animate", common.animate,
                   "frame k at --time + (k-1)/60 s; otherwise all frames at --time");
-    add_text(verb, "--seed", "N", "of --camera seeded and of sample patterns that are no regular grid (1)",
+    add_text(verb, "--seed", "N",
+             "of --camera seeded and of sample patterns that are no regular grid (1)",
              [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
     add_text(verb, "--ambient", "A", "ambient light, at least 0 (0.05)",
              [&](const std::string& text) { common.ambient = parse_real("--ambient", text, 0); });
@@ -160,8 +161,7 @@ void add_common(CLI::App& verb, Common& common) {
 void refuse_extras(const CLI::App& verb) {
     std::vector<std::string> names;
     for (const CLI::Option* option : verb.get_options())
-        for (const std::string& name : option->get_lnames())
-            names.push_back("--" + name);
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     const std::vector<std::string> extras = verb.remaining();
     for (const std::string& extra : extras) {
         if (!extra.starts_with('-') || extra == "--") continue;
@@ -182,8 +182,7 @@ app::Request make_request(const Common& common) {
     app::Request request;
     request.seed = common.seed;
     request.scene = scene::load(common.scene);
-    for (const std::string& warning : request.scene.warnings)
-        warn(warning);
+    for (const std::string& warning : request.scene.warnings) warn(warning);
     request.camera = choose_camera(common, request.scene);
     request.size = common.size;
     request.frames = common.frames;
@@ -207,8 +206,8 @@ scene::Camera parse_camera(const std::string& text, const scene::Scene& scene) {
         names.push_back(camera.name);
     }
     if (text.find(':') != std::string::npos) return placed_camera(text);
-    const bool is_index =
-        text.find_first_not_of("0123456789") == std::string::npos && text.size() < 10;
+    const bool is_index = text.find_first_not_of("0123456789") == std::string::npos &&
+                          text.size() < 10;
     if (is_index && !text.empty() && std::stoul(text) < scene.cameras.size())
         return scene.cameras[std::stoul(text)];
     names.emplace_back("seeded");

@@ -24,8 +24,8 @@ void line(const std::string& text) {
 void check_writable(const fs::path& folder, const fs::path& path) {
     const bool writable = ::access(folder.c_str(), W_OK | X_OK) == 0;
     const int error = errno; // before anything else is called
-    check(writable, Failure::cannot_create, path.string(), ": cannot be created in ", folder.string(), ": ",
-          std::generic_category().message(error));
+    check(writable, Failure::cannot_create, path.string(), ": cannot be created in ",
+          folder.string(), ": ", std::generic_category().message(error));
 }
 
 /// The folder that a new entry `path` would lie in.
@@ -73,9 +73,7 @@ void detail(const Manners& manners, const std::string& text) {
     if (manners.verbose && !manners.quiet) line(text);
 }
 
-void warn(const std::string& text) {
-    line("catoptric: warning: " + text);
-}
+void warn(const std::string& text) { line("catoptric: warning: " + text); }
 
 void check_file_can_be_made(const fs::path& path) {
     std::error_code error;

@@ -16,8 +16,8 @@ struct Manners {
     ProgressMode progress = ProgressMode::automatic;
 };
 
-/// Makes a write to a closed pipe or over the limit of file sizes fail instead of killing the program,
-/// and keeps files that are opened later from becoming a closed stdin, stdout or stderr.
+/// Makes a write to a closed pipe or over the limit of file sizes fail instead of killing the
+/// program, and keeps files that are opened later from becoming a closed stdin, stdout or stderr.
 void prepare_streams();
 
 /// Writes and flushes the result. Throws `Failure::io`, without text where the reader has gone.

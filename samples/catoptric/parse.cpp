@@ -82,8 +82,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 std::string join(const std::vector<std::string>& parts) {
     std::string text;
-    for (const std::string& part : parts)
-        text += (text.empty() ? "" : ", ") + part;
+    for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
     return text;
 }
 

@@ -39,9 +39,7 @@ Progress::Progress(const Manners& manners)
                                  (manners.progress == ProgressMode::automatic && is_terminal()))),
       rewrites_(is_terminal()) {}
 
-Progress::~Progress() {
-    clear();
-}
+Progress::~Progress() { clear(); }
 
 void Progress::row(const std::string& label, std::size_t index, std::size_t count) {
     if (index == 0) start_ = Clock::now(); // of a list of its own

@@ -36,12 +36,8 @@ struct Options {
     std::string trace;
 };
 
-bool is_stdout(const Options& options) {
-    return options.output == "-";
-}
-bool is_exr(const Options& options) {
-    return options.output.ends_with(".exr");
-}
+bool is_stdout(const Options& options) { return options.output == "-"; }
+bool is_exr(const Options& options) { return options.output.ends_with(".exr"); }
 
 void check_output(const Options& options) {
     require_given(!options.output.empty(), "render", "-o OUT",
@@ -64,8 +60,7 @@ void write_picture(const Options& options, const app::Part& part) {
 
 void describe(const Manners& manners, const app::Result& result, const std::string& output) {
     std::vector<double> gpu_ms;
-    for (const app::Frame& frame : result.frames)
-        gpu_ms.push_back(frame.gpu_ms);
+    for (const app::Frame& frame : result.frames) gpu_ms.push_back(frame.gpu_ms);
     const measure::Summary summary = measure::summarise(gpu_ms);
     const app::Part& part = result.parts.front();
     const measure::Mean mean = measure::mean_of(part.hdr, measure::Range::clamped);

@@ -1,4 +1,5 @@
-// catoptric stress: properties that pictures must have at the extremes, measured beside their thresholds.
+// catoptric stress: properties that pictures must have at the extremes, measured beside their
+// thresholds.
 #include "stress/run.hpp"
 
 #include "core/error.hpp"
@@ -37,11 +38,13 @@ struct Options {
 };
 
 std::string table_of(const report::Stress& stress) {
-    std::vector<std::vector<std::string>> cells{{"id", "verdict", "measured", "threshold", "seconds", "what"}};
+    std::vector<std::vector<std::string>> cells{
+        {"id", "verdict", "measured", "threshold", "seconds", "what"}};
     for (const report::StressRow& row : stress.rows) {
         const report::StressCase* worst = row.worst();
         const auto figure = [](double value) { return fmt::format("{:.3g}", value); };
-        cells.push_back({row.id, report::name_of(row.verdict), worst ? figure(worst->measured) : "-", worst ? figure(worst->limit) : "-",
+        cells.push_back({row.id, report::name_of(row.verdict),
+                         worst ? figure(worst->measured) : "-", worst ? figure(worst->limit) : "-",
                          fmt::format("{:.1f}", row.seconds), worst ? worst->what : row.remark});
     }
     return aligned(cells, 5);
@@ -53,17 +56,21 @@ int run(const Options& options) {
     app::Engine engine({.device = options.device, .validate = options.validate});
     stop_on_signals();
     Progress progress(options.manners);
-    const report::Stress found = stress::run(engine, {.only = options.only,
-                                                      .size = options.size,
-                                                      .seed = options.seed,
-                                                      .command = options.command,
-                                                      .on_row = [&](const std::string& id, std::size_t index, std::size_t count) { progress.row(id, index, count); }});
+    const report::Stress found = stress::run(
+        engine, {.only = options.only,
+                 .size = options.size,
+                 .seed = options.seed,
+                 .command = options.command,
+                 .on_row = [&](const std::string& id, std::size_t index, std::size_t count) {
+                     progress.row(id, index, count);
+                 }});
     progress.clear();
     if (!options.folder.empty()) report::write(found, options.folder);
     put(options.manners.json ? report::to_json(found) : table_of(found));
     if (!options.folder.empty()) note(options.manners, "written: " + options.folder);
     if (!found.complete)
-        fail(app::stop_signal == SIGTERM ? Failure::terminated : Failure::interrupted, "stopped after ", found.rows.size(), " properties");
+        fail(app::stop_signal == SIGTERM ? Failure::terminated : Failure::interrupted,
+             "stopped after ", found.rows.size(), " properties");
     if (options.validate) engine.check_validation();
     return found.failed() ? static_cast<int>(Failure::threshold) : 0;
 }
@@ -73,14 +80,23 @@ int run(const Options& options) {
 void add_stress(CLI::App& program, Run& chosen, std::vector<std::string> command) {
     const auto options = std::make_shared<Options>();
     options->command = std::move(command);
-    CLI::App* verb = program.add_subcommand("stress", "rendering at the extremes: measured values beside thresholds");
+    CLI::App* verb = program.add_subcommand(
+        "stress", "rendering at the extremes: measured values beside thresholds");
     verb->footer(kExamples);
-    verb->add_option("-o,--output", options->folder, "folder for stress.json, stress.html, stress.md and pictures of what failed")->type_name("DIR");
+    verb->add_option("-o,--output", options->folder,
+                     "folder for stress.json, stress.html, stress.md and pictures of what failed")
+        ->type_name("DIR");
     verb->add_option("--only", options->only, "ids of properties (all)")->type_name("ID");
-    add_text(*verb, "--size", "WxH", "picture size (256x256)", [options = options.get()](const std::string& text) { options->size = parse_size("--size", text); });
-    verb->add_option("--seed", options->seed, "of the scenes, which are made for the run (1)")->type_name("N");
-    verb->add_option("--device", options->device, "index or part of a name")->type_name("INDEX|NAME");
-    verb->add_flag("--validate", options->validate, "the validation layer watches; any message is an error");
+    add_text(*verb, "--size", "WxH", "picture size (256x256)",
+             [options = options.get()](const std::string& text) {
+                 options->size = parse_size("--size", text);
+             });
+    verb->add_option("--seed", options->seed, "of the scenes, which are made for the run (1)")
+        ->type_name("N");
+    verb->add_option("--device", options->device, "index or part of a name")
+        ->type_name("INDEX|NAME");
+    verb->add_flag("--validate", options->validate,
+                   "the validation layer watches; any message is an error");
     add_manners(*verb, options->manners);
     verb->callback([verb, options, &chosen] {
         refuse_extras(*verb);

@@ -9,9 +9,7 @@ namespace catoptric::cli {
 
 namespace {
 
-std::string milliseconds(double ms) {
-    return fmt::format("{:.3f}", ms);
-}
+std::string milliseconds(double ms) { return fmt::format("{:.3f}", ms); }
 
 /// Five digits; what cannot be said is a dash.
 std::string figure(double value) {
@@ -28,8 +26,7 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
     std::vector<std::size_t> widths;
     for (const auto& row : rows) {
         widths.resize(std::max(widths.size(), row.size()));
-        for (std::size_t i = 0; i < row.size(); ++i)
-            widths[i] = std::max(widths[i], row[i].size());
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
     }
     std::string text;
     for (const auto& row : rows) {

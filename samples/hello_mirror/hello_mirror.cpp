@@ -20,8 +20,7 @@ int main() try {
     const app::Result result = engine.run(request);
 
     std::vector<double> gpu_ms;
-    for (const app::Frame& frame : result.frames)
-        gpu_ms.push_back(frame.gpu_ms);
+    for (const app::Frame& frame : result.frames) gpu_ms.push_back(frame.gpu_ms);
     const app::Part& part = result.parts.front();
     const measure::Mean mean = measure::mean_of(part.hdr, measure::Range::clamped);
     std::printf("%s on %s: mean %.4f, %.2f ms a frame\n", part.label.c_str(),

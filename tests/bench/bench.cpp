@@ -1,7 +1,8 @@
 // Ratios that the documentation quotes: pairs of runs, interleaved in one process, since times here
 // drift and only ratios inside one run are sound. Prints medians with spread; judges nothing.
 //   catoptric_bench [ROUNDS]        the shapes of shaders and passes that the engine chose
-//   catoptric_bench rules [ROUNDS]  what each rule of robustness costs: the table of docs/robustness.md
+//   catoptric_bench rules [ROUNDS]  what each rule of robustness costs: the table of
+//   docs/robustness.md
 #include "app/engine.hpp"
 #include "measure/statistics.hpp"
 #include "render/geometry.hpp"
@@ -48,18 +49,26 @@ Pairs run_pairs(Side& a, Side& b, const app::Request& base, int rounds) {
 
 void compare(const char* title, Side& a, Side& b, const app::Request& base, int rounds) {
     const Pairs pairs = run_pairs(a, b, base, rounds);
-    std::printf("%s\n  %-28s %8.2f ms\n  %-28s %8.2f ms\n  ratio %.3f [%.3f, %.3f] over %d pairs\n", title, a.name, pairs.a.median,
-                b.name, pairs.b.median, pairs.ratio.median, pairs.ratio.p05, pairs.ratio.p95, rounds);
+    std::printf("%s\n  %-28s %8.2f ms\n  %-28s %8.2f ms\n  ratio %.3f [%.3f, %.3f] over %d pairs\n",
+                title, a.name, pairs.a.median, b.name, pairs.b.median, pairs.ratio.median,
+                pairs.ratio.p05, pairs.ratio.p95, rounds);
 }
 
 void compare_shapes(const app::Request& base, int rounds) {
-    app::Engine plain({}), naive_engine({.shader_variants = {{"raytrace.comp", "raytrace.comp#naive"}}}), faces_engine({.layered = false});
-    Side fast{"default", plain, "raytrace:depth=4"}, naive{"naive", naive_engine, "raytrace:depth=4"};
+    app::Engine plain({}),
+        naive_engine({.shader_variants = {{"raytrace.comp", "raytrace.comp#naive"}}}),
+        faces_engine({.layered = false});
+    Side fast{"default", plain, "raytrace:depth=4"},
+        naive{"naive", naive_engine, "raytrace:depth=4"};
     std::printf("%s, %s\n", plain.device().name.c_str(), plain.device().driver.c_str());
-    compare("raytrace:depth=4 512x512: texel buffers, shared stack, scattered groups against storage buffers, "
-            "private stack, groups in order", fast, naive, base, rounds);
-    Side layered{"six faces in one pass", plain, "parallax"}, faces{"six passes", faces_engine, "parallax"};
-    compare("parallax 512x512: captures in layered passes against one pass a face", layered, faces, base, rounds);
+    compare("raytrace:depth=4 512x512: texel buffers, shared stack, scattered groups against "
+            "storage buffers, "
+            "private stack, groups in order",
+            fast, naive, base, rounds);
+    Side layered{"six faces in one pass", plain, "parallax"},
+        faces{"six passes", faces_engine, "parallax"};
+    compare("parallax 512x512: captures in layered passes against one pass a face", layered, faces,
+            base, rounds);
 }
 
 /// Median milliseconds of some work on the processor.
@@ -69,13 +78,15 @@ double cpu_ms(int rounds, Work&& work) {
     for (int i = 0; i < rounds; ++i) {
         const auto begin = std::chrono::steady_clock::now();
         work();
-        samples.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+        samples.push_back(
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+                .count());
     }
     return measure::summarise(samples).median;
 }
 
-/// Rules that a row can leave out, in the device's time of a frame; then those on the processor, which are never
-/// left out: the time they take.
+/// Rules that a row can leave out, in the device's time of a frame; then those on the processor,
+/// which are never left out: the time they take.
 void compare_rules(const app::Request& base, int rounds) {
     struct Rule {
         const char* name;
@@ -85,7 +96,8 @@ void compare_rules(const app::Request& base, int rounds) {
     constexpr Rule kRules[] = {
         {"watertight triangles", "raytrace", "raytrace:without=watertight"},
         {"boxes with slack", "raytrace", "raytrace:without=box_slack"},
-        {"rays start off the surface by an error bound", "raytrace", "raytrace:without=spawn_bound"},
+        {"rays start off the surface by an error bound", "raytrace",
+         "raytrace:without=spawn_bound"},
         {"shadow rays end short of the light", "raytrace", "raytrace:without=shadow_end"},
         {"stable spheres", "raytrace:sphere=exact", "raytrace:sphere=exact,without=stable_sphere"},
         {"half colour saturates", "parallax", "parallax:without=saturation"},
@@ -93,13 +105,16 @@ void compare_rules(const app::Request& base, int rounds) {
         {"hit points in doubles (no rule)", "raytrace:hit=f64", "raytrace"},
         {"colour in floats (no rule)", "parallax:colour=float", "parallax"}};
     app::Engine engine({});
-    std::printf("%s, %s; 512x512, %d pairs\n\n", engine.device().name.c_str(), engine.device().driver.c_str(), rounds);
-    std::printf("| Rule | With | ms | Without | ms | Ratio [p05 - p95] |\n|---|---|---:|---|---:|---:|\n");
+    std::printf("%s, %s; 512x512, %d pairs\n\n", engine.device().name.c_str(),
+                engine.device().driver.c_str(), rounds);
+    std::printf(
+        "| Rule | With | ms | Without | ms | Ratio [p05 - p95] |\n|---|---|---:|---|---:|---:|\n");
     for (const Rule& rule : kRules) {
         Side with{"with", engine, rule.with}, without{"without", engine, rule.without};
         const Pairs pairs = run_pairs(with, without, base, rounds);
-        std::printf("| %s | %s | %.1f | %s | %.1f | %.3f [%.3f - %.3f] |\n", rule.name, rule.with, pairs.a.median, rule.without,
-                    pairs.b.median, pairs.ratio.median, pairs.ratio.p05, pairs.ratio.p95);
+        std::printf("| %s | %s | %.1f | %s | %.1f | %.3f [%.3f - %.3f] |\n", rule.name, rule.with,
+                    pairs.a.median, rule.without, pairs.b.median, pairs.ratio.median,
+                    pairs.ratio.p05, pairs.ratio.p95);
         std::fflush(stdout);
     }
     constexpr int kTimes = 25;
@@ -109,14 +124,22 @@ void compare_rules(const app::Request& base, int rounds) {
     const auto gaps = [&] {
         // Camera, four captures, light.
         for (int i = 0; i < 6; ++i)
-            kept = render::nearest_distance(geometry, vec3(0.1f * static_cast<float>(i)), [](std::size_t, const render::DrawRange&) { return false; });
+            kept = render::nearest_distance(
+                geometry, vec3(0.1f * static_cast<float>(i)),
+                [](std::size_t, const render::DrawRange&) { return false; });
     };
     std::printf("\n| On the processor, always | ms | when |\n|---|---:|---|\n");
     std::printf("| near planes from the nearest gap | %.3f | frame |\n", cpu_ms(kTimes, gaps));
     std::printf("| centre and scale in doubles, then floats | %.3f | frame |\n",
-                cpu_ms(kTimes, [&] { kept = render::make_geometry(base.scene, render::space_of(base.scene)).vertices.front().position.x; }));
-    std::printf("| finite numbers, areas and normals of meshes | %.3f | load |\n", cpu_ms(kTimes, [&] {
-                    for (scene::Mesh mesh : base.scene.meshes) scene::check_mesh(mesh, "mesh"), scene::repair(mesh);
+                cpu_ms(kTimes, [&] {
+                    kept = render::make_geometry(base.scene, render::space_of(base.scene))
+                               .vertices.front()
+                               .position.x;
+                }));
+    std::printf("| finite numbers, areas and normals of meshes | %.3f | load |\n",
+                cpu_ms(kTimes, [&] {
+                    for (scene::Mesh mesh : base.scene.meshes)
+                        scene::check_mesh(mesh, "mesh"), scene::repair(mesh);
                 }));
 }
 

@@ -25,8 +25,7 @@ TEST_F(Cli, TruncatedGlb) {
     // Says that it is 4096 bytes long, and ends after its header and a piece of JSON.
     std::string bytes = "glTF";
     for (const unsigned word : {2U, 4096U, 2048U, 0x4E4F534AU})
-        for (int shift = 0; shift < 32; shift += 8)
-            bytes += static_cast<char>(word >> shift);
+        for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift);
     write("cut.glb", bytes + "{\"asset\":{\"version\":\"2.0\"}");
     expect_refused({"render", "cut.glb", "--technique", "reuse", "-o", "x.png"}, 65, {"cut.glb"});
 }
@@ -46,12 +45,12 @@ TEST_F(Cli, PicturesThatAreNone) {
 
 TEST_F(Cli, NoCameraIsSaidAndReplaced) {
     write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const test::Ended ended =
-        cli(quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png"}));
+    const test::Ended ended = cli(
+        quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("no camera in file: using eye"));
-    const test::Ended quiet =
-        cli(quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png", "--quiet"}));
+    const test::Ended quiet = cli(
+        quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png", "--quiet"}));
     EXPECT_THAT(quiet.err, testing::Not(testing::HasSubstr("no camera")));
 }
 

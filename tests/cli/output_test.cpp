@@ -32,8 +32,8 @@ TEST_F(Cli, NameOfAFolderOrFile) {
 TEST_F(Cli, FullDevice) {
     if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
     fs::create_symlink("/dev/full", folder / "full.png");
-    const test::Ended ended =
-        cli(quick({"render", "--technique", "reuse", "-o", "full.png", "--quiet"}));
+    const test::Ended ended = cli(
+        quick({"render", "--technique", "reuse", "-o", "full.png", "--quiet"}));
     expect_ended(ended, 74, {"full.png"});
 
     test::Start process = start({"list", "techniques"});

@@ -37,8 +37,7 @@ protected:
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         EXPECT_EQ(ended.out, "");
         EXPECT_THAT(ended.err, testing::StartsWith("catoptric: "));
-        for (const std::string& part : parts)
-            EXPECT_THAT(ended.err, testing::HasSubstr(part));
+        for (const std::string& part : parts) EXPECT_THAT(ended.err, testing::HasSubstr(part));
     }
 
     void write(const std::string& name, const std::string& text) const {

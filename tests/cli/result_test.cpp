@@ -64,7 +64,8 @@ TEST_F(Cli, SeededCameraCanBeTypedAgain) {
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return ended.err;
     };
-    const std::string said = render("a.exr", {"--camera", "seeded", "--seed", "7", "--time", "1.5"});
+    const std::string said = render("a.exr",
+                                    {"--camera", "seeded", "--seed", "7", "--time", "1.5"});
     const std::string words = "camera drawn from seed 7: ";
     ASSERT_THAT(said, testing::HasSubstr(words));
     const std::string from = said.substr(said.find(words) + words.size());
@@ -112,8 +113,8 @@ TEST_F(Cli, PixelsThatAreNotFiniteAreTold) {
 }
 
 TEST_F(Cli, QuietSaysNothing) {
-    const test::Ended ended =
-        cli(quick({"render", "--technique", "reuse", "-o", "x.png", "--quiet"}));
+    const test::Ended ended = cli(
+        quick({"render", "--technique", "reuse", "-o", "x.png", "--quiet"}));
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_EQ(ended.err, "");
     EXPECT_EQ(ended.out, "");
@@ -144,8 +145,8 @@ TEST_F(Cli, DiffOfEqualAndOtherPictures) {
     const test::Ended flip = cli({"diff", "a.exr", "b.exr", "--max-flip", "0.0001"});
     EXPECT_EQ(flip.exit_code, 1);
     EXPECT_THAT(flip.err, testing::HasSubstr("over --max-flip 0.0001"));
-    const test::Ended rmse =
-        cli({"diff", "a.exr", "b.exr", "--max-rmse", "0.0001", "--max-flip", "1"});
+    const test::Ended rmse = cli(
+        {"diff", "a.exr", "b.exr", "--max-rmse", "0.0001", "--max-flip", "1"});
     EXPECT_EQ(rmse.exit_code, 1);
     EXPECT_THAT(rmse.err, testing::HasSubstr("over --max-rmse 0.0001"));
     EXPECT_THAT(rmse.err, testing::Not(testing::HasSubstr("--max-flip")));
@@ -157,8 +158,8 @@ TEST_F(Cli, DiffOfPngAndItsExr) {
     const json document = json::parse(cli({"diff", "a.exr", "a.png", "--json"}).out);
     EXPECT_EQ(document["flip"], 0.0) << "a PNG shows what its EXR shows";
     EXPECT_LT(document["max"], 0.01);
-    const json masked =
-        json::parse(cli({"diff", "a.exr", "a.png", "--mask", "a.png", "--json"}).out);
+    const json masked = json::parse(
+        cli({"diff", "a.exr", "a.png", "--mask", "a.png", "--json"}).out);
     EXPECT_LT(masked["pixels"], 32 * 32 + 1);
 }
 
@@ -239,8 +240,8 @@ TEST_F(Cli, CompareSaysTheLagWhenAsked) {
 }
 
 TEST_F(Cli, WatchedByTheValidationLayer) {
-    const test::Ended ended =
-        cli(quick({"compare", "-o", "out", "--validate", "--techniques", "parallax", "raytrace"}));
+    const test::Ended ended = cli(
+        quick({"compare", "-o", "out", "--validate", "--techniques", "parallax", "raytrace"}));
     if (ended.err.find("vulkan-validationlayers") != std::string::npos) GTEST_SKIP() << ended.err;
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
 }

@@ -27,17 +27,21 @@ TEST_F(Cli, StressMeasuresBesideThresholds) {
 
 TEST_F(Cli, StressTakesItsScenesFromTheSeed) {
     const auto measured = [&](const std::string& seed) {
-        return json::parse(cli({"stress", "--json", "--size", "64x64", "--only", "N3", "--seed", seed}).out)["rows"][0]["cases"];
+        return json::parse(
+            cli({"stress", "--json", "--size", "64x64", "--only", "N3", "--seed", seed})
+                .out)["rows"][0]["cases"];
     };
     EXPECT_EQ(measured("3"), measured("3"));
     EXPECT_NE(measured("3"), measured("4"));
 }
 
 TEST_F(Cli, StressJudgesWhatCapturesHold) {
-    const test::Ended ended = cli({"stress", "--json", "--size", "64x64", "--only", "C3", "C11", "C12", "N11", "N24", "C5"});
+    const test::Ended ended = cli(
+        {"stress", "--json", "--size", "64x64", "--only", "C3", "C11", "C12", "N11", "N24", "C5"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     const json report = json::parse(ended.out);
-    for (const json& row : report["rows"]) EXPECT_THAT(row["verdict"], testing::AnyOf("pass", "quality-warning")) << row;
+    for (const json& row : report["rows"])
+        EXPECT_THAT(row["verdict"], testing::AnyOf("pass", "quality-warning")) << row;
 }
 
 TEST_F(Cli, StressTellsWhatLooksWorseWithoutFailing) {

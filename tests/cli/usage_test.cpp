@@ -12,7 +12,8 @@ TEST_F(Cli, WithoutArgumentsShowsHelp) {
 
 TEST_F(Cli, HelpOfEveryVerbHasExamples) {
     EXPECT_EQ(cli({"--help"}).exit_code, 0);
-    for (const std::string verb : {"compare", "stress", "render", "diff", "graph", "list", "info"}) {
+    for (const std::string verb :
+         {"compare", "stress", "render", "diff", "graph", "list", "info"}) {
         const test::Ended ended = cli({verb, "--help"});
         EXPECT_EQ(ended.exit_code, 0) << verb;
         EXPECT_EQ(ended.err, "");
@@ -128,14 +129,12 @@ TEST_F(Cli, NumbersThatCannotBe) {
         refused("--size", size, "wanted WxH");
     for (const std::string count : {"0", "-1", "1.5", "nan", "abc", "", "99999999999999999999"})
         refused("--frames", count, "from 1 to");
-    for (const std::string count : {"-1", "x"})
-        refused("--warmup", count, "from 0 to");
+    for (const std::string count : {"-1", "x"}) refused("--warmup", count, "from 0 to");
     for (const std::string time : {"nan", "inf", "-inf", "1e999", "soon", "1s"})
         refused("--time", time, "finite");
     for (const std::string light : {"nan", "-0.1", "inf"})
         refused("--ambient", light, "at least 0");
-    for (const std::string stops : {"nan", "65", "-65"})
-        refused("--exposure", stops, "-64 to 64");
+    for (const std::string stops : {"nan", "65", "-65"}) refused("--exposure", stops, "-64 to 64");
     for (const std::string seed : {"-1", "1.5", "18446744073709551616"})
         refused("--seed", seed, "whole number");
 }

@@ -12,17 +12,21 @@ namespace test {
 /// Embree's robust mode on the CPU: a ray tracer by other people, in float as the device's walk is.
 class Embree {
 public:
-    explicit Embree(std::span<const bvh::Triangle> triangles) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+    explicit Embree(std::span<const bvh::Triangle> triangles)
+        : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
         rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         const std::size_t count = triangles.size();
-        auto* corners = static_cast<vec3*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), 3 * count));
+        auto* corners = static_cast<vec3*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), 3 * count));
         auto* indices = static_cast<std::uint32_t*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(std::uint32_t), count));
         for (std::size_t i = 0; i < count; ++i) {
-            corners[3 * i] = triangles[i].a, corners[3 * i + 1] = triangles[i].b, corners[3 * i + 2] = triangles[i].c;
-            for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) indices[k] = static_cast<std::uint32_t>(k);
+            corners[3 * i] = triangles[i].a, corners[3 * i + 1] = triangles[i].b,
+                        corners[3 * i + 2] = triangles[i].c;
+            for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
+                indices[k] = static_cast<std::uint32_t>(k);
         }
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene_, geometry);
@@ -43,8 +47,10 @@ public:
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const KernelRay& ray = rays[i];
             RTCRayHit query{};
-            query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y, query.ray.org_z = ray.origin.z;
-            query.ray.dir_x = ray.direction.x, query.ray.dir_y = ray.direction.y, query.ray.dir_z = ray.direction.z;
+            query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y,
+            query.ray.org_z = ray.origin.z;
+            query.ray.dir_x = ray.direction.x, query.ray.dir_y = ray.direction.y,
+            query.ray.dir_z = ray.direction.z;
             query.ray.tfar = ray.t_max;
             query.ray.mask = ~0u;
             query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -52,7 +58,12 @@ public:
             rtcInitIntersectContext(&context);
             rtcIntersect1(scene_, &context, &query);
             if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-            hits[i] = {query.ray.tfar, {1 - query.hit.u - query.hit.v, query.hit.u, query.hit.v}, query.hit.primID, 0, 1, 0};
+            hits[i] = {query.ray.tfar,
+                       {1 - query.hit.u - query.hit.v, query.hit.u, query.hit.v},
+                       query.hit.primID,
+                       0,
+                       1,
+                       0};
         }
         return hits;
     }

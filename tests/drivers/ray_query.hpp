@@ -14,14 +14,18 @@ public:
     explicit RayQuery(const RayQueryDevice& device);
 
     /// What each ray meets first; `object` and `steps` stay 0.
-    std::vector<KernelHit> closest(std::span<const bvh::Triangle> triangles, const std::vector<KernelRay>& rays) const;
+    std::vector<KernelHit> closest(std::span<const bvh::Triangle> triangles,
+                                   const std::vector<KernelRay>& rays) const;
 
 private:
     struct Structure;
-    Structure build(VkAccelerationStructureTypeKHR type, const VkAccelerationStructureGeometryKHR& geometry, std::uint32_t primitives) const;
+    Structure build(VkAccelerationStructureTypeKHR type,
+                    const VkAccelerationStructureGeometryKHR& geometry,
+                    std::uint32_t primitives) const;
     Structure bottom(const Memory& corners, std::uint32_t triangles) const;
     Structure top(const Structure& bottom) const;
-    void trace(const Structure& triangles, const Memory& rays, const Memory& hits, std::uint32_t count) const;
+    void trace(const Structure& triangles, const Memory& rays, const Memory& hits,
+               std::uint32_t count) const;
     void destroy(const Structure& structure) const;
 
     const RayQueryDevice& device_;

@@ -11,7 +11,8 @@ namespace {
 
 using gpu::check_vk;
 
-constexpr std::array kExtensions{VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+constexpr std::array kExtensions{VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+                                 VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                                  VK_KHR_RAY_QUERY_EXTENSION_NAME};
 
 bool has_ray_query(VkPhysicalDevice device) {
@@ -20,12 +21,15 @@ bool has_ray_query(VkPhysicalDevice device) {
     std::vector<VkExtensionProperties> list(count);
     vkEnumerateDeviceExtensionProperties(device, nullptr, &count, list.data());
     return std::ranges::all_of(kExtensions, [&](const char* wanted) {
-        return std::ranges::any_of(list, [&](const auto& e) { return !std::strcmp(e.extensionName, wanted); });
+        return std::ranges::any_of(
+            list, [&](const auto& e) { return !std::strcmp(e.extensionName, wanted); });
     });
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                          VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                          void* messages) {
     static_cast<std::vector<std::string>*>(messages)->push_back(data->pMessage);
     return VK_FALSE;
 }
@@ -58,18 +62,24 @@ std::unique_ptr<RayQueryDevice> RayQueryDevice::open(std::string& reason) {
 RayQueryDevice::~RayQueryDevice() {
     command_pool_ = {};
     if (device_) vkDestroyDevice(device_, nullptr);
-    if (messenger_) find_in<PFN_vkDestroyDebugUtilsMessengerEXT>(instance_, "vkDestroyDebugUtilsMessengerEXT")(instance_, messenger_, nullptr);
+    if (messenger_)
+        find_in<PFN_vkDestroyDebugUtilsMessengerEXT>(instance_, "vkDestroyDebugUtilsMessengerEXT")(
+            instance_, messenger_, nullptr);
     if (instance_) vkDestroyInstance(instance_, nullptr);
 }
 
 void RayQueryDevice::make_messenger() {
-    VkDebugUtilsMessengerCreateInfoEXT create{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
-    create.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    VkDebugUtilsMessengerCreateInfoEXT create{
+        VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    create.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                             VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     create.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
     create.pfnUserCallback = on_message;
     create.pUserData = &messages_;
-    check_vk(find_in<PFN_vkCreateDebugUtilsMessengerEXT>(instance_, "vkCreateDebugUtilsMessengerEXT")(instance_, &create, nullptr, &messenger_),
-             "create the validation messenger");
+    check_vk(
+        find_in<PFN_vkCreateDebugUtilsMessengerEXT>(instance_, "vkCreateDebugUtilsMessengerEXT")(
+            instance_, &create, nullptr, &messenger_),
+        "create the validation messenger");
 }
 
 void RayQueryDevice::make_device() {
@@ -78,10 +88,11 @@ void RayQueryDevice::make_device() {
     queues.queueFamilyIndex = static_cast<std::uint32_t>(gpu::find_queue_family(physical_));
     queues.queueCount = 1;
     queues.pQueuePriorities = &priority;
-    VkPhysicalDeviceRayQueryFeaturesKHR ray_query{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
+    VkPhysicalDeviceRayQueryFeaturesKHR ray_query{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
     ray_query.rayQuery = true;
-    VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR,
-                                                               &ray_query};
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &ray_query};
     structure.accelerationStructure = true;
     gpu::Features features;
     features.v12.bufferDeviceAddress = true;
@@ -93,7 +104,8 @@ void RayQueryDevice::make_device() {
     create.pQueueCreateInfos = &queues;
     create.enabledExtensionCount = static_cast<std::uint32_t>(kExtensions.size());
     create.ppEnabledExtensionNames = kExtensions.data();
-    check_vk(vkCreateDevice(physical_, &create, nullptr, &device_), "open device '" + name_ + "' with ray queries");
+    check_vk(vkCreateDevice(physical_, &create, nullptr, &device_),
+             "open device '" + name_ + "' with ray queries");
     vkGetDeviceQueue(device_, queues.queueFamilyIndex, 0, &queue_);
     make_commands(queues.queueFamilyIndex);
 }
@@ -112,7 +124,8 @@ void RayQueryDevice::make_commands(std::uint32_t queue_family) {
     check_vk(vkAllocateCommandBuffers(device_, &allocate, &commands_), "allocate a command buffer");
 }
 
-Memory RayQueryDevice::make_memory(std::uint64_t bytes, VkBufferUsageFlags usage, const void* contents) const {
+Memory RayQueryDevice::make_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
+                                   const void* contents) const {
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = std::max<std::uint64_t>(bytes, 16);
     create.usage = usage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
@@ -124,14 +137,16 @@ Memory RayQueryDevice::make_memory(std::uint64_t bytes, VkBufferUsageFlags usage
     vkGetBufferMemoryRequirements(device_, buffer, &needs);
     VkPhysicalDeviceMemoryProperties kinds;
     vkGetPhysicalDeviceMemoryProperties(physical_, &kinds);
-    constexpr VkMemoryPropertyFlags kShared = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags kShared = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                              VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags};
     allocate.allocationSize = needs.size;
     while (!(needs.memoryTypeBits >> allocate.memoryTypeIndex & 1) ||
            (kinds.memoryTypes[allocate.memoryTypeIndex].propertyFlags & kShared) != kShared)
-        check(++allocate.memoryTypeIndex < kinds.memoryTypeCount, Failure::internal, "no memory that both sides see");
+        check(++allocate.memoryTypeIndex < kinds.memoryTypeCount, Failure::internal,
+              "no memory that both sides see");
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check_vk(vkAllocateMemory(device_, &allocate, nullptr, &memory), "allocate memory");
     result.memory = {device_, memory};

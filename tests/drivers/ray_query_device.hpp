@@ -39,7 +39,8 @@ public:
     Function find(const char* function) const {
         return reinterpret_cast<Function>(vkGetDeviceProcAddr(device_, function));
     }
-    Memory make_memory(std::uint64_t bytes, VkBufferUsageFlags usage, const void* contents = nullptr) const;
+    Memory make_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
+                       const void* contents = nullptr) const;
 
     /// Records with `record`, submits and waits.
     template <typename Record>

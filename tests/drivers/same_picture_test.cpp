@@ -22,8 +22,10 @@ protected:
     }
 
     /// Pictures of the techniques in `place`/images.
-    void render(const Words& techniques, const std::string& place, const Environment& environment) const {
-        Words words = {"compare", "-o", place, "--size", "256x256", "--frames", "1", "--warmup", "1", "--no-causes", "--quiet", "--techniques"};
+    void render(const Words& techniques, const std::string& place,
+                const Environment& environment) const {
+        Words words = {"compare", "-o",       place, "--size",      "256x256", "--frames",
+                       "1",       "--warmup", "1",   "--no-causes", "--quiet", "--techniques"};
         words.insert(words.end(), techniques.begin(), techniques.end());
         test::Start process = start(words);
         process.environment = environment;
@@ -36,7 +38,8 @@ TEST_F(SamePicture, D4_TwoDriverVersions) {
     constexpr double kFlip = 0.0005;
     const auto second = test::second_driver();
     if (!second) GTEST_SKIP() << test::kNoSecondDriver;
-    const std::string driver_1 = json({"info", "--json"}, {})["device"]["driver"], driver_2 = json({"info", "--json"}, *second)["device"]["driver"];
+    const std::string driver_1 = json({"info", "--json"}, {})["device"]["driver"],
+                      driver_2 = json({"info", "--json"}, *second)["device"]["driver"];
     ASSERT_NE(driver_1, driver_2);
     EXPECT_THAT(driver_2, testing::HasSubstr("Mesa 25"));
     std::cout << "[ MEASURED ] D4 " << driver_1 << " and " << driver_2 << "\n";
@@ -46,13 +49,17 @@ TEST_F(SamePicture, D4_TwoDriverVersions) {
     render(techniques, "first", {});
     render(techniques, "second", *second);
     for (const std::string& technique : techniques) {
-        const measure::Picture a = measure::read_picture(folder / "first/images" / (technique + ".exr"));
-        const measure::Picture b = measure::read_picture(folder / "second/images" / (technique + ".exr"));
-        const double flip = measure::flip_mean(measure::flip(measure::to_display(a), measure::to_display(b)));
+        const measure::Picture a = measure::read_picture(folder / "first/images" /
+                                                         (technique + ".exr"));
+        const measure::Picture b = measure::read_picture(folder / "second/images" /
+                                                         (technique + ".exr"));
+        const double flip = measure::flip_mean(
+            measure::flip(measure::to_display(a), measure::to_display(b)));
         std::size_t different = 0;
-        for (std::size_t i = 0; i < a.pixels.size(); ++i) different += a.pixels[i] != b.pixels[i] ? 1 : 0;
-        std::cout << "[ MEASURED ] D4 " << technique << ": FLIP " << flip << ", " << different << " of " << a.pixels.size()
-                  << " pixels are not the same bits\n";
+        for (std::size_t i = 0; i < a.pixels.size(); ++i)
+            different += a.pixels[i] != b.pixels[i] ? 1 : 0;
+        std::cout << "[ MEASURED ] D4 " << technique << ": FLIP " << flip << ", " << different
+                  << " of " << a.pixels.size() << " pixels are not the same bits\n";
         EXPECT_LE(flip, kFlip) << technique;
     }
 }

@@ -21,18 +21,24 @@ struct Batch {
 /// The built-in scene as the ray tracer holds it, in scene units.
 inline std::vector<bvh::Triangle> built_in_scene() {
     const scene::Scene scene = scene::cornell_mirrors();
-    const render::Geometry geometry = render::make_geometry(scene::at(scene, 0), render::space_of(scene));
+    const render::Geometry geometry = render::make_geometry(scene::at(scene, 0),
+                                                            render::space_of(scene));
     std::vector<bvh::Triangle> result;
-    const auto corner = [&](std::size_t i) { return geometry.vertices[geometry.indices[i]].position; };
-    for (std::size_t i = 0; i < geometry.indices.size(); i += 3) result.push_back({corner(i), corner(i + 1), corner(i + 2)});
+    const auto corner = [&](std::size_t i) {
+        return geometry.vertices[geometry.indices[i]].position;
+    };
+    for (std::size_t i = 0; i < geometry.indices.size(); i += 3)
+        result.push_back({corner(i), corner(i + 1), corner(i + 2)});
     return result;
 }
 
 /// From anywhere in the box of the triangles in any direction.
-inline std::vector<KernelRay> rays_anywhere(const std::vector<bvh::Triangle>& triangles, std::size_t count, Numbers& numbers) {
+inline std::vector<KernelRay> rays_anywhere(const std::vector<bvh::Triangle>& triangles,
+                                            std::size_t count, Numbers& numbers) {
     vec3 lo(std::numeric_limits<float>::infinity()), hi = -lo;
     for (const bvh::Triangle& t : triangles)
-        for (const vec3& corner : {t.a, t.b, t.c}) lo = glm::min(lo, corner), hi = glm::max(hi, corner);
+        for (const vec3& corner : {t.a, t.b, t.c})
+            lo = glm::min(lo, corner), hi = glm::max(hi, corner);
     std::vector<KernelRay> rays(count);
     for (KernelRay& ray : rays) {
         ray.origin = (lo + hi) / 2.0f + (hi - lo) / 2.0f * numbers.in_cube();
@@ -50,7 +56,9 @@ inline vec3 on_an_edge(const std::vector<bvh::Triangle>& triangles, Numbers& num
 }
 
 /// The same rays turned to a corner or to a point of an edge.
-inline std::vector<KernelRay> turned_to_edges(std::vector<KernelRay> rays, const std::vector<bvh::Triangle>& triangles, Numbers& numbers) {
+inline std::vector<KernelRay> turned_to_edges(std::vector<KernelRay> rays,
+                                              const std::vector<bvh::Triangle>& triangles,
+                                              Numbers& numbers) {
     for (KernelRay& ray : rays) {
         ray.direction = on_an_edge(triangles, numbers) - ray.origin;
         if (numbers.word() % 2 == 0) ray.direction = glm::normalize(ray.direction);
@@ -59,21 +67,25 @@ inline std::vector<KernelRay> turned_to_edges(std::vector<KernelRay> rays, const
 }
 
 /// At angles of 10^-1 to 10^-7 to a triangle's plane, through one of its points.
-inline std::vector<KernelRay> grazing_rays(const std::vector<bvh::Triangle>& triangles, std::size_t count, Numbers& numbers) {
+inline std::vector<KernelRay> grazing_rays(const std::vector<bvh::Triangle>& triangles,
+                                           std::size_t count, Numbers& numbers) {
     std::vector<KernelRay> rays(count);
     for (KernelRay& ray : rays) {
         const bvh::Triangle& t = triangles[numbers.below(triangles.size())];
-        const vec3 w = numbers.weights(), along = glm::normalize(t.b - t.a), normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
+        const vec3 w = numbers.weights(), along = glm::normalize(t.b - t.a),
+                   normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
         const float turn = numbers.between(-3.1416f, 3.1416f);
         const vec3 flat = std::cos(turn) * along + std::sin(turn) * glm::cross(normal, along);
         ray.direction = glm::normalize(flat + numbers.wide(-7, -1) * normal);
-        ray.origin = w.x * t.a + w.y * t.b + w.z * t.c - numbers.between(0.01f, 1) * glm::distance(t.a, t.b) * ray.direction;
+        ray.origin = w.x * t.a + w.y * t.b + w.z * t.c -
+                     numbers.between(0.01f, 1) * glm::distance(t.a, t.b) * ray.direction;
     }
     return rays;
 }
 
 /// From strictly inside, in any direction.
-inline std::vector<KernelRay> rays_inside(const ClosedMesh& closed, double scale, dvec3 offset, std::size_t count, Numbers& numbers) {
+inline std::vector<KernelRay> rays_inside(const ClosedMesh& closed, double scale, dvec3 offset,
+                                          std::size_t count, Numbers& numbers) {
     std::vector<KernelRay> rays(count);
     for (KernelRay& ray : rays) {
         ray.origin = inside(closed, scale, offset, numbers);

@@ -1,8 +1,9 @@
-// The device's walk of the hierarchy beside two ray tracers by other people, ray by ray: Embree on the CPU and, where
-// the device has them, ray queries.
+// The device's walk of the hierarchy beside two ray tracers by other people, ray by ray: Embree on
+// the CPU and, where the device has them, ray queries.
 //
-// A ray at an edge has two good answers, so witnesses may differ. Where they do, each answer is judged: it is founded
-// when a ray that is moved by no more than the roundings of a float gets it in double precision.
+// A ray at an edge has two good answers, so witnesses may differ. Where they do, each answer is
+// judged: it is founded when a ray that is moved by no more than the roundings of a float gets it
+// in double precision.
 #include "drivers/embree.hpp"
 #include "drivers/ray_query.hpp"
 #include "drivers/second_driver.hpp"
@@ -23,14 +24,15 @@ using test::KernelRay;
 
 constexpr std::size_t kListed = 3; ///< unfounded answers of a witness in a batch
 
-/// The worst that others do, as a share of a batch: lavapipe's ray query where all rays are aimed at a corridor's edges.
+/// The worst that others do, as a share of a batch: lavapipe's ray query where all rays are aimed
+/// at a corridor's edges.
 constexpr double kOthersAtEdges = 0.05;
 
 struct Witness {
     std::string name;
     std::vector<KernelHit> hits;
-    std::size_t leaks = 0;      ///< misses from strictly inside a closed mesh
-    std::size_t off = 0;        ///< hits further from the triangle that they name than roundings explain
+    std::size_t leaks = 0; ///< misses from strictly inside a closed mesh
+    std::size_t off = 0;   ///< hits further from the triangle that they name than roundings explain
     std::size_t at_corners = 0; ///< unfounded answers to rays through a corner, within roundings
     std::size_t at_edges = 0;   ///< through an edge
     std::size_t elsewhere = 0;  ///< and all others
@@ -39,11 +41,14 @@ struct Witness {
 
 /// How two witnesses answer one ray.
 enum Verdict { kSame, kSamePlace, kOtherSurface, kHitOrMiss };
-constexpr std::array kVerdicts{"same triangle", "another at the same distance", "another surface", "hit or miss"};
+constexpr std::array kVerdicts{"same triangle", "another at the same distance", "another surface",
+                               "hit or miss"};
 
 dvec3 start(const KernelRay& ray) { return dvec3(ray.origin); }
 dvec3 along(const KernelRay& ray) { return glm::normalize(dvec3(ray.direction)); }
-std::array<dvec3, 3> corners(const bvh::Triangle& t) { return {dvec3(t.a), dvec3(t.b), dvec3(t.c)}; }
+std::array<dvec3, 3> corners(const bvh::Triangle& t) {
+    return {dvec3(t.a), dvec3(t.b), dvec3(t.c)};
+}
 
 /// Unit normal, zero without an area.
 dvec3 normal_of(const bvh::Triangle& t) {
@@ -54,7 +59,8 @@ dvec3 normal_of(const bvh::Triangle& t) {
 
 double to_corner(const bvh::Triangle& t, const KernelRay& ray) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const dvec3& corner : corners(t)) nearest = std::min(nearest, glm::length(glm::cross(along(ray), corner - start(ray))));
+    for (const dvec3& corner : corners(t))
+        nearest = std::min(nearest, glm::length(glm::cross(along(ray), corner - start(ray))));
     return nearest;
 }
 
@@ -69,12 +75,13 @@ std::array<double, 3> to_edges(const bvh::Triangle& t, const KernelRay& ray) {
     return result;
 }
 
-/// How far the roundings of a float may move a ray where it meets the triangle: 16 of them, as in box_ray
-/// (shaders/lib/math.glsl), of the offset of its farthest corner.
+/// How far the roundings of a float may move a ray where it meets the triangle: 16 of them, as in
+/// box_ray (shaders/lib/math.glsl), of the offset of its farthest corner.
 double slack(const bvh::Triangle& t, const KernelRay& ray) {
     double reach = 0;
     for (const dvec3& corner : corners(t))
-        for (int axis = 0; axis < 3; ++axis) reach = std::max(reach, std::abs(corner[axis] - start(ray)[axis]));
+        for (int axis = 0; axis < 3; ++axis)
+            reach = std::max(reach, std::abs(corner[axis] - start(ray)[axis]));
     return double{f32::gamma_bound(16)} * reach;
 }
 
@@ -88,7 +95,8 @@ bool is_off(const bvh::Triangle& t, const KernelRay& ray, const KernelHit& hit) 
     const auto [lowest, highest] = std::ranges::minmax(to_edges(t, ray));
     if (std::min(-lowest, highest) > slack(t, ray)) return true;
     const dvec3 normal = normal_of(t);
-    const double exact = glm::dot(normal, dvec3(t.a) - start(ray)) / glm::dot(normal, dvec3(ray.direction));
+    const double exact = glm::dot(normal, dvec3(t.a) - start(ray)) /
+                         glm::dot(normal, dvec3(ray.direction));
     const double limit = slack_of_t(t, ray);
     return std::isfinite(limit) && !(std::abs(double{hit.t} - exact) <= limit);
 }
@@ -96,30 +104,39 @@ bool is_off(const bvh::Triangle& t, const KernelRay& ray, const KernelHit& hit) 
 Verdict verdict(const Batch& batch, const KernelRay& ray, const KernelHit& a, const KernelHit& b) {
     if (a.found() != b.found()) return kHitOrMiss;
     if (!a.found() || a.triangle == b.triangle) return kSame;
-    const double limit = slack_of_t(batch.triangles[a.triangle], ray) + slack_of_t(batch.triangles[b.triangle], ray);
+    const double limit = slack_of_t(batch.triangles[a.triangle], ray) +
+                         slack_of_t(batch.triangles[b.triangle], ray);
     return std::abs(double{a.t} - double{b.t}) <= limit ? kSamePlace : kOtherSurface;
 }
 
 /// Whether a ray within `distance` of this one gets the answer in double precision.
-bool is_founded(const Batch& batch, const bvh::Bvh& hierarchy, const KernelRay& ray, const KernelHit& answer, double distance) {
+bool is_founded(const Batch& batch, const bvh::Bvh& hierarchy, const KernelRay& ray,
+                const KernelHit& answer, double distance) {
     constexpr int kRings = 12, kAround = 16; // from distance / 2048 on, each twice as wide
-    const dvec3 side = glm::normalize(glm::cross(along(ray), std::abs(along(ray).x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
+    const dvec3 side = glm::normalize(
+        glm::cross(along(ray), std::abs(along(ray).x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
     const dvec3 up = glm::cross(along(ray), side);
     for (int ring = 0; ring <= kRings; ++ring)
         for (int i = 0; i < (ring == 0 ? 1 : kAround); ++i) {
-            const double angle = 2 * std::numbers::pi * i / kAround, radius = ring == 0 ? 0 : std::ldexp(distance, ring - kRings);
-            const dvec3 origin = start(ray) + radius * (std::cos(angle) * side + std::sin(angle) * up);
-            const auto hit = bvh::closest_hit<double>(hierarchy, {origin, dvec3(ray.direction), 0}, std::numeric_limits<double>::infinity());
+            const double angle = 2 * std::numbers::pi * i / kAround,
+                         radius = ring == 0 ? 0 : std::ldexp(distance, ring - kRings);
+            const dvec3 origin = start(ray) +
+                                 radius * (std::cos(angle) * side + std::sin(angle) * up);
+            const auto hit = bvh::closest_hit<double>(hierarchy, {origin, dvec3(ray.direction), 0},
+                                                      std::numeric_limits<double>::infinity());
             KernelHit found;
-            if (hit) found = {static_cast<float>(hit->t), vec3(hit->barycentric), hit->triangle, 0, 1, 0};
+            if (hit)
+                found = {
+                    static_cast<float>(hit->t), vec3(hit->barycentric), hit->triangle, 0, 1, 0};
             if (verdict(batch, ray, found, answer) <= kSamePlace) return true;
         }
     return false;
 }
 
-/// How far a ray may have to be moved for answer `which`: by the roundings at its own triangle and at those that it
-/// passes by, which are the other witnesses' nearer ones.
-double distance_allowed(const Batch& batch, const std::vector<Witness>& witnesses, std::size_t which, std::size_t i) {
+/// How far a ray may have to be moved for answer `which`: by the roundings at its own triangle and
+/// at those that it passes by, which are the other witnesses' nearer ones.
+double distance_allowed(const Batch& batch, const std::vector<Witness>& witnesses,
+                        std::size_t which, std::size_t i) {
     const KernelHit& answer = witnesses[which].hits[i];
     double distance = 0;
     for (const Witness& witness : witnesses) {
@@ -130,30 +147,40 @@ double distance_allowed(const Batch& batch, const std::vector<Witness>& witnesse
     return distance;
 }
 
-void list(const Batch& batch, const std::vector<Witness>& witnesses, std::size_t which, std::size_t i) {
-    std::cout << "    unfounded: " << witnesses[which].name << ", ray " << i << ": " << test::text(batch.rays[i]) << "\n";
-    for (const Witness& witness : witnesses) std::cout << "      " << witness.name << ": " << test::text(witness.hits[i]) << "\n";
+void list(const Batch& batch, const std::vector<Witness>& witnesses, std::size_t which,
+          std::size_t i) {
+    std::cout << "    unfounded: " << witnesses[which].name << ", ray " << i << ": "
+              << test::text(batch.rays[i]) << "\n";
+    for (const Witness& witness : witnesses)
+        std::cout << "      " << witness.name << ": " << test::text(witness.hits[i]) << "\n";
 }
 
-/// Counts an unfounded answer where it belongs: near a corner or an edge of a triangle that a witness names.
-void charge(const Batch& batch, const std::vector<Witness>& witnesses, Witness& charged, std::size_t i) {
+/// Counts an unfounded answer where it belongs: near a corner or an edge of a triangle that a
+/// witness names.
+void charge(const Batch& batch, const std::vector<Witness>& witnesses, Witness& charged,
+            std::size_t i) {
     bool at_corner = false, at_edge = false;
     for (const Witness& witness : witnesses) {
         if (!witness.hits[i].found()) continue;
         const bvh::Triangle& t = batch.triangles[witness.hits[i].triangle];
         const double limit = slack(t, batch.rays[i]);
         at_corner = at_corner || to_corner(t, batch.rays[i]) <= limit;
-        for (const double edge : to_edges(t, batch.rays[i])) at_edge = at_edge || std::abs(edge) <= limit;
+        for (const double edge : to_edges(t, batch.rays[i]))
+            at_edge = at_edge || std::abs(edge) <= limit;
     }
     ++(at_corner ? charged.at_corners : at_edge ? charged.at_edges : charged.elsewhere);
 }
 
 void judge(const Batch& batch, const bvh::Bvh& hierarchy, std::vector<Witness>& witnesses) {
     for (std::size_t i = 0; i < batch.rays.size(); ++i) {
-        const auto differs = [&](const Witness& w) { return verdict(batch, batch.rays[i], witnesses[0].hits[i], w.hits[i]) > kSamePlace; };
+        const auto differs = [&](const Witness& w) {
+            return verdict(batch, batch.rays[i], witnesses[0].hits[i], w.hits[i]) > kSamePlace;
+        };
         if (std::none_of(witnesses.begin(), witnesses.end(), differs)) continue;
         for (std::size_t k = 0; k < witnesses.size(); ++k) {
-            if (is_founded(batch, hierarchy, batch.rays[i], witnesses[k].hits[i], distance_allowed(batch, witnesses, k, i))) continue;
+            if (is_founded(batch, hierarchy, batch.rays[i], witnesses[k].hits[i],
+                           distance_allowed(batch, witnesses, k, i)))
+                continue;
             if (witnesses[k].unfounded() < kListed) list(batch, witnesses, k, i);
             charge(batch, witnesses, witnesses[k], i);
         }
@@ -166,47 +193,60 @@ void count_alone(const Batch& batch, Witness& witness) {
         const KernelHit& hit = witness.hits[i];
         ASSERT_TRUE(!hit.found() || hit.triangle < batch.triangles.size());
         witness.leaks += batch.inside && !hit.found() ? 1 : 0;
-        witness.off += hit.found() && is_off(batch.triangles[hit.triangle], batch.rays[i], hit) ? 1 : 0;
+        witness.off += hit.found() && is_off(batch.triangles[hit.triangle], batch.rays[i], hit) ? 1
+                                                                                                : 0;
     }
 }
 
 void print_pair(const Batch& batch, const Witness& a, const Witness& b) {
     std::array<std::size_t, kVerdicts.size()> counts{};
-    for (std::size_t i = 0; i < batch.rays.size(); ++i) ++counts[verdict(batch, batch.rays[i], a.hits[i], b.hits[i])];
+    for (std::size_t i = 0; i < batch.rays.size(); ++i)
+        ++counts[verdict(batch, batch.rays[i], a.hits[i], b.hits[i])];
     std::cout << "  " << a.name << " and " << b.name << ":";
-    for (std::size_t kind = 0; kind < counts.size(); ++kind) std::cout << (kind ? ", " : " ") << counts[kind] << ' ' << kVerdicts[kind];
+    for (std::size_t kind = 0; kind < counts.size(); ++kind)
+        std::cout << (kind ? ", " : " ") << counts[kind] << ' ' << kVerdicts[kind];
     std::cout << "\n";
 }
 
 void compare(const Batch& batch, const bvh::Bvh& hierarchy, std::vector<Witness>& witnesses) {
-    std::cout << "[ MEASURED ] " << batch.name << ": " << batch.rays.size() << " rays, " << batch.triangles.size() << " triangles\n";
+    std::cout << "[ MEASURED ] " << batch.name << ": " << batch.rays.size() << " rays, "
+              << batch.triangles.size() << " triangles\n";
     for (Witness& witness : witnesses) count_alone(batch, witness);
     for (std::size_t a = 0; a < witnesses.size(); ++a)
-        for (std::size_t b = a + 1; b < witnesses.size(); ++b) print_pair(batch, witnesses[a], witnesses[b]);
+        for (std::size_t b = a + 1; b < witnesses.size(); ++b)
+            print_pair(batch, witnesses[a], witnesses[b]);
     judge(batch, hierarchy, witnesses);
     for (const Witness& w : witnesses)
-        std::cout << "  " << w.name << ": " << w.leaks << " leaks, " << w.off << " off their triangle, unfounded " << w.at_corners << " at corners, "
+        std::cout << "  " << w.name << ": " << w.leaks << " leaks, " << w.off
+                  << " off their triangle, unfounded " << w.at_corners << " at corners, "
                   << w.at_edges << " at edges, " << w.elsewhere << " elsewhere\n";
 }
 
 /// Through a mesh: anywhere, at edges, and nearly in the planes of its triangles.
-void add_closed(std::vector<Batch>& batches, const std::string& name, const test::ClosedMesh& closed, double scale, dvec3 offset,
+void add_closed(std::vector<Batch>& batches, const std::string& name,
+                const test::ClosedMesh& closed, double scale, dvec3 offset,
                 test::Numbers& numbers) {
     constexpr std::size_t kRays = 100000;
     const std::vector<bvh::Triangle> triangles = test::placed(closed.mesh, scale, offset).value();
     const std::vector<KernelRay> inside = test::rays_inside(closed, scale, offset, kRays, numbers);
     batches.push_back({name + ", from inside", triangles, inside, true});
-    batches.push_back({name + ", from inside at edges", triangles, test::turned_to_edges(inside, triangles, numbers), true});
-    batches.push_back({name + ", grazing", triangles, test::grazing_rays(triangles, kRays, numbers), false, true});
+    batches.push_back({name + ", from inside at edges", triangles,
+                       test::turned_to_edges(inside, triangles, numbers), true});
+    batches.push_back({name + ", grazing", triangles, test::grazing_rays(triangles, kRays, numbers),
+                       false, true});
 }
 
 std::vector<Batch> batches() {
     test::Numbers numbers(41);
     std::vector<Batch> result;
     const std::vector<bvh::Triangle> scene = test::built_in_scene();
-    result.push_back({"built-in scene, anywhere", scene, test::rays_anywhere(scene, 500000, numbers)});
-    result.push_back({"built-in scene, at edges", scene, test::turned_to_edges(test::rays_anywhere(scene, 300000, numbers), scene, numbers)});
-    result.push_back({"built-in scene, grazing", scene, test::grazing_rays(scene, 300000, numbers), false, true});
+    result.push_back(
+        {"built-in scene, anywhere", scene, test::rays_anywhere(scene, 500000, numbers)});
+    result.push_back(
+        {"built-in scene, at edges", scene,
+         test::turned_to_edges(test::rays_anywhere(scene, 300000, numbers), scene, numbers)});
+    result.push_back({"built-in scene, grazing", scene, test::grazing_rays(scene, 300000, numbers),
+                      false, true});
     add_closed(result, "ball", test::ball(), 1, dvec3(0), numbers);
     add_closed(result, "torus", test::torus(), 1, dvec3(0), numbers);
     add_closed(result, "room", test::box("room", 1), 1, dvec3(0), numbers);
@@ -221,29 +261,38 @@ TEST(Witnesses, AgreeRayByRay) {
     const std::unique_ptr<test::RayQueryDevice> device = test::RayQueryDevice::open(reason);
     std::optional<test::RayQuery> ray_query;
     if (device) ray_query.emplace(*device);
-    std::cout << "[ MEASURED ] walk on " << test::bench().device.info().driver << ", Embree " << RTC_VERSION_STRING << ", "
-              << (device ? "ray query on " + device->name() : reason) << "\n";
+    std::cout << "[ MEASURED ] walk on " << test::bench().device.info().driver << ", Embree "
+              << RTC_VERSION_STRING << ", " << (device ? "ray query on " + device->name() : reason)
+              << "\n";
     std::size_t rays = 0, found = 0;
     for (const Batch& batch : batches()) {
         SCOPED_TRACE(batch.name);
         Kernel kernel(batch.triangles);
-        std::vector<Witness> witnesses{{"walk", kernel.closest(batch.rays)}, {"embree", test::Embree(batch.triangles).closest(batch.rays)}};
-        if (ray_query) witnesses.push_back({"ray query", ray_query->closest(batch.triangles, batch.rays)});
+        std::vector<Witness> witnesses{
+            {"walk", kernel.closest(batch.rays)},
+            {"embree", test::Embree(batch.triangles).closest(batch.rays)}};
+        if (ray_query)
+            witnesses.push_back({"ray query", ray_query->closest(batch.triangles, batch.rays)});
         compare(batch, kernel.hierarchy(), witnesses);
         EXPECT_EQ(witnesses[0].leaks, 0u);
         EXPECT_EQ(witnesses[0].unfounded(), 0u);
         for (const Witness& witness : witnesses) {
             EXPECT_EQ(witness.off, 0u) << witness.name;
             EXPECT_EQ(witness.elsewhere, 0u) << witness.name;
-            EXPECT_LE(static_cast<double>(witness.unfounded()), kOthersAtEdges * static_cast<double>(batch.rays.size())) << witness.name;
+            EXPECT_LE(static_cast<double>(witness.unfounded()),
+                      kOthersAtEdges * static_cast<double>(batch.rays.size()))
+                << witness.name;
         }
         rays += batch.rays.size();
-        found += static_cast<std::size_t>(std::count_if(witnesses[0].hits.begin(), witnesses[0].hits.end(), [](const KernelHit& h) { return h.found(); }));
+        found += static_cast<std::size_t>(
+            std::count_if(witnesses[0].hits.begin(), witnesses[0].hits.end(),
+                          [](const KernelHit& h) { return h.found(); }));
     }
     if (device) {
         EXPECT_THAT(device->messages(), testing::IsEmpty());
     }
-    std::cout << "[ MEASURED ] " << found << " of " << rays << " rays hit, " << (device ? "three" : "two") << " witnesses\n";
+    std::cout << "[ MEASURED ] " << found << " of " << rays << " rays hit, "
+              << (device ? "three" : "two") << " witnesses\n";
     EXPECT_GT(found, rays / 2);
 }
 
@@ -251,9 +300,10 @@ TEST(Witnesses, AgreeRayByRay) {
 TEST(Witnesses, AgreeOnTheSecondDriver) {
     const auto environment = test::second_driver();
     if (!environment) GTEST_SKIP() << test::kNoSecondDriver;
-    const test::Ended ended = test::run_process({.command = {std::filesystem::read_symlink("/proc/self/exe").string(),
-                                                             "--gtest_filter=Witnesses.AgreeRayByRay"},
-                                                 .environment = *environment});
+    const test::Ended ended = test::run_process(
+        {.command = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                     "--gtest_filter=Witnesses.AgreeRayByRay"},
+         .environment = *environment});
     std::cout << ended.out;
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, testing::HasSubstr("ray query on llvmpipe"));

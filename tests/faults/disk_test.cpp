@@ -1,5 +1,5 @@
-// R5: every kind of file that is written meets a full disk, a limit of file size, a folder that takes no files and
-// a folder of its own name: 73 or 74, the old file intact, no temporary left.
+// R5: every kind of file that is written meets a full disk, a limit of file size, a folder that
+// takes no files and a folder of its own name: 73 or 74, the old file intact, no temporary left.
 #include "faults/faults.hpp"
 
 #include <cstring>
@@ -13,25 +13,36 @@ namespace fs = std::filesystem;
 class Disk : public Cli {
 protected:
     /// The files of a comparison, in the order in which they are written.
-    const Words files = {"images/reference.png", "images/raytrace.exr", "images/raytrace.png", "images/raytrace-error.png",
-                         "rows.csv", "report.md", "report.html", "report.json"};
+    const Words files = {"images/reference.png",
+                         "images/raytrace.exr",
+                         "images/raytrace.png",
+                         "images/raytrace-error.png",
+                         "rows.csv",
+                         "report.md",
+                         "report.html",
+                         "report.json"};
 
     static Words comparison(const std::string& into) {
-        return {"compare", "-o", into, "--size", "16x16", "--frames", "1", "--warmup", "0", "--quiet", "--techniques", "raytrace"};
+        return {"compare", "-o",       into, "--size",  "16x16",        "--frames",
+                "1",       "--warmup", "0",  "--quiet", "--techniques", "raytrace"};
     }
     Words picture(const std::string& path) const {
-        return {"render", "--technique", "raytrace:depth=1", "--size", "64x64", "--frames", "1", "--warmup", "0", "--quiet", "-o", path};
+        return {"render",   "--technique", "raytrace:depth=1", "--size", "64x64", "--frames", "1",
+                "--warmup", "0",           "--quiet",          "-o",     path};
     }
     /// Temporaries of whole-file writes.
     Words strays() const {
         Words found;
         for (const auto& entry : fs::recursive_directory_iterator(folder))
-            if (entry.path().filename().string().find(".partial-") != std::string::npos) found.push_back(entry.path());
+            if (entry.path().filename().string().find(".partial-") != std::string::npos)
+                found.push_back(entry.path());
         return found;
     }
 
-    /// Comparisons, in each of which `prepare(place)` made one of the files impossible: exit code and message.
-    void compare_without_each_file(const std::function<void(const fs::path& file)>& prepare, int exit_code, const std::string& why) const {
+    /// Comparisons, in each of which `prepare(place)` made one of the files impossible: exit code
+    /// and message.
+    void compare_without_each_file(const std::function<void(const fs::path& file)>& prepare,
+                                   int exit_code, const std::string& why) const {
         two_at_a_time(files.size(), [&](std::size_t i) {
             const std::string out = "out-" + std::to_string(i);
             const fs::path file = folder / out / files[i];
@@ -56,7 +67,8 @@ struct FullDisk {
     /// After this nothing more can be written.
     void fill() const {
         std::ofstream filler(path / "filler", std::ios::binary);
-        for (char page[4096] = {}; filler.write(page, sizeof page).flush();) {}
+        for (char page[4096] = {}; filler.write(page, sizeof page).flush();) {
+        }
     }
     fs::path path;
     bool mounted = false;
@@ -66,10 +78,14 @@ struct FullDisk {
 TEST_F(Disk, FullForEveryFileOfAComparison) {
     const FullDisk disk(folder / "disk");
     if (!disk.mounted) GTEST_SKIP() << "cannot mount a small tmpfs: " << disk.why;
-    for (const std::string& name : files) write("disk/" + fs::path(name).filename().string(), "old");
+    for (const std::string& name : files)
+        write("disk/" + fs::path(name).filename().string(), "old");
     disk.fill();
-    compare_without_each_file([&](const fs::path& file) { fs::create_symlink(disk.path / file.filename(), file); }, 74, "No space left on device");
-    for (const std::string& name : files) EXPECT_EQ(read_path(disk.path / fs::path(name).filename()), "old");
+    compare_without_each_file(
+        [&](const fs::path& file) { fs::create_symlink(disk.path / file.filename(), file); }, 74,
+        "No space left on device");
+    for (const std::string& name : files)
+        EXPECT_EQ(read_path(disk.path / fs::path(name).filename()), "old");
 }
 
 TEST_F(Disk, FullForAPictureAndItsTrace) {
@@ -108,9 +124,13 @@ TEST_F(Disk, LimitOfFileSizeEndsAsAnErrorAndNotAsASignal) {
 
 /// Nobody may make files in /proc, not even root, whom permissions do not stop.
 TEST_F(Disk, FolderThatTakesNoFiles) {
-    if (!fs::is_directory("/proc/self")) GTEST_SKIP() << "no /proc, a folder in which not even root can make a file";
-    compare_without_each_file([](const fs::path& file) { fs::create_symlink("/proc" / file.filename(), file); }, 73, "cannot be created");
-    for (const std::string name : {"/proc/x.exr", "/proc/x.png"}) expect_ended(cli(picture(name)), 73, {name, "cannot be created"});
+    if (!fs::is_directory("/proc/self"))
+        GTEST_SKIP() << "no /proc, a folder in which not even root can make a file";
+    compare_without_each_file(
+        [](const fs::path& file) { fs::create_symlink("/proc" / file.filename(), file); }, 73,
+        "cannot be created");
+    for (const std::string name : {"/proc/x.exr", "/proc/x.png"})
+        expect_ended(cli(picture(name)), 73, {name, "cannot be created"});
     Words words = picture("y.png");
     words.insert(words.end(), {"--trace", "/proc/t.json"});
     expect_ended(cli(words), 73, {"/proc/t.json", "cannot be created"});
@@ -130,7 +150,8 @@ TEST_F(Disk, ReadOnlyFolder) {
 }
 
 TEST_F(Disk, FolderInThePlaceOfEachFile) {
-    compare_without_each_file([](const fs::path& file) { fs::create_directory(file); }, 73, "found a folder");
+    compare_without_each_file([](const fs::path& file) { fs::create_directory(file); }, 73,
+                              "found a folder");
 }
 
 } // namespace

@@ -14,7 +14,9 @@ namespace fs = std::filesystem;
 /// Compiled shaders, shared by all runs: without it compiling would be most of the time.
 const fs::path& shader_cache() {
     static const struct Folder {
-        Folder() : path(fs::temp_directory_path() / ("catoptric-faults-cache-" + std::to_string(::getpid()))) {
+        Folder()
+            : path(fs::temp_directory_path() /
+                   ("catoptric-faults-cache-" + std::to_string(::getpid()))) {
             fs::create_directories(path);
         }
         ~Folder() {
@@ -32,7 +34,8 @@ std::string Watched::leaks() const {
     if (counts.empty()) return "no report of the layer: the program crashed";
     std::string text;
     for (const auto& [call, count] : counts)
-        if (count.alive != 0) text += std::to_string(count.alive) + " of " + call + " never destroyed; ";
+        if (count.alive != 0)
+            text += std::to_string(count.alive) + " of " + call + " never destroyed; ";
     if (strays != 0) text += std::to_string(strays) + " handles destroyed that were not alive";
     return text;
 }
@@ -40,10 +43,12 @@ std::string Watched::leaks() const {
 void Faults::SetUp() {
     static const Watched probe = watch({"list", "devices"}, std::nullopt);
     if (!probe.counts.empty()) return;
-    FAIL() << "the loader did not load the layer of " << CATOPTRIC_FAULTS_LAYER << ": " << probe.ended.err;
+    FAIL() << "the loader did not load the layer of " << CATOPTRIC_FAULTS_LAYER << ": "
+           << probe.ended.err;
 }
 
-Watched Faults::watch(const Words& words, const std::optional<Fault>& fault, const std::string& place) const {
+Watched Faults::watch(const Words& words, const std::optional<Fault>& fault,
+                      const std::string& place) const {
     test::Start process = start(words);
     process.folder = folder / place;
     const fs::path report = folder / (place == "." ? "calls.txt" : place + ".calls.txt");
@@ -53,8 +58,8 @@ Watched Faults::watch(const Words& words, const std::optional<Fault>& fault, con
                            {"CATOPTRIC_FAULT_REPORT", report.string()},
                            {"MESA_SHADER_CACHE_DIR", shader_cache().string()}};
     if (fault)
-        process.environment["CATOPTRIC_FAULT"] =
-            fault->call + ":" + std::to_string(fault->at) + ":" + std::to_string(fault->result);
+        process.environment["CATOPTRIC_FAULT"] = fault->call + ":" + std::to_string(fault->at) +
+                                                 ":" + std::to_string(fault->result);
     Watched watched{.ended = test::run_process(process)};
     std::istringstream lines(read_path(report));
     for (std::string line; std::getline(lines, line);) {

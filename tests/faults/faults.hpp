@@ -20,9 +20,10 @@ struct Count {
 /// A run under the layer of tests/faults/layer.
 struct Watched {
     test::Ended ended;
-    std::map<std::string, Count> counts; ///< empty when the program crashed or the layer was not there
-    int strays = 0;                      ///< handles destroyed that were not alive
-    std::uint64_t most_bytes = 0;        ///< of device memory at one time
+    std::map<std::string, Count>
+        counts;                   ///< empty when the program crashed or the layer was not there
+    int strays = 0;               ///< handles destroyed that were not alive
+    std::uint64_t most_bytes = 0; ///< of device memory at one time
 
     /// What is wrong with what it left on the device; empty = nothing.
     std::string leaks() const;
@@ -35,7 +36,8 @@ protected:
     void SetUp() override;
 
     /// Runs in `place`, a folder below the test's own that must be there.
-    Watched watch(const Words& words, const std::optional<Fault>& fault, const std::string& place = ".") const;
+    Watched watch(const Words& words, const std::optional<Fault>& fault,
+                  const std::string& place = ".") const;
 };
 
 /// Calls `run(i)` for each i below `count`, two at a time: most of a program's run is one thread's.

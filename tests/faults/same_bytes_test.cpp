@@ -1,5 +1,5 @@
-// D1: the same command gives the same bytes, every time, with one and two threads of the driver, with and
-// without validation.
+// D1: the same command gives the same bytes, every time, with one and two threads of the driver,
+// with and without validation.
 #include "faults/faults.hpp"
 
 namespace {
@@ -9,11 +9,14 @@ namespace fs = std::filesystem;
 class SameBytes : public Faults {};
 
 TEST_F(SameBytes, PicturesOfEveryTechnique) {
-    Words words = {"compare", "-o", "out", "--size", "64x64", "--frames", "1", "--warmup", "1", "--no-causes", "--quiet", "--techniques"};
-    const nlohmann::json list = nlohmann::json::parse(cli({"list", "techniques", "--json"}).out)["techniques"];
+    Words words = {"compare", "-o",       "out", "--size",      "64x64",   "--frames",
+                   "1",       "--warmup", "1",   "--no-causes", "--quiet", "--techniques"};
+    const nlohmann::json list = nlohmann::json::parse(
+        cli({"list", "techniques", "--json"}).out)["techniques"];
     for (const auto& technique : list) {
         const auto has_face = [](const auto& knob) { return knob["name"] == "face"; };
-        const bool captures = std::any_of(technique["knobs"].begin(), technique["knobs"].end(), has_face);
+        const bool captures = std::any_of(technique["knobs"].begin(), technique["knobs"].end(),
+                                          has_face);
         words.push_back(technique["name"].get<std::string>() + (captures ? ":face=64" : ""));
     }
 
@@ -21,7 +24,8 @@ TEST_F(SameBytes, PicturesOfEveryTechnique) {
         const char* threads;
         bool validate;
     };
-    const std::vector<Way> ways = {{"2", false}, {"2", false}, {"2", false}, {"1", false}, {"2", true}, {"1", true}};
+    const std::vector<Way> ways = {{"2", false}, {"2", false}, {"2", false},
+                                   {"1", false}, {"2", true},  {"1", true}};
     std::vector<std::map<std::string, std::string>> pictures(ways.size());
     two_at_a_time(ways.size(), [&](std::size_t i) {
         const fs::path place = folder / std::to_string(i);
@@ -33,16 +37,19 @@ TEST_F(SameBytes, PicturesOfEveryTechnique) {
         const test::Ended ended = test::run_process(process);
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         for (const auto& entry : fs::directory_iterator(place / "out/images"))
-            if (!entry.path().stem().string().ends_with("-error")) pictures[i][entry.path().filename()] = read_path(entry.path());
+            if (!entry.path().stem().string().ends_with("-error"))
+                pictures[i][entry.path().filename()] = read_path(entry.path());
     });
     EXPECT_EQ(pictures[0].size(), 2 * list.size() + 1); // an EXR and a PNG each, and the reference
     for (std::size_t i = 1; i < ways.size(); ++i) {
         ASSERT_EQ(pictures[i].size(), pictures[0].size());
         for (const auto& [name, bytes] : pictures[0])
-            EXPECT_TRUE(pictures[i].at(name) == bytes) << name << " is another with " << ways[i].threads << " threads"
-                                                       << (ways[i].validate ? " and --validate" : "");
+            EXPECT_TRUE(pictures[i].at(name) == bytes)
+                << name << " is another with " << ways[i].threads << " threads"
+                << (ways[i].validate ? " and --validate" : "");
     }
-    std::printf("  %zu pictures of %zu techniques, %zu runs\n", pictures[0].size(), list.size(), ways.size());
+    std::printf("  %zu pictures of %zu techniques, %zu runs\n", pictures[0].size(), list.size(),
+                ways.size());
 }
 
 } // namespace

@@ -14,25 +14,29 @@ protected:
 };
 
 TEST_F(Surroundings, ReaderThatHasGoneAfterTheWork) {
-    for (const Words& words : {small({"render", "--technique", "raytrace:depth=1", "-o", "-"}),
-                               small({"render", "--technique", "raytrace:depth=1", "--json", "-o", "x.png"}),
-                               small({"compare", "-o", "out", "--techniques", "raytrace:depth=1"}),
-                               small({"compare", "-o", "json", "--json", "--techniques", "raytrace:depth=1"}),
-                               Words{"diff", "--json", "x.png", "x.png"}}) {
+    for (const Words& words :
+         {small({"render", "--technique", "raytrace:depth=1", "-o", "-"}),
+          small({"render", "--technique", "raytrace:depth=1", "--json", "-o", "x.png"}),
+          small({"compare", "-o", "out", "--techniques", "raytrace:depth=1"}),
+          small({"compare", "-o", "json", "--json", "--techniques", "raytrace:depth=1"}),
+          Words{"diff", "--json", "x.png", "x.png"}}) {
         test::Start process = start(words);
         process.no_reader = true;
         const test::Ended ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 74) << words[0];
         EXPECT_EQ(ended.err, "") << words[0];
     }
-    EXPECT_TRUE(fs::exists(folder / "out/report.json")) << "the files are there, whoever reads the table";
+    EXPECT_TRUE(fs::exists(folder / "out/report.json"))
+        << "the files are there, whoever reads the table";
 }
 
 TEST_F(Surroundings, CacheFolderThatCannotBeWritten) {
     write("file", "");
     for (const fs::path& place : {fs::path("/proc/none"), folder / "file"}) {
-        test::Start process = start(small({"render", "--technique", "parallax", "-o", "x.png", "--quiet"}));
-        for (const char* variable : {"HOME", "XDG_CACHE_HOME", "MESA_SHADER_CACHE_DIR"}) process.environment[variable] = place.string();
+        test::Start process = start(
+            small({"render", "--technique", "parallax", "-o", "x.png", "--quiet"}));
+        for (const char* variable : {"HOME", "XDG_CACHE_HOME", "MESA_SHADER_CACHE_DIR"})
+            process.environment[variable] = place.string();
         const test::Ended ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_LE(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
@@ -47,8 +51,10 @@ TEST_F(Surroundings, SignalKeepsTheRowsAndIsHeardSoon) {
     for (const auto& [signal, exit_code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}})
         for (const std::string at : {"[1/4]", "[3/4]"}) {
             fs::remove_all(folder / "out");
-            test::Start process = start({"compare", "-o", "out", "--size", "32x32", "--frames", "10", "--warmup", "1", "--progress", "always",
-                                         "--techniques", "reuse:face=16", "hybrid:face=16", "parallax:face=16", "secant:face=16"});
+            test::Start process = start({"compare", "-o", "out", "--size", "32x32", "--frames",
+                                         "10", "--warmup", "1", "--progress", "always",
+                                         "--techniques", "reuse:face=16", "hybrid:face=16",
+                                         "parallax:face=16", "secant:face=16"});
             process.signal = signal;
             process.signal_at = at;
             const test::Ended ended = test::run_process(process);
@@ -60,15 +66,17 @@ TEST_F(Surroundings, SignalKeepsTheRowsAndIsHeardSoon) {
             EXPECT_GE(document["rows"].size(), static_cast<std::size_t>(at[1] - '1')) << at;
             EXPECT_LT(document["rows"].size(), 4U) << at;
             for (const auto& row : document["rows"])
-                EXPECT_TRUE(fs::exists(folder / "out/images" / fs::path(row["image"].get<std::string>()).filename()));
+                EXPECT_TRUE(fs::exists(folder / "out/images" /
+                                       fs::path(row["image"].get<std::string>()).filename()));
         }
     std::printf("  from the signal to the end: at most %.2f s\n", longest);
 }
 
 /// A frame is one submit, which ends; what it showed is not written.
 TEST_F(Surroundings, SignalInTheLastFrameStopsToo) {
-    test::Start process = start({"render", "--technique", "raytrace:samples=128", "--size", "512x512", "--frames", "1", "--warmup", "0",
-                                 "--progress", "always", "-o", "x.png"});
+    test::Start process = start({"render", "--technique", "raytrace:samples=128", "--size",
+                                 "512x512", "--frames", "1", "--warmup", "0", "--progress",
+                                 "always", "-o", "x.png"});
     process.signal = SIGINT;
     process.signal_at = "[1/1]";
     process.signal_after = std::chrono::milliseconds(1000);

@@ -27,7 +27,8 @@ TEST(ChangedScene, FramesBeforeAndAfterAreThoseOfTheOneAndTheOther) {
 }
 
 TEST(ChangedScene, HistoryIsKept) {
-    // The first frame without the lamp still shows its light in mirrors seen in mirrors; a cold start shows black there.
+    // The first frame without the lamp still shows its light in mirrors seen in mirrors; a cold
+    // start shows black there.
     EXPECT_FALSE(test::same_bytes(picture(kLit, kLit + 1), picture(0, 1)));
     EXPECT_FALSE(test::same_bytes(picture(kLit, kLit + 1), picture(0, kLit + 1)));
 }

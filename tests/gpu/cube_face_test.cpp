@@ -1,5 +1,5 @@
-// Each face of a capture sees its wall, the right way round, at the right distance; a world direction
-// finds in the cube map what lies in that direction.
+// Each face of a capture sees its wall, the right way round, at the right distance; a world
+// direction finds in the cube map what lies in that direction.
 #include "core/shader_math.hpp"
 #include "stress/glyph_room.hpp"
 #include "stress/texels.hpp"
@@ -14,8 +14,8 @@ using namespace catoptric;
 using stress::GlyphRoom;
 
 constexpr std::uint32_t kFace = 64;
-// Rasterisers snap corners to 1/256 of a texel, 2^-13 of a face's half width, which a wall seen at a flat
-// angle stretches; in shares of a wall.
+// Rasterisers snap corners to 1/256 of a texel, 2^-13 of a face's half width, which a wall seen at
+// a flat angle stretches; in shares of a wall.
 constexpr double kSnap = 0.001;
 // Half the diagonal of a texel that is looked up linearly, stretched likewise.
 constexpr double kTexel = 0.03;
@@ -24,28 +24,36 @@ TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
     const GlyphRoom room;
     const test::Captured captured = test::capture(room.scene(), kFace, Format::r32f);
     std::size_t wrong = 0, judged = 0, inked = 0;
-    stress::for_texels(kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-        const GlyphRoom::Seen seen = room.look(direction);
-        if (seen.margin < kSnap) return; // the texel's centre lies on an edge
-        ++judged, inked += seen.glyph;
-        wrong += captured.colour(0, face, x, y) != room.colour(seen);
-    });
+    stress::for_texels(kFace,
+                       [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+                           const GlyphRoom::Seen seen = room.look(direction);
+                           if (seen.margin < kSnap) return; // the texel's centre lies on an edge
+                           ++judged, inked += seen.glyph;
+                           wrong += captured.colour(0, face, x, y) != room.colour(seen);
+                       });
     EXPECT_GT(judged, 6 * kFace * kFace * 95 / 100);
     EXPECT_GT(inked, 1000u);
     EXPECT_EQ(wrong, 0u);
 }
 
-/// The middle of each stroke, projected by the table of the specification, falls on a texel of its colour.
+/// The middle of each stroke, projected by the table of the specification, falls on a texel of its
+/// colour.
 TEST(CubeFace, GlyphsLieWhereTheyProject) {
     const GlyphRoom room;
     const test::Captured captured = test::capture(room.scene(), kFace, Format::r32f);
     for (int wall = 0; wall < 6; ++wall)
         for (const GlyphRoom::Stroke& stroke : GlyphRoom::kStrokes) {
-            const dvec3 middle = room.place(wall, (stroke.u0 + stroke.u1) / 2, (stroke.v0 + stroke.v1) / 2) - room.centre;
+            const dvec3 middle = room.place(wall, (stroke.u0 + stroke.u1) / 2,
+                                            (stroke.v0 + stroke.v1) / 2) -
+                                 room.centre;
             const int face = f32::cube_face(vec3(middle));
             const vec3 place = f32::cube_coordinates(face, vec3(middle));
-            const auto texel = [](float coordinate) { return static_cast<std::uint32_t>((coordinate * .5f + .5f) * static_cast<float>(kFace)); };
-            EXPECT_EQ(captured.colour(0, face, texel(place.x / place.z), texel(place.y / place.z)), GlyphRoom::glyph_colour(wall))
+            const auto texel = [](float coordinate) {
+                return static_cast<std::uint32_t>((coordinate * .5f + .5f) *
+                                                  static_cast<float>(kFace));
+            };
+            EXPECT_EQ(captured.colour(0, face, texel(place.x / place.z), texel(place.y / place.z)),
+                      GlyphRoom::glyph_colour(wall))
                 << "wall " << wall << ", face " << face;
         }
 }
@@ -60,8 +68,10 @@ TEST(CubeFace, ALookupAlongAWorldDirectionFindsIt) {
     std::mt19937 random(1);
     std::normal_distribution<double> normal;
     std::vector<vec4> directions;
-    for (int i = 0; i < 4096; ++i) directions.emplace_back(vec3(normal(random), normal(random), normal(random)), 0.0f);
-    gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4), gpu::BufferUse::plain);
+    for (int i = 0; i < 4096; ++i)
+        directions.emplace_back(vec3(normal(random), normal(random), normal(random)), 0.0f);
+    gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4),
+                      gpu::BufferUse::plain);
     asked.write(std::span<const vec4>(directions));
 
     graph::Runner runner(device, pipelines);
@@ -94,14 +104,16 @@ TEST(CubeFace, ALookupAlongAWorldDirectionFindsIt) {
         ++judged;
         wrong += vec3(answers[i]) != room.colour(seen);
         // Nearest texel: its centre is at most half a diagonal away, where distance changes little.
-        EXPECT_NEAR(answers[i].w, gpu_scene.space().length(seen.distance), 0.02 * gpu_scene.space().length(seen.distance));
+        EXPECT_NEAR(answers[i].w, gpu_scene.space().length(seen.distance),
+                    0.02 * gpu_scene.space().length(seen.distance));
     }
     EXPECT_GT(judged, 1000u);
     EXPECT_EQ(wrong, 0u);
 }
 
 class Distances : public testing::TestWithParam<Format> {};
-INSTANTIATE_TEST_SUITE_P(Formats, Distances, testing::Values(Format::r32f, Format::r16f, Format::r8_unorm),
+INSTANTIATE_TEST_SUITE_P(Formats, Distances,
+                         testing::Values(Format::r32f, Format::r16f, Format::r8_unorm),
                          [](const auto& instance) { return std::string(name_of(instance.param)); });
 
 TEST_P(Distances, AreThoseOfTheWalls) {
@@ -111,11 +123,13 @@ TEST_P(Distances, AreThoseOfTheWalls) {
     const test::Captured captured = test::capture(room.scene(), kFace, GetParam(), kRange);
     const double unit = unorm ? captured.space.length(kRange) : 1.0;
     double worst = 0;
-    stress::for_texels(kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-        const double wanted = captured.space.length(room.look(direction).distance) / unit;
-        const double found = captured.distance(0, face, x, y, GetParam());
-        worst = std::max(worst, unorm ? std::abs(found - std::min(wanted, 1.0)) : std::abs(found - wanted) / wanted);
-    });
+    stress::for_texels(
+        kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+            const double wanted = captured.space.length(room.look(direction).distance) / unit;
+            const double found = captured.distance(0, face, x, y, GetParam());
+            worst = std::max(worst, unorm ? std::abs(found - std::min(wanted, 1.0))
+                                          : std::abs(found - wanted) / wanted);
+        });
     // unorm8: one step. Otherwise half a step of binary16 is 2^-11; the rest is interpolation.
     EXPECT_LE(worst, unorm ? 1.0 / 255 : 0x1p-10);
 }
@@ -128,7 +142,8 @@ TEST_P(Distances, WhereNothingIsTheyAreInfiniteOrTheEndOfTheRange) {
     test::add_ball(scene, "ball", mirror, {0, 0, 0}, 1);
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
     const test::Captured captured = test::capture(scene, kFace, GetParam(), 100);
-    const float nothing = GetParam() == Format::r8_unorm ? 1.0f : std::numeric_limits<float>::infinity();
+    const float nothing = GetParam() == Format::r8_unorm ? 1.0f
+                                                         : std::numeric_limits<float>::infinity();
     std::size_t wrong = 0;
     for (std::uint32_t y = 0; y < kFace; ++y)
         for (std::uint32_t x = 0; x < kFace; ++x) {
@@ -149,7 +164,8 @@ TEST(CubeFace, AMirrorIsNotInItsOwnCaptureButInTheOthers) {
             hot[mirror] += colour == test::kFurnace;
         });
     // The other ball, seen from outside: radius over distance gives its share of the directions.
-    const double gap = glm::length(dvec3(-1.2, -0.3, 1) - dvec3(1.3, 0.4, 1.5)), texels = 6.0 * kFace * kFace;
+    const double gap = glm::length(dvec3(-1.2, -0.3, 1) - dvec3(1.3, 0.4, 1.5)),
+                 texels = 6.0 * kFace * kFace;
     const double radii[2] = {1.2, 1};
     for (int mirror = 0; mirror < 2; ++mirror) {
         EXPECT_EQ(black[mirror] + hot[mirror], 6 * kFace * kFace);

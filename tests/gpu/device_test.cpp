@@ -8,15 +8,17 @@ using namespace catoptric;
 
 TEST(Device, AnIndexThatIsNoneIsRefusedWithTheirNumber) {
     const std::size_t count = gpu::list_devices().size();
-    test::expect_refused([] { gpu::Device device({.wanted = "99"}); }, Failure::usage,
-                         {"no device '99'", "there are " + std::to_string(count), "counted from 0"});
+    test::expect_refused(
+        [] { gpu::Device device({.wanted = "99"}); }, Failure::usage,
+        {"no device '99'", "there are " + std::to_string(count), "counted from 0"});
 }
 
 TEST(Device, AnUnknownNameIsRefusedWithTheNearest) {
     std::string name = gpu::list_devices().front().name;
     name.front() = '?';
-    test::expect_refused([&] { gpu::Device device({.wanted = name}); }, Failure::usage,
-                         {"no device '" + name + "'", "did you mean '" + gpu::list_devices().front().name + "'"});
+    test::expect_refused(
+        [&] { gpu::Device device({.wanted = name}); }, Failure::usage,
+        {"no device '" + name + "'", "did you mean '" + gpu::list_devices().front().name + "'"});
 }
 
 TEST(Device, PartOfANameAndAnIndexChoose) {
@@ -45,8 +47,11 @@ TEST(Device, MoreMemoryThanThereIsIsRefusedWithBothNumbers) {
     // Images of 1 GiB each: more of them than the device has memory for.
     const std::uint64_t count = device.memory_budget() / (std::uint64_t{1} << 30) + 1;
     for (std::uint64_t i = 0; i < count; ++i) {
-        const graph::Image image = graph.image({"huge" + std::to_string(i), Format::rgba32f, 8192, 8192});
-        graph.pass("fill" + std::to_string(i)).writes(image, graph::Use::colour, graph::Clear{}).record([](graph::Commands&) {});
+        const graph::Image image = graph.image(
+            {"huge" + std::to_string(i), Format::rgba32f, 8192, 8192});
+        graph.pass("fill" + std::to_string(i))
+            .writes(image, graph::Use::colour, graph::Clear{})
+            .record([](graph::Commands&) {});
         graph.want(image);
     }
     test::expect_refused([&] { test::run(runner, graph); }, Failure::exhausted,

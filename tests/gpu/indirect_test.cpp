@@ -11,11 +11,15 @@ constexpr std::uint32_t kTurns = 7;
 std::vector<std::uint32_t> counts_of(std::uint32_t groups, bool declared = true) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
-    const graph::Buffer counts = graph.buffer({"counts", 16}), arguments = graph.buffer({"arguments", 16});
-    graph.pass("fill").writes(counts, graph::Use::copy_to).writes(arguments, graph::Use::copy_to).record([=](graph::Commands& commands) {
-        commands.fill(counts, 0);
-        commands.fill(arguments, groups);
-    });
+    const graph::Buffer counts = graph.buffer({"counts", 16}),
+                        arguments = graph.buffer({"arguments", 16});
+    graph.pass("fill")
+        .writes(counts, graph::Use::copy_to)
+        .writes(arguments, graph::Use::copy_to)
+        .record([=](graph::Commands& commands) {
+            commands.fill(counts, 0);
+            commands.fill(arguments, groups);
+        });
     graph.pass("spin")
         .reads(arguments, declared ? graph::Use::indirect : graph::Use::storage_read)
         .writes(counts, graph::Use::storage)
@@ -37,7 +41,8 @@ TEST(Indirect, DispatchesWhatTheBufferSays) {
 }
 
 TEST(Indirect, ABufferThatIsNotDeclaredSoIsRefused) {
-    test::expect_refused([] { counts_of(1, false); }, Failure::internal, {"'spin'", "'arguments'", "indirect"});
+    test::expect_refused([] { counts_of(1, false); }, Failure::internal,
+                         {"'spin'", "'arguments'", "indirect"});
 }
 
 } // namespace

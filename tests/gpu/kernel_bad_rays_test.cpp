@@ -1,4 +1,5 @@
-// Rays that are no rays: they miss, and cost no more than others do. The cost is the walk's own count of steps.
+// Rays that are no rays: they miss, and cost no more than others do. The cost is the walk's own
+// count of steps.
 #include "support/kernel.hpp"
 #include "support/kernel_shapes.hpp"
 
@@ -15,7 +16,9 @@ using test::KernelRay;
 std::vector<bvh::Triangle> ball() { return *test::placed(scene::ball("ball", 5), 1, dvec3(0)); }
 
 float& field(KernelRay& ray, std::size_t i) {
-    return i < 3 ? ray.origin[static_cast<int>(i)] : i < 6 ? ray.direction[static_cast<int>(i) - 3] : ray.t_max;
+    return i < 3   ? ray.origin[static_cast<int>(i)]
+           : i < 6 ? ray.direction[static_cast<int>(i) - 3]
+                   : ray.t_max;
 }
 
 struct Steps {
@@ -49,7 +52,8 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
     const Steps usual = steps_of(kernel.closest(normal));
     std::vector<KernelRay> bad;
     // Quiet and signalling NaN of either sign, the infinities; an infinite t_max is the usual one.
-    for (const std::uint32_t word : {0x7fc00000u, 0xffc00000u, 0x7f800001u, 0xff800001u, 0x7fffffffu, 0x7f800000u, 0xff800000u})
+    for (const std::uint32_t word : {0x7fc00000u, 0xffc00000u, 0x7f800001u, 0xff800001u,
+                                     0x7fffffffu, 0x7f800000u, 0xff800000u})
         for (std::size_t i = 0; i < 7; ++i)
             for (std::size_t k = 0; k < 200 && !(i == 6 && word == 0x7f800000u); ++k) {
                 bad.push_back(normal[k]);
@@ -68,11 +72,13 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
         std::size_t found = 0;
         for (std::size_t i = 0; i < bad.size(); ++i)
             if ((hits[i].found() || hits[i].exhausted()) && found++ == 0)
-                ADD_FAILURE() << "ray " << i << ", " << test::text(bad[i]) << ": " << test::text(hits[i]);
+                ADD_FAILURE() << "ray " << i << ", " << test::text(bad[i]) << ": "
+                              << test::text(hits[i]);
         const Steps steps = steps_of(hits);
-        std::cout << "[ MEASURED ] N16 " << (shadow ? "shadow rays: " : "nearest: ") << found << " of " << bad.size()
-                  << " bad rays do not miss, at most " << steps.most << " steps; normal rays take " << usual.mean << ", at most "
-                  << usual.most << "\n";
+        std::cout << "[ MEASURED ] N16 " << (shadow ? "shadow rays: " : "nearest: ") << found
+                  << " of " << bad.size() << " bad rays do not miss, at most " << steps.most
+                  << " steps; normal rays take " << usual.mean << ", at most " << usual.most
+                  << "\n";
         EXPECT_EQ(found, 0u);
         EXPECT_LE(steps.most, 2.5 * usual.mean);
     }
@@ -84,14 +90,16 @@ TEST(KernelBadRays, N16_NegativeZeroIsZero) {
     std::vector<KernelRay> positive = normal_rays(60000, 1.2f);
     for (std::size_t i = 0; i < positive.size(); ++i) {
         field(positive[i], i % 6) = 0.0f;
-        if (i % 4 == 0) field(positive[i], (i + 1) % 6) = 0.0f; // axis-aligned, in a plane, from the centre
+        if (i % 4 == 0)
+            field(positive[i], (i + 1) % 6) = 0.0f; // axis-aligned, in a plane, from the centre
         if (i % 8 == 0) field(positive[i], (i + 2) % 6) = 0.0f;
     }
     std::vector<KernelRay> negative = positive;
     for (KernelRay& ray : negative)
         for (std::size_t i = 0; i < 6; ++i)
             if (field(ray, i) == 0) field(ray, i) = -0.0f;
-    const std::vector<KernelHit> expected = kernel.closest(positive), hits = kernel.closest(negative);
+    const std::vector<KernelHit> expected = kernel.closest(positive),
+                                 hits = kernel.closest(negative);
     std::size_t other = 0, found = 0;
     std::uint64_t steps = 0, usual = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -99,13 +107,16 @@ TEST(KernelBadRays, N16_NegativeZeroIsZero) {
         steps += hits[i].steps, usual += expected[i].steps;
         // A weight of exactly 0 may have the other sign.
         const bool alike = hits[i].outcome == expected[i].outcome && hits[i].t == expected[i].t &&
-                           hits[i].barycentric == expected[i].barycentric && hits[i].triangle == expected[i].triangle;
+                           hits[i].barycentric == expected[i].barycentric &&
+                           hits[i].triangle == expected[i].triangle;
         if (!alike && other++ == 0)
-            ADD_FAILURE() << "ray " << i << ", " << test::text(negative[i]) << "\n  -0: " << test::text(hits[i])
+            ADD_FAILURE() << "ray " << i << ", " << test::text(negative[i])
+                          << "\n  -0: " << test::text(hits[i])
                           << "\n  +0: " << test::text(expected[i]);
     }
-    std::cout << "[ MEASURED ] N16 -0: " << other << " of " << hits.size() << " hits differ from +0 (" << found << " hits), "
-              << steps << " against " << usual << " steps\n";
+    std::cout << "[ MEASURED ] N16 -0: " << other << " of " << hits.size()
+              << " hits differ from +0 (" << found << " hits), " << steps << " against " << usual
+              << " steps\n";
     EXPECT_EQ(other, 0u);
     EXPECT_GT(found, hits.size() / 2);
     EXPECT_LE(static_cast<double>(steps), 2.5 * static_cast<double>(usual));

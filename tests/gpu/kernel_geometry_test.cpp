@@ -24,7 +24,8 @@ vec3 random_bits3(test::Numbers& numbers) {
 }
 
 /// What a loader leaves of the triangles; `dropped` grows by those without an area.
-std::vector<bvh::Triangle> loaded(const std::vector<bvh::Triangle>& triangles, std::size_t& dropped) {
+std::vector<bvh::Triangle> loaded(const std::vector<bvh::Triangle>& triangles,
+                                  std::size_t& dropped) {
     scene::Mesh mesh{.name = "bits"};
     for (const bvh::Triangle& t : triangles) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -36,16 +37,20 @@ std::vector<bvh::Triangle> loaded(const std::vector<bvh::Triangle>& triangles, s
     for (const vec3& normal : mesh.normals) EXPECT_TRUE(f32::is_finite(normal));
     std::vector<bvh::Triangle> result;
     for (const uvec3& t : mesh.triangles)
-        result.push_back({vec3(mesh.positions[t.x]), vec3(mesh.positions[t.y]), vec3(mesh.positions[t.z])});
+        result.push_back(
+            {vec3(mesh.positions[t.x]), vec3(mesh.positions[t.y]), vec3(mesh.positions[t.z])});
     return result;
 }
 
 /// Random bits, and from random points at corners.
-std::vector<KernelRay> rays_at(const std::vector<bvh::Triangle>& triangles, test::Numbers& numbers) {
+std::vector<KernelRay> rays_at(const std::vector<bvh::Triangle>& triangles,
+                               test::Numbers& numbers) {
     std::vector<KernelRay> rays(128);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         rays[i].origin = i % 2 == 0 ? random_bits3(numbers) : numbers.in_cube();
-        rays[i].direction = i % 2 == 0 ? random_bits3(numbers) : triangles[numbers.below(triangles.size())].b - rays[i].origin;
+        rays[i].direction = i % 2 == 0
+                                ? random_bits3(numbers)
+                                : triangles[numbers.below(triangles.size())].b - rays[i].origin;
         if (i % 4 == 0) rays[i].t_max = random_bits(numbers);
     }
     return rays;
@@ -59,7 +64,8 @@ TEST(KernelGeometry, N19_RandomBits) {
         SCOPED_TRACE(seed);
         test::Numbers numbers(seed);
         std::vector<bvh::Triangle> triangles(kTriangles);
-        for (bvh::Triangle& t : triangles) t = {random_bits3(numbers), random_bits3(numbers), random_bits3(numbers)};
+        for (bvh::Triangle& t : triangles)
+            t = {random_bits3(numbers), random_bits3(numbers), random_bits3(numbers)};
         std::set<std::size_t> finite;
         std::vector<bvh::Triangle> good;
         for (std::size_t i = 0; i < kTriangles; ++i) {
@@ -83,7 +89,8 @@ TEST(KernelGeometry, N19_RandomBits) {
         for (const KernelHit& hit : kernel.closest(rays)) {
             ASSERT_FALSE(hit.exhausted());
             most_steps = std::max(most_steps, hit.steps);
-            ASSERT_LE(hit.steps, bvh::node_count(hierarchy) + bvh::triangle_count(hierarchy)) << "nothing is looked at twice";
+            ASSERT_LE(hit.steps, bvh::node_count(hierarchy) + bvh::triangle_count(hierarchy))
+                << "nothing is looked at twice";
             if (!hit.found()) continue;
             ++hits;
             ASSERT_TRUE(hit.t > 0 && std::isfinite(hit.t));
@@ -91,8 +98,9 @@ TEST(KernelGeometry, N19_RandomBits) {
         }
         for (const KernelRay& ray : rays) test::mirror_of(hierarchy, ray);
     }
-    std::cout << "[ MEASURED ] N19 " << kSeeds << " seeds: " << not_finite << " triangles dropped as not finite, " << flat
-              << " without an area, " << kept << " kept; " << hits << " hits, at most " << most_steps << " steps\n";
+    std::cout << "[ MEASURED ] N19 " << kSeeds << " seeds: " << not_finite
+              << " triangles dropped as not finite, " << flat << " without an area, " << kept
+              << " kept; " << hits << " hits, at most " << most_steps << " steps\n";
     EXPECT_GT(not_finite, 0u);
     EXPECT_GT(hits, 0u);
 }
@@ -101,7 +109,8 @@ const bvh::Triangle kOne{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}};
 
 std::vector<bvh::Triangle> copies(std::size_t count, bool of_one_object) {
     std::vector<bvh::Triangle> result(count, kOne);
-    for (std::size_t i = 0; i < count; ++i) result[i].object = of_one_object ? 0 : static_cast<std::uint32_t>(count - i);
+    for (std::size_t i = 0; i < count; ++i)
+        result[i].object = of_one_object ? 0 : static_cast<std::uint32_t>(count - i);
     return result;
 }
 
@@ -110,14 +119,15 @@ std::vector<KernelRay> rays_at_the_copies() {
     test::Numbers numbers(21);
     std::vector<KernelRay> rays(256);
     for (KernelRay& ray : rays) {
-        ray.origin = {0.4f * numbers.between(-1, 1), 0.4f * numbers.between(-1, 1), numbers.word() % 2 == 0 ? 0.0f : 2.0f};
+        ray.origin = {0.4f * numbers.between(-1, 1), 0.4f * numbers.between(-1, 1),
+                      numbers.word() % 2 == 0 ? 0.0f : 2.0f};
         ray.direction = vec3(0.3f, 0.3f, 1) * numbers.in_cube();
     }
     return rays;
 }
 
-/// Every one of 100,000 copies is at the same t, so a ray would have to look at all of them. Those of one object
-/// cannot be told apart, and one of them is enough.
+/// Every one of 100,000 copies is at the same t, so a ray would have to look at all of them. Those
+/// of one object cannot be told apart, and one of them is enough.
 TEST(KernelGeometry, N21_CopiesOfOneTriangle) {
     const std::vector<bvh::Triangle> triangles = copies(100000, true);
     const auto start = std::chrono::steady_clock::now();
@@ -133,16 +143,17 @@ TEST(KernelGeometry, N21_CopiesOfOneTriangle) {
         ASSERT_EQ(hits[i].found(), shadows[i].found());
         found += hits[i].found() ? 1 : 0;
     }
-    std::cout << "[ MEASURED ] N21 100,000 copies: build " << build.count() << " s, " << found << " of " << rays.size()
-              << " rays hit, all of them triangle 0\n";
+    std::cout << "[ MEASURED ] N21 100,000 copies: build " << build.count() << " s, " << found
+              << " of " << rays.size() << " rays hit, all of them triangle 0\n";
     EXPECT_EQ(test::differences(kernel, rays, hits), 0u);
     EXPECT_GT(found, rays.size() / 4);
     EXPECT_LT(found, rays.size());
     EXPECT_LT(build.count(), 5);
 }
 
-/// Copies in different objects are all kept. Fewer than a walk may look at: the lowest number wins. More: the walk
-/// says that it gave up, and so may the lanes beside it, whose loops the driver ends too.
+/// Copies in different objects are all kept. Fewer than a walk may look at: the lowest number wins.
+/// More: the walk says that it gave up, and so may the lanes beside it, whose loops the driver ends
+/// too.
 TEST(KernelGeometry, N21_CopiesInAsManyObjects) {
     const std::vector<KernelRay> rays = rays_at_the_copies();
     for (const std::size_t count : {std::size_t{5000}, std::size_t{100000}}) {
@@ -155,53 +166,68 @@ TEST(KernelGeometry, N21_CopiesInAsManyObjects) {
             gave_up += hits[i].exhausted() ? 1 : 0;
             found += expected.found() ? 1 : 0;
             ASSERT_EQ(expected.triangle, 0u);
-            ASSERT_TRUE(hits[i].exhausted() || test::same(hits[i], expected)) << i << ' ' << test::text(hits[i]);
+            ASSERT_TRUE(hits[i].exhausted() || test::same(hits[i], expected))
+                << i << ' ' << test::text(hits[i]);
         }
-        std::cout << "[ MEASURED ] N21 copies in " << count << " objects: " << found << " rays hit, " << gave_up << " gave up\n";
+        std::cout << "[ MEASURED ] N21 copies in " << count << " objects: " << found
+                  << " rays hit, " << gave_up << " gave up\n";
         EXPECT_GT(found, rays.size() / 4);
-        if (count < 60000) EXPECT_EQ(gave_up, 0u);
-        else EXPECT_GE(gave_up, found);
+        if (count < 60000)
+            EXPECT_EQ(gave_up, 0u);
+        else
+            EXPECT_GE(gave_up, found);
     }
 }
 
-/// A ball twice, and once more with the corners in another order: of equal t the lowest number wins, whichever leaf
-/// it is in, so nobody meets the second ball. Prints a checksum of all hits for the test below.
+/// A ball twice, and once more with the corners in another order: of equal t the lowest number
+/// wins, whichever leaf it is in, so nobody meets the second ball. Prints a checksum of all hits
+/// for the test below.
 TEST(KernelGeometry, N21_CoplanarDuplicates) {
     std::vector<bvh::Triangle> triangles = *test::placed(scene::ball("ball", 5), 1, dvec3(0));
     const std::size_t once = triangles.size();
     for (std::size_t i = 0; i < once; ++i) triangles.push_back(triangles[i]);
-    for (std::size_t i = 0; i < once; ++i) triangles.push_back({triangles[i].b, triangles[i].c, triangles[i].a, 1});
+    for (std::size_t i = 0; i < once; ++i)
+        triangles.push_back({triangles[i].b, triangles[i].c, triangles[i].a, 1});
     Kernel kernel(triangles);
     test::Numbers numbers(22);
     std::vector<KernelRay> rays(50000);
     for (KernelRay& ray : rays) {
         ray.origin = 0.5f * numbers.in_cube();
         const bvh::Triangle& t = triangles[numbers.below(once)];
-        ray.direction = numbers.word() % 2 == 0 ? numbers.direction() : t.a + numbers.unit() * (t.b - t.a) - ray.origin;
+        ray.direction = numbers.word() % 2 == 0 ? numbers.direction()
+                                                : t.a + numbers.unit() * (t.b - t.a) - ray.origin;
     }
     const std::vector<KernelHit> hits = kernel.closest(rays);
     std::size_t not_lowest = 0;
     std::uint64_t checksum = 14695981039346656037u; // FNV-1a
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const auto lowest = bvh::closest_hit<float>(kernel.hierarchy(), {rays[i].origin, rays[i].direction, 0}, rays[i].t_max);
+        const auto lowest = bvh::closest_hit<float>(
+            kernel.hierarchy(), {rays[i].origin, rays[i].direction, 0}, rays[i].t_max);
         const bool second = hits[i].triangle >= once && hits[i].triangle < 2 * once;
-        not_lowest += lowest && !second && hits[i].triangle == lowest->triangle && hits[i].t == lowest->t ? 0 : 1;
-        for (const std::uint32_t word : std::bit_cast<std::array<std::uint32_t, 8>>(hits[i])) checksum = (checksum ^ word) * 1099511628211u;
+        not_lowest += lowest && !second && hits[i].triangle == lowest->triangle &&
+                              hits[i].t == lowest->t
+                          ? 0
+                          : 1;
+        for (const std::uint32_t word : std::bit_cast<std::array<std::uint32_t, 8>>(hits[i]))
+            checksum = (checksum ^ word) * 1099511628211u;
     }
-    std::cout << "[ MEASURED ] N21 coplanar: " << not_lowest << " of " << rays.size() << " rays do not meet the lowest number; checksum "
-              << checksum << "\n";
+    std::cout << "[ MEASURED ] N21 coplanar: " << not_lowest << " of " << rays.size()
+              << " rays do not meet the lowest number; checksum " << checksum << "\n";
     EXPECT_EQ(not_lowest, 0u);
 }
 
 TEST(KernelGeometry, N21_OneAndTwoDriverThreadsAgree) {
-    if (!test::bench().device.is_cpu()) GTEST_SKIP() << "only a software driver can be told its number of threads";
+    if (!test::bench().device.is_cpu())
+        GTEST_SKIP() << "only a software driver can be told its number of threads";
     const auto checksum = [](const char* threads) {
-        const test::Ended ended = test::run_process({.command = {"/proc/self/exe", "--gtest_filter=KernelGeometry.N21_CoplanarDuplicates"},
-                                                     .environment = {{"LP_NUM_THREADS", threads}}});
+        const test::Ended ended = test::run_process(
+            {.command = {"/proc/self/exe", "--gtest_filter=KernelGeometry.N21_CoplanarDuplicates"},
+             .environment = {{"LP_NUM_THREADS", threads}}});
         EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
         const std::size_t at = ended.out.find("checksum ");
         EXPECT_NE(at, std::string::npos) << ended.out;
-        return at == std::string::npos ? ended.out : ended.out.substr(at, ended.out.find('\n', at) - at);
+        return at == std::string::npos ? ended.out
+                                       : ended.out.substr(at, ended.out.find('\n', at) - at);
     };
     EXPECT_EQ(checksum("1"), checksum("2"));
 }

@@ -28,18 +28,22 @@ TEST(KernelMirror, HitsInTheBuiltInRoom) {
     const scene::Scene room = scene::cornell_mirrors();
     const render::Geometry geometry = render::make_geometry(room, render::space_of(room));
     Kernel kernel(app::hierarchy_without(geometry, geometry.ranges.size()));
-    const std::vector<KernelRay> rays = random_rays(100000, vec3(kernel.hierarchy().nodes[0]), vec3(kernel.hierarchy().nodes[1]), 1);
+    const std::vector<KernelRay> rays = random_rays(100000, vec3(kernel.hierarchy().nodes[0]),
+                                                    vec3(kernel.hierarchy().nodes[1]), 1);
     for (const std::uint32_t skipped : {0u, bvh::kHidden}) {
-        const std::vector<KernelHit> hits = kernel.closest(rays, skipped), shadows = kernel.any(rays, skipped);
+        const std::vector<KernelHit> hits = kernel.closest(rays, skipped),
+                                     shadows = kernel.any(rays, skipped);
         const std::size_t different = test::differences(kernel, rays, hits, skipped);
         std::size_t found = 0, other_shadows = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             found += hits[i].found() ? 1 : 0;
             other_shadows += hits[i].found() == shadows[i].found() ? 0 : 1;
         }
-        std::cout << "[ MEASURED ] mirror: " << different << " of " << rays.size() << " rays differ, " << found << " hits\n";
+        std::cout << "[ MEASURED ] mirror: " << different << " of " << rays.size()
+                  << " rays differ, " << found << " hits\n";
         EXPECT_EQ(different, 0u);
-        EXPECT_EQ(other_shadows, 0u) << "a shadow ray finds something where the same ray has a nearest hit";
+        EXPECT_EQ(other_shadows, 0u)
+            << "a shadow ray finds something where the same ray has a nearest hit";
         EXPECT_GT(found, rays.size() / 2);
     }
 }
@@ -50,13 +54,15 @@ TEST(KernelMirror, N2b_PowersOfTwoChangeNoBit) {
     std::vector<bvh::Triangle> triangles(2000);
     for (bvh::Triangle& t : triangles) {
         const vec3 centre = numbers.in_cube();
-        t = {centre + 0.1f * numbers.in_cube(), centre + 0.1f * numbers.in_cube(), centre + 0.1f * numbers.in_cube()};
+        t = {centre + 0.1f * numbers.in_cube(), centre + 0.1f * numbers.in_cube(),
+             centre + 0.1f * numbers.in_cube()};
     }
     std::vector<KernelRay> rays(20000);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const bvh::Triangle& aim = triangles[numbers.below(triangles.size())];
         rays[i].origin = 2.0f * numbers.in_cube();
-        rays[i].direction = i % 2 == 0 ? aim.a + numbers.unit() * (aim.b - aim.a) - rays[i].origin : numbers.direction();
+        rays[i].direction = i % 2 == 0 ? aim.a + numbers.unit() * (aim.b - aim.a) - rays[i].origin
+                                       : numbers.direction();
     }
     const std::vector<KernelHit> one = Kernel(triangles).closest(rays);
     std::size_t changed = 0, found = 0;
@@ -75,11 +81,13 @@ TEST(KernelMirror, N2b_PowersOfTwoChangeNoBit) {
             if (i % 4 >= 2) expected.t *= s;
             found += hits[i].found() ? 1 : 0;
             if (!test::same(hits[i], expected) && changed++ == 0)
-                ADD_FAILURE() << "x 2^" << k << ", ray " << i << ", " << test::text(rays[i]) << "\n  at 1: " << test::text(one[i])
+                ADD_FAILURE() << "x 2^" << k << ", ray " << i << ", " << test::text(rays[i])
+                              << "\n  at 1: " << test::text(one[i])
                               << "\n  scaled: " << test::text(hits[i]);
         }
     }
-    std::cout << "[ MEASURED ] N2b " << changed << " of " << 41 * rays.size() << " hits changed, " << found << " hits\n";
+    std::cout << "[ MEASURED ] N2b " << changed << " of " << 41 * rays.size() << " hits changed, "
+              << found << " hits\n";
     EXPECT_EQ(changed, 0u);
     EXPECT_GT(found, 41 * rays.size() / 4);
 }

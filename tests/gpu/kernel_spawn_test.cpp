@@ -19,7 +19,8 @@ struct SelfHits {
 };
 
 /// 1000 rays from random points of the triangle into random directions.
-void leave(const bvh::Triangle& triangle, test::Numbers& numbers, SelfHits& count, const gpu::Constants& rules = {}) {
+void leave(const bvh::Triangle& triangle, test::Numbers& numbers, SelfHits& count,
+           const gpu::Constants& rules = {}) {
     constexpr std::size_t kRays = 1000;
     Kernel kernel(std::span(&triangle, 1));
     kernel.rules = rules;
@@ -29,7 +30,8 @@ void leave(const bvh::Triangle& triangle, test::Numbers& numbers, SelfHits& coun
     std::vector<KernelRay> rays;
     for (std::size_t i = 0; i < kRays; ++i)
         for (const std::uint32_t leaves : {0u, 1u})
-            rays.push_back({.origin = leavings[i].origin, .direction = starts[i].direction, .leaves = leaves});
+            rays.push_back(
+                {.origin = leavings[i].origin, .direction = starts[i].direction, .leaves = leaves});
     const std::vector<KernelHit> hits = kernel.closest(rays);
     for (std::size_t i = 0; i < rays.size(); ++i)
         if (hits[i].found()) ++(rays[i].leaves == 0 ? count.unnamed : count.named);
@@ -39,11 +41,14 @@ void leave(const bvh::Triangle& triangle, test::Numbers& numbers, SelfHits& coun
 void tell(const char* what, const SelfHits& hits) {
     std::cout << "[ MEASURED ] N17 " << what << ": self hits " << hits.named << " of " << hits.rays
               << " rays that name their triangle, " << hits.unnamed << " ("
-              << static_cast<double>(hits.unnamed) / static_cast<double>(std::max<std::size_t>(hits.rays, 1)) << " of them) of those that do not\n";
+              << static_cast<double>(hits.unnamed) /
+                     static_cast<double>(std::max<std::size_t>(hits.rays, 1))
+              << " of them) of those that do not\n";
 }
 
-/// Each coordinate of its own magnitude: half of these triangles are slivers thirty to a billion times longer than
-/// high. The bound alone lifts a ray off them; it does not need to name what it leaves.
+/// Each coordinate of its own magnitude: half of these triangles are slivers thirty to a billion
+/// times longer than high. The bound alone lifts a ray off them; it does not need to name what it
+/// leaves.
 TEST(KernelSpawn, N17_CoordinatesOfAnyMagnitude) {
     test::Numbers numbers(17);
     SelfHits count;
@@ -91,10 +96,12 @@ TEST(KernelSpawn, N17_AFixedOffsetDoesNotLift) {
 
 /// Not even when it lies squarely before the ray; and of all rays only that one passes through.
 TEST(KernelSpawn, N17_ARayDoesNotSeeTheTriangleThatItNames) {
-    const std::vector<bvh::Triangle> triangles{{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}}, {{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}};
+    const std::vector<bvh::Triangle> triangles{{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}},
+                                               {{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}}};
     Kernel kernel(triangles);
     std::vector<KernelRay> rays;
-    for (const std::uint32_t leaves : {0u, 1u, 2u}) rays.push_back({.direction = {0, 0, 1}, .leaves = leaves});
+    for (const std::uint32_t leaves : {0u, 1u, 2u})
+        rays.push_back({.direction = {0, 0, 1}, .leaves = leaves});
     const std::vector<KernelHit> hits = kernel.closest(rays);
     EXPECT_EQ(hits[0].t, 1);
     EXPECT_EQ(hits[1].t, 2);
@@ -102,14 +109,17 @@ TEST(KernelSpawn, N17_ARayDoesNotSeeTheTriangleThatItNames) {
 }
 
 /// Difference in units of the last place of a float as large as `scale`.
-double ulps(double found, double exact, double scale) { return std::abs(found - exact) / (std::ldexp(1.0, std::ilogb(scale)) * 0x1p-23); }
+double ulps(double found, double exact, double scale) {
+    return std::abs(found - exact) / (std::ldexp(1.0, std::ilogb(scale)) * 0x1p-23);
+}
 double ulps(const vec3& found, const dvec3& exact, double scale) {
-    return std::max({ulps(double{found.x}, exact.x, scale), ulps(double{found.y}, exact.y, scale), ulps(double{found.z}, exact.z, scale)});
+    return std::max({ulps(double{found.x}, exact.x, scale), ulps(double{found.y}, exact.y, scale),
+                     ulps(double{found.z}, exact.z, scale)});
 }
 
-/// 256 rays against the double build on the same floats. Weights and normal against 1, the point against the
-/// triangle's largest coordinate, t against itself. No ray is flatter than 30 degrees: then a rounding of a
-/// corner moves the hit by no more than twice as much.
+/// 256 rays against the double build on the same floats. Weights and normal against 1, the point
+/// against the triangle's largest coordinate, t against itself. No ray is flatter than 30 degrees:
+/// then a rounding of a corner moves the hit by no more than twice as much.
 TEST(KernelHit, N18_WithinSixteenUlpOfDouble) {
     test::Numbers numbers(19);
     const bvh::Triangle t{{-0.83f, -0.61f, 0.13f}, {0.94f, -0.47f, -0.22f}, {0.07f, 0.89f, 0.31f}};
@@ -127,7 +137,8 @@ TEST(KernelHit, N18_WithinSixteenUlpOfDouble) {
     }
     const std::vector<test::KernelHit> hits = kernel.closest(rays);
     std::vector<KernelStart> starts;
-    for (const test::KernelHit& hit : hits) starts.push_back({.weights = hit.barycentric, .place = 0, .direction = vec3(0, 0, 1)});
+    for (const test::KernelHit& hit : hits)
+        starts.push_back({.weights = hit.barycentric, .place = 0, .direction = vec3(0, 0, 1)});
     const std::vector<KernelLeaving> points = kernel.leave(starts);
     struct Worst {
         double t = 0, weights = 0, point = 0, normal = 0;
@@ -135,17 +146,21 @@ TEST(KernelHit, N18_WithinSixteenUlpOfDouble) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         double exact_t;
         dvec3 weights, error;
-        const bool met = f64::triangle_test(a, b, c, dvec3(rays[i].origin), f64::ray_shear(dvec3(rays[i].direction)), exact_t, weights);
+        const bool met = f64::triangle_test(a, b, c, dvec3(rays[i].origin),
+                                            f64::ray_shear(dvec3(rays[i].direction)), exact_t,
+                                            weights);
         ASSERT_EQ(hits[i].found(), met) << test::text(rays[i]);
         if (!met) continue; // aimed at a point of an edge, beyond it by a rounding
         const dvec3 exact = f64::barycentric(weights);
         worst.t = std::max(worst.t, ulps(double{hits[i].t}, exact_t, exact_t));
         worst.weights = std::max(worst.weights, ulps(hits[i].barycentric, exact, 1));
-        worst.point = std::max(worst.point, ulps(points[i].point, f64::triangle_point(a, b, c, exact, error), 0.94));
-        worst.normal = std::max(worst.normal, ulps(points[i].normal, f64::facet_normal(a, b, c), 1));
+        worst.point = std::max(
+            worst.point, ulps(points[i].point, f64::triangle_point(a, b, c, exact, error), 0.94));
+        worst.normal = std::max(worst.normal,
+                                ulps(points[i].normal, f64::facet_normal(a, b, c), 1));
     }
-    std::cout << "[ MEASURED ] N18 ulp from double: t " << worst.t << ", weights " << worst.weights << ", point " << worst.point
-              << ", normal " << worst.normal << "\n";
+    std::cout << "[ MEASURED ] N18 ulp from double: t " << worst.t << ", weights " << worst.weights
+              << ", point " << worst.point << ", normal " << worst.normal << "\n";
     EXPECT_LE(worst.t, 16);
     EXPECT_LE(worst.weights, 16);
     EXPECT_LE(worst.point, 16);

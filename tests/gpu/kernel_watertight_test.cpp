@@ -1,5 +1,5 @@
-// A ray from strictly inside a closed mesh that hits nothing has slipped between two triangles, or past a box of
-// the hierarchy.
+// A ray from strictly inside a closed mesh that hits nothing has slipped between two triangles, or
+// past a box of the hierarchy.
 #include "support/kernel.hpp"
 #include "support/kernel_shapes.hpp"
 
@@ -24,8 +24,8 @@ std::size_t misses(const std::vector<KernelRay>& rays, const std::vector<KernelH
     return count;
 }
 
-/// Embree's test: about 2 to 100 units wide where floats are 1/64 apart, so that the smaller ones are crumpled and
-/// some of their triangles have no area. They stay closed.
+/// Embree's test: about 2 to 100 units wide where floats are 1/64 apart, so that the smaller ones
+/// are crumpled and some of their triangles have no area. They stay closed.
 TEST(KernelWatertight, N14_MeshSphereFarOut) {
     constexpr std::size_t kRays = 1000000;
     const dvec3 centre(148376, 1234, -223423);
@@ -34,7 +34,9 @@ TEST(KernelWatertight, N14_MeshSphereFarOut) {
         std::vector<bvh::Triangle> triangles;
         const scene::Mesh mesh = scene::ball("ball", 5);
         for (const uvec3& t : mesh.triangles) {
-            const auto corner = [&](std::uint32_t i) { return vec3(mesh.positions[i] * radius + centre); };
+            const auto corner = [&](std::uint32_t i) {
+                return vec3(mesh.positions[i] * radius + centre);
+            };
             triangles.push_back({corner(t.x), corner(t.y), corner(t.z)});
         }
         Kernel kernel(triangles);
@@ -51,7 +53,8 @@ TEST(KernelWatertight, N14_MeshSphereFarOut) {
             rays_in_all += rays.size();
         }
     }
-    std::cout << "[ MEASURED ] N14 misses " << missed << " of " << rays_in_all << ", other than the mirror " << different << "\n";
+    std::cout << "[ MEASURED ] N14 misses " << missed << " of " << rays_in_all
+              << ", other than the mirror " << different << "\n";
     EXPECT_EQ(missed, 0u);
     EXPECT_EQ(different, 0u);
 }
@@ -81,7 +84,8 @@ std::vector<KernelRay> aimed(const Setting& setting, std::size_t count, test::Nu
 
 TEST(KernelWatertight, N15_RaysAtEdgesAndCornersOfClosedMeshes) {
     constexpr std::size_t kRays = 10000000;
-    const std::array meshes{test::ball(), test::torus(), test::box("room", 1), test::box("corridor", 1e5)};
+    const std::array meshes{test::ball(), test::torus(), test::box("room", 1),
+                            test::box("corridor", 1e5)};
     const dvec3 away = glm::normalize(dvec3(0.62, -0.11, -0.78));
     std::vector<Setting> settings;
     std::size_t left_out = 0;
@@ -104,7 +108,8 @@ TEST(KernelWatertight, N15_RaysAtEdgesAndCornersOfClosedMeshes) {
         SCOPED_TRACE(setting.name);
         Kernel kernel(setting.triangles);
         for (std::size_t done = 0; done < rays_each; done += kChunk) {
-            const std::vector<KernelRay> rays = aimed(setting, std::min(kChunk, rays_each - done), numbers);
+            const std::vector<KernelRay> rays = aimed(setting, std::min(kChunk, rays_each - done),
+                                                      numbers);
             const std::vector<KernelHit> hits = kernel.closest(rays);
             missed += misses(rays, hits);
             different += test::differences(kernel, rays, hits, 0, 16);
@@ -112,8 +117,9 @@ TEST(KernelWatertight, N15_RaysAtEdgesAndCornersOfClosedMeshes) {
             rays_in_all += rays.size();
         }
     }
-    std::cout << "[ MEASURED ] N15 leaks " << missed << " of " << rays_in_all << " rays (" << shadows_missed << " of shadow rays), "
-              << settings.size() << " meshes, " << left_out << " left out, other than the mirror " << different << "\n";
+    std::cout << "[ MEASURED ] N15 leaks " << missed << " of " << rays_in_all << " rays ("
+              << shadows_missed << " of shadow rays), " << settings.size() << " meshes, "
+              << left_out << " left out, other than the mirror " << different << "\n";
     EXPECT_GE(rays_in_all, kRays);
     EXPECT_GE(settings.size(), 60u);
     EXPECT_EQ(missed, 0u);
@@ -131,11 +137,13 @@ TEST(KernelWatertight, N15_TheSameRaysLeakWithoutTheRules) {
     const std::vector<KernelRay> rays = aimed(setting, 4 * kChunk, numbers);
     const auto leaks = [&](std::uint32_t without) {
         kernel.rules = {{"without", without}};
-        return std::ranges::count_if(kernel.closest(rays), [](const KernelHit& hit) { return !hit.found(); });
+        return std::ranges::count_if(kernel.closest(rays),
+                                     [](const KernelHit& hit) { return !hit.found(); });
     };
     const auto with = leaks(0), plain_triangles = leaks(1), plain_boxes = leaks(2);
-    std::cout << "[ MEASURED ] N15 leaks of " << rays.size() << " rays: " << with << " with every rule, " << plain_triangles
-              << " with plain triangles, " << plain_boxes << " with plain boxes\n";
+    std::cout << "[ MEASURED ] N15 leaks of " << rays.size() << " rays: " << with
+              << " with every rule, " << plain_triangles << " with plain triangles, " << plain_boxes
+              << " with plain boxes\n";
     EXPECT_EQ(with, 0);
     EXPECT_GT(plain_triangles, 0);
     EXPECT_GT(plain_boxes, 0);

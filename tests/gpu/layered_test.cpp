@@ -11,7 +11,9 @@ namespace {
 using namespace catoptric;
 
 class Layered : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Techniques, Layered, testing::Values("reuse", "parallax", "naive", "layered"), [](const auto& instance) { return std::string(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Techniques, Layered,
+                         testing::Values("reuse", "parallax", "naive", "layered"),
+                         [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Layered, EqualsSixSinglePasses) {
     app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {96, 96});
@@ -31,9 +33,11 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
     const std::uint32_t mirrors = gpu_scene.mirror_count();
-    const graph::Image colour = graph.image({"colour", Format::rgba16f, face, face, 6 * mirrors, true});
+    const graph::Image colour = graph.image(
+        {"colour", Format::rgba16f, face, face, 6 * mirrors, true});
     for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
-        const graph::Image depth = graph.image({"depth" + std::to_string(mirror), Format::d32f, face, face, 6, true});
+        const graph::Image depth = graph.image(
+            {"depth" + std::to_string(mirror), Format::d32f, face, face, 6, true});
         graph.pass("capture" + std::to_string(mirror))
             .writes(colour.layers(6 * mirror, 6), graph::Use::colour, graph::Clear{0, 0, 0, 1})
             .writes(depth, graph::Use::depth, graph::Clear{0, 0, 0, 0})
@@ -41,10 +45,14 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
             .record([&gpu_scene, mirror](graph::Commands& commands) {
                 gpu_scene.bind(commands);
                 for (const bool mirrors_now : {false, true}) {
-                    commands.use(gpu::RasterState{"scene.vert", mirrors_now ? "mirror_black.frag" : "diffuse.frag#unshadowed", {}});
+                    commands.use(gpu::RasterState{"scene.vert",
+                                                  mirrors_now ? "mirror_black.frag"
+                                                              : "diffuse.frag#unshadowed",
+                                                  {}});
                     for (std::size_t i = 0; i < gpu_scene.ranges().size(); ++i) {
                         const render::DrawRange& range = gpu_scene.ranges()[i];
-                        if (range.mirror != mirrors_now || i == gpu_scene.mirror_object(mirror)) continue;
+                        if (range.mirror != mirrors_now || i == gpu_scene.mirror_object(mirror))
+                            continue;
                         commands.push(gpu_scene.draw_of(i, gpu_scene.capture_view(mirror)));
                         commands.draw(range.first_index, range.index_count, 0, 6);
                     }
@@ -57,7 +65,8 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
 }
 
 TEST(Culling, ChangesNoBit) {
-    for (const scene::Scene& scene : {scene::cornell_mirrors(), test::room(3, 2), test::furnace(2)}) {
+    for (const scene::Scene& scene :
+         {scene::cornell_mirrors(), test::room(3, 2), test::furnace(2)}) {
         const test::Captured captured = test::capture(scene, 128, Format::r32f);
         EXPECT_EQ(captured.colour_bytes, capture_everything(scene, 128)) << scene.name;
     }
@@ -77,9 +86,13 @@ TEST(Culling, ABoxThatHoldsAVisiblePointIsNeverLeftOut) {
             if (render::may_meet(view, box)) continue;
             ++left_out;
             for (int i = 0; i < 20; ++i) {
-                const vec3 v = box.lo + (box.hi - box.lo) * vec3(share(random), share(random), share(random)) - eye;
+                const vec3 v = box.lo +
+                               (box.hi - box.lo) *
+                                   vec3(share(random), share(random), share(random)) -
+                               eye;
                 const float w = dot(view.forward, v);
-                EXPECT_FALSE(w > 0 && std::abs(dot(view.right, v)) <= w && std::abs(dot(view.down, v)) <= w);
+                EXPECT_FALSE(w > 0 && std::abs(dot(view.right, v)) <= w &&
+                             std::abs(dot(view.down, v)) <= w);
             }
         }
     }

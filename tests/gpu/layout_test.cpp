@@ -1,5 +1,5 @@
-// C++ and GLSL see every shared structure alike: each member lies where offsetof says, each structure is
-// as long as sizeof says (the second element of an array is what is read).
+// C++ and GLSL see every shared structure alike: each member lies where offsetof says, each
+// structure is as long as sizeof says (the second element of an array is what is read).
 #include "gpu/shader.hpp"
 #include "shared.h"
 #include "support/device.hpp"
@@ -16,24 +16,55 @@ struct Member {
     std::string name;
     std::size_t offset, bytes, size_of_struct;
 };
-#define MEMBER(type, member) Member{#type "::" #member, offsetof(type, member), sizeof(type::member), sizeof(type)}
+#define MEMBER(type, member)                                                                       \
+    Member { #type "::" #member, offsetof(type, member), sizeof(type::member), sizeof(type) }
 
 /// In the order in which shaders/tests/layout.comp writes them.
-const std::vector<Member> kMembers{
-    MEMBER(Vertex, position), MEMBER(Vertex, normal),
-    MEMBER(Surface, albedo), MEMBER(Surface, emission), MEMBER(Surface, reflectance), MEMBER(Surface, mirror),
-    MEMBER(Surface, centre), MEMBER(Surface, radius),
-    MEMBER(Light, position), MEMBER(Light, normal), MEMBER(Light, intensity), MEMBER(Light, right), MEMBER(Light, down),
-    MEMBER(Light, forward), MEMBER(Light, near),
-    MEMBER(Probe, centre), MEMBER(Probe, sphere), MEMBER(Probe, radius), MEMBER(Probe, reflectance),
-    MEMBER(View, eye), MEMBER(View, right), MEMBER(View, down), MEMBER(View, forward), MEMBER(View, near),
-    MEMBER(Frame, ambient), MEMBER(Frame, light_count), MEMBER(Frame, mirror_count), MEMBER(Frame, object_count),
-    MEMBER(Frame, shadow_faces),
-    MEMBER(Draw, first_view), MEMBER(Draw, surface), MEMBER(Draw, probe_centre),
-    MEMBER(Draw, object), MEMBER(Draw, mended),
-    MEMBER(Trace, sample_offset), MEMBER(Trace, sample_index), MEMBER(Trace, sample_count), MEMBER(Trace, size),
-    MEMBER(Counters, primary_rays), MEMBER(Counters, mirror_rays), MEMBER(Counters, shadow_rays),
-    MEMBER(Counters, longest_walk), MEMBER(Counters, exhausted), MEMBER(Counters, mirror_pixels), MEMBER(Counters, listed)};
+const std::vector<Member> kMembers{MEMBER(Vertex, position),
+                                   MEMBER(Vertex, normal),
+                                   MEMBER(Surface, albedo),
+                                   MEMBER(Surface, emission),
+                                   MEMBER(Surface, reflectance),
+                                   MEMBER(Surface, mirror),
+                                   MEMBER(Surface, centre),
+                                   MEMBER(Surface, radius),
+                                   MEMBER(Light, position),
+                                   MEMBER(Light, normal),
+                                   MEMBER(Light, intensity),
+                                   MEMBER(Light, right),
+                                   MEMBER(Light, down),
+                                   MEMBER(Light, forward),
+                                   MEMBER(Light, near),
+                                   MEMBER(Probe, centre),
+                                   MEMBER(Probe, sphere),
+                                   MEMBER(Probe, radius),
+                                   MEMBER(Probe, reflectance),
+                                   MEMBER(View, eye),
+                                   MEMBER(View, right),
+                                   MEMBER(View, down),
+                                   MEMBER(View, forward),
+                                   MEMBER(View, near),
+                                   MEMBER(Frame, ambient),
+                                   MEMBER(Frame, light_count),
+                                   MEMBER(Frame, mirror_count),
+                                   MEMBER(Frame, object_count),
+                                   MEMBER(Frame, shadow_faces),
+                                   MEMBER(Draw, first_view),
+                                   MEMBER(Draw, surface),
+                                   MEMBER(Draw, probe_centre),
+                                   MEMBER(Draw, object),
+                                   MEMBER(Draw, mended),
+                                   MEMBER(Trace, sample_offset),
+                                   MEMBER(Trace, sample_index),
+                                   MEMBER(Trace, sample_count),
+                                   MEMBER(Trace, size),
+                                   MEMBER(Counters, primary_rays),
+                                   MEMBER(Counters, mirror_rays),
+                                   MEMBER(Counters, shadow_rays),
+                                   MEMBER(Counters, longest_walk),
+                                   MEMBER(Counters, exhausted),
+                                   MEMBER(Counters, mirror_pixels),
+                                   MEMBER(Counters, listed)};
 
 /// Word i of every buffer, an ordinary number also as a float.
 constexpr std::uint32_t word(std::size_t i) { return 0x3f800000u + static_cast<std::uint32_t>(i); }
@@ -56,13 +87,16 @@ TEST(Layout, EveryMemberOfEveryStructureArrives) {
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
     const graph::Buffer output = graph.buffer({"output", 4 * expected.size()});
-    graph.pass("layout").writes(output, graph::Use::storage_write).record([&](graph::Commands& commands) {
-        for (const char* name : {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Frames", "Draws", "Traces", "AllCounters"})
-            commands.bind(name, input);
-        commands.bind("Words", output);
-        commands.use(gpu::ComputeState{"tests/layout.comp", {}});
-        commands.dispatch(1, 1);
-    });
+    graph.pass("layout")
+        .writes(output, graph::Use::storage_write)
+        .record([&](graph::Commands& commands) {
+            for (const char* name : {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Frames",
+                                     "Draws", "Traces", "AllCounters"})
+                commands.bind(name, input);
+            commands.bind("Words", output);
+            commands.use(gpu::ComputeState{"tests/layout.comp", {}});
+            commands.dispatch(1, 1);
+        });
     graph.want(output);
     test::run(runner, graph);
     const std::vector<std::uint32_t> found = test::read_as<std::uint32_t>(runner, output);

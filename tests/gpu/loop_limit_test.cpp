@@ -1,5 +1,5 @@
-// One software driver silently ends all loops of an invocation after 65,535 iterations. The engine must
-// notice: a picture of walks that were cut short is an error, not a picture.
+// One software driver silently ends all loops of an invocation after 65,535 iterations. The engine
+// must notice: a picture of walks that were cut short is an error, not a picture.
 #include "support/device.hpp"
 #include "support/rendering.hpp"
 
@@ -13,12 +13,14 @@ std::uint32_t turns_of(std::uint32_t wanted) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::Buffer counts = graph.buffer({"counts", 16});
-    graph.pass("spin").writes(counts, graph::Use::storage_write).record([=](graph::Commands& commands) {
-        commands.use(gpu::ComputeState{"tests/spin.comp", {}});
-        commands.bind("Counts", counts);
-        commands.push(wanted);
-        commands.dispatch(4, 1);
-    });
+    graph.pass("spin")
+        .writes(counts, graph::Use::storage_write)
+        .record([=](graph::Commands& commands) {
+            commands.use(gpu::ComputeState{"tests/spin.comp", {}});
+            commands.bind("Counts", counts);
+            commands.push(wanted);
+            commands.dispatch(4, 1);
+        });
     graph.want(counts);
     test::run(runner, graph);
     return test::read_as<std::uint32_t>(runner, counts).front();
@@ -33,13 +35,15 @@ TEST(LoopLimit, WhatThisDeviceDoesWithALongLoop) {
     const std::uint32_t turns = turns_of(kWanted);
     RecordProperty("turns", static_cast<int>(turns));
     const gpu::DeviceInfo& info = test::bench().device.info();
-    std::cout << "[ MEASURED ] " << turns << " of " << kWanted << " turns on " << info.name << ", " << info.driver << "\n";
+    std::cout << "[ MEASURED ] " << turns << " of " << kWanted << " turns on " << info.name << ", "
+              << info.driver << "\n";
     if (turns == kWanted) GTEST_SKIP() << "this device does not stop loops";
-    EXPECT_NEAR(turns, kLimit, 2) << "stops loops, but not where the ray tracer's bound of 60,000 steps assumes";
+    EXPECT_NEAR(turns, kLimit, 2)
+        << "stops loops, but not where the ray tracer's bound of 60,000 steps assumes";
 }
 
-/// Two mirrors facing each other, with slivers between them whose boxes every ray must open and whose
-/// triangles none meets.
+/// Two mirrors facing each other, with slivers between them whose boxes every ray must open and
+/// whose triangles none meets.
 scene::Scene hall_of_mirrors(int slivers) {
     scene::Scene scene{.name = "hall"};
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
@@ -50,18 +54,28 @@ scene::Scene hall_of_mirrors(int slivers) {
     for (int i = 0; i < slivers; ++i) {
         const auto first = static_cast<std::uint32_t>(cloud.positions.size());
         const double shift = 1e-5 * i;
-        cloud.positions.insert(cloud.positions.end(), {{-.9 + shift, -.9, -.9}, {.9, .9 - shift, .9}, {.9, .9 - shift, .9 - 1e-4}});
+        cloud.positions.insert(
+            cloud.positions.end(),
+            {{-.9 + shift, -.9, -.9}, {.9, .9 - shift, .9}, {.9, .9 - shift, .9 - 1e-4}});
         cloud.triangles.push_back({first, first + 1, first + 2});
     }
     cloud.normals.assign(cloud.positions.size(), vec3(0, 0, 1));
     test::add_mesh(scene, std::move(cloud), white);
-    scene.cameras.push_back({.name = "between", .eye = {0, .3, -.5}, .target = {1, .3, -.45}, .vertical_fov_degrees = 10});
+    scene.cameras.push_back({.name = "between",
+                             .eye = {0, .3, -.5},
+                             .target = {1, .3, -.45},
+                             .vertical_fov_degrees = 10});
     return scene;
 }
 
 TEST(LoopLimit, ATracerThatGivesUpFailsTheRun) {
-    test::expect_refused([] { test::render(hall_of_mirrors(3000), "raytrace:depth=64", {32, 32}); }, Failure::exhausted,
-                         {"'raytrace:depth=64'", "pixels met more triangles and boxes than one invocation may", "lower the depth"});
+    test::expect_refused(
+        [] {
+            test::render(hall_of_mirrors(3000), "raytrace:depth=64", {32, 32});
+        },
+        Failure::exhausted,
+        {"'raytrace:depth=64'", "pixels met more triangles and boxes than one invocation may",
+         "lower the depth"});
 }
 
 TEST(LoopLimit, WithLessDepthTheSameSceneRenders) {

@@ -13,27 +13,34 @@ graph::Image add_image(graph::Graph& graph, const std::string& name) {
 }
 
 void add_start(graph::Graph& graph, graph::Image after, float number) {
-    graph.pass("start/" + graph.images()[after.id].name).writes(after, Use::storage_write).record([=](graph::Commands& commands) {
-        commands.use(gpu::ComputeState{"tests/start.comp", {}});
-        commands.bind("after", after);
-        commands.push(number);
-        commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
-    });
+    graph.pass("start/" + graph.images()[after.id].name)
+        .writes(after, Use::storage_write)
+        .record([=](graph::Commands& commands) {
+            commands.use(gpu::ComputeState{"tests/start.comp", {}});
+            commands.bind("after", after);
+            commands.push(number);
+            commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
+        });
 }
 
-void add_step(graph::Graph& graph, const std::string& name, graph::Image before, graph::Image after, float number) {
-    graph.pass(name).reads(before, Use::sampled).writes(after, Use::storage_write).record([=](graph::Commands& commands) {
-        commands.use(gpu::ComputeState{"tests/step.comp", {}});
-        commands.bind("before", before);
-        commands.bind("after", after);
-        commands.push(number);
-        commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
-    });
+void add_step(graph::Graph& graph, const std::string& name, graph::Image before, graph::Image after,
+              float number) {
+    graph.pass(name)
+        .reads(before, Use::sampled)
+        .writes(after, Use::storage_write)
+        .record([=](graph::Commands& commands) {
+            commands.use(gpu::ComputeState{"tests/step.comp", {}});
+            commands.bind("before", before);
+            commands.bind("after", after);
+            commands.push(number);
+            commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
+        });
 }
 
 /// What tests/step.comp makes of the values.
 std::vector<float> stepped(std::vector<float> values, float number) {
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::fmod(3 * values[i] + static_cast<float>(i) + number, 1048576.0f);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = std::fmod(3 * values[i] + static_cast<float>(i) + number, 1048576.0f);
     return values;
 }
 
@@ -61,7 +68,8 @@ TEST(Previous, BelongsToItsRunner) {
         add_step(graph, "step", graph.previous(image), image, 5);
         graph.want(image);
         test::run(runner, graph);
-        EXPECT_EQ(test::read_as<float>(runner, image), stepped(std::vector<float>(kWidth * kHeight, 0.0f), 5));
+        EXPECT_EQ(test::read_as<float>(runner, image),
+                  stepped(std::vector<float>(kWidth * kHeight, 0.0f), 5));
     }
 }
 
@@ -110,12 +118,14 @@ TEST(Aliasing, ImagesThatShareMemoryHoldTheSameAsImagesApart) {
             const graph::Image last = add_chain(graph, 9, apart);
             const graph::Plan plan = runner.plan(graph);
             bytes[apart] = plan.bytes;
-            runner.run(graph, plan, frame == 1 ? graph::Timing::pipelined : graph::Timing::isolated);
+            runner.run(graph, plan,
+                       frame == 1 ? graph::Timing::pipelined : graph::Timing::isolated);
             found[apart] = test::read_as<float>(runner, last);
         }
     }
     std::vector<float> expected;
-    for (std::size_t i = 0; i < kWidth * kHeight; ++i) expected.push_back(7.0f * static_cast<float>(1 + i));
+    for (std::size_t i = 0; i < kWidth * kHeight; ++i)
+        expected.push_back(7.0f * static_cast<float>(1 + i));
     for (int i = 1; i <= 9; ++i) expected = stepped(expected, static_cast<float>(i));
     EXPECT_EQ(found[false], expected);
     EXPECT_EQ(found[true], expected);

@@ -13,7 +13,9 @@ using namespace catoptric;
 using gpu::BindingKind;
 using gpu::ImageShape;
 
-gpu::Reflection reflection(const char* name) { return gpu::reflect(name, gpu::find_shader(name).words); }
+gpu::Reflection reflection(const char* name) {
+    return gpu::reflect(name, gpu::find_shader(name).words);
+}
 
 const gpu::Binding* find(const gpu::Reflection& reflection, std::string_view name) {
     const auto found = std::ranges::find(reflection.bindings, name, &gpu::Binding::name);
@@ -34,18 +36,20 @@ TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
         std::uint32_t binding;
         BindingKind kind;
     };
-    for (const auto& [name, binding, kind] : {Expected{"frame", 0, BindingKind::uniform_buffer},
-                                              Expected{"Views", 1, BindingKind::storage_buffer},
-                                              Expected{"bvh_nodes", 9, BindingKind::texel_buffer},
-                                              Expected{"picture", 12, BindingKind::storage_image},
-                                              Expected{"hits", 13, BindingKind::storage_image},
-                                              Expected{"counters", 14, BindingKind::storage_buffer}}) {
+    for (const auto& [name, binding, kind] :
+         {Expected{"frame", 0, BindingKind::uniform_buffer},
+          Expected{"Views", 1, BindingKind::storage_buffer},
+          Expected{"bvh_nodes", 9, BindingKind::texel_buffer},
+          Expected{"picture", 12, BindingKind::storage_image},
+          Expected{"hits", 13, BindingKind::storage_image},
+          Expected{"counters", 14, BindingKind::storage_buffer}}) {
         const gpu::Binding* one = find(found, name);
         ASSERT_TRUE(one) << name;
         EXPECT_EQ(one->binding, binding) << name;
         EXPECT_EQ(one->kind, kind) << name;
     }
-    EXPECT_EQ(constants(found), (std::vector<std::string>{"exact_spheres", "fixed_offset", "max_depth", "shadow", "without"}));
+    EXPECT_EQ(constants(found), (std::vector<std::string>{"exact_spheres", "fixed_offset",
+                                                          "max_depth", "shadow", "without"}));
 }
 
 TEST(Reflection, LeavesOutWhatTheCodeDoesNotUse) {
@@ -68,67 +72,89 @@ TEST(Reflection, TellsTheShapesOfImages) {
 }
 
 TEST(Reflection, RefusesWhatIsNoShader) {
-    test::expect_refused([] { gpu::find_shader("no/such.frag"); }, Failure::internal, {"there is no shader 'no/such.frag'"});
+    test::expect_refused([] { gpu::find_shader("no/such.frag"); }, Failure::internal,
+                         {"there is no shader 'no/such.frag'"});
     const std::vector<std::uint32_t> text(10, 0x20202020);
-    test::expect_refused([&] { gpu::reflect("text", text); }, Failure::internal, {"'text' is not SPIR-V"});
+    test::expect_refused([&] { gpu::reflect("text", text); }, Failure::internal,
+                         {"'text' is not SPIR-V"});
     const auto words = gpu::find_shader("compose.comp").words;
-    test::expect_refused([&] { gpu::reflect("half", words.first(6)); }, Failure::internal, {"'half' is cut off"});
+    test::expect_refused([&] { gpu::reflect("half", words.first(6)); }, Failure::internal,
+                         {"'half' is cut off"});
 }
 
 /// A graph of one dispatch into a buffer of 16 words.
-void dispatch(const gpu::ComputeState& state, const std::function<void(graph::Commands&, graph::Buffer)>& prepare) {
+void dispatch(const gpu::ComputeState& state,
+              const std::function<void(graph::Commands&, graph::Buffer)>& prepare) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::Buffer buffer = graph.buffer({"counts", 64});
-    graph.pass("lonely").writes(buffer, graph::Use::storage_write).record([&](graph::Commands& commands) {
-        commands.use(state);
-        prepare(commands, buffer);
-        commands.dispatch(1, 1);
-    });
+    graph.pass("lonely")
+        .writes(buffer, graph::Use::storage_write)
+        .record([&](graph::Commands& commands) {
+            commands.use(state);
+            prepare(commands, buffer);
+            commands.dispatch(1, 1);
+        });
     graph.want(buffer);
     test::run(runner, graph);
 }
 
 TEST(Binding, AnUnboundNameIsRefusedWithPassAndShader) {
-    test::expect_refused([] { dispatch({"tests/spin.comp", {}}, [](graph::Commands& commands, graph::Buffer) { commands.push(1u); }); },
-                         Failure::internal, {"pass 'lonely'", "nothing is bound to 'Counts'", "tests/spin.comp"});
+    test::expect_refused(
+        [] {
+            dispatch({"tests/spin.comp", {}},
+                     [](graph::Commands& commands, graph::Buffer) { commands.push(1u); });
+        },
+        Failure::internal, {"pass 'lonely'", "nothing is bound to 'Counts'", "tests/spin.comp"});
 }
 
 TEST(Binding, AnImageWhereABufferBelongsIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
     const graph::Image image = graph.image({"image", Format::r32f, 8, 8});
-    graph.pass("mixed").writes(image, graph::Use::storage_write).record([=](graph::Commands& commands) {
-        commands.use(gpu::ComputeState{"tests/spin.comp", {}});
-        commands.push(1u);
-        commands.bind("Counts", image);
-        commands.dispatch(1, 1);
-    });
+    graph.pass("mixed")
+        .writes(image, graph::Use::storage_write)
+        .record([=](graph::Commands& commands) {
+            commands.use(gpu::ComputeState{"tests/spin.comp", {}});
+            commands.push(1u);
+            commands.bind("Counts", image);
+            commands.dispatch(1, 1);
+        });
     graph.want(image);
-    test::expect_refused([&] { test::run(runner, graph); }, Failure::internal, {"pass 'mixed'", "'Counts'", "is a buffer, bound is an image"});
+    test::expect_refused([&] { test::run(runner, graph); }, Failure::internal,
+                         {"pass 'mixed'", "'Counts'", "is a buffer, bound is an image"});
 }
 
 TEST(Binding, AnUndeclaredResourceIsRefused) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     graph::Graph graph;
-    const graph::Buffer declared = graph.buffer({"declared", 64}), other = graph.buffer({"other", 64});
-    graph.pass("sly").writes(declared, graph::Use::storage_write).record([=](graph::Commands& commands) { commands.bind("Counts", other); });
+    const graph::Buffer declared = graph.buffer({"declared", 64}),
+                        other = graph.buffer({"other", 64});
+    graph.pass("sly")
+        .writes(declared, graph::Use::storage_write)
+        .record([=](graph::Commands& commands) { commands.bind("Counts", other); });
     graph.want(declared);
-    test::expect_refused([&] { test::run(runner, graph); }, Failure::internal, {"pass 'sly'", "'other'", "does not declare it"});
+    test::expect_refused([&] { test::run(runner, graph); }, Failure::internal,
+                         {"pass 'sly'", "'other'", "does not declare it"});
 }
 
 TEST(Binding, PushConstantsOfAnotherSizeAreRefused) {
-    test::expect_refused([] {
-        dispatch({"tests/spin.comp", {}}, [](graph::Commands& commands, graph::Buffer buffer) {
-            commands.bind("Counts", buffer);
-            commands.push(uvec2(1, 2));
-        });
-    }, Failure::internal, {"pass 'lonely'", "wants 4 bytes of push constants, got 8"});
+    test::expect_refused(
+        [] {
+            dispatch({"tests/spin.comp", {}}, [](graph::Commands& commands, graph::Buffer buffer) {
+                commands.bind("Counts", buffer);
+                commands.push(uvec2(1, 2));
+            });
+        },
+        Failure::internal, {"pass 'lonely'", "wants 4 bytes of push constants, got 8"});
 }
 
 TEST(Binding, AnUnknownConstantIsRefused) {
-    test::expect_refused([] { dispatch({"tests/spin.comp", {{"speed", 1u}}}, [](graph::Commands&, graph::Buffer) {}); },
-                         Failure::internal, {"tests/spin.comp", "has no constant 'speed'"});
+    test::expect_refused(
+        [] {
+            dispatch({"tests/spin.comp", {{"speed", 1u}}}, [](graph::Commands&, graph::Buffer) {});
+        },
+        Failure::internal, {"tests/spin.comp", "has no constant 'speed'"});
 }
 
 using SpirV = test::InFolder;
@@ -137,9 +163,11 @@ TEST_F(SpirV, EveryEmbeddedShaderIsValid) {
     const auto path = folder / "shader.spv";
     for (const gpu::EmbeddedShader& shader : gpu::embedded_shaders()) {
         std::ofstream(path, std::ios::binary)
-            .write(reinterpret_cast<const char*>(shader.words.data()), static_cast<std::streamsize>(shader.words.size_bytes()));
-        const test::Ended ended = test::run_process({.command = {"/usr/bin/env", "spirv-val", "--target-env", "vulkan1.3",
-                                                                 "--scalar-block-layout", path.string()}});
+            .write(reinterpret_cast<const char*>(shader.words.data()),
+                   static_cast<std::streamsize>(shader.words.size_bytes()));
+        const test::Ended ended = test::run_process(
+            {.command = {"/usr/bin/env", "spirv-val", "--target-env", "vulkan1.3",
+                         "--scalar-block-layout", path.string()}});
         EXPECT_EQ(ended.exit_code, 0) << shader.name << ": " << ended.out << ended.err;
     }
 }

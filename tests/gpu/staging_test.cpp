@@ -14,7 +14,8 @@ class Staging : public testing::TestWithParam<bool> {
 protected:
     gpu::Device& device() { return test::bench(GetParam()).device; }
 };
-INSTANTIATE_TEST_SUITE_P(Buffers, Staging, testing::Values(false, true), [](const auto& instance) { return instance.param ? "staged" : "mapped"; });
+INSTANTIATE_TEST_SUITE_P(Buffers, Staging, testing::Values(false, true),
+                         [](const auto& instance) { return instance.param ? "staged" : "mapped"; });
 
 TEST_P(Staging, WhatIsWrittenIsRead) {
     ASSERT_EQ(device().staged(), GetParam());
@@ -33,8 +34,8 @@ TEST_P(Staging, WhatIsWrittenIsRead) {
 TEST_P(Staging, AWriteBeyondTheEndIsRefused) {
     gpu::Buffer buffer(device(), "short", 32, gpu::BufferUse::plain);
     const std::vector<std::uint32_t> words(5);
-    test::expect_refused([&] { buffer.write(16, std::as_bytes(std::span(words))); }, Failure::internal,
-                         {"buffer 'short' has 32 bytes", "[16, 36)"});
+    test::expect_refused([&] { buffer.write(16, std::as_bytes(std::span(words))); },
+                         Failure::internal, {"buffer 'short' has 32 bytes", "[16, 36)"});
     buffer.write(12, std::as_bytes(std::span(words)));
 }
 
@@ -47,7 +48,8 @@ TEST_P(Staging, AnEmptyBufferCanBeMadeAndWritten) {
 
 TEST_P(Staging, UploadGrowsTheBuffer) {
     gpu::Buffer buffer;
-    gpu::upload(device(), buffer, "list", std::vector<std::uint32_t>(10, 5u), gpu::BufferUse::plain);
+    gpu::upload(device(), buffer, "list", std::vector<std::uint32_t>(10, 5u),
+                gpu::BufferUse::plain);
     std::vector<std::uint32_t> longer(100, 9u);
     gpu::upload(device(), buffer, "list", longer, gpu::BufferUse::plain);
     ASSERT_EQ(buffer.bytes(), 400u);

@@ -1,5 +1,5 @@
-// Time stamps are true: passes add up to the frame, in order, and four times the work takes about four
-// times as long. Only ratios are asserted, never a time.
+// Time stamps are true: passes add up to the frame, in order, and four times the work takes about
+// four times as long. Only ratios are asserted, never a time.
 #include "measure/statistics.hpp"
 #include "support/rendering.hpp"
 
@@ -24,7 +24,8 @@ void expect_in_order(const app::Frame& frame) {
 }
 
 class Closing : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Frames, Closing, testing::Values("raytrace", "reuse"), [](const auto& instance) { return std::string(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Frames, Closing, testing::Values("raytrace", "reuse"),
+                         [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
     app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {384, 384});
@@ -40,8 +41,10 @@ TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
         walls.push_back(frame.wall_ms);
     }
     const double share = measure::summarise(shares).median;
-    std::cout << "[ MEASURED ] passes are " << 100 * share << " % of a frame of " << measure::summarise(walls).median << " ms\n";
-    if (cpu && measure::summarise(walls).median < 20) GTEST_SKIP() << "frames below 20 ms: the cost of a submit is not small beside them";
+    std::cout << "[ MEASURED ] passes are " << 100 * share << " % of a frame of "
+              << measure::summarise(walls).median << " ms\n";
+    if (cpu && measure::summarise(walls).median < 20)
+        GTEST_SKIP() << "frames below 20 ms: the cost of a submit is not small beside them";
     EXPECT_GE(share, .95);
     EXPECT_LE(share, 1.01);
 }
@@ -65,15 +68,19 @@ TEST(Timing, FourTimesTheWorkReadsAboutFourTimes) {
     for (int frame = 0; frame < 9; ++frame) {
         graph::Graph graph;
         const graph::Buffer counts = graph.buffer({"counts", 4 * 4 * kGroups});
-        graph.pass("clear").writes(counts, graph::Use::copy_to).record([=](graph::Commands& commands) { commands.fill(counts, 0); });
+        graph.pass("clear")
+            .writes(counts, graph::Use::copy_to)
+            .record([=](graph::Commands& commands) { commands.fill(counts, 0); });
         for (int i = 0; i < 4; ++i) {
             const std::uint32_t groups = i % 2 ? 4 * kGroups : kGroups;
-            graph.pass((i % 2 ? "four/" : "one/") + std::to_string(i)).writes(counts, graph::Use::storage).record([=](graph::Commands& commands) {
-                commands.use(gpu::ComputeState{"tests/spin.comp", {}});
-                commands.bind("Counts", counts);
-                commands.push(4000u);
-                commands.dispatch(groups, 1);
-            });
+            graph.pass((i % 2 ? "four/" : "one/") + std::to_string(i))
+                .writes(counts, graph::Use::storage)
+                .record([=](graph::Commands& commands) {
+                    commands.use(gpu::ComputeState{"tests/spin.comp", {}});
+                    commands.bind("Counts", counts);
+                    commands.push(4000u);
+                    commands.dispatch(groups, 1);
+                });
         }
         graph.want(counts);
         const graph::FrameTimes times = test::run(runner, graph);
@@ -84,7 +91,8 @@ TEST(Timing, FourTimesTheWorkReadsAboutFourTimes) {
         }
     }
     const double ratio = measure::summarise(four).median / measure::summarise(one).median;
-    std::cout << "[ MEASURED ] 4x the work: " << ratio << "x (" << measure::summarise(one).median << " ms)\n";
+    std::cout << "[ MEASURED ] 4x the work: " << ratio << "x (" << measure::summarise(one).median
+              << " ms)\n";
     EXPECT_GE(ratio, 2.5);
     EXPECT_LE(ratio, 6);
 }

@@ -14,7 +14,9 @@ struct Case {
     friend void PrintTo(const Case& test_case, std::ostream* out) { *out << test_case.name; }
 };
 class Analytic : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Rooms, Analytic, testing::Values(Case{"one_ball", 1, 1}, Case{"three_balls_two_lamps", 3, 2}),
+INSTANTIATE_TEST_SUITE_P(Rooms, Analytic,
+                         testing::Values(Case{"one_ball", 1, 1},
+                                         Case{"three_balls_two_lamps", 3, 2}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST_P(Analytic, EqualsTheDoublePrecisionTracer) {
@@ -27,16 +29,21 @@ TEST_P(Analytic, EqualsTheDoublePrecisionTracer) {
     for (std::uint32_t y = 0; y < kSize.y; ++y)
         for (std::uint32_t x = 0; x < kSize.x; ++x) {
             const dvec3 wanted = tracer.pixel(room.cameras.front(), kSize, x, y, kDepth);
-            const dvec3 difference = abs(dvec3(picture.at(static_cast<int>(x), static_cast<int>(y))) - wanted);
-            differences.push_back(std::max({difference.x, difference.y, difference.z}) / (1 + std::max({wanted.x, wanted.y, wanted.z})));
+            const dvec3 difference = abs(
+                dvec3(picture.at(static_cast<int>(x), static_cast<int>(y))) - wanted);
+            differences.push_back(std::max({difference.x, difference.y, difference.z}) /
+                                  (1 + std::max({wanted.x, wanted.y, wanted.z})));
         }
     std::ranges::sort(differences);
-    // Each reflection of a ray at a ball spreads its error by about 2 distances / radius, here up to 10,
-    // from 2^-23; what is behind, the light's 1/t^2 stretches again.
+    // Each reflection of a ray at a ball spreads its error by about 2 distances / radius, here up
+    // to 10, from 2^-23; what is behind, the light's 1/t^2 stretches again.
     constexpr double kBound = 1e-4;
-    const auto apart = static_cast<std::size_t>(differences.end() - std::ranges::upper_bound(differences, kBound));
-    std::cout << "[ MEASURED ] median " << differences[differences.size() / 2] << ", 99 % " << differences[differences.size() * 99 / 100]
-              << ", 99.9 % " << differences[differences.size() * 999 / 1000] << ", above " << kBound << ": " << apart << " pixels\n";
+    const auto apart = static_cast<std::size_t>(differences.end() -
+                                                std::ranges::upper_bound(differences, kBound));
+    std::cout << "[ MEASURED ] median " << differences[differences.size() / 2] << ", 99 % "
+              << differences[differences.size() * 99 / 100] << ", 99.9 % "
+              << differences[differences.size() * 999 / 1000] << ", above " << kBound << ": "
+              << apart << " pixels\n";
     EXPECT_LE(differences[differences.size() / 2], 1e-6);
     EXPECT_LE(apart, 4u); // a pixel whose middle lies on an edge
 }

@@ -14,7 +14,9 @@ constexpr uvec2 kSize{96, 96};
 struct Split {
     report::Causes causes;
 
-    double in_turn(const std::string& name) const { return find(name).in_turn / causes.squared_error; }
+    double in_turn(const std::string& name) const {
+        return find(name).in_turn / causes.squared_error;
+    }
     double alone(const std::string& name) const { return find(name).alone / causes.squared_error; }
     const report::Cause& find(const std::string& name) const {
         const auto found = std::ranges::find(causes.list, name, &report::Cause::name);
@@ -40,29 +42,39 @@ Split split(const scene::Scene& scene, const std::string& technique) {
 std::vector<app::TechniqueInfo> that_capture() {
     std::vector<app::TechniqueInfo> list = app::techniques();
     std::erase_if(list, [](const app::TechniqueInfo& technique) {
-        return std::ranges::find(technique.knobs, "face", &app::Knob::name) == technique.knobs.end();
+        return std::ranges::find(technique.knobs, "face", &app::Knob::name) ==
+               technique.knobs.end();
     });
     return list;
 }
 
 class EveryCause : public testing::TestWithParam<app::TechniqueInfo> {};
-INSTANTIATE_TEST_SUITE_P(Table, EveryCause, testing::ValuesIn(that_capture()), [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(Table, EveryCause, testing::ValuesIn(that_capture()),
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST_P(EveryCause, IsThere) {
-    const Split found = split(scene::cornell_mirrors(), test::with(GetParam(), {{"face", "64"}, {"shadow_map", "256"}}));
-    std::cout << "[ MEASURED ] " << GetParam().name << ": rmse " << std::sqrt(found.causes.squared_error) << ", left " << found.causes.rest_rmse << "\n";
+    const Split found = split(scene::cornell_mirrors(),
+                              test::with(GetParam(), {{"face", "64"}, {"shadow_map", "256"}}));
+    std::cout << "[ MEASURED ] " << GetParam().name << ": rmse "
+              << std::sqrt(found.causes.squared_error) << ", left " << found.causes.rest_rmse
+              << "\n";
     EXPECT_GT(found.causes.squared_error, 1e-6) << "something to split";
     EXPECT_LE(found.causes.rest_rmse, 1e-3);
-    EXPECT_LE(std::abs(found.in_turn("silhouettes")), .03) << "the last step takes what is true: it must be next to nothing";
+    EXPECT_LE(std::abs(found.in_turn("silhouettes")), .03)
+        << "the last step takes what is true: it must be next to nothing";
     EXPECT_EQ(found.causes.squared_error_per_mirror.size(), 4u);
 }
 
 TEST(Causes, AreThereForEveryFormatAndKindOfShadow) {
-    for (const std::string technique : {"secant:face=32,shadow=none", "layered:face=32,distance=r16f", "pyramid:face=32,distance=unorm8,shadow=none",
-                                        "hybrid:face=32,captures=own,continue=0", "march:face=32,mirrors=left_out,lookup=object"})
-        EXPECT_LE(split(scene::cornell_mirrors_closed(), technique).causes.rest_rmse, 1e-3) << technique;
+    for (const std::string technique :
+         {"secant:face=32,shadow=none", "layered:face=32,distance=r16f",
+          "pyramid:face=32,distance=unorm8,shadow=none", "hybrid:face=32,captures=own,continue=0",
+          "march:face=32,mirrors=left_out,lookup=object"})
+        EXPECT_LE(split(scene::cornell_mirrors_closed(), technique).causes.rest_rmse, 1e-3)
+            << technique;
     EXPECT_LE(split(test::room(2, 3), "secant:face=32").causes.rest_rmse, 1e-3) << "three lights";
-    EXPECT_LE(split(test::hall(), "pyramid:face=32").causes.rest_rmse, 1e-3) << "mirrors of any shape";
+    EXPECT_LE(split(test::hall(), "pyramid:face=32").causes.rest_rmse, 1e-3)
+        << "mirrors of any shape";
 }
 
 // What eight bits lose is blamed on them, whichever way one looks.
@@ -80,12 +92,15 @@ TEST(Causes, LookingUpThePlainDirectionIsSearchDirection) {
 }
 
 TEST(Causes, MissingShadowsAreShadowMap) {
-    const Split dark = split(test::room(1, 1), "pyramid:face=128,shadow=none"), lit = split(test::room(1, 1), "pyramid:face=128");
+    const Split dark = split(test::room(1, 1), "pyramid:face=128,shadow=none"),
+                lit = split(test::room(1, 1), "pyramid:face=128");
     EXPECT_GT(dark.find("shadow map").in_turn, 10 * std::abs(lit.find("shadow map").in_turn));
     EXPECT_GT(dark.find("shadow map").alone, 10 * std::abs(lit.find("shadow map").alone));
 }
 
-TEST(Causes, CoarseTexelsAreTexels) { EXPECT_GT(split(test::room(1, 1), "pyramid:face=16").alone("texels"), .5); }
+TEST(Causes, CoarseTexelsAreTexels) {
+    EXPECT_GT(split(test::room(1, 1), "pyramid:face=16").alone("texels"), .5);
+}
 
 TEST(Causes, OneBallMirrorsNeitherOthersNorItself) {
     const Split found = split(test::room(1, 1), "parallax:face=32");
@@ -98,8 +113,10 @@ TEST(Causes, OneBallMirrorsNeitherOthersNorItself) {
 TEST(Causes, AHollowMirrorReflectsItself) {
     scene::Scene scene = test::room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
-    scene::Mesh corner = scene::quad("corner", {-1.5, -1.5, 1.5}, {0, -1.5, 1.9}, {0, 1.5, 1.9}, {-1.5, 1.5, 1.5});
-    const scene::Mesh other = scene::quad("", {0, -1.5, 1.9}, {.4, -1.5, .4}, {.4, 1.5, .4}, {0, 1.5, 1.9});
+    scene::Mesh corner = scene::quad("corner", {-1.5, -1.5, 1.5}, {0, -1.5, 1.9}, {0, 1.5, 1.9},
+                                     {-1.5, 1.5, 1.5});
+    const scene::Mesh other = scene::quad("", {0, -1.5, 1.9}, {.4, -1.5, .4}, {.4, 1.5, .4},
+                                          {0, 1.5, 1.9});
     corner.positions.insert(corner.positions.end(), other.positions.begin(), other.positions.end());
     corner.normals.insert(corner.normals.end(), other.normals.begin(), other.normals.end());
     for (const uvec3& triangle : other.triangles) corner.triangles.push_back(triangle + 4u);
@@ -126,10 +143,12 @@ TEST(Causes, AddUpToTheError) {
     std::vector<double> per_mirror(causes.squared_error_per_mirror.size());
     for (const report::Cause& cause : causes.list) {
         sum += cause.in_turn;
-        for (std::size_t i = 0; i < per_mirror.size(); ++i) per_mirror[i] += cause.in_turn_per_mirror[i];
+        for (std::size_t i = 0; i < per_mirror.size(); ++i)
+            per_mirror[i] += cause.in_turn_per_mirror[i];
     }
     EXPECT_NEAR(sum, causes.squared_error, 1e-12);
-    for (std::size_t i = 0; i < per_mirror.size(); ++i) EXPECT_NEAR(per_mirror[i], causes.squared_error_per_mirror[i], 1e-5) << "mirror " << i + 1;
+    for (std::size_t i = 0; i < per_mirror.size(); ++i)
+        EXPECT_NEAR(per_mirror[i], causes.squared_error_per_mirror[i], 1e-5) << "mirror " << i + 1;
 }
 
 } // namespace

@@ -19,36 +19,47 @@ ColourError error_of(const scene::Scene& scene, const std::string& technique) {
     const app::Part truth = test::render(scene, app::kReference, kSize);
     const measure::Picture picture = test::render(scene, technique, kSize, kFrames).hdr;
     const auto of = [&](const measure::Mask& mask) { return test::rmse(picture, truth.hdr, mask); };
-    const ColourError error{of(measure::mirrors(truth.hits)), of(measure::first_order(truth.hits)), of(measure::mirror_in_mirror(truth.hits))};
-    std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": rmse " << error.all << ", first order " << error.first_order
-              << ", mirror in mirror " << error.mirror_in_mirror << "\n";
+    const ColourError error{of(measure::mirrors(truth.hits)), of(measure::first_order(truth.hits)),
+                            of(measure::mirror_in_mirror(truth.hits))};
+    std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": rmse " << error.all
+              << ", first order " << error.first_order << ", mirror in mirror "
+              << error.mirror_in_mirror << "\n";
     return error;
 }
 
-// A ball, a block and a flat mirror: two of three are followed through what captures know of surfaces.
+// A ball, a block and a flat mirror: two of three are followed through what captures know of
+// surfaces.
 TEST(Continue, FollowsMirrorsOfAnyShape) {
     for (const std::string search : {"secant", "march", "pyramid", "layered", "hybrid"}) {
-        const ColourError without = error_of(test::hall(), search + ":continue=0"), with = error_of(test::hall(), search);
+        const ColourError without = error_of(test::hall(), search + ":continue=0"),
+                          with = error_of(test::hall(), search);
         EXPECT_LE(with.mirror_in_mirror, .25 * without.mirror_in_mirror) << search;
         // Here a pixel at the lamp's edge is nearly all of the error, with and without.
         EXPECT_LE(error_of(test::hall(), search + ":lookup=bilinear").first_order,
-                  1.05 * error_of(test::hall(), search + ":continue=0,lookup=bilinear").first_order) << search;
-        // A march that steps over the edge of a mirror goes on in the wrong one: some twenty pixels.
-        EXPECT_LE(with.first_order, (search == "march" ? 1.5 : 1.05) * without.first_order) << search;
+                  1.05 * error_of(test::hall(), search + ":continue=0,lookup=bilinear").first_order)
+            << search;
+        // A march that steps over the edge of a mirror goes on in the wrong one: some twenty
+        // pixels.
+        EXPECT_LE(with.first_order, (search == "march" ? 1.5 : 1.05) * without.first_order)
+            << search;
     }
 }
 
 // A reflectance of half a mirror shows once for each mirror on the way.
 TEST(Continue, DimsByEachMirrorOnTheWay) {
     scene::Scene furnace = test::furnace(0);
-    const std::size_t half = test::add_material(furnace, {.name = "half", .mirror = true, .reflectance = {.5f, .5f, .5f}});
+    const std::size_t half = test::add_material(
+        furnace, {.name = "half", .mirror = true, .reflectance = {.5f, .5f, .5f}});
     test::add_quad(furnace, "left", half, {-3, -2, 0}, {-3, -2, 4}, {-3, 2, 4}, {-3, 2, 0});
     test::add_quad(furnace, "right", half, {3, -2, 0}, {3, 2, 0}, {3, 2, 4}, {3, -2, 4});
     for (const std::string search : {"march", "pyramid", "layered"}) {
-        const measure::Picture picture = test::render(furnace, search + ":face=64,continue=8", kSize).hdr; // one frame: no history helps
+        const measure::Picture picture = test::render(furnace, search + ":face=64,continue=8",
+                                                      kSize)
+                                             .hdr; // one frame: no history helps
         std::array<std::size_t, 4> met{};
         for (const vec3& pixel : picture.pixels)
-            for (std::size_t k = 0; k < met.size(); ++k) met[k] += std::abs(pixel.x - std::exp2(-float(k)) * test::kFurnace.x) < 1e-3f;
+            for (std::size_t k = 0; k < met.size(); ++k)
+                met[k] += std::abs(pixel.x - std::exp2(-float(k)) * test::kFurnace.x) < 1e-3f;
         EXPECT_GT(met[1], 200u) << search;
         EXPECT_GT(met[2], 20u) << search << ": both mirrors";
     }
@@ -56,40 +67,52 @@ TEST(Continue, DimsByEachMirrorOnTheWay) {
 
 TEST(Captures, OfOtherMirrorsKnowWhatTheOwnDoesNot) {
     for (const std::string search : {"pyramid:face=128", "march:face=128", "secant:face=128"}) {
-        const auto judged = test::judge(scene::cornell_mirrors(), test::looks().front(), {search, search + ",captures=all"});
+        const auto judged = test::judge(scene::cornell_mirrors(), test::looks().front(),
+                                        {search, search + ",captures=all"});
         const measure::LookupError &own = judged[0].lookup, &all = judged[1].lookup;
         EXPECT_LE(all.unknown, .75 * own.unknown) << search;
-        EXPECT_LE(all.wrong_object, own.wrong_object) << search << ": an answer from elsewhere is no guess";
+        EXPECT_LE(all.wrong_object, own.wrong_object)
+            << search << ": an answer from elsewhere is no guess";
     }
 }
 
-// A pixel that no capture answers shows what it showed without asking. Before the middle of a flat mirror stand two
-// screens, all that two layers hold, behind which rays from its edges end; a ball far away is shut
-// up in two boxes, the inner as far from it as the second screen is from the mirror.
+// A pixel that no capture answers shows what it showed without asking. Before the middle of a flat
+// mirror stand two screens, all that two layers hold, behind which rays from its edges end; a ball
+// far away is shut up in two boxes, the inner as far from it as the second screen is from the
+// mirror.
 TEST(Captures, ThatDoNotAnswerChangeNothing) {
     scene::Scene scene = test::room(0, 1);
-    const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true}), grey = test::add_material(scene, {.name = "grey"}),
+    const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true}),
+                      grey = test::add_material(scene, {.name = "grey"}),
                       red = test::add_material(scene, {.name = "red", .albedo = {.8f, .1f, .1f}});
-    test::add_quad(scene, "panel", mirror, {-1.5, -1, 1.9}, {1.5, -1, 1.9}, {1.5, 1.2, 1.9}, {-1.5, 1.2, 1.9});
-    test::add_quad(scene, "near", red, {-.4, -.3, 1.6}, {.4, -.3, 1.6}, {.4, .5, 1.6}, {-.4, .5, 1.6});
-    test::add_quad(scene, "far", grey, {-.6, -.5, 1.3}, {.6, -.5, 1.3}, {.6, .7, 1.3}, {-.6, .7, 1.3});
+    test::add_quad(scene, "panel", mirror, {-1.5, -1, 1.9}, {1.5, -1, 1.9}, {1.5, 1.2, 1.9},
+                   {-1.5, 1.2, 1.9});
+    test::add_quad(scene, "near", red, {-.4, -.3, 1.6}, {.4, -.3, 1.6}, {.4, .5, 1.6},
+                   {-.4, .5, 1.6});
+    test::add_quad(scene, "far", grey, {-.6, -.5, 1.3}, {.6, -.5, 1.3}, {.6, .7, 1.3},
+                   {-.6, .7, 1.3});
     const dvec3 shut(10, 0, 0);
     test::add_ball(scene, "ball", mirror, shut, .05);
     for (const double half : {.6, .8})
-        for (int face = 0; face < 6; ++face) test::add_mesh(scene, test::wall(face, shut - half, shut + half), grey);
+        for (int face = 0; face < 6; ++face)
+            test::add_mesh(scene, test::wall(face, shut - half, shut + half), grey);
     for (const std::string search : {"pyramid", "layered", "march", "secant"}) {
-        app::Request request = test::request(scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"}, kSize);
+        app::Request request = test::request(
+            scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"}, kSize);
         request.with_lookup = true;
         const app::Result result = test::engine().run(request);
         const app::Part &own = result.parts[0], &all = result.parts[1];
         std::size_t unknown = 0, changed = 0;
         for (std::size_t i = 0; i < own.lookup.size(); ++i) {
-            const auto state = [&](const app::Part& part) { return (static_cast<int>(part.lookup[i].w) - 1) & 3; };
+            const auto state = [&](const app::Part& part) {
+                return (static_cast<int>(part.lookup[i].w) - 1) & 3;
+            };
             if (!(own.lookup[i].w > 0) || state(own) != 1 || state(all) != 1) continue;
             ++unknown;
             changed += own.hdr.pixels[i] != all.hdr.pixels[i];
         }
-        std::cout << "[ MEASURED ] " << search << ": " << unknown << " pixels that no capture answers, " << changed << " of another colour\n";
+        std::cout << "[ MEASURED ] " << search << ": " << unknown
+                  << " pixels that no capture answers, " << changed << " of another colour\n";
         EXPECT_GT(unknown, 20u) << search;
         EXPECT_EQ(changed, 0u) << search;
     }
@@ -99,19 +122,23 @@ TEST(Captures, ThatDoNotAnswerChangeNothing) {
 TEST(Mirrors, MayBeLeftOutOfCapturesWhereRaysAreFollowed) {
     for (const std::string search : {"secant", "pyramid", "layered"}) {
         const ColourError with = error_of(scene::cornell_mirrors(), search + ":continue=4"),
-                                without = error_of(scene::cornell_mirrors(), search + ":continue=4,mirrors=left_out");
+                          without = error_of(scene::cornell_mirrors(),
+                                             search + ":continue=4,mirrors=left_out");
         EXPECT_LE(without.all, 1.05 * with.all) << search;
     }
     // Nothing in them depends on the frame before: the first picture is the last.
     const std::string settled = "pyramid:face=64,continue=8,mirrors=left_out";
-    EXPECT_TRUE(test::same_bytes(test::render(scene::cornell_mirrors(), settled, kSize, 1).hdr, test::render(scene::cornell_mirrors(), settled, kSize, 5).hdr));
+    EXPECT_TRUE(test::same_bytes(test::render(scene::cornell_mirrors(), settled, kSize, 1).hdr,
+                                 test::render(scene::cornell_mirrors(), settled, kSize, 5).hdr));
 }
 
 TEST(Show, PaintsWhatTheSearchSaysOfItself) {
-    app::Request request = test::request(scene::cornell_mirrors(), {"pyramid:face=64,captures=own,show=state"}, kSize);
+    app::Request request = test::request(scene::cornell_mirrors(),
+                                         {"pyramid:face=64,captures=own,show=state"}, kSize);
     request.with_lookup = true;
     const app::Part part = std::move(test::engine().run(request).parts.front());
-    const std::array<vec3, 3> paint{{{.1f, .6f, .2f}, {.9f, .3f, .1f}, {.1f, .2f, .8f}}}; // hit, unknown, miss
+    const std::array<vec3, 3> paint{
+        {{.1f, .6f, .2f}, {.9f, .3f, .1f}, {.1f, .2f, .8f}}}; // hit, unknown, miss
     std::array<std::size_t, 3> count{};
     for (std::size_t i = 0; i < part.lookup.size(); ++i) {
         if (!(part.lookup[i].w > 0)) continue;

@@ -18,22 +18,26 @@ class EveryTechnique : public testing::TestWithParam<app::TechniqueInfo> {
 protected:
     /// With small captures and shadow maps where it has any.
     std::string small(std::vector<std::pair<std::string, std::string>> settings = {}) const {
-        for (const auto& cheap : std::vector<std::pair<std::string, std::string>>{{"face", "32"}, {"shadow_map", "64"}})
-            if (std::ranges::find(settings, cheap.first, &std::pair<std::string, std::string>::first) == settings.end())
+        for (const auto& cheap :
+             std::vector<std::pair<std::string, std::string>>{{"face", "32"}, {"shadow_map", "64"}})
+            if (std::ranges::find(settings, cheap.first,
+                                  &std::pair<std::string, std::string>::first) == settings.end())
                 settings.push_back(cheap);
         return test::with(GetParam(), settings);
     }
 };
-INSTANTIATE_TEST_SUITE_P(Table, EveryTechnique, testing::ValuesIn(app::techniques()), [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(Table, EveryTechnique, testing::ValuesIn(app::techniques()),
+                         [](const auto& instance) { return instance.param.name; });
 
-/// What a picture of a furnace may be off by: colours are exact in binary16, weights of a filter add up
-/// to 1 within one rounding of it.
+/// What a picture of a furnace may be off by: colours are exact in binary16, weights of a filter
+/// add up to 1 within one rounding of it.
 constexpr float kSlack = 0x1p-10f;
 
 TEST_P(EveryTechnique, OneMirrorInAFurnaceShowsTheFurnace) {
     const measure::Picture picture = test::render(test::furnace(1), small(), kSize, 3).hdr;
     for (const vec3& pixel : picture.pixels)
-        for (int c = 0; c < 3; ++c) ASSERT_NEAR(pixel[c], test::kFurnace[c], kSlack * test::kFurnace[c]);
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(pixel[c], test::kFurnace[c], kSlack * test::kFurnace[c]);
 }
 
 /// Share of pixels that are darker than the furnace; none may be brighter than 1.002 times that.
@@ -53,7 +57,8 @@ double dark_share(const scene::Scene& furnace, const std::string& technique, int
 
 TEST_P(EveryTechnique, TwoMirrorsInAFurnaceNeverGrowDarker) {
     const scene::Scene furnace = test::furnace(2);
-    const auto expect_falling = [&](const std::string& what, const std::function<double(int)>& share_at) {
+    const auto expect_falling = [&](const std::string& what,
+                                    const std::function<double(int)>& share_at) {
         double last = 1;
         for (int i = 0; i <= 4; ++i) {
             const double share = share_at(i);
@@ -65,7 +70,9 @@ TEST_P(EveryTechnique, TwoMirrorsInAFurnaceNeverGrowDarker) {
     expect_falling("frame", [&](int i) { return dark_share(furnace, small(), i + 1); });
     for (const std::string knob : {"bounces", "depth"})
         if (std::ranges::find(GetParam().knobs, knob, &app::Knob::name) != GetParam().knobs.end())
-            expect_falling(knob, [&](int i) { return dark_share(furnace, small({{knob, std::to_string(i)}}), 1); });
+            expect_falling(knob, [&](int i) {
+                return dark_share(furnace, small({{knob, std::to_string(i)}}), 1);
+            });
 }
 
 TEST_P(EveryTechnique, RendersTheSceneAsOftenAsItsRowSays) {
@@ -73,14 +80,19 @@ TEST_P(EveryTechnique, RendersTheSceneAsOftenAsItsRowSays) {
         for (const app::Knob& knob : GetParam().knobs) {
             // Each choice, and a number between the ends: whatever a row's count may depend on.
             std::vector<std::string> values = knob.choices;
-            if (values.empty() && (knob.name == "bounces" || knob.name == "depth" || knob.name == "continue")) values = {"0", "2"};
+            if (values.empty() &&
+                (knob.name == "bounces" || knob.name == "depth" || knob.name == "continue"))
+                values = {"0", "2"};
             if (values.empty()) values = {knob.value};
             for (const std::string& value : values) {
-                if (knob.name == "samples" || (knob.name == "face" && value == knob.value)) continue;
-                const std::string text = small({{knob.name, knob.name == "shadow_map" ? "64" : value}});
+                if (knob.name == "samples" || (knob.name == "face" && value == knob.value))
+                    continue;
+                const std::string text = small(
+                    {{knob.name, knob.name == "shadow_map" ? "64" : value}});
                 const reflect::Choice choice = reflect::parse_choice(text);
                 const app::Part part = test::render(test::room(mirrors, lights), text, {16, 16});
-                EXPECT_EQ(part.scene_passes, choice.technique->scene_passes(mirrors, lights, choice.settings))
+                EXPECT_EQ(part.scene_passes,
+                          choice.technique->scene_passes(mirrors, lights, choice.settings))
                     << text << " with " << mirrors << " mirrors and " << lights << " lights";
             }
         }
@@ -91,7 +103,7 @@ std::vector<std::string> extremes(const app::Knob& knob) {
     if (!knob.choices.empty()) return knob.choices;
     double high = knob.high;
     if (knob.name == "face" || knob.name == "shadow_map") high = 64; // 16384 wants gigabytes
-    if (knob.name == "samples") high = 16;                          // 65536 takes minutes
+    if (knob.name == "samples") high = 16;                           // 65536 takes minutes
     const auto text = [](double value) {
         const bool whole = value == std::floor(value);
         return whole ? std::to_string(static_cast<long long>(value)) : std::to_string(value);
@@ -106,11 +118,16 @@ TEST_P(EveryTechnique, MakesOnlyNumbersAtTheEndsOfEachKnob) {
     for (const app::Knob& knob : GetParam().knobs)
         for (const std::string& value : extremes(knob)) {
             std::vector<std::pair<std::string, std::string>> settings{{knob.name, value}};
-            if (knob.name == "range") settings.push_back({"distance", "unorm8"}); // without which it does nothing
+            if (knob.name == "range")
+                settings.push_back({"distance", "unorm8"}); // without which it does nothing
             const std::string text = small(settings);
             const app::Part part = test::render(room, text, {32, 24}, 3);
             EXPECT_EQ(test::nonfinite(part.hdr), 0u) << text;
-            EXPECT_EQ(std::ranges::count_if(part.hdr.pixels, [](const vec3& c) { return c.x < 0 || c.y < 0 || c.z < 0; }), 0) << text;
+            EXPECT_EQ(
+                std::ranges::count_if(part.hdr.pixels,
+                                      [](const vec3& c) { return c.x < 0 || c.y < 0 || c.z < 0; }),
+                0)
+                << text;
         }
 }
 
@@ -127,10 +144,12 @@ TEST_P(EveryTechnique, MakesTheSameBytesTwice) {
     }
 }
 
-/// Where it does not, its first frame is as good as any; where it does, mirrors in mirrors start black.
+/// Where it does not, its first frame is as good as any; where it does, mirrors in mirrors start
+/// black.
 TEST_P(EveryTechnique, ShowsMoreInASecondFrameIfAndOnlyIfItRemembers) {
     const std::string text = small({{"continue", "0"}});
-    const app::Part first = test::render(test::room(3, 1), text, kSize), second = test::render(test::room(3, 1), text, kSize, 2);
+    const app::Part first = test::render(test::room(3, 1), text, kSize),
+                    second = test::render(test::room(3, 1), text, kSize, 2);
     EXPECT_EQ(first.remembers, second.remembers);
     EXPECT_EQ(test::same_bytes(first.hdr, second.hdr), !first.remembers);
 }
@@ -157,18 +176,21 @@ TEST_P(EveryTechnique, RendersASceneWithoutMirrorsAndOneWithoutLight) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {2, 0}, {0, 0}}) {
         const app::Part part = test::render(test::room(mirrors, lights), small(), {24, 24}, 2);
         EXPECT_EQ(test::nonfinite(part.hdr), 0u);
-        EXPECT_GT(measure::mean_of(part.hdr, measure::Range::unclamped).all, 0.0) << "ambient light is left";
+        EXPECT_GT(measure::mean_of(part.hdr, measure::Range::unclamped).all, 0.0)
+            << "ambient light is left";
     }
 }
 
 TEST(Table, IsAsLongAsTheFolder) {
     std::size_t rows = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(CATOPTRIC_SOURCE_DIR "/engine/reflect")) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(CATOPTRIC_SOURCE_DIR "/engine/reflect")) {
         if (entry.path().extension() != ".cpp") continue;
         std::ifstream file(entry.path());
         const std::string text{std::istreambuf_iterator<char>(file), {}};
         const std::regex row(R"((^|\n)const Row \w+\{)");
-        rows += static_cast<std::size_t>(std::distance(std::sregex_iterator(text.begin(), text.end(), row), {}));
+        rows += static_cast<std::size_t>(
+            std::distance(std::sregex_iterator(text.begin(), text.end(), row), {}));
     }
     EXPECT_EQ(app::techniques().size(), rows);
     EXPECT_GE(rows, 4u);

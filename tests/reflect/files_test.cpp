@@ -14,11 +14,13 @@ namespace {
 using namespace catoptric;
 
 class Shipped : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Files, Shipped, testing::Values("glb", "obj"), [](const auto& instance) { return std::string(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Files, Shipped, testing::Values("glb", "obj"),
+                         [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Shipped, RendersAsTheBuiltInScene) {
     const scene::Scene built_in = scene::cornell_mirrors();
-    const scene::Scene loaded = scene::load(std::string(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.") + GetParam());
+    const scene::Scene loaded = scene::load(
+        std::string(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.") + GetParam());
     for (const char* technique : {"raytrace", "parallax"})
         for (const double time : {0.0, 0.7}) {
             app::Request request = test::request(built_in, {technique}, {256, 256});
@@ -26,12 +28,14 @@ TEST_P(Shipped, RendersAsTheBuiltInScene) {
             const measure::Picture wanted = test::engine().run(request).parts.front().hdr;
             request.scene = loaded, request.camera = loaded.cameras.at(0);
             const double error = test::rmse(test::engine().run(request).parts.front().hdr, wanted);
-            std::cout << "[ MEASURED ] ." << GetParam() << ", " << technique << " at " << time << " s: rmse " << error << "\n";
+            std::cout << "[ MEASURED ] ." << GetParam() << ", " << technique << " at " << time
+                      << " s: rmse " << error << "\n";
             EXPECT_LE(error, 1e-3);
         }
 }
 
-/// The .glb with its roots, camera and all, below `depth` nodes that each turn, move and grow what is in them.
+/// The .glb with its roots, camera and all, below `depth` nodes that each turn, move and grow what
+/// is in them.
 std::string below_nodes(const std::string& glb, int depth) {
     const auto number = [](const std::string& bytes, std::size_t at) {
         std::uint32_t value = 0;
@@ -42,11 +46,14 @@ std::string below_nodes(const std::string& glb, int depth) {
     nlohmann::json json = nlohmann::json::parse(glb.substr(head, length));
     const std::size_t first = json["nodes"].size();
     for (int k = 0; k < depth; ++k) {
-        const double half = k % 2 ? .3 : -.3; // radians; turned back in the end, as captures look along the world's axes
+        const double half =
+            k % 2 ? .3
+                  : -.3; // radians; turned back in the end, as captures look along the world's axes
         nlohmann::json node = {{"rotation", {0, std::sin(half), 0, std::cos(half)}},
                                {"translation", {40. * (k % 2), -3, k % 5}},
                                {"scale", {1.002, 1.002, 1.002}}};
-        node["children"] = k + 1 < depth ? nlohmann::json::array({first + std::size_t(k) + 1}) : json["scenes"][0]["nodes"];
+        node["children"] = k + 1 < depth ? nlohmann::json::array({first + std::size_t(k) + 1})
+                                         : json["scenes"][0]["nodes"];
         json["nodes"].push_back(node);
     }
     json["scenes"][0]["nodes"] = nlohmann::json::array({first});
@@ -66,12 +73,16 @@ using Nested = test::InFolder;
 
 /// N4: a thousand nodes one in another, some 7 times as large and far away: the same picture.
 TEST_F(Nested, RendersBelowAThousandNodes) {
-    std::ifstream file(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.glb", std::ios::binary);
+    std::ifstream file(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.glb",
+                       std::ios::binary);
     const std::string glb((std::istreambuf_iterator<char>(file)), {});
     const std::filesystem::path path = folder / "nested.glb";
     std::ofstream(path, std::ios::binary) << below_nodes(glb, 1000);
-    const scene::Scene flat = scene::load(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.glb"), nested = scene::load(path);
-    const dmat4 there = nested.objects.front().world_from_object, here = flat.objects.front().world_from_object;
+    const scene::Scene flat = scene::load(CATOPTRIC_SOURCE_DIR
+                                          "/samples/scenes/cornell-mirrors.glb"),
+                       nested = scene::load(path);
+    const dmat4 there = nested.objects.front().world_from_object,
+                here = flat.objects.front().world_from_object;
     EXPECT_NEAR(length(dvec3(there[0])) / length(dvec3(here[0])), std::pow(1.002, 1000), 1e-6);
     EXPECT_GT(length(dvec3(there[3] - here[3])), 1e4);
     for (const char* technique : {"raytrace", "parallax"})
@@ -82,7 +93,8 @@ TEST_F(Nested, RendersBelowAThousandNodes) {
                 return test::engine().run(request).parts.front().display;
             };
             const double flip = measure::flip_mean(measure::flip(display(nested), display(flat)));
-            std::cout << "[ MEASURED ] 1000 nodes, " << technique << " at " << time << " s: FLIP " << flip << "\n";
+            std::cout << "[ MEASURED ] 1000 nodes, " << technique << " at " << time << " s: FLIP "
+                      << flip << "\n";
             EXPECT_LE(flip, 1e-3);
         }
 }

@@ -1,4 +1,5 @@
-// Only what the search does not know is traced, as the ray tracer would; how much that is, and what it is worth.
+// Only what the search does not know is traced, as the ray tracer would; how much that is, and what
+// it is worth.
 #include "support/searches.hpp"
 
 namespace {
@@ -36,12 +37,15 @@ void expect_counted(const app::Part& part, bool every_mirror) {
     const std::size_t wanted = every_mirror ? counted.mirror : counted.unknown;
     EXPECT_EQ(part.rays->primary, wanted) << part.label;
     EXPECT_EQ(part.traced_fraction.has_value(), counted.mirror > 0) << part.label;
-    const double share = counted.mirror > 0 ? static_cast<double>(wanted) / static_cast<double>(counted.mirror) : 0;
+    const double share = counted.mirror > 0
+                             ? static_cast<double>(wanted) / static_cast<double>(counted.mirror)
+                             : 0;
     EXPECT_DOUBLE_EQ(part.traced_fraction.value_or(0), share) << part.label;
 }
 
 /// With every answer unknown, the ray tracer's bytes wherever both see a mirror.
-void expect_traced(const scene::Scene& scene, const std::string& settings, const std::string& reference, uvec2 size) {
+void expect_traced(const scene::Scene& scene, const std::string& settings,
+                   const std::string& reference, uvec2 size) {
     const app::Part traced = test::render(scene, reference, size);
     const app::Part part = hybrid(scene, "hybrid:force=unknown" + settings, size);
     expect_counted(part, true);
@@ -50,10 +54,11 @@ void expect_traced(const scene::Scene& scene, const std::string& settings, const
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
         const bool here = part.lookup[i].w != 0, there = mirrors[i];
         both += here && there, one += here != there;
-        different += here && there && std::memcmp(&part.hdr.pixels[i], &traced.hdr.pixels[i], sizeof(vec3)) != 0;
+        different += here && there &&
+                     std::memcmp(&part.hdr.pixels[i], &traced.hdr.pixels[i], sizeof(vec3)) != 0;
     }
-    std::cout << "[ MEASURED ] " << part.label << ", " << scene.name << ": " << different << " of " << both
-              << " mirror pixels differ, " << one << " are a mirror to one of the two\n";
+    std::cout << "[ MEASURED ] " << part.label << ", " << scene.name << ": " << different << " of "
+              << both << " mirror pixels differ, " << one << " are a mirror to one of the two\n";
     EXPECT_GT(both, 0u);
     EXPECT_EQ(different, 0u);
     EXPECT_LE(static_cast<double>(one), .001 * static_cast<double>(both));
@@ -61,20 +66,26 @@ void expect_traced(const scene::Scene& scene, const std::string& settings, const
 
 TEST(Hybrid, WithEveryAnswerUnknownItIsTheRayTracer) {
     expect_traced(scene::cornell_mirrors(), ",face=64", "raytrace:depth=16", kSize);
-    expect_traced(scene::cornell_mirrors(), ",face=64,shadow=none", "raytrace:depth=16,shadow=none", kSize);
+    expect_traced(scene::cornell_mirrors(), ",face=64,shadow=none", "raytrace:depth=16,shadow=none",
+                  kSize);
     expect_traced(test::room(3, 2), ",face=32", "raytrace:depth=16", kSize);
 }
 
 TEST(Hybrid, MoreWorkGroupsThanOneRowHolds) {
     scene::Scene close = test::room(1, 1);
-    close.cameras = {{.name = "close", .eye = {-.9, -1.2, -.9}, .target = {-.9, -1.2, .3}, .vertical_fov_degrees = 50}};
-    expect_traced(close, ",face=32", "raytrace:depth=16", {2056, 2056}); // 66049 of 65535, and all of them mirror
+    close.cameras = {{.name = "close",
+                      .eye = {-.9, -1.2, -.9},
+                      .target = {-.9, -1.2, .3},
+                      .vertical_fov_degrees = 50}};
+    expect_traced(close, ",face=32", "raytrace:depth=16",
+                  {2056, 2056}); // 66049 of 65535, and all of them mirror
 }
 
 TEST(Hybrid, TracesThePixelsThatTheSearchCallsUnknown) {
     for (const uvec2 size : {uvec2{1, 1}, uvec2{33, 17}, uvec2{200, 177}})
         for (const std::string force : {"search", "unknown"})
-            expect_counted(hybrid(scene::cornell_mirrors(), "hybrid:face=32,force=" + force, size), force == "unknown");
+            expect_counted(hybrid(scene::cornell_mirrors(), "hybrid:face=32,force=" + force, size),
+                           force == "unknown");
 }
 
 TEST(Hybrid, ChangesOnlyWhatItTraces) {
@@ -92,7 +103,8 @@ TEST(Hybrid, ChangesOnlyWhatItTraces) {
 }
 
 TEST(Hybrid, AnEmptyListTracesNothing) {
-    const app::Part one = hybrid(test::furnace(1), "hybrid:face=32", {48, 48}); // nothing hides anything
+    const app::Part one = hybrid(test::furnace(1), "hybrid:face=32",
+                                 {48, 48}); // nothing hides anything
     EXPECT_EQ(one.rays->primary, 0u);
     EXPECT_EQ(one.traced_fraction, 0.0);
     scene::Scene away = test::furnace(1);
@@ -107,8 +119,10 @@ TEST(Hybrid, IsWorthWhatItTraces) {
     for (const test::Look& look : test::looks()) {
         SCOPED_TRACE(look.camera.name);
         const auto judged = test::judge(scene::cornell_mirrors(), look,
-                                        {"parallax:face=512", "hybrid:face=512", "hybrid:face=512,continue=0", "hybrid:face=256"});
-        const test::Judged &parallax = judged[0], &followed = judged[1], &alone = judged[2], &coarse = judged[3];
+                                        {"parallax:face=512", "hybrid:face=512",
+                                         "hybrid:face=512,continue=0", "hybrid:face=256"});
+        const test::Judged &parallax = judged[0], &followed = judged[1], &alone = judged[2],
+                           &coarse = judged[3];
         EXPECT_LE(followed.all, .39 * parallax.all);
         EXPECT_LE(coarse.all, .46 * parallax.all);
         EXPECT_LE(followed.mirror_in_mirror, .25 * alone.mirror_in_mirror);
@@ -119,7 +133,8 @@ TEST(Hybrid, IsWorthWhatItTraces) {
 TEST(Hybrid, TracesLittleInAClosedRoom) {
     for (const test::Look& look : test::looks()) {
         SCOPED_TRACE(look.camera.name);
-        const auto judged = test::judge(scene::cornell_mirrors_closed(), look, {"parallax:face=512", "hybrid:face=512"});
+        const auto judged = test::judge(scene::cornell_mirrors_closed(), look,
+                                        {"parallax:face=512", "hybrid:face=512"});
         EXPECT_LE(judged[1].all, .39 * judged[0].all);
         EXPECT_LE(judged[1].traced_fraction, .02);
     }

@@ -13,12 +13,16 @@ using testing::ElementsAre;
 
 constexpr uvec2 kSize{64, 64};
 
-app::LagRequest lag_request(const scene::Scene& scene, const std::vector<std::string>& techniques, const std::vector<double>& speeds,
-                            int most_instants = 30) {
-    return {.base = test::request(scene, techniques, kSize), .speeds = speeds, .most_instants = most_instants};
+app::LagRequest lag_request(const scene::Scene& scene, const std::vector<std::string>& techniques,
+                            const std::vector<double>& speeds, int most_instants = 30) {
+    return {.base = test::request(scene, techniques, kSize),
+            .speeds = speeds,
+            .most_instants = most_instants};
 }
 
-report::Lag measure(const app::LagRequest& request) { return app::measure_lag(test::engine(), request); }
+report::Lag measure(const app::LagRequest& request) {
+    return app::measure_lag(test::engine(), request);
+}
 
 void expect_no_lag(const report::Lag& lag, std::size_t rows, std::size_t speeds) {
     ASSERT_EQ(lag.rows.size(), rows);
@@ -28,19 +32,23 @@ void expect_no_lag(const report::Lag& lag, std::size_t rows, std::size_t speeds)
         for (const report::LagAtSpeed& at : row.speeds) {
             EXPECT_THAT(at.rmse, testing::Each(0.0)) << row.label << " at " << at.speed;
             EXPECT_EQ(at.rmse.size(), lag.seconds.size());
-            EXPECT_EQ(at.reference_rmse, row.still_reference_rmse) << row.label << " at " << at.speed;
+            EXPECT_EQ(at.reference_rmse, row.still_reference_rmse)
+                << row.label << " at " << at.speed;
             EXPECT_EQ(at.max_rmse, 0);
         }
     }
 }
 
 TEST(Lag, OfASceneThatStandsIsZeroAtEverySpeed) {
-    const report::Lag lag = measure(lag_request(test::room(3, 1), {"reuse:face=32", "secant:face=32"}, {0.25, 1, 8}));
-    EXPECT_THAT(lag.seconds, ElementsAre(0.0)) << "where nothing moves, one instant is all there is";
+    const report::Lag lag = measure(
+        lag_request(test::room(3, 1), {"reuse:face=32", "secant:face=32"}, {0.25, 1, 8}));
+    EXPECT_THAT(lag.seconds, ElementsAre(0.0))
+        << "where nothing moves, one instant is all there is";
     expect_no_lag(lag, 2, 3);
     for (const report::LagRow& row : lag.rows) {
         EXPECT_EQ(row.after_jump.max_settled, 1) << "a jump of nothing";
-        EXPECT_GT(row.still_reference_rmse[0], 0) << "its error against the reference is another matter";
+        EXPECT_GT(row.still_reference_rmse[0], 0)
+            << "its error against the reference is another matter";
     }
     EXPECT_GT(lag.rows[0].after_black.max_settled, 1) << "three mirrors see each other";
 }
@@ -49,7 +57,8 @@ TEST(Lag, OfASceneThatStandsIsZeroAtEverySpeed) {
 TEST(Lag, OfASingleMirrorIsZeroThoughItMoves) {
     scene::Scene scene = test::room(1, 1);
     scene.objects.back().motion = scene::Harmonic{.amplitude = {.2, .4, 0}, .period = 1.6};
-    const report::Lag lag = measure(lag_request(scene, {"reuse:face=32", "parallax:face=32"}, {1, 4}, 6));
+    const report::Lag lag = measure(
+        lag_request(scene, {"reuse:face=32", "parallax:face=32"}, {1, 4}, 6));
     ASSERT_EQ(lag.seconds.size(), 6u);
     expect_no_lag(lag, 2, 2);
     for (const report::LagRow& row : lag.rows) {
@@ -58,12 +67,13 @@ TEST(Lag, OfASingleMirrorIsZeroThoughItMoves) {
             EXPECT_EQ(cut.rmse_settled, 1);
             EXPECT_EQ(cut.max_settled, 1);
         }
-        EXPECT_NE(row.still_reference_rmse[0], row.still_reference_rmse[3]) << "the picture does change";
+        EXPECT_NE(row.still_reference_rmse[0], row.still_reference_rmse[3])
+            << "the picture does change";
     }
 }
 
-/// A large mirror that moves and is seen in another, and no lamp far brighter than white, whose image in a
-/// single pixel would outweigh the rest.
+/// A large mirror that moves and is seen in another, and no lamp far brighter than white, whose
+/// image in a single pixel would outweigh the rest.
 TEST(Lag, GrowsWithSpeed) {
     scene::Scene scene = test::room(2, 1);
     scene.objects.back().motion = scene::Harmonic{.amplitude = {0, .3, 0}, .period = 4};
@@ -78,14 +88,15 @@ TEST(Lag, GrowsWithSpeed) {
     const std::vector<report::LagAtSpeed>& speeds = lag.rows[0].speeds;
     ASSERT_EQ(speeds.size(), 3u);
     for (const report::LagAtSpeed& at : speeds)
-        std::cout << "[ MEASURED ] lag of reuse at " << at.speed << "x: rmse " << at.mean_rmse << ", median " << at.median_rmse
-                  << ", largest " << at.max_rmse << "\n";
+        std::cout << "[ MEASURED ] lag of reuse at " << at.speed << "x: rmse " << at.mean_rmse
+                  << ", median " << at.median_rmse << ", largest " << at.max_rmse << "\n";
     EXPECT_GT(speeds[0].mean_rmse, 0);
     EXPECT_GT(speeds[1].mean_rmse, 1.4 * speeds[0].mean_rmse);
     EXPECT_GT(speeds[2].mean_rmse, 1.4 * speeds[1].mean_rmse);
 }
 
-/// Told by other means: an animation that ends at the instant, beside the same bounces rendered at once.
+/// Told by other means: an animation that ends at the instant, beside the same bounces rendered at
+/// once.
 TEST(Lag, IsWhatAnAnimationShows) {
     const scene::Scene scene = scene::cornell_mirrors();
     app::LagRequest request = lag_request(scene, {"reuse:face=32"}, {1}, 4);
@@ -95,15 +106,18 @@ TEST(Lag, IsWhatAnAnimationShows) {
 
     app::Request moving = test::request(scene, {"reuse:face=32"}, kSize);
     moving.animate = true, moving.time = .5, moving.warmup = 45; // frame 46 stands at 1.25 s
-    app::Request still = test::request(scene, {"naive:face=32,bounces=8"}, kSize), traced = test::request(scene, {"raytrace"}, kSize);
+    app::Request still = test::request(scene, {"naive:face=32,bounces=8"}, kSize),
+                 traced = test::request(scene, {"raytrace"}, kSize);
     still.time = traced.time = 1.25;
     const measure::Mask mirrors = measure::mirrors(test::engine().run(traced).parts.front().hits);
-    const double rmse = test::rmse(test::engine().run(moving).parts.front().hdr, test::engine().run(still).parts.front().hdr, mirrors);
+    const double rmse = test::rmse(test::engine().run(moving).parts.front().hdr,
+                                   test::engine().run(still).parts.front().hdr, mirrors);
     EXPECT_GT(rmse, 0);
     EXPECT_NEAR(lag.rows[0].speeds[0].rmse[1], rmse, 1e-6);
 }
 
-/// reuse's frame k is naive with k bounces, byte for byte (reuse_test.cpp): so many bounces, so many frames.
+/// reuse's frame k is naive with k bounces, byte for byte (reuse_test.cpp): so many bounces, so
+/// many frames.
 TEST(Lag, FramesAfterBlackAreTheBouncesThatNaiveNeeds) {
     const scene::Scene scene = scene::cornell_mirrors();
     app::LagRequest request = lag_request(scene, {"reuse:face=64"}, {8}, 1);
@@ -113,26 +127,33 @@ TEST(Lag, FramesAfterBlackAreTheBouncesThatNaiveNeeds) {
     const report::Settling& cut = lag.rows[0].after_black;
 
     const auto naive = [&](int bounces) {
-        return test::render(scene, "naive:face=64,bounces=" + std::to_string(bounces), request.base.size).hdr;
+        return test::render(scene, "naive:face=64,bounces=" + std::to_string(bounces),
+                            request.base.size)
+            .hdr;
     };
-    const measure::Mask mirrors = measure::mirrors(test::render(scene, "raytrace", request.base.size).hits);
+    const measure::Mask mirrors = measure::mirrors(
+        test::render(scene, "raytrace", request.base.size).hits);
     const measure::Picture converged = naive(8);
-    int rmse_settled = 0, max_settled = 0; // the first number of bounces after the last that is not within
+    int rmse_settled = 0,
+        max_settled = 0; // the first number of bounces after the last that is not within
     for (int k = 1; k <= 8; ++k) {
-        const measure::Difference error = measure::difference(naive(k), converged, mirrors, std::vector<float>(mirrors.size()));
+        const measure::Difference error = measure::difference(naive(k), converged, mirrors,
+                                                              std::vector<float>(mirrors.size()));
         EXPECT_EQ(cut.rmse[static_cast<std::size_t>(k) - 1], error.rmse) << k;
         EXPECT_EQ(cut.max[static_cast<std::size_t>(k) - 1], error.max) << k;
         if (!(error.rmse <= 1 / 255.0)) rmse_settled = k + 1;
         if (!(error.max <= 1 / 255.0)) max_settled = k + 1;
     }
-    std::cout << "[ MEASURED ] frames after black until within 1/255: " << rmse_settled << " by rmse, " << max_settled << " in every pixel\n";
+    std::cout << "[ MEASURED ] frames after black until within 1/255: " << rmse_settled
+              << " by rmse, " << max_settled << " in every pixel\n";
     EXPECT_EQ(cut.rmse_settled, rmse_settled);
     EXPECT_EQ(cut.max_settled, max_settled);
     EXPECT_GT(max_settled, rmse_settled);
 }
 
 TEST(Lag, IsNotAskedOfRowsWithoutHistory) {
-    const report::Lag lag = measure(lag_request(test::room(2, 1), {"naive:face=32", "raytrace", "reuse:face=32"}, {1}));
+    const report::Lag lag = measure(
+        lag_request(test::room(2, 1), {"naive:face=32", "raytrace", "reuse:face=32"}, {1}));
     EXPECT_THAT(lag.without_history, ElementsAre("naive:face=32", "raytrace"));
     ASSERT_EQ(lag.rows.size(), 1u);
     EXPECT_EQ(lag.rows[0].label, "reuse:face=32");
@@ -144,17 +165,20 @@ TEST(Lag, RefusesWhatCannotBeMeasured) {
         test::expect_refused([&] { measure(request); }, Failure::usage, words);
     };
     const scene::Scene scene = test::room(1, 1);
-    refused(lag_request(scene, {"reuse"}, {3, 8}), {"whole number of times into the fastest, 8", "found 3"});
+    refused(lag_request(scene, {"reuse"}, {3, 8}),
+            {"whole number of times into the fastest, 8", "found 3"});
     refused(lag_request(scene, {"reuse"}, {0, 1}), {"positive speeds", "found 0"});
     refused(lag_request(scene, {"reuse"}, {-1, 1}), {"positive speeds", "found -1"});
     refused(lag_request(scene, {"reuse"}, {}), {"at least one speed"});
     refused(lag_request(scene, {"reuse"}, {1}, 0), {"at least one instant, found 0"});
     refused(lag_request(scene, {}, {1}), {"no technique"});
-    refused(lag_request(scene, {"reuse", "parallx"}, {1}), {"'parallx'", "did you mean 'parallax'"});
+    refused(lag_request(scene, {"reuse", "parallx"}, {1}),
+            {"'parallx'", "did you mean 'parallax'"});
 }
 
 TEST(Lag, KeepsWhatThereIsWhenStopped) {
-    app::LagRequest request = lag_request(test::room(2, 1), {"reuse:face=32", "parallax:face=32"}, {1, 2});
+    app::LagRequest request = lag_request(test::room(2, 1), {"reuse:face=32", "parallax:face=32"},
+                                          {1, 2});
     request.on_row = [](const std::string& label, std::size_t, std::size_t count) {
         EXPECT_EQ(count, 3u) << "the reference and two rows";
         if (label == "lag of parallax:face=32") app::stop_signal = 2;

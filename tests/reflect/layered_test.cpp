@@ -1,4 +1,5 @@
-// Two layers: what a small ball hides from a capture's centre is in the second, and the search finds it.
+// Two layers: what a small ball hides from a capture's centre is in the second, and the search
+// finds it.
 #include "core/shader_math.hpp"
 #include "support/captures.hpp"
 #include "support/searches.hpp"
@@ -13,17 +14,23 @@ using namespace catoptric;
 constexpr dvec3 kLow{-4, -3, -5}, kHigh{4, 3, 5};
 constexpr dvec3 kCentre{.5, -.25, 1}, kOccluder{1.7, -.25, .1};
 constexpr double kRadius = .5; // of the occluder
-constexpr vec3 kWalls[6]{{.5f, 0, 0}, {0, .5f, 0}, {0, 0, .5f}, {.5f, .5f, 0}, {0, .5f, .5f}, {.25f, 0, .5f}};
+constexpr vec3 kWalls[6]{{.5f, 0, 0},   {0, .5f, 0},   {0, 0, .5f},
+                         {.5f, .5f, 0}, {0, .5f, .5f}, {.25f, 0, .5f}};
 constexpr vec3 kBall{1, .5f, .25f}; // all exact in binary16
 
 /// A box whose walls each emit a colour of their own, a mirror ball, and a glowing ball beside it.
 scene::Scene hidden_wall() {
     scene::Scene scene{.name = "hidden wall"};
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::wall(face, kLow, kHigh), test::add_material(scene, {.name = "wall", .emission = kWalls[face]}));
-    test::add_ball(scene, "mirror", test::add_material(scene, {.name = "mirror", .mirror = true}), kCentre, .75, 4);
-    test::add_ball(scene, "occluder", test::add_material(scene, {.name = "ball", .emission = kBall}), kOccluder, kRadius, 4);
-    scene.cameras.push_back({.name = "inside", .eye = {-2.5, 1, -3}, .target = kCentre, .vertical_fov_degrees = 20});
+        test::add_mesh(scene, test::wall(face, kLow, kHigh),
+                       test::add_material(scene, {.name = "wall", .emission = kWalls[face]}));
+    test::add_ball(scene, "mirror", test::add_material(scene, {.name = "mirror", .mirror = true}),
+                   kCentre, .75, 4);
+    test::add_ball(scene, "occluder",
+                   test::add_material(scene, {.name = "ball", .emission = kBall}), kOccluder,
+                   kRadius, 4);
+    scene.cameras.push_back(
+        {.name = "inside", .eye = {-2.5, 1, -3}, .target = kCentre, .vertical_fov_degrees = 20});
     return scene;
 }
 
@@ -39,7 +46,8 @@ double wall_distance(const dvec3& centre, const dvec3& direction, int& wall) {
 }
 
 /// Both layers around every mirror, without shadows; other mirrors are black.
-std::pair<test::Captured, test::Captured> capture_layers(const scene::Scene& scene, std::uint32_t face, Format distance) {
+std::pair<test::Captured, test::Captured> capture_layers(const scene::Scene& scene,
+                                                         std::uint32_t face, Format distance) {
     auto& [device, pipelines] = test::bench();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
@@ -53,7 +61,9 @@ std::pair<test::Captured, test::Captured> capture_layers(const scene::Scene& sce
     if (distance == Format::r8_unorm) options.stored_unit = gpu_scene.space().length(10);
     const render::Cubes cubes = render::declare_cubes(graph, inputs, options);
     render::add_captures(graph, inputs, options, cubes);
-    for (const graph::Image image : {cubes.colour, *cubes.distance, *cubes.colour2, *cubes.distance2}) graph.want(image);
+    for (const graph::Image image :
+         {cubes.colour, *cubes.distance, *cubes.colour2, *cubes.distance2})
+        graph.want(image);
     test::run(runner, graph);
     return {{face, runner.read(cubes.colour), runner.read(*cubes.distance), gpu_scene.space()},
             {face, runner.read(*cubes.colour2), runner.read(*cubes.distance2), gpu_scene.space()}};
@@ -63,16 +73,20 @@ TEST(Layered, SecondLayerIsTheWallBehindTheBall) {
     constexpr std::uint32_t kFace = 128;
     const scene::Scene scene = hidden_wall();
     const auto [first, second] = capture_layers(scene, kFace, Format::r32f);
-    const dvec3 centre = scene::bounds(scene, scene.objects[scene::mirrors(scene).front()]).centre();
+    const dvec3 centre =
+        scene::bounds(scene, scene.objects[scene::mirrors(scene).front()]).centre();
     std::size_t hidden = 0, wrong = 0;
     double solid_angle = 0;
     for (int face = 0; face < 6; ++face)
         for (std::uint32_t y = 0; y < kFace; ++y)
             for (std::uint32_t x = 0; x < kFace; ++x) {
-                const dvec3 at = f64::cube_direction(face, dvec3((2 * x + 1.0) / kFace - 1, (2 * y + 1.0) / kFace - 1, 1));
-                const float one = first.distance(0, face, x, y, Format::r32f), two = second.distance(0, face, x, y, Format::r32f);
+                const dvec3 at = f64::cube_direction(
+                    face, dvec3((2 * x + 1.0) / kFace - 1, (2 * y + 1.0) / kFace - 1, 1));
+                const float one = first.distance(0, face, x, y, Format::r32f),
+                            two = second.distance(0, face, x, y, Format::r32f);
                 if (first.colour(0, face, x, y) != kBall) {
-                    // Nothing lies behind a wall, and the back of the ball, which looks away, is in no layer.
+                    // Nothing lies behind a wall, and the back of the ball, which looks away, is in
+                    // no layer.
                     EXPECT_TRUE(std::isinf(two));
                     EXPECT_EQ(second.colour(0, face, x, y), vec3(0));
                     continue;
@@ -80,14 +94,18 @@ TEST(Layered, SecondLayerIsTheWallBehindTheBall) {
                 ++hidden;
                 solid_angle += 4 / (kFace * kFace * std::pow(length(at), 3));
                 int wall = 0;
-                const float expected = first.space.length(wall_distance(centre, normalize(at), wall));
+                const float expected = first.space.length(
+                    wall_distance(centre, normalize(at), wall));
                 EXPECT_GT(two, one * (1 + 0x1p-10f));
-                // Interpolated positions are right to a few roundings of the scene's extent, about 1.
-                wrong += !(std::abs(two - expected) <= 0x1p-18f) || second.colour(0, face, x, y) != kWalls[wall];
+                // Interpolated positions are right to a few roundings of the scene's extent,
+                // about 1.
+                wrong += !(std::abs(two - expected) <= 0x1p-18f) ||
+                         second.colour(0, face, x, y) != kWalls[wall];
             }
     // At its outline the ball's facets look away where their smooth normals do not yet.
     EXPECT_LE(wrong, hidden / 100);
-    const double sine = kRadius / length(kOccluder - centre), expected = 2 * f64::kPi * (1 - std::sqrt(1 - sine * sine));
+    const double sine = kRadius / length(kOccluder - centre),
+                 expected = 2 * f64::kPi * (1 - std::sqrt(1 - sine * sine));
     EXPECT_NEAR(solid_angle, expected, .02 * expected) << hidden << " texels of ball";
 }
 
@@ -100,7 +118,8 @@ TEST(Layered, PeelsWithEveryFormat) {
             for (int face = 0; face < 6; ++face)
                 for (std::uint32_t y = 0; y < kFace; ++y)
                     for (std::uint32_t x = 0; x < kFace; ++x) {
-                        const float one = first.distance(mirror, face, x, y, format), two = second.distance(mirror, face, x, y, format);
+                        const float one = first.distance(mirror, face, x, y, format),
+                                    two = second.distance(mirror, face, x, y, format);
                         EXPECT_GE(two, one);
                         behind += format == Format::r8_unorm ? two < 1 : std::isfinite(two);
                     }
@@ -118,12 +137,15 @@ TEST(Layered, FindsTheWallWhereOneLayerShowsTheBall) {
         return std::move(test::engine().run(request).parts.front());
     };
     const app::Part truth = render("raytrace:depth=4");
-    const measure::Picture parallax = render("parallax").hdr, secant = render("secant").hdr, layered = render("layered").hdr;
+    const measure::Picture parallax = render("parallax").hdr, secant = render("secant").hdr,
+                           layered = render("layered").hdr;
     // Every pixel shows a wall, 0 to 5, or the ball, 6, whatever was mixed at an edge.
     const auto seen = [](const vec3& colour) {
         std::size_t nearest = 6;
         for (std::size_t i = 0; i < 6; ++i)
-            if (distance(colour, kWalls[i]) < distance(colour, nearest == 6 ? kBall : kWalls[nearest])) nearest = i;
+            if (distance(colour, kWalls[i]) <
+                distance(colour, nearest == 6 ? kBall : kWalls[nearest]))
+                nearest = i;
         return nearest;
     };
     std::size_t mirror = 0, hidden = 0, found = 0, wrong_secant = 0, wrong_layered = 0;
@@ -137,19 +159,24 @@ TEST(Layered, FindsTheWallWhereOneLayerShowsTheBall) {
         ++hidden;
         found += seen(layered.pixels[i]) == wanted;
     }
-    std::cout << "[ MEASURED ] parallax or secant show the ball at " << hidden << " pixels of wall, of which layered finds " << found
-              << "; wrong of " << mirror << ": secant " << wrong_secant << ", layered " << wrong_layered << "\n";
+    std::cout << "[ MEASURED ] parallax or secant show the ball at " << hidden
+              << " pixels of wall, of which layered finds " << found << "; wrong of " << mirror
+              << ": secant " << wrong_secant << ", layered " << wrong_layered << "\n";
     EXPECT_GT(hidden, 50u);
     EXPECT_GE(found, hidden * 98 / 100);
     EXPECT_LE(wrong_layered, wrong_secant / 4);
 }
 
-// What rounding of eight bits may hide behind the first layer does not depend on what their range is called.
+// What rounding of eight bits may hide behind the first layer does not depend on what their range
+// is called.
 TEST(Layered, PeelsEightBitsWhateverTheirRange) {
     const app::Part truth = test::render(scene::cornell_mirrors(), "raytrace:depth=16", {256, 256});
     const auto error = [&](const std::string& range) {
-        return test::rmse(test::render(scene::cornell_mirrors(), "layered:face=128,distance=unorm8,range=" + range, {256, 256}, 4).hdr, truth.hdr,
-                          measure::mirrors(truth.hits));
+        return test::rmse(test::render(scene::cornell_mirrors(),
+                                       "layered:face=128,distance=unorm8,range=" + range,
+                                       {256, 256}, 4)
+                              .hdr,
+                          truth.hdr, measure::mirrors(truth.hits));
     };
     const double beside = error("1023"), at = error("1024"); // the scene's own size
     std::cout << "[ MEASURED ] rmse at a range of 1023: " << beside << ", 1024: " << at << "\n";
@@ -157,12 +184,18 @@ TEST(Layered, PeelsEightBitsWhateverTheirRange) {
 }
 
 TEST(Layered, RendersTheSceneTwiceAMirror) {
-    const app::Part part = test::render(scene::cornell_mirrors(), "layered:face=16,shadow_map=16", {16, 16});
+    const app::Part part = test::render(scene::cornell_mirrors(), "layered:face=16,shadow_map=16",
+                                        {16, 16});
     EXPECT_EQ(part.scene_passes, 2 * 4 + 2);
 }
 
 TEST(Layered, IsWorthItsSecondLayer) {
-    test::expect_worth("layered", {.first_order = .55, .all = .46, .coarse = .55, .mirror_in_mirror = .34, .angle = .01, .wrong_object = .005});
+    test::expect_worth("layered", {.first_order = .55,
+                                   .all = .46,
+                                   .coarse = .55,
+                                   .mirror_in_mirror = .34,
+                                   .angle = .01,
+                                   .wrong_object = .005});
 }
 
 } // namespace

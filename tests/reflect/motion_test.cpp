@@ -13,21 +13,25 @@ TEST(Motion, FrameKStandsWhereItShould) {
         app::Request still = test::request(scene::cornell_mirrors(), {technique}, {64, 64});
         still.time = .5 + 6 / 60.0;
         const measure::Picture last = test::engine().run(moving).parts.front().hdr;
-        EXPECT_TRUE(test::same_bytes(last, test::engine().run(still).parts.front().hdr)) << technique;
+        EXPECT_TRUE(test::same_bytes(last, test::engine().run(still).parts.front().hdr))
+            << technique;
         still.time = .5;
-        EXPECT_FALSE(test::same_bytes(last, test::engine().run(still).parts.front().hdr)) << technique;
+        EXPECT_FALSE(test::same_bytes(last, test::engine().run(still).parts.front().hdr))
+            << technique;
     }
 }
 
 TEST(Motion, WithoutAnimationEveryFrameIsTheSame) {
-    app::Request request = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"}, {64, 64});
+    app::Request request = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"},
+                                         {64, 64});
     const measure::Picture one = test::engine().run(request).parts.front().hdr;
     request.frames = 5;
     EXPECT_TRUE(test::same_bytes(one, test::engine().run(request).parts.front().hdr));
 }
 
 TEST(Motion, AClockSaysWhereEachFrameStands) {
-    app::Request request = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"}, {64, 64});
+    app::Request request = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"},
+                                         {64, 64});
     std::vector<measure::Picture> seen;
     request.frames = 3, request.time = 7;
     request.clock = [](int k) { return k == 2 ? .5 : 1.5; };
@@ -58,15 +62,18 @@ TEST(Motion, WhoHasSeenEnoughEndsTheRun) {
     const app::Result result = test::engine().run(request);
     EXPECT_EQ(progressed, 4);
     EXPECT_EQ(result.frames.size(), 3u) << "the measured ones of four";
-    EXPECT_TRUE(test::same_bytes(result.parts.front().hdr, test::render(test::room(2, 1), "reuse:face=32", {32, 32}, 4).hdr));
+    EXPECT_TRUE(test::same_bytes(result.parts.front().hdr,
+                                 test::render(test::room(2, 1), "reuse:face=32", {32, 32}, 4).hdr));
 }
 
 TEST(Samples, OnlyAnIrregularNumberDependsOnTheSeed) {
     for (const auto& [samples, depends] : {std::pair{"4", false}, {"5", true}}) {
-        app::Request request = test::request(test::room(1, 1), {std::string("raytrace:samples=") + samples}, {48, 48});
+        app::Request request = test::request(
+            test::room(1, 1), {std::string("raytrace:samples=") + samples}, {48, 48});
         const measure::Picture first = test::engine().run(request).parts.front().hdr;
         request.seed = 2;
-        EXPECT_EQ(test::same_bytes(first, test::engine().run(request).parts.front().hdr), !depends) << samples;
+        EXPECT_EQ(test::same_bytes(first, test::engine().run(request).parts.front().hdr), !depends)
+            << samples;
     }
 }
 

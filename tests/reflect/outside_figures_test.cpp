@@ -1,5 +1,5 @@
-// Ray tracing of the built-in scene against figures of two independent renderers: ambient 0, 512x512,
-// balls as meshes.
+// Ray tracing of the built-in scene against figures of two independent renderers: ambient 0,
+// 512x512, balls as meshes.
 #include "support/rendering.hpp"
 
 #include <iomanip>
@@ -10,20 +10,26 @@ namespace {
 using namespace catoptric;
 
 app::Part trace(int depth, int samples) {
-    app::Request request = test::request(scene::cornell_mirrors(), {"raytrace:depth=" + std::to_string(depth) + ",samples=" + std::to_string(samples)}, {512, 512});
+    app::Request request = test::request(
+        scene::cornell_mirrors(),
+        {"raytrace:depth=" + std::to_string(depth) + ",samples=" + std::to_string(samples)},
+        {512, 512});
     request.ambient = 0;
     return std::move(test::engine().run(request).parts.front());
 }
 
 /// Expects `found` within a share of `wanted`, and prints both.
 void expect_share(const std::string& what, double found, double wanted, double share) {
-    std::cout << "[ MEASURED ] " << what << ": " << std::setprecision(8) << found << ", outside " << wanted << ", "
-              << std::setprecision(3) << std::showpos << 100 * (found / wanted - 1) << std::noshowpos << " %\n";
+    std::cout << "[ MEASURED ] " << what << ": " << std::setprecision(8) << found << ", outside "
+              << wanted << ", " << std::setprecision(3) << std::showpos
+              << 100 * (found / wanted - 1) << std::noshowpos << " %\n";
     EXPECT_NEAR(found, wanted, share * wanted) << what;
 }
 
 /// All rays: from the camera, reflected, and to the light.
-double rays(const app::Part& part) { return static_cast<double>(part.rays->primary + part.rays->mirror + part.rays->shadow); }
+double rays(const app::Part& part) {
+    return static_cast<double>(part.rays->primary + part.rays->mirror + part.rays->shadow);
+}
 
 TEST(OutsideFigures, RaysAtAndBeyondDepthZero) {
     const app::Part direct = trace(0, 1);
@@ -31,10 +37,12 @@ TEST(OutsideFigures, RaysAtAndBeyondDepthZero) {
     EXPECT_EQ(direct.rays->primary, 512u * 512u);
     EXPECT_EQ(direct.rays->mirror, 0u);
     expect_share("rays at depth 0", rays(direct), 446960, .001);
-    for (const auto& [depth, wanted] : {std::pair{1, 57915.0}, {2, 60968.0}, {3, 61291.0}, {4, 61329.0}, {8, 61338.0}}) {
+    for (const auto& [depth, wanted] :
+         {std::pair{1, 57915.0}, {2, 60968.0}, {3, 61291.0}, {4, 61329.0}, {8, 61338.0}}) {
         const app::Part part = trace(depth, 1);
         ASSERT_TRUE(part.rays);
-        expect_share("rays beyond that at depth " + std::to_string(depth), rays(part) - rays(direct), wanted, .003);
+        expect_share("rays beyond that at depth " + std::to_string(depth),
+                     rays(part) - rays(direct), wanted, .003);
     }
 }
 
@@ -45,20 +53,27 @@ TEST(OutsideFigures, MeansAndErrorsOfDepths) {
         double mean, clamped, rmse; ///< 0: not known
         double rmse_share;
     };
-    const std::vector<Figures> figures{{0, .108822, .044025, .1031, .05}, {1, .119884, .048826, .0369, .05},
-                                       {2, .120575, .049228, .0129, .05}, {3, 0, 0, .0044, .05},
+    const std::vector<Figures> figures{{0, .108822, .044025, .1031, .05},
+                                       {1, .119884, .048826, .0369, .05},
+                                       {2, .120575, .049228, .0129, .05},
+                                       {3, 0, 0, .0044, .05},
                                        {4, .120648, .049291, .0007, .30}};
     const app::Part deep = trace(8, 400);
     const measure::Mask mirrors = measure::mirrors(trace(0, 1).hits);
-    const auto mean = [](const app::Part& part, measure::Range range) { return measure::mean_of(part.hdr, range).all; };
+    const auto mean = [](const app::Part& part, measure::Range range) {
+        return measure::mean_of(part.hdr, range).all;
+    };
     expect_share("mean at depth 8", mean(deep, measure::Range::unclamped), .120650, .003);
     expect_share("clamped mean at depth 8", mean(deep, measure::Range::clamped), .049292, .003);
     for (const auto& [depth, wanted, clamped, rmse, rmse_share] : figures) {
         const app::Part part = trace(depth, 400);
         const std::string at = " at depth " + std::to_string(depth);
-        if (wanted > 0) expect_share("mean" + at, mean(part, measure::Range::unclamped), wanted, .003);
-        if (clamped > 0) expect_share("clamped mean" + at, mean(part, measure::Range::clamped), clamped, .003);
-        expect_share("rmse against depth 8" + at, test::rmse(part.hdr, deep.hdr, mirrors), rmse, rmse_share);
+        if (wanted > 0)
+            expect_share("mean" + at, mean(part, measure::Range::unclamped), wanted, .003);
+        if (clamped > 0)
+            expect_share("clamped mean" + at, mean(part, measure::Range::clamped), clamped, .003);
+        expect_share("rmse against depth 8" + at, test::rmse(part.hdr, deep.hdr, mirrors), rmse,
+                     rmse_share);
     }
 }
 

@@ -1,5 +1,5 @@
-// Part three of the report: the corrected direction is worth its distances, unless they are stored in
-// eight bits of a range of 200.
+// Part three of the report: the corrected direction is worth its distances, unless they are stored
+// in eight bits of a range of 200.
 #include "support/rendering.hpp"
 
 #include <iostream>
@@ -16,9 +16,12 @@ TEST(Parallax, HalvesTheErrorOfTheUncorrectedDirection) {
     const app::Part truth = test::render(scene, "raytrace:depth=16", kSize);
     const measure::Picture reuse = test::render(scene, "reuse", kSize, kFrames).hdr;
     const measure::Picture parallax = test::render(scene, "parallax", kSize, kFrames).hdr;
-    const auto expect_share = [&](const std::string& where, const measure::Mask& mask, double most) {
-        const double with = test::rmse(parallax, truth.hdr, mask), without = test::rmse(reuse, truth.hdr, mask);
-        std::cout << "[ MEASURED ] " << where << ": rmse " << with << " (parallax), " << without << " (reuse), share " << with / without << "\n";
+    const auto expect_share = [&](const std::string& where, const measure::Mask& mask,
+                                  double most) {
+        const double with = test::rmse(parallax, truth.hdr, mask),
+                     without = test::rmse(reuse, truth.hdr, mask);
+        std::cout << "[ MEASURED ] " << where << ": rmse " << with << " (parallax), " << without
+                  << " (reuse), share " << with / without << "\n";
         EXPECT_LE(with, most * without) << where;
     };
     expect_share("all mirrors", measure::mirrors(truth.hits), .50);
@@ -26,13 +29,14 @@ TEST(Parallax, HalvesTheErrorOfTheUncorrectedDirection) {
         expect_share("ball " + std::to_string(ball), measure::of_mirror(truth.hits, ball), .65);
 }
 
-// Beside the void one infinite texel of four does not make the other three void: the nearest decides. A taken ring of
-// texels would show at once where they are large.
+// Beside the void one infinite texel of four does not make the other three void: the nearest
+// decides. A taken ring of texels would show at once where they are large.
 TEST(Parallax, TheVoidIsNoLargerInCoarseCaptures) {
     scene::Scene scene{.name = "floor"};
     const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
     test::add_quad(scene, "floor", hot, {-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3});
-    test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}), {.1, 2, .2}, 1);
+    test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}),
+                   {.1, 2, .2}, 1);
     scene.cameras.push_back({.eye = {0, 3, -7}, .target = {0, 2, 0}, .vertical_fov_degrees = 30});
     const auto misses = [&](const std::string& technique) {
         app::Request request = test::request(scene, {technique}, {192, 192});
@@ -47,7 +51,8 @@ TEST(Parallax, TheVoidIsNoLargerInCoarseCaptures) {
         return miss / mirror;
     };
     const double fine = misses("parallax:face=512"), coarse = misses("parallax:face=12");
-    std::cout << "[ MEASURED ] share of misses: " << fine << " at face 512, " << coarse << " at face 12\n";
+    std::cout << "[ MEASURED ] share of misses: " << fine << " at face 512, " << coarse
+              << " at face 12\n";
     EXPECT_GT(fine, .2);
     EXPECT_NEAR(coarse, fine, .02);
 }
@@ -57,12 +62,15 @@ TEST(Parallax, DistancesClampedAt200AreWorseThanNone) {
     const app::Part truth = test::render(scene, "raytrace:depth=16", kSize);
     const measure::Mask mask = measure::mirrors(truth.hits);
     const auto error = [&](const std::string& technique) {
-        const double value = test::rmse(test::render(scene, technique, kSize, kFrames).hdr, truth.hdr, mask);
+        const double value = test::rmse(test::render(scene, technique, kSize, kFrames).hdr,
+                                        truth.hdr, mask);
         std::cout << "[ MEASURED ] " << technique << ": rmse " << value << " on mirror pixels\n";
         return value;
     };
-    const double reuse = error("reuse"), r32f = error("parallax"), r16f = error("parallax:distance=r16f");
-    const double near = error("parallax:distance=unorm8,range=200"), far = error("parallax:distance=unorm8,range=1000");
+    const double reuse = error("reuse"), r32f = error("parallax"),
+                 r16f = error("parallax:distance=r16f");
+    const double near = error("parallax:distance=unorm8,range=200"),
+                 far = error("parallax:distance=unorm8,range=1000");
     EXPECT_GT(near, reuse);
     EXPECT_LT(far, reuse);
     EXPECT_NEAR(r16f, r32f, .05 * r32f);

@@ -1,4 +1,5 @@
-// What precision and the ray tracer's rules of robustness are worth: each choice beside its alternative.
+// What precision and the ray tracer's rules of robustness are worth: each choice beside its
+// alternative.
 #include "stress/double_tracer.hpp"
 #include "support/rendering.hpp"
 
@@ -8,9 +9,10 @@ namespace {
 
 using namespace catoptric;
 
-/// Mean over the pixels that meet `mirrors` mirrors, of the first two, of the largest difference of a channel from
-/// the tracer in doubles; pixels whose middle lies on an edge left out.
-double off_double(const scene::Scene& scene, const std::string& technique, uvec2 size, int mirrors = 1) {
+/// Mean over the pixels that meet `mirrors` mirrors, of the first two, of the largest difference of
+/// a channel from the tracer in doubles; pixels whose middle lies on an edge left out.
+double off_double(const scene::Scene& scene, const std::string& technique, uvec2 size,
+                  int mirrors = 1) {
     const app::Part part = test::render(scene, technique, size);
     const stress::DoubleTracer tracer(scene, .05);
     double sum = 0;
@@ -20,12 +22,14 @@ double off_double(const scene::Scene& scene, const std::string& technique, uvec2
             const std::uint32_t hits = part.hits[x + y * size.x];
             if ((hits & 0xffff) == 0 || (mirrors == 2 && hits >> 16 == 0)) continue;
             const dvec3 wanted = tracer.pixel(scene.cameras.front(), size, x, y, 8);
-            const dvec3 off = abs(dvec3(part.hdr.at(static_cast<int>(x), static_cast<int>(y))) - wanted);
+            const dvec3 off = abs(dvec3(part.hdr.at(static_cast<int>(x), static_cast<int>(y))) -
+                                  wanted);
             const double most = std::max({off.x, off.y, off.z});
             if (most > 1e-3) continue;
             sum += most, ++count;
         }
-    std::cout << "[ MEASURED ] " << technique << ": off " << sum / static_cast<double>(count) << " in the mean of " << count << " pixels\n";
+    std::cout << "[ MEASURED ] " << technique << ": off " << sum / static_cast<double>(count)
+              << " in the mean of " << count << " pixels\n";
     return sum / static_cast<double>(count);
 }
 
@@ -33,7 +37,8 @@ TEST(Precision, HitPointsInDoublesAreNearerToTheTruth) {
     const scene::Scene room = test::room(3, 1);
     for (const int mirrors : {1, 2}) {
         const double f32 = off_double(room, "raytrace:sphere=exact,depth=8", {96, 96}, mirrors);
-        const double f64 = off_double(room, "raytrace:sphere=exact,depth=8,hit=f64", {96, 96}, mirrors);
+        const double f64 = off_double(room, "raytrace:sphere=exact,depth=8,hit=f64", {96, 96},
+                                      mirrors);
         EXPECT_GT(f64, 0) << "the shading is still in floats";
         EXPECT_LT(f64, f32);
     }
@@ -42,10 +47,12 @@ TEST(Precision, HitPointsInDoublesAreNearerToTheTruth) {
 TEST(Precision, HitPointsInDoublesChangeNoMorePixelsThanRoundingsDo) {
     const scene::Scene scene = scene::cornell_mirrors();
     for (const std::string knobs : {"", "shadow=map,"}) {
-        const app::Part f32 = test::render(scene, "raytrace:" + knobs + "hit=f32", {128, 128}), f64 = test::render(scene, "raytrace:" + knobs + "hit=f64", {128, 128});
+        const app::Part f32 = test::render(scene, "raytrace:" + knobs + "hit=f32", {128, 128}),
+                        f64 = test::render(scene, "raytrace:" + knobs + "hit=f64", {128, 128});
         EXPECT_FALSE(test::same_bytes(f32.hdr, f64.hdr));
         std::vector<float> off;
-        for (std::size_t i = 0; i < f32.hdr.pixels.size(); ++i) off.push_back(glm::length(f32.hdr.pixels[i] - f64.hdr.pixels[i]));
+        for (std::size_t i = 0; i < f32.hdr.pixels.size(); ++i)
+            off.push_back(glm::length(f32.hdr.pixels[i] - f64.hdr.pixels[i]));
         std::ranges::sort(off);
         EXPECT_LT(off[off.size() * 99 / 100], 1e-4f) << knobs;
     }
@@ -61,7 +68,8 @@ TEST(Precision, HalfCapturesEndWhereHalvesEnd) {
     for (const std::string technique : {"reuse", "parallax", "pyramid"}) {
         const auto brightest = [&](const std::string& colour) {
             float most = 0;
-            const app::Part part = test::render(room, technique + ":face=256,colour=" + colour, {256, 256});
+            const app::Part part = test::render(room, technique + ":face=256,colour=" + colour,
+                                                {256, 256});
             for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
                 if (truth.hits[i] != 0) most = std::max(most, part.hdr.pixels[i].x);
             return most;
@@ -78,12 +86,14 @@ TEST(Precision, TexelsThatHalvesCutOffAreCounted) {
         asked.with_lookup = true;
         return test::engine().run(asked).parts.front().saturated;
     };
-    for (const std::string technique : {"naive:bounces=1,", "reuse:", "layered:", "hybrid:"}) EXPECT_EQ(counted(technique + "face=64"), 0u) << technique;
+    for (const std::string technique : {"naive:bounces=1,", "reuse:", "layered:", "hybrid:"})
+        EXPECT_EQ(counted(technique + "face=64"), 0u) << technique;
     for (scene::Material& material : room.materials)
         if (material.emission != vec3(0)) material.emission = vec3(1e5f);
     const std::optional<std::size_t> naive = counted("naive:bounces=1,face=64");
     EXPECT_GT(naive.value(), 10u) << "the lamp";
-    for (const std::string technique : {"reuse:", "layered:", "hybrid:"}) EXPECT_EQ(counted(technique + "face=64"), naive) << technique;
+    for (const std::string technique : {"reuse:", "layered:", "hybrid:"})
+        EXPECT_EQ(counted(technique + "face=64"), naive) << technique;
     EXPECT_FALSE(counted("reuse:face=64,colour=float").has_value());
 }
 
@@ -96,21 +106,25 @@ TEST(Precision, TheSchoolBooksSphereIsLostFarAway) {
     camera.eye = camera.target + back * 1000.0;
     camera.vertical_fov_degrees = .06;
     const double stable = off_double(room, "raytrace:sphere=exact,depth=8", {64, 64});
-    const app::Part with = test::render(room, "raytrace:sphere=exact", {64, 64}), without = test::render(room, "raytrace:sphere=exact,without=stable_sphere", {64, 64});
+    const app::Part with = test::render(room, "raytrace:sphere=exact", {64, 64}),
+                    without = test::render(room, "raytrace:sphere=exact,without=stable_sphere",
+                                           {64, 64});
     const double changed = test::rmse(with.hdr, without.hdr, measure::mirrors(with.hits));
     std::cout << "[ MEASURED ] rmse without the stable sphere: " << changed << "\n";
     EXPECT_LT(stable, 1e-4);
     EXPECT_GT(changed, 100 * stable);
 }
 
-/// A lamp in the very plane of the ceiling: a shadow ray that runs to its end meets the ceiling there.
+/// A lamp in the very plane of the ceiling: a shadow ray that runs to its end meets the ceiling
+/// there.
 TEST(Precision, ShadowRaysThatRunToTheLightMeetWhatItHangsOn) {
     scene::Scene room = test::room(1, 1);
     const double ceiling = scene::bounds(room).hi.y;
     for (const scene::Object& object : room.objects)
         if (room.materials[object.material].emission != vec3(0))
             for (dvec3& position : room.meshes[object.mesh].positions) position.y = ceiling;
-    const app::Part with = test::render(room, "raytrace", {96, 96}), without = test::render(room, "raytrace:without=shadow_end", {96, 96});
+    const app::Part with = test::render(room, "raytrace", {96, 96}),
+                    without = test::render(room, "raytrace:without=shadow_end", {96, 96});
     std::size_t darker = 0, brighter = 0;
     for (std::size_t i = 0; i < with.hdr.pixels.size(); ++i) {
         darker += without.hdr.pixels[i].x < with.hdr.pixels[i].x;

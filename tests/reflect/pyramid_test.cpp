@@ -1,7 +1,8 @@
-// The pyramid's cells bound whatever a bilinear lookup finds in them; the search through them is exact.
+// The pyramid's cells bound whatever a bilinear lookup finds in them; the search through them is
+// exact.
+#include "core/half.hpp"
 #include "core/shader_math.hpp"
 #include "reflect/technique.hpp"
-#include "core/half.hpp"
 #include "stress/glyph_room.hpp"
 #include "support/captures.hpp"
 #include "support/searches.hpp"
@@ -36,12 +37,16 @@ struct Read {
         std::uint32_t column = 0;
         for (std::uint32_t k = 1; k < level; ++k) column += width >> k;
         const std::uint32_t both = cells[(std::size_t{layer} * height + y) * width + column + x];
-        return {from_half(static_cast<std::uint16_t>(both)), from_half(static_cast<std::uint16_t>(both >> 16))};
+        return {from_half(static_cast<std::uint16_t>(both)),
+                from_half(static_cast<std::uint16_t>(both >> 16))};
     }
-    std::uint32_t cells_across(std::uint32_t level) const { return (face + (1u << level) - 1) >> level; }
+    std::uint32_t cells_across(std::uint32_t level) const {
+        return (face + (1u << level) - 1) >> level;
+    }
 };
 
-Read read_pyramid(const scene::Scene& scene, const std::string& technique, const std::vector<vec4>& directions) {
+Read read_pyramid(const scene::Scene& scene, const std::string& technique,
+                  const std::vector<vec4>& directions) {
     auto& [device, pipelines] = test::bench();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, .05);
@@ -50,9 +55,11 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique, const
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
     const reflect::Choice choice = reflect::parse_choice(technique);
     choice.technique->add(graph, inputs, choice.settings);
-    const graph::Image pyramid = image_called(graph, "pyramid"), colour = image_called(graph, "capture/cubes.colour");
+    const graph::Image pyramid = image_called(graph, "pyramid"),
+                       colour = image_called(graph, "capture/cubes.colour");
     const graph::Image distance = image_called(graph, "capture/cubes.distance");
-    gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4), gpu::BufferUse::plain);
+    gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4),
+                      gpu::BufferUse::plain);
     asked.write(std::span<const vec4>(directions));
     std::array<graph::Buffer, 2> found;
     for (int i = 0; i < 2; ++i) {
@@ -64,7 +71,8 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique, const
             .record([=, &asked, count = directions.size()](graph::Commands& commands) {
                 commands.use(gpu::ComputeState{"tests/cube_sample.comp", {}});
                 commands.bind("colour_cubes", colour, graph::Filter::linear);
-                commands.bind("distance_cubes", distance, i == 0 ? graph::Filter::linear : graph::Filter::nearest);
+                commands.bind("distance_cubes", distance,
+                              i == 0 ? graph::Filter::linear : graph::Filter::nearest);
                 commands.bind("Directions", asked);
                 commands.bind("Found", found[i]);
                 commands.dispatch(static_cast<std::uint32_t>((count + 63) / 64), 1);
@@ -73,8 +81,9 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique, const
     }
     graph.want(pyramid);
     test::run(runner, graph);
-    return {static_cast<std::uint32_t>(choice.settings.integer("face")), test::read_as<std::uint32_t>(runner, pyramid),
-            test::read_as<vec4>(runner, found[0]), test::read_as<vec4>(runner, found[1])};
+    return {static_cast<std::uint32_t>(choice.settings.integer("face")),
+            test::read_as<std::uint32_t>(runner, pyramid), test::read_as<vec4>(runner, found[0]),
+            test::read_as<vec4>(runner, found[1])};
 }
 
 /// Everywhere, and along the edges and about the corners of the faces; for each mirror (w).
@@ -85,8 +94,13 @@ std::vector<vec4> directions(std::uint32_t mirrors) {
     std::vector<vec4> made;
     for (int i = 0; i < 60000; ++i) {
         vec3 direction(normal(random), normal(random), normal(random));
-        if (i % 3 == 1) direction = f32::cube_direction(i % 6, vec3(i % 2 ? 1.0f : -1.0f, uniform(random), 1.0f) + 1e-3f * direction);
-        if (i % 9 == 2) direction = f32::cube_direction(i % 6, vec3(i % 2 ? 1.0f : -1.0f, i % 4 < 2 ? 1.0f : -1.0f, 1.0f) + 1e-2f * direction);
+        if (i % 3 == 1)
+            direction = f32::cube_direction(
+                i % 6, vec3(i % 2 ? 1.0f : -1.0f, uniform(random), 1.0f) + 1e-3f * direction);
+        if (i % 9 == 2)
+            direction = f32::cube_direction(
+                i % 6,
+                vec3(i % 2 ? 1.0f : -1.0f, i % 4 < 2 ? 1.0f : -1.0f, 1.0f) + 1e-2f * direction);
         made.emplace_back(direction, static_cast<float>(static_cast<std::uint32_t>(i) % mirrors));
     }
     return made;
@@ -94,7 +108,8 @@ std::vector<vec4> directions(std::uint32_t mirrors) {
 
 class Bounds : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Pyramid, Bounds,
-                         testing::Values("face=1", "face=2", "face=3", "face=5", "face=37", "face=64", "face=100", "face=64,distance=r16f",
+                         testing::Values("face=1", "face=2", "face=3", "face=5", "face=37",
+                                         "face=64", "face=100", "face=64,distance=r16f",
                                          "face=64,distance=unorm8,range=1000"),
                          [](const auto& settings) {
                              std::string name;
@@ -113,10 +128,15 @@ TEST_P(Bounds, HoldWhateverALookupFinds) {
         const vec3 place = f32::cube_coordinates(face, direction);
         // A lookup that meets nothing among its four texels takes the nearest.
         const float found = std::isfinite(read.linear[i].w) ? read.linear[i].w : read.nearest[i].w;
-        const vec2 at = glm::clamp((vec2(place) / place.z * .5f + .5f) * static_cast<float>(read.face), vec2(0), vec2(static_cast<float>(read.face) - .5f));
+        const vec2 at = glm::clamp((vec2(place) / place.z * .5f + .5f) *
+                                       static_cast<float>(read.face),
+                                   vec2(0), vec2(static_cast<float>(read.face) - .5f));
         for (std::uint32_t level = 1; level <= read.levels(); ++level) {
-            const vec2 bounds = read.bounds(level, 6 * static_cast<std::uint32_t>(asked[i].w) + static_cast<std::uint32_t>(face),
-                                            static_cast<std::uint32_t>(at.x) >> level, static_cast<std::uint32_t>(at.y) >> level);
+            const vec2 bounds = read.bounds(level,
+                                            6 * static_cast<std::uint32_t>(asked[i].w) +
+                                                static_cast<std::uint32_t>(face),
+                                            static_cast<std::uint32_t>(at.x) >> level,
+                                            static_cast<std::uint32_t>(at.y) >> level);
             ++judged;
             nothing += std::isinf(found);
             const float roundings = std::isinf(found) ? 0 : 4 * found * 0x1p-24f;
@@ -130,7 +150,8 @@ TEST_P(Bounds, HoldWhateverALookupFinds) {
 }
 
 TEST_P(Bounds, OfACellAreThoseOfItsChildren) {
-    const Read read = read_pyramid(scene::cornell_mirrors(), "pyramid:" + GetParam(), directions(4));
+    const Read read = read_pyramid(scene::cornell_mirrors(), "pyramid:" + GetParam(),
+                                   directions(4));
     std::size_t wrong = 0;
     for (std::uint32_t layer = 0; layer < 24; ++layer)
         for (std::uint32_t level = 2; level <= read.levels(); ++level)
@@ -160,12 +181,16 @@ TEST(Pyramid, BoundsAreNoWiderThanTheyMust) {
             for (std::uint32_t x = 1; x + 1 < kFace / 2; ++x) {
                 vec2 wanted(std::numeric_limits<float>::infinity(), 0);
                 for (std::uint32_t k = 0; k < 16; ++k) {
-                    const float d = captured.distance(layer / 6, static_cast<int>(layer % 6), 2 * x - 1 + k % 4, 2 * y - 1 + k / 4, Format::r32f);
+                    const float d = captured.distance(layer / 6, static_cast<int>(layer % 6),
+                                                      2 * x - 1 + k % 4, 2 * y - 1 + k / 4,
+                                                      Format::r32f);
                     wanted = {std::min(wanted.x, d), std::max(wanted.y, d)};
                 }
                 const vec2 bounds = read.bounds(1, layer, x, y);
                 for (int i = 0; i < 2; ++i)
-                    wrong += std::isinf(wanted[i]) ? bounds[i] != wanted[i] : !(std::abs(bounds[i] - wanted[i]) <= 0x1p-10f * wanted[i]);
+                    wrong += std::isinf(wanted[i])
+                                 ? bounds[i] != wanted[i]
+                                 : !(std::abs(bounds[i] - wanted[i]) <= 0x1p-10f * wanted[i]);
                 wrong += bounds.x > wanted.x || bounds.y < wanted.y;
             }
     EXPECT_EQ(wrong, 0u);
@@ -173,14 +198,18 @@ TEST(Pyramid, BoundsAreNoWiderThanTheyMust) {
 
 TEST(Pyramid, FindsTheWallsOfAnEmptyRoom) {
     for (const int face : {16, 37, 64, 256}) {
-        const auto pixels = test::looked_up(stress::GlyphRoom().scene(), "pyramid:face=" + std::to_string(face), {128, 128});
+        const auto pixels = test::looked_up(stress::GlyphRoom().scene(),
+                                            "pyramid:face=" + std::to_string(face), {128, 128});
         ASSERT_GT(pixels.size(), 1000u);
-        EXPECT_EQ(std::ranges::count(pixels, 0, &measure::LookedUp::state), std::ssize(pixels)) << "face " << face;
+        EXPECT_EQ(std::ranges::count(pixels, 0, &measure::LookedUp::state), std::ssize(pixels))
+            << "face " << face;
         const measure::LookupError error = measure::lookup_error(pixels);
         double worst = 0;
         for (const measure::LookedUp& pixel : pixels) worst = std::max(worst, pixel.angle_degrees);
-        std::cout << "[ MEASURED ] face " << face << ": mean angle " << error.mean_degrees << ", worst " << worst << " degrees\n";
-        // Bilinear distance cuts the room's corners by less than a texel, and flat walls by a second-order part of it.
+        std::cout << "[ MEASURED ] face " << face << ": mean angle " << error.mean_degrees
+                  << ", worst " << worst << " degrees\n";
+        // Bilinear distance cuts the room's corners by less than a texel, and flat walls by a
+        // second-order part of it.
         const double texel = 90.0 / face;
         EXPECT_LT(worst, texel);
         EXPECT_LT(error.mean_degrees, texel * texel / 90);
@@ -188,7 +217,8 @@ TEST(Pyramid, FindsTheWallsOfAnEmptyRoom) {
 }
 
 TEST(Pyramid, HitsAreExactAndMissesTrue) {
-    const auto pixels = test::looked_up(scene::cornell_mirrors(), "pyramid:face=256,continue=0", test::kContractSize);
+    const auto pixels = test::looked_up(scene::cornell_mirrors(), "pyramid:face=256,continue=0",
+                                        test::kContractSize);
     std::array<std::size_t, 3> count{}, wrong{};
     double hit_angle = 0, miss_angle = 0;
     for (const measure::LookedUp& pixel : pixels) {
@@ -198,14 +228,20 @@ TEST(Pyramid, HitsAreExactAndMissesTrue) {
         if (pixel.state == 2) miss_angle = std::max(miss_angle, pixel.angle_degrees);
     }
     hit_angle /= static_cast<double>(count[0]);
-    std::cout << "[ MEASURED ] hits " << count[0] << ", mean angle " << hit_angle << " degrees, wrong object " << wrong[0] << "; unknown " << count[1]
-              << "; misses " << count[2] << ", worst angle " << miss_angle << ", wrong object " << wrong[2] << "\n";
+    std::cout << "[ MEASURED ] hits " << count[0] << ", mean angle " << hit_angle
+              << " degrees, wrong object " << wrong[0] << "; unknown " << count[1] << "; misses "
+              << count[2] << ", worst angle " << miss_angle << ", wrong object " << wrong[2]
+              << "\n";
     EXPECT_LT(hit_angle, 90.0 / 256 / 100); // a hundredth of a texel
     EXPECT_LT(wrong[0], count[0] / 200);
     EXPECT_LT(miss_angle, .01);
     EXPECT_LT(wrong[2], count[2] / 200);
 }
 
-TEST(Pyramid, IsWorthItsCells) { test::expect_worth("pyramid", {.first_order = .55, .all = .39, .coarse = .47, .mirror_in_mirror = .24, .angle = .02}); }
+TEST(Pyramid, IsWorthItsCells) {
+    test::expect_worth(
+        "pyramid",
+        {.first_order = .55, .all = .39, .coarse = .47, .mirror_in_mirror = .24, .angle = .02});
+}
 
 } // namespace

@@ -32,7 +32,8 @@ struct Change {
     double sum = 0, largest_pixel = 0;
     std::size_t pixels = 0;
     double rmse(bool without_largest) const {
-        return std::sqrt((sum - (without_largest ? largest_pixel : 0)) / (3.0 * static_cast<double>(pixels)));
+        return std::sqrt((sum - (without_largest ? largest_pixel : 0)) /
+                         (3.0 * static_cast<double>(pixels)));
     }
 };
 
@@ -40,7 +41,8 @@ Change change(const measure::Picture& a, const measure::Picture& b, const measur
     Change result;
     for (std::size_t i = 0; i < mask.size(); ++i) {
         if (!mask[i]) continue;
-        const vec3 d = glm::clamp(a.pixels[i], vec3(0), vec3(1)) - glm::clamp(b.pixels[i], vec3(0), vec3(1));
+        const vec3 d = glm::clamp(a.pixels[i], vec3(0), vec3(1)) -
+                       glm::clamp(b.pixels[i], vec3(0), vec3(1));
         const double square = dot(d, d);
         result.sum += square, ++result.pixels;
         result.largest_pixel = std::max(result.largest_pixel, square);
@@ -48,22 +50,26 @@ Change change(const measure::Picture& a, const measure::Picture& b, const measur
     return result;
 }
 
-/// From the fourth bounce on, the difference is a handful of pixels, and the one in which the lamp appears
-/// last (0 to 1 in a single pixel of ball 4) outweighs all others: the steps are judged without the pixel
-/// that changes most, all of them together with it.
+/// From the fourth bounce on, the difference is a handful of pixels, and the one in which the lamp
+/// appears last (0 to 1 in a single pixel of ball 4) outweighs all others: the steps are judged
+/// without the pixel that changes most, all of them together with it.
 TEST(Naive, EachBounceChangesLess) {
     const scene::Scene scene = scene::cornell_mirrors();
     const measure::Mask mirrors = measure::mirrors(test::render(scene, "raytrace", kSize).hits);
     measure::Picture last = test::render(scene, "naive:bounces=0", kSize).hdr;
     std::vector<Change> steps;
     for (int k = 0; k <= 4; ++k) {
-        const measure::Picture next = test::render(scene, "naive:bounces=" + std::to_string(k + 1), kSize).hdr;
+        const measure::Picture next =
+            test::render(scene, "naive:bounces=" + std::to_string(k + 1), kSize).hdr;
         steps.push_back(change(last, next, mirrors));
-        std::cout << "[ MEASURED ] naive:" << k << " to naive:" << k + 1 << ": rmse " << steps.back().rmse(false) << ", "
-                  << steps.back().rmse(true) << " without the pixel that changes most\n";
+        std::cout << "[ MEASURED ] naive:" << k << " to naive:" << k + 1 << ": rmse "
+                  << steps.back().rmse(false) << ", " << steps.back().rmse(true)
+                  << " without the pixel that changes most\n";
         EXPECT_GT(steps.back().rmse(false), 0);
         if (k > 0) {
-            EXPECT_GE(steps[static_cast<std::size_t>(k) - 1].rmse(true), 2.5 * steps.back().rmse(true)) << k;
+            EXPECT_GE(steps[static_cast<std::size_t>(k) - 1].rmse(true),
+                      2.5 * steps.back().rmse(true))
+                << k;
         }
         last = next;
     }
@@ -73,7 +79,10 @@ TEST(Naive, EachBounceChangesLess) {
 TEST(Naive, RendersTheSceneAsOftenAsTheReportCounts) {
     const int expected[] = {2, 6, 10, 14, 18};
     for (int i = 0; i <= 4; ++i)
-        EXPECT_EQ(test::render(scene::cornell_mirrors(), "naive:face=16,bounces=" + std::to_string(i), {16, 16}).scene_passes, expected[i]);
+        EXPECT_EQ(test::render(scene::cornell_mirrors(),
+                               "naive:face=16,bounces=" + std::to_string(i), {16, 16})
+                      .scene_passes,
+                  expected[i]);
     for (const char* technique : {"reuse:face=16", "parallax:face=16"})
         EXPECT_EQ(test::render(scene::cornell_mirrors(), technique, {16, 16}).scene_passes, 6);
 }

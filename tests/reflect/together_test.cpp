@@ -9,7 +9,8 @@ using namespace catoptric;
 
 TEST(Together, PicturesEqualThoseOfSeparateRuns) {
     std::vector<std::string> techniques;
-    for (const app::TechniqueInfo& technique : app::techniques()) techniques.push_back(technique.name);
+    for (const app::TechniqueInfo& technique : app::techniques())
+        techniques.push_back(technique.name);
     techniques.push_back("naive:bounces=1,face=64"); // the same technique twice
     app::Request request = test::request(scene::cornell_mirrors(), techniques, {96, 80});
     request.warmup = 1, request.frames = 2;
@@ -32,7 +33,8 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
 }
 
 TEST(Together, AllPassesLieOnOneTimeline) {
-    app::Request request = test::request(scene::cornell_mirrors(), {"reuse:face=64", "raytrace"}, {64, 64});
+    app::Request request = test::request(scene::cornell_mirrors(), {"reuse:face=64", "raytrace"},
+                                         {64, 64});
     const app::Result result = test::engine().run(request);
     ASSERT_EQ(result.frames.size(), 1u);
     std::set<std::string> names;
@@ -44,15 +46,20 @@ TEST(Together, AllPassesLieOnOneTimeline) {
     }
     const std::string reuse = result.parts[0].prefix, traced = result.parts[1].prefix;
     EXPECT_NE(reuse, traced);
-    for (const std::string& name : {reuse + "shadow", reuse + "capture/1", reuse + "capture/4", reuse + "view", reuse + "compose",
-                                    traced + "raytrace", traced + "compose"})
+    for (const std::string& name :
+         {reuse + "shadow", reuse + "capture/1", reuse + "capture/4", reuse + "view",
+          reuse + "compose", traced + "raytrace", traced + "compose"})
         EXPECT_TRUE(names.contains(name)) << name;
     EXPECT_DOUBLE_EQ(time, result.frames.front().gpu_ms);
 }
 
 TEST(Together, TheSameTechniqueTwiceIsRefused) {
-    test::expect_refused([] { test::engine().run(test::request(test::room(1, 1), {"reuse", "reuse:face=256"}, {16, 16})); },
-                         Failure::usage, {"'reuse:face=256'", "asked for twice"});
+    test::expect_refused(
+        [] {
+            test::engine().run(
+                test::request(test::room(1, 1), {"reuse", "reuse:face=256"}, {16, 16}));
+        },
+        Failure::usage, {"'reuse:face=256'", "asked for twice"});
 }
 
 } // namespace

@@ -20,7 +20,8 @@ namespace test {
 using render::Captured;
 
 /// Captures every mirror once, without shadows; the other mirrors are black.
-inline Captured capture(const scene::Scene& scene, std::uint32_t face, Format distance, double range_world = 1, bool staged = false) {
+inline Captured capture(const scene::Scene& scene, std::uint32_t face, Format distance,
+                        double range_world = 1, bool staged = false) {
     auto& [device, pipelines] = bench(staged);
     return render::capture(device, pipelines, scene, face, distance, range_world);
 }

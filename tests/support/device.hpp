@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-/// The validated devices of a test program. Any message of the validation layer fails the test during
-/// which it came.
+/// The validated devices of a test program. Any message of the validation layer fails the test
+/// during which it came.
 namespace test {
 
 using namespace catoptric;
@@ -28,8 +28,8 @@ struct Bench {
 namespace detail {
 
 struct Devices {
-    std::map<bool, std::unique_ptr<Bench>> benches;        ///< by `staged`
-    std::map<bool, std::unique_ptr<app::Engine>> engines;  ///< by `layered`
+    std::map<bool, std::unique_ptr<Bench>> benches;       ///< by `staged`
+    std::map<bool, std::unique_ptr<app::Engine>> engines; ///< by `layered`
 };
 inline Devices devices;
 
@@ -67,14 +67,17 @@ inline const bool watched = [] {
 /// Made at first use, one for the whole program. `staged`: as if device memory could not be mapped.
 inline Bench& bench(bool staged = false) {
     auto& made = detail::devices.benches[staged];
-    if (!made) made = std::make_unique<Bench>(gpu::DeviceOptions{.validate = true, .staged = staged});
+    if (!made)
+        made = std::make_unique<Bench>(gpu::DeviceOptions{.validate = true, .staged = staged});
     return *made;
 }
 
 /// The same with the whole engine on top. `layered` false: captures face by face.
 inline app::Engine& engine(bool layered = true) {
     auto& made = detail::devices.engines[layered];
-    if (!made) made = std::make_unique<app::Engine>(app::EngineOptions{.validate = true, .layered = layered});
+    if (!made)
+        made = std::make_unique<app::Engine>(
+            app::EngineOptions{.validate = true, .layered = layered});
     return *made;
 }
 
@@ -94,7 +97,8 @@ std::vector<T> read_as(graph::Runner& runner, Resource resource) {
 }
 
 /// Expects `Error(failure)` whose text holds every one of the words.
-inline void expect_refused(const std::function<void()>& action, Failure failure, const std::vector<std::string>& words) {
+inline void expect_refused(const std::function<void()>& action, Failure failure,
+                           const std::vector<std::string>& words) {
     try {
         action();
         ADD_FAILURE() << "not refused";

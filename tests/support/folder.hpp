@@ -18,8 +18,10 @@ protected:
         std::filesystem::remove_all(folder, ignored);
     }
 
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() /
-        ("catoptric-" + std::to_string(::getpid()) + "-" + testing::UnitTest::GetInstance()->current_test_info()->name());
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() /
+        ("catoptric-" + std::to_string(::getpid()) + "-" +
+         testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 } // namespace test

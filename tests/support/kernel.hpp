@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-/// The device's walk of the hierarchy on rays of our own (shaders/tests/kernel.comp), and the C++ mirror beside it.
-/// Triangles and rays go in as they are: no centre, no unit scale, no loader.
+/// The device's walk of the hierarchy on rays of our own (shaders/tests/kernel.comp), and the C++
+/// mirror beside it. Triangles and rays go in as they are: no centre, no unit scale, no loader.
 namespace test {
 
 /// As the shader reads it.
@@ -35,7 +35,8 @@ struct KernelHit {
 };
 static_assert(sizeof(KernelHit) == 32);
 
-/// Where a ray starts: the triangle's place in the hierarchy, weights of its corners, where it goes.
+/// Where a ray starts: the triangle's place in the hierarchy, weights of its corners, where it
+/// goes.
 struct KernelStart {
     vec3 weights{0};
     std::uint32_t place = 0;
@@ -61,25 +62,31 @@ public:
     explicit Kernel(bvh::Bvh hierarchy)
         : hierarchy_(std::move(hierarchy)), runner_(bench().device, bench().pipelines) {
         upload(bench().device, nodes_, "nodes", hierarchy_.nodes, gpu::BufferUse::texels);
-        upload(bench().device, triangles_, "triangles", hierarchy_.triangles, gpu::BufferUse::texels);
+        upload(bench().device, triangles_, "triangles", hierarchy_.triangles,
+               gpu::BufferUse::texels);
     }
     explicit Kernel(std::span<const bvh::Triangle> triangles) : Kernel(bvh::build(triangles)) {}
 
-    /// Rules to leave out, by the constants of shaders/lib/plain.glsl: what they are good for shows without them.
+    /// Rules to leave out, by the constants of shaders/lib/plain.glsl: what they are good for shows
+    /// without them.
     gpu::Constants rules{};
 
     const bvh::Bvh& hierarchy() const { return hierarchy_; }
 
-    /// What each ray meets first, triangles with a flag of `skipped` left out. At most 4 million rays.
+    /// What each ray meets first, triangles with a flag of `skipped` left out. At most 4 million
+    /// rays.
     std::vector<KernelHit> closest(const std::vector<KernelRay>& rays, std::uint32_t skipped = 0) {
-        return run<KernelHit>("tests/kernel.comp", "Rays", rays, "Hits", std::array{size_of(rays), skipped, 0u});
+        return run<KernelHit>("tests/kernel.comp", "Rays", rays, "Hits",
+                              std::array{size_of(rays), skipped, 0u});
     }
     /// Whether each ray meets anything; of a hit only `outcome` and `steps` are told.
     std::vector<KernelHit> any(const std::vector<KernelRay>& rays, std::uint32_t skipped = 0) {
-        return run<KernelHit>("tests/kernel.comp", "Rays", rays, "Hits", std::array{size_of(rays), skipped, 1u});
+        return run<KernelHit>("tests/kernel.comp", "Rays", rays, "Hits",
+                              std::array{size_of(rays), skipped, 1u});
     }
     std::vector<KernelLeaving> leave(const std::vector<KernelStart>& starts) {
-        return run<KernelLeaving>("tests/spawn.comp", "Starts", starts, "Leavings", std::array{size_of(starts)});
+        return run<KernelLeaving>("tests/spawn.comp", "Starts", starts, "Leavings",
+                                  std::array{size_of(starts)});
     }
 
 private:
@@ -89,19 +96,22 @@ private:
     }
 
     template <typename Out, typename In, typename Push>
-    std::vector<Out> run(const char* shader, const char* input, const std::vector<In>& in, const char* output, const Push& push) {
+    std::vector<Out> run(const char* shader, const char* input, const std::vector<In>& in,
+                         const char* output, const Push& push) {
         upload(bench().device, input_, "input", in, gpu::BufferUse::plain);
         graph::Graph graph;
         const graph::Buffer out = graph.buffer({"output", in.size() * sizeof(Out)});
-        graph.pass("kernel").writes(out, graph::Use::storage_write).record([&](graph::Commands& commands) {
-            commands.bind("bvh_nodes", nodes_);
-            commands.bind("bvh_triangles", triangles_);
-            commands.bind(input, input_);
-            commands.bind(output, out);
-            commands.use(gpu::ComputeState{shader, rules});
-            commands.push(push);
-            commands.dispatch((size_of(in) + 63) / 64, 1);
-        });
+        graph.pass("kernel")
+            .writes(out, graph::Use::storage_write)
+            .record([&](graph::Commands& commands) {
+                commands.bind("bvh_nodes", nodes_);
+                commands.bind("bvh_triangles", triangles_);
+                commands.bind(input, input_);
+                commands.bind(output, out);
+                commands.use(gpu::ComputeState{shader, rules});
+                commands.push(push);
+                commands.dispatch((size_of(in) + 63) / 64, 1);
+            });
         graph.want(out);
         test::run(runner_, graph);
         return read_as<Out>(runner_, out);
@@ -117,15 +127,23 @@ inline std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 /// Bit for bit, in everything but the number of steps.
 inline bool same(const KernelHit& a, const KernelHit& b) {
     const auto words = [](const KernelHit& h) {
-        return std::array{bits(h.t), bits(h.barycentric.x), bits(h.barycentric.y), bits(h.barycentric.z), h.triangle, h.object, h.outcome};
+        return std::array{bits(h.t),
+                          bits(h.barycentric.x),
+                          bits(h.barycentric.y),
+                          bits(h.barycentric.z),
+                          h.triangle,
+                          h.object,
+                          h.outcome};
     };
     return words(a) == words(b);
 }
 
 /// What the C++ mirror of the walk answers.
-inline KernelHit mirror_of(const bvh::Bvh& hierarchy, const KernelRay& ray, std::uint32_t skipped = 0) {
+inline KernelHit mirror_of(const bvh::Bvh& hierarchy, const KernelRay& ray,
+                           std::uint32_t skipped = 0) {
     bvh::Steps steps;
-    const auto hit = bvh::closest_hit<float>(hierarchy, {ray.origin, ray.direction, ray.leaves}, ray.t_max, skipped, &steps);
+    const auto hit = bvh::closest_hit<float>(hierarchy, {ray.origin, ray.direction, ray.leaves},
+                                             ray.t_max, skipped, &steps);
     KernelHit result;
     if (hit) result = {hit->t, hit->barycentric, hit->triangle, hit->object, 1, 0};
     result.steps = static_cast<std::uint32_t>(steps.total());
@@ -135,28 +153,32 @@ inline KernelHit mirror_of(const bvh::Bvh& hierarchy, const KernelRay& ray, std:
 inline std::string text(const KernelHit& hit) {
     std::ostringstream out;
     if (!hit.found()) return hit.exhausted() ? "gave up" : "miss";
-    out << std::hexfloat << "t " << hit.t << " weights " << hit.barycentric.x << ' ' << hit.barycentric.y << ' '
-        << hit.barycentric.z << " triangle " << hit.triangle << " object " << hit.object << (hit.exhausted() ? " gave up" : "");
+    out << std::hexfloat << "t " << hit.t << " weights " << hit.barycentric.x << ' '
+        << hit.barycentric.y << ' ' << hit.barycentric.z << " triangle " << hit.triangle
+        << " object " << hit.object << (hit.exhausted() ? " gave up" : "");
     return out.str();
 }
 
 inline std::string text(const KernelRay& ray) {
     std::ostringstream out;
-    out << std::hexfloat << "origin " << ray.origin.x << ' ' << ray.origin.y << ' ' << ray.origin.z << " direction "
-        << ray.direction.x << ' ' << ray.direction.y << ' ' << ray.direction.z << " t_max " << ray.t_max << " leaves " << ray.leaves;
+    out << std::hexfloat << "origin " << ray.origin.x << ' ' << ray.origin.y << ' ' << ray.origin.z
+        << " direction " << ray.direction.x << ' ' << ray.direction.y << ' ' << ray.direction.z
+        << " t_max " << ray.t_max << " leaves " << ray.leaves;
     return out.str();
 }
 
-/// Number of rays of which device and mirror say different things; the first fails the test with both answers.
-/// `stride`: every how many-th ray the mirror is asked.
-inline std::size_t differences(const Kernel& kernel, const std::vector<KernelRay>& rays, const std::vector<KernelHit>& hits,
-                               std::uint32_t skipped = 0, std::size_t stride = 1) {
+/// Number of rays of which device and mirror say different things; the first fails the test with
+/// both answers. `stride`: every how many-th ray the mirror is asked.
+inline std::size_t differences(const Kernel& kernel, const std::vector<KernelRay>& rays,
+                               const std::vector<KernelHit>& hits, std::uint32_t skipped = 0,
+                               std::size_t stride = 1) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < rays.size(); i += stride) {
         const KernelHit expected = mirror_of(kernel.hierarchy(), rays[i], skipped);
         if (same(hits[i], expected)) continue;
         if (count++ == 0)
-            ADD_FAILURE() << "ray " << i << ", " << text(rays[i]) << "\n  device: " << text(hits[i]) << "\n  mirror: " << text(expected);
+            ADD_FAILURE() << "ray " << i << ", " << text(rays[i]) << "\n  device: " << text(hits[i])
+                          << "\n  mirror: " << text(expected);
     }
     return count;
 }

@@ -14,8 +14,8 @@
 /// Geometry for tests of the ray kernel, all from a seed.
 namespace test {
 
-/// A closed mesh, and from where rays may start strictly inside: `reach` around points of its core, which is
-/// its centre or, for a torus, a circle about z.
+/// A closed mesh, and from where rays may start strictly inside: `reach` around points of its core,
+/// which is its centre or, for a torus, a circle about z.
 struct ClosedMesh {
     scene::Mesh mesh;
     double core_radius;
@@ -29,21 +29,27 @@ inline ClosedMesh torus() {
     scene::Mesh mesh{.name = "torus"};
     for (std::uint32_t ring = 0; ring < kRings; ++ring)
         for (std::uint32_t side = 0; side < kSides; ++side) {
-            const double around = 2 * std::numbers::pi * ring / kRings, about = 2 * std::numbers::pi * side / kSides;
+            const double around = 2 * std::numbers::pi * ring / kRings,
+                         about = 2 * std::numbers::pi * side / kSides;
             const double out = 1 + 0.4 * std::cos(about);
-            mesh.positions.push_back({out * std::cos(around), out * std::sin(around), 0.4 * std::sin(about)});
-            const auto corner = [&](std::uint32_t i, std::uint32_t k) { return (ring + i) % kRings * kSides + (side + k) % kSides; };
+            mesh.positions.push_back(
+                {out * std::cos(around), out * std::sin(around), 0.4 * std::sin(about)});
+            const auto corner = [&](std::uint32_t i, std::uint32_t k) {
+                return (ring + i) % kRings * kSides + (side + k) % kSides;
+            };
             mesh.triangles.push_back({corner(0, 0), corner(1, 0), corner(1, 1)});
             mesh.triangles.push_back({corner(0, 0), corner(1, 1), corner(0, 1)});
         }
     return {std::move(mesh), 1, 0.15};
 }
 
-/// A closed room of twelve triangles without a round number; `stretch` makes a corridor of it, along z.
+/// A closed room of twelve triangles without a round number; `stretch` makes a corridor of it,
+/// along z.
 inline ClosedMesh box(std::string name, double stretch) {
     scene::Mesh mesh{.name = std::move(name)};
     for (int face = 0; face < 6; ++face) {
-        const scene::Mesh side = wall(face, {-0.91, -0.63, -1.17 * stretch}, {0.87, 0.71, 1.03 * stretch});
+        const scene::Mesh side = wall(face, {-0.91, -0.63, -1.17 * stretch},
+                                      {0.87, 0.71, 1.03 * stretch});
         const uvec3 first(static_cast<std::uint32_t>(mesh.positions.size()));
         mesh.positions.insert(mesh.positions.end(), side.positions.begin(), side.positions.end());
         for (const uvec3& triangle : side.triangles) mesh.triangles.push_back(triangle + first);
@@ -53,11 +59,15 @@ inline ClosedMesh box(std::string name, double stretch) {
 
 inline ClosedMesh ball() { return {scene::ball("ball", 5), 0, 0.5}; }
 
-/// The mesh times `scale` plus `offset`, rounded to float; nothing when that leaves a triangle without an area.
-inline std::optional<std::vector<bvh::Triangle>> placed(const scene::Mesh& mesh, double scale, dvec3 offset) {
+/// The mesh times `scale` plus `offset`, rounded to float; nothing when that leaves a triangle
+/// without an area.
+inline std::optional<std::vector<bvh::Triangle>> placed(const scene::Mesh& mesh, double scale,
+                                                        dvec3 offset) {
     std::vector<bvh::Triangle> result;
     for (const uvec3& t : mesh.triangles) {
-        const auto corner = [&](std::uint32_t i) { return vec3(mesh.positions[i] * scale + offset); };
+        const auto corner = [&](std::uint32_t i) {
+            return vec3(mesh.positions[i] * scale + offset);
+        };
         const bvh::Triangle triangle{corner(t.x), corner(t.y), corner(t.z)};
         const dvec3 a(triangle.a), b(triangle.b), c(triangle.c);
         if (glm::cross(b - a, c - a) == dvec3(0)) return {};
@@ -66,8 +76,8 @@ inline std::optional<std::vector<bvh::Triangle>> placed(const scene::Mesh& mesh,
     return result;
 }
 
-/// Whether rounding `scale` times the mesh plus `offset` moves corners and starting points by less than what lies
-/// between them.
+/// Whether rounding `scale` times the mesh plus `offset` moves corners and starting points by less
+/// than what lies between them.
 inline bool is_resolved(double scale, dvec3 offset) {
     const double largest = 2 * scale + glm::length(offset);
     return std::sqrt(3.0) * std::ldexp(largest, -23) < kInsideMargin * scale;

@@ -23,7 +23,9 @@ public:
     /// In [0, 1), a multiple of 2^-24.
     float unit() { return static_cast<float>(word() >> 8) * 0x1p-24f; }
     float between(float lo, float hi) { return lo + (hi - lo) * unit(); }
-    std::size_t below(std::size_t count) { return static_cast<std::size_t>((std::uint64_t{word()} * count) >> 32); }
+    std::size_t below(std::size_t count) {
+        return static_cast<std::size_t>((std::uint64_t{word()} * count) >> 32);
+    }
     vec3 in_cube() {
         const float x = between(-1, 1), y = between(-1, 1);
         return {x, y, between(-1, 1)};

@@ -35,8 +35,7 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
 
 /// In the child, between fork and exec.
 [[noreturn]] void become(const Start& start, int out, int err) {
-    for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ})
-        ::signal(signal, SIG_DFL);
+    for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
     if (start.file_limit > 0) {
         const rlimit limit{start.file_limit, start.file_limit};
         ::setrlimit(RLIMIT_FSIZE, &limit);
@@ -47,8 +46,7 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
     ::dup2(out, 1);
     ::dup2(err, 2);
     if (!start.folder.empty() && ::chdir(start.folder.c_str()) != 0) ::_exit(126);
-    for (const auto& [name, value] : start.environment)
-        ::setenv(name.c_str(), value.c_str(), 1);
+    for (const auto& [name, value] : start.environment) ::setenv(name.c_str(), value.c_str(), 1);
     std::vector<char*> arguments;
     for (const std::string& word : start.command)
         arguments.push_back(const_cast<char*>(word.c_str()));

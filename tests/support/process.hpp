@@ -19,13 +19,13 @@ struct Ended {
 struct Start {
     std::vector<std::string> command;                    ///< the program's path first
     std::map<std::string, std::string> environment = {}; ///< added to ours
-    std::string out_path = {}; ///< stdout goes here instead of `Ended::out`
-    bool no_reader = false;    ///< stdout is a pipe whose other end is closed
+    std::string out_path = {};    ///< stdout goes here instead of `Ended::out`
+    bool no_reader = false;       ///< stdout is a pipe whose other end is closed
     std::uint64_t file_limit = 0; ///< bytes after which writing to a file fails; 0 = no limit
-    int signal = 0;            ///< sent once stderr has `signal_at` in it; 0 = none
+    int signal = 0;               ///< sent once stderr has `signal_at` in it; 0 = none
     std::string signal_at = {};
     std::chrono::milliseconds signal_after{0}; ///< from then
-    std::filesystem::path folder = {}; ///< where it runs; empty = here
+    std::filesystem::path folder = {};         ///< where it runs; empty = here
 };
 
 /// Runs a program to its end.

@@ -23,7 +23,8 @@ inline void PrintTo(const TechniqueInfo& technique, std::ostream* out) { *out <<
 namespace test {
 
 /// One measured frame without warm-up, seen by the scene's first camera.
-inline app::Request request(const scene::Scene& scene, const std::vector<std::string>& techniques, uvec2 size) {
+inline app::Request request(const scene::Scene& scene, const std::vector<std::string>& techniques,
+                            uvec2 size) {
     return {.scene = scene,
             .techniques = techniques,
             .camera = scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front(),
@@ -32,25 +33,29 @@ inline app::Request request(const scene::Scene& scene, const std::vector<std::st
             .warmup = 0};
 }
 
-inline app::Part render(const scene::Scene& scene, const std::string& technique, uvec2 size, int frames = 1) {
+inline app::Part render(const scene::Scene& scene, const std::string& technique, uvec2 size,
+                        int frames = 1) {
     app::Request asked = request(scene, {technique}, size);
     asked.warmup = frames - 1;
     return std::move(engine().run(asked).parts.front());
 }
 
 /// "name:knob=value,..." of those wanted settings that the technique has a knob for.
-inline std::string with(const app::TechniqueInfo& technique, const std::vector<std::pair<std::string, std::string>>& settings) {
+inline std::string with(const app::TechniqueInfo& technique,
+                        const std::vector<std::pair<std::string, std::string>>& settings) {
     std::string text = technique.name;
     char separator = ':';
     for (const auto& [knob, value] : settings) {
-        if (std::ranges::find(technique.knobs, knob, &app::Knob::name) == technique.knobs.end()) continue;
+        if (std::ranges::find(technique.knobs, knob, &app::Knob::name) == technique.knobs.end())
+            continue;
         text += separator + knob + "=" + value;
         separator = ',';
     }
     return text;
 }
 
-inline double rmse(const measure::Picture& a, const measure::Picture& b, const measure::Mask& mask = {}) {
+inline double rmse(const measure::Picture& a, const measure::Picture& b,
+                   const measure::Mask& mask = {}) {
     const std::vector<float> no_flip(a.pixels.size(), 0.0f);
     const measure::Difference difference = measure::difference(a, b, mask, no_flip);
     EXPECT_EQ(difference.nonfinite, 0u);

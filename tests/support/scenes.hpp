@@ -18,7 +18,8 @@ using scene::add_ball, scene::add_material, scene::add_mesh, scene::add_quad, sc
 /// What every wall of a furnace emits: exact in binary16.
 constexpr vec3 kFurnace{0.5f, 0.25f, 0.75f};
 
-/// A closed box, every point of which emits kFurnace and reflects nothing, with one or two mirror balls.
+/// A closed box, every point of which emits kFurnace and reflects nothing, with one or two mirror
+/// balls.
 inline scene::Scene furnace(int mirrors) {
     scene::Scene scene{.name = "furnace"};
     const std::size_t hot = add_material(scene, {.name = "hot", .emission = kFurnace});
@@ -26,11 +27,15 @@ inline scene::Scene furnace(int mirrors) {
     for (int face = 0; face < 6; ++face) add_mesh(scene, wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
     add_ball(scene, "ball1", mirror, {-1.2, -0.3, 1}, 1);
     if (mirrors > 1) add_ball(scene, "ball2", mirror, {1.3, 0.4, 1.5}, 1.2);
-    scene.cameras.push_back({.name = "inside", .eye = {0.2, 0.1, -4.5}, .target = {0, 0, 1}, .vertical_fov_degrees = 50});
+    scene.cameras.push_back({.name = "inside",
+                             .eye = {0.2, 0.1, -4.5},
+                             .target = {0, 0, 1},
+                             .vertical_fov_degrees = 50});
     return scene;
 }
 
-/// White room with coloured side walls, `lights` lamps under the ceiling and `mirrors` (0 to 3) balls.
+/// White room with coloured side walls, `lights` lamps under the ceiling and `mirrors` (0 to 3)
+/// balls.
 inline scene::Scene room(int mirrors, int lights) {
     scene::Scene scene{.name = "room"};
     const std::size_t white = add_material(scene, {.name = "white", .albedo = {.7f, .7f, .7f}});
@@ -39,21 +44,28 @@ inline scene::Scene room(int mirrors, int lights) {
     const std::size_t lamp = add_material(scene, {.name = "lamp", .emission = {9, 8, 6}});
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (int face = 0; face < 6; ++face)
-        add_mesh(scene, wall(face, {-2, -2, -3}, {2, 2, 2}), face == 0 ? red : face == 1 ? green : white);
+        add_mesh(scene, wall(face, {-2, -2, -3}, {2, 2, 2}),
+                 face == 0   ? red
+                 : face == 1 ? green
+                             : white);
     for (int i = 0; i < lights; ++i) {
         const double x = lights == 1 ? 0 : -1 + 2.0 * i / (lights - 1);
-        add_quad(scene, "lamp" + std::to_string(i + 1), lamp, {x - .3, 1.99, -.4}, {x + .3, 1.99, -.4}, {x + .3, 1.99, .2}, {x - .3, 1.99, .2});
+        add_quad(scene, "lamp" + std::to_string(i + 1), lamp, {x - .3, 1.99, -.4},
+                 {x + .3, 1.99, -.4}, {x + .3, 1.99, .2}, {x - .3, 1.99, .2});
     }
     const std::array<dvec3, 3> places{{{-.9, -1.2, .3}, {.8, -.9, .9}, {.3, .3, -.4}}};
     const std::array<double, 3> radii{.7, .9, .4};
     for (std::size_t i = 0; i < static_cast<std::size_t>(mirrors); ++i)
         add_ball(scene, "ball" + std::to_string(i + 1), mirror, places[i], radii[i]);
-    scene.cameras.push_back({.name = "inside", .eye = {.1, .2, -2.9}, .target = {0, -.2, 0}, .vertical_fov_degrees = 70});
+    scene.cameras.push_back({.name = "inside",
+                             .eye = {.1, .2, -2.9},
+                             .target = {0, -.2, 0},
+                             .vertical_fov_degrees = 70});
     return scene;
 }
 
-/// The room with one lamp, a mirror ball, a mirrored block and a flat mirror on the wall behind them: mirrors in
-/// mirrors, of which only the ball is an exact sphere.
+/// The room with one lamp, a mirror ball, a mirrored block and a flat mirror on the wall behind
+/// them: mirrors in mirrors, of which only the ball is an exact sphere.
 inline scene::Scene hall() {
     scene::Scene scene = room(0, 1);
     scene.name = "hall";
@@ -69,7 +81,8 @@ inline scene::Scene hall() {
         for (const auto& triangle : side.triangles) block.triangles.push_back(triangle + first);
     }
     add_mesh(scene, block, mirror);
-    add_quad(scene, "panel", mirror, {-1.5, -1, 1.9}, {1.5, -1, 1.9}, {1.5, 1.2, 1.9}, {-1.5, 1.2, 1.9});
+    add_quad(scene, "panel", mirror, {-1.5, -1, 1.9}, {1.5, -1, 1.9}, {1.5, 1.2, 1.9},
+             {-1.5, 1.2, 1.9});
     return scene;
 }
 

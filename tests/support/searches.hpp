@@ -5,7 +5,8 @@
 
 #include <iostream>
 
-/// How techniques that look into captures do in the built-in scene, 512x512, seen from three places.
+/// How techniques that look into captures do in the built-in scene, 512x512, seen from three
+/// places.
 namespace test {
 
 inline constexpr uvec2 kContractSize{512, 512};
@@ -20,8 +21,16 @@ struct Look {
 /// The scene's own, one aside and one from above; ball 4 stands elsewhere in each.
 inline std::vector<Look> looks() {
     return {{scene::cornell_mirrors().cameras.front(), 0},
-            {{.name = "side", .eye = {400, 330, -760}, .target = {400, 330, 0}, .vertical_fov_degrees = 37.5}, 1.3},
-            {{.name = "above", .eye = {120, 420, -500}, .target = {330, 120, 300}, .vertical_fov_degrees = 45}, 2.6}};
+            {{.name = "side",
+              .eye = {400, 330, -760},
+              .target = {400, 330, 0},
+              .vertical_fov_degrees = 37.5},
+             1.3},
+            {{.name = "above",
+              .eye = {120, 420, -500},
+              .target = {330, 120, 300},
+              .vertical_fov_degrees = 45},
+             2.6}};
 }
 
 /// Against ray tracing: linear rmse by what the reflected ray meets, and where mirrors looked.
@@ -32,7 +41,8 @@ struct Judged {
 };
 
 /// Techniques that search, rendered in one frame.
-inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look, const std::vector<std::string>& techniques,
+inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look,
+                                 const std::vector<std::string>& techniques,
                                  const std::string& reference = "raytrace:depth=16") {
     app::Request asked = request(scene, {reference}, kContractSize);
     asked.camera = look.camera;
@@ -45,42 +55,50 @@ inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look, co
     std::vector<Judged> judged;
     const app::Result result = engine().run(asked);
     for (const app::Part& part : result.parts) {
-        judged.push_back({rmse(part.hdr, truth.hdr, measure::mirrors(truth.hits)), rmse(part.hdr, truth.hdr, measure::first_order(truth.hits)),
-                          rmse(part.hdr, truth.hdr, measure::mirror_in_mirror(truth.hits)), measure::lookup_error(oracle.judge(part.lookup)),
+        judged.push_back({rmse(part.hdr, truth.hdr, measure::mirrors(truth.hits)),
+                          rmse(part.hdr, truth.hdr, measure::first_order(truth.hits)),
+                          rmse(part.hdr, truth.hdr, measure::mirror_in_mirror(truth.hits)),
+                          measure::lookup_error(oracle.judge(part.lookup)),
                           part.traced_fraction.value_or(0)});
         const Judged& error = judged.back();
-        std::cout << "[ MEASURED ] " << look.camera.name << ", " << part.label << ": rmse " << error.all << ", first order " << error.first_order
-                  << ", mirror in mirror " << error.mirror_in_mirror << "; mean angle " << error.lookup.mean_degrees << " degrees, p95 "
-                  << error.lookup.p95_degrees << ", wrong object " << error.lookup.wrong_object << ", unknown " << error.lookup.unknown
+        std::cout << "[ MEASURED ] " << look.camera.name << ", " << part.label << ": rmse "
+                  << error.all << ", first order " << error.first_order << ", mirror in mirror "
+                  << error.mirror_in_mirror << "; mean angle " << error.lookup.mean_degrees
+                  << " degrees, p95 " << error.lookup.p95_degrees << ", wrong object "
+                  << error.lookup.wrong_object << ", unknown " << error.lookup.unknown
                   << ", traced " << error.traced_fraction << "\n";
     }
     return judged;
 }
 
 /// Where each first-order pixel looked and should have, seen by the scene's first camera.
-inline std::vector<measure::LookedUp> looked_up(const scene::Scene& scene, const std::string& technique, uvec2 size) {
+inline std::vector<measure::LookedUp> looked_up(const scene::Scene& scene,
+                                                const std::string& technique, uvec2 size) {
     app::Request asked = request(scene, {technique}, size);
     asked.with_lookup = true;
     return app::Oracle(asked).judge(engine().run(asked).parts.front().lookup);
 }
 
-/// What a search must be worth from wherever it is seen, as shares of the error of `parallax:face=512`.
+/// What a search must be worth from wherever it is seen, as shares of the error of
+/// `parallax:face=512`.
 struct Worth {
-    double first_order; ///< face=512, reflected rays that meet no second mirror
-    double all;         ///< face=512, followed through other mirrors
-    double coarse;      ///< face=256, followed through other mirrors
+    double first_order;      ///< face=512, reflected rays that meet no second mirror
+    double all;              ///< face=512, followed through other mirrors
+    double coarse;           ///< face=256, followed through other mirrors
     double mirror_in_mirror; ///< face=512, share of the same search that is not followed
-    double angle;       ///< face=512, mean of the looked-up direction on first-order pixels
+    double angle;            ///< face=512, mean of the looked-up direction on first-order pixels
     double wrong_object = 1; ///< ... and no share of parallax: of those pixels
 };
 
 inline void expect_worth(const std::string& search, const Worth& worth) {
     for (const Look& look : looks()) {
         SCOPED_TRACE(look.camera.name);
-        const std::vector<Judged> judged = judge(scene::cornell_mirrors(), look,
-                                                 {"parallax:face=512", search + ":face=512,continue=0", search + ":face=512,continue=4",
-                                                  search + ":face=256,continue=4"});
-        const Judged &parallax = judged[0], &alone = judged[1], &followed = judged[2], &coarse = judged[3];
+        const std::vector<Judged> judged = judge(
+            scene::cornell_mirrors(), look,
+            {"parallax:face=512", search + ":face=512,continue=0", search + ":face=512,continue=4",
+             search + ":face=256,continue=4"});
+        const Judged &parallax = judged[0], &alone = judged[1], &followed = judged[2],
+                     &coarse = judged[3];
         EXPECT_LE(alone.first_order, worth.first_order * parallax.first_order);
         EXPECT_LE(followed.all, worth.all * parallax.all);
         EXPECT_LE(coarse.all, worth.coarse * parallax.all);

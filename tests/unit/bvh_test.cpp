@@ -203,7 +203,8 @@ TEST(Bvh, CopiesInOneObjectCountAsOne) {
     EXPECT_EQ(bvh.copies, triangles.size() - 16);
     EXPECT_EQ(bvh.dropped, 0u);
     for (std::size_t i = 0; i < 16; ++i)
-        EXPECT_LT(detail::number(bvh.triangles[3 * i + 1].w), 16u) << "the lowest number of each stays";
+        EXPECT_LT(detail::number(bvh.triangles[3 * i + 1].w), 16u)
+            << "the lowest number of each stays";
     const std::vector<Triangle> few(kMaxLeaf, triangles.front());
     EXPECT_EQ(build(few).copies, 0u) << "a leaf has room for them";
 }
@@ -215,8 +216,8 @@ TEST(Bvh, CoplanarCopiesInOtherLeavesTie) {
     const Bvh bvh = build(triangles);
     test::Numbers random(5);
     for (int i = 0; i < 2000; ++i) {
-        const auto hit =
-            closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()}, kInfinity);
+        const auto hit = closest_hit<float>(bvh, {0.5f * random.in_cube(), random.direction()},
+                                            kInfinity);
         ASSERT_TRUE(hit);
         ASSERT_LT(hit->triangle, original.size());
     }
@@ -290,8 +291,8 @@ TEST(ClosestHit, FloatAgreesWithDouble) {
     for (int i = 0; i < 20000; ++i) {
         const vec3 origin = 0.5f * random.in_cube(), direction = random.direction();
         const auto single = closest_hit<float>(bvh, {origin, direction}, kInfinity);
-        const auto precise_hit =
-            closest_hit<double>(bvh, {dvec3(origin), dvec3(direction)}, kInfinity);
+        const auto precise_hit = closest_hit<double>(bvh, {dvec3(origin), dvec3(direction)},
+                                                     kInfinity);
         ASSERT_TRUE(single && precise_hit);
         ASSERT_NEAR(single->t, precise_hit->t, 4e-6);
         const vec3& b = single->barycentric;
@@ -344,9 +345,12 @@ TEST(ClosestHit, BadRaysMissInBoundedSteps) {
         for (int k = 0; k < 7; ++k) {
             vec3 origin(0), direction = random.direction();
             float t_max = kInfinity;
-            if (k < 3) origin[k] = bad;
-            else if (k < 6) direction[k - 3] = bad;
-            else t_max = bad;
+            if (k < 3)
+                origin[k] = bad;
+            else if (k < 6)
+                direction[k - 3] = bad;
+            else
+                t_max = bad;
             if (k == 6 && bad > 0) continue; // t_max = +infinity is the usual one
             Steps steps;
             EXPECT_FALSE(closest_hit<float>(bvh, {origin, direction}, t_max, 0, &steps));
@@ -416,8 +420,7 @@ TEST(ClosestHit, SpawnedRaysCrossTheBall) {
             const vec3 p = f32::triangle_point(a, b, c, vec3(1.0f / 3), error);
             const vec3 inward = vec3(2, 3, 5) * scale - p;
             const vec3 direction = glm::normalize(inward + 0.5f * scale * random.direction());
-            const vec3 origin =
-                f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
+            const vec3 origin = f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
             const auto hit = closest_hit<float>(bvh, {origin, direction, 0}, kInfinity);
             ASSERT_TRUE(hit);
             ASSERT_GT(hit->t, scale);

@@ -53,8 +53,7 @@ TEST(Difference, HandComputed) {
 TEST(Difference, P99IsLinearBetweenRanks) {
     std::vector<vec3> ramp;
     for (int i = 0; i <= 50; ++i) ramp.push_back(vec3(0, static_cast<float>(i) / 64.0F, 0));
-    const Difference d =
-        difference(row_of(ramp), Picture(51, 1), {}, std::vector<float>(51));
+    const Difference d = difference(row_of(ramp), Picture(51, 1), {}, std::vector<float>(51));
     EXPECT_DOUBLE_EQ(d.p99, 49.5 / 64); // rank 0.99 * 50
     EXPECT_DOUBLE_EQ(d.max, 50.0 / 64);
     EXPECT_EQ(d.max_x, 50);
@@ -72,8 +71,8 @@ TEST(Difference, OnlyWhatIsWithinTheDisplayCounts) {
 
 TEST(Difference, TheMaskDecides) {
     const Picture a = row_of({vec3(1), vec3(1), vec3(0)});
-    const Difference d =
-        difference(a, Picture(3, 1), {0, 1, 255}, std::vector<float>{1, 0.5F, 0.25F});
+    const Difference d = difference(a, Picture(3, 1), {0, 1, 255},
+                                    std::vector<float>{1, 0.5F, 0.25F});
     EXPECT_EQ(d.pixels, 2U);
     EXPECT_DOUBLE_EQ(d.rmse, std::sqrt(0.5));
     EXPECT_DOUBLE_EQ(d.mae, 0.5);

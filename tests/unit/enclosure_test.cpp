@@ -16,7 +16,9 @@ struct Alone {
         test::add_mesh(scene, std::move(mesh), test::add_material(scene, {.mirror = true}));
         geometry = render::make_geometry(scene, {});
     }
-    bool encloses(vec3 point) const { return render::encloses(geometry, geometry.ranges.front(), point); }
+    bool encloses(vec3 point) const {
+        return render::encloses(geometry, geometry.ranges.front(), point);
+    }
     render::Geometry geometry;
 };
 
@@ -24,7 +26,8 @@ struct Alone {
 scene::Mesh box(std::initializer_list<int> walls, bool outwards) {
     scene::Mesh mesh;
     for (const int wall : walls) {
-        const scene::Mesh side = outwards ? test::wall(wall, dvec3(1), dvec3(-1)) : test::wall(wall, dvec3(-1), dvec3(1));
+        const scene::Mesh side = outwards ? test::wall(wall, dvec3(1), dvec3(-1))
+                                          : test::wall(wall, dvec3(-1), dvec3(1));
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.insert(mesh.positions.end(), side.positions.begin(), side.positions.end());
         mesh.normals.insert(mesh.normals.end(), side.normals.begin(), side.normals.end());
@@ -35,8 +38,10 @@ scene::Mesh box(std::initializer_list<int> walls, bool outwards) {
 
 TEST(Enclosure, ABallShutsInWhatIsInIt) {
     const Alone ball(scene::ball("ball", 3));
-    for (const vec3 inside : {vec3(0), vec3(.5f, -.3f, .2f), vec3(0, 0, -.999f)}) EXPECT_TRUE(ball.encloses(inside));
-    for (const vec3 outside : {vec3(.7f, .7f, .7f), vec3(0, 0, -1.001f), vec3(5, 0, 0)}) EXPECT_FALSE(ball.encloses(outside));
+    for (const vec3 inside : {vec3(0), vec3(.5f, -.3f, .2f), vec3(0, 0, -.999f)})
+        EXPECT_TRUE(ball.encloses(inside));
+    for (const vec3 outside : {vec3(.7f, .7f, .7f), vec3(0, 0, -1.001f), vec3(5, 0, 0)})
+        EXPECT_FALSE(ball.encloses(outside));
     EXPECT_TRUE(ball.encloses(vec3(0, 0, -1))) << "a vertex";
 }
 

@@ -68,7 +68,8 @@ TEST_F(File, FullDeviceIsAnIoErrorAndStaysADevice) {
 }
 
 TEST_F(File, NameTooLongLeavesNothingBehind) {
-    const Error error = error_of([&] { catoptric::write_file(folder / std::string(300, 'x'), "t"); });
+    const Error error = error_of(
+        [&] { catoptric::write_file(folder / std::string(300, 'x'), "t"); });
     EXPECT_EQ(error.failure, Failure::cannot_create);
     EXPECT_EQ(entries(), 0);
 }

@@ -34,8 +34,7 @@ int noise(int x, int y, int c, bool b) { return scramble(x, y, c, b ? 2 : 1); }
 int natural(int x, int y, int c, bool b) {
     const int from_centre = x - (b ? 32 : 30);
     const bool ball = from_centre * from_centre + (y - 20) * (y - 20) < 144;
-    const int value =
-        30 + 2 * x + 10 * c + (ball ? 70 - 30 * c : 0) + scramble(x, y, c, 3) % 16;
+    const int value = 30 + 2 * x + 10 * c + (ball ? 70 - 30 * c : 0) + scramble(x, y, c, 3) % 16;
     return std::min(255, value - (b && c == 2 ? 8 : 0));
 }
 int primaries(int, int, int c, bool b) { return c == (b ? 2 : 1) ? 255 : 0; }
@@ -154,8 +153,7 @@ std::string refusal(int width_a, int height_a, int width_b, int height_b, double
 }
 
 TEST(Flip, RefusesWhatHasNoAnswer) {
-    EXPECT_EQ(refusal(4, 3, 3, 4),
-              "FLIP wants two pictures of the same size, found 4x3 and 3x4");
+    EXPECT_EQ(refusal(4, 3, 3, 4), "FLIP wants two pictures of the same size, found 4x3 and 3x4");
     EXPECT_EQ(refusal(0, 0, 0, 0), "FLIP wants at least one pixel, found 0x0");
     EXPECT_EQ(refusal(4, 3, 4, 3, 0), "FLIP wants 1 to 1000 pixels per degree, found 0");
     EXPECT_EQ(refusal(4, 3, 4, 3, std::numeric_limits<double>::quiet_NaN()),

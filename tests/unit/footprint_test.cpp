@@ -1,4 +1,5 @@
-// What one pixel covers after reflection, against two rays that are followed, and the edges it asks for.
+// What one pixel covers after reflection, against two rays that are followed, and the edges it asks
+// for.
 #include "render/footprint.hpp"
 #include "scene/shapes.hpp"
 
@@ -15,8 +16,8 @@ using namespace catoptric::render;
 
 const double kPixel = pixel_angle(37.5, 512); ///< of the contract's camera
 
-/// Where a ray from the origin with this angle to +x goes on after a circle of radius |r| about (centre, 0), as
-/// an angle; r < 0: the circle's far side, a hollow mirror.
+/// Where a ray from the origin with this angle to +x goes on after a circle of radius |r| about
+/// (centre, 0), as an angle; r < 0: the circle's far side, a hollow mirror.
 double onward(double centre, double r, double angle) {
     const dvec3 d(std::cos(angle), std::sin(angle), 0), c(centre, 0, 0);
     const double along = dot(c, d), half = std::sqrt(r * r - dot(c, c) + along * along);
@@ -34,14 +35,16 @@ TEST(Footprint, IsTheAngleBetweenTwoRaysThatWereFollowed) {
             const double distance = kCentre * std::cos(angle) - r * cosine;
             double spread = std::abs(onward(kCentre, r, angle + kTiny) - onward(kCentre, r, angle));
             spread = std::min(spread, 2 * std::numbers::pi - spread);
-            EXPECT_NEAR(reflected_footprint(kTiny, distance, 1 / r, cosine) / spread, 1, 1e-5) << "r " << r << ", share " << share;
+            EXPECT_NEAR(reflected_footprint(kTiny, distance, 1 / r, cosine) / spread, 1, 1e-5)
+                << "r " << r << ", share " << share;
         }
 }
 
 TEST(Footprint, OfAFlatOrFocusingMirrorIsThePixel) {
     EXPECT_EQ(reflected_footprint(kPixel, 1e9, 0, 1e-9), kPixel);
-    EXPECT_EQ(reflected_footprint(kPixel, 1, -.5, 1), kPixel); // the eye in the focus of a hollow mirror
-    EXPECT_EQ(reflected_footprint(kPixel, 0, 5, 1), kPixel);   // the eye on the mirror
+    EXPECT_EQ(reflected_footprint(kPixel, 1, -.5, 1),
+              kPixel); // the eye in the focus of a hollow mirror
+    EXPECT_EQ(reflected_footprint(kPixel, 0, 5, 1), kPixel); // the eye on the mirror
 }
 
 TEST(Footprint, KnownEdges) {
@@ -61,7 +64,8 @@ struct Mirror {
 };
 
 /// The triangles of a mesh, each corner moulded to a place and a normal.
-Mirror mirror_of(const scene::Mesh& mesh, const std::function<shared::Vertex(const dvec3&)>& moulded) {
+Mirror mirror_of(const scene::Mesh& mesh,
+                 const std::function<shared::Vertex(const dvec3&)>& moulded) {
     Mirror mirror;
     for (const dvec3& position : mesh.positions) mirror.vertices.push_back(moulded(position));
     for (const uvec3& triangle : mesh.triangles)
@@ -72,7 +76,9 @@ Mirror mirror_of(const scene::Mesh& mesh, const std::function<shared::Vertex(con
 TEST(Footprint, AMeshNeedsWhatItsSphereNeeds) {
     constexpr double kRadius = .2;
     const dvec3 centre(.1, -.2, .3), eye(-1, .4, -.7);
-    const Mirror ball = mirror_of(scene::ball("ball", 5), [&](const dvec3& p) { return shared::Vertex{vec3(centre + kRadius * p), vec3(p)}; });
+    const Mirror ball = mirror_of(scene::ball("ball", 5), [&](const dvec3& p) {
+        return shared::Vertex{vec3(centre + kRadius * p), vec3(p)};
+    });
     // The facet next to the eye is met at up to half its width, of about a twentieth of the radius.
     const double wanted = sphere_need(kPixel, glm::distance(centre, eye), kRadius);
     EXPECT_NEAR(ball.need(vec3(eye)), wanted, .01 * wanted);

@@ -42,10 +42,11 @@ std::string text(const Barrier& b) {
                          : std::string(name_of(t.use)) + (t.write ? "!" : "") +
                                (t.raster ? "/raster" : "");
     };
-    std::string out = (b.is_buffer ? "buffer " : b.previous ? "previous " : "image ") +
+    std::string out = (b.is_buffer  ? "buffer "
+                       : b.previous ? "previous "
+                                    : "image ") +
                       std::to_string(b.id) + " [" + std::to_string(b.first_layer) + "," +
-                      std::to_string(b.layer_count) + "] " + word(b.before) + " > " +
-                      word(b.after);
+                      std::to_string(b.layer_count) + "] " + word(b.before) + " > " + word(b.after);
     for (const Touch& t : b.shared) out += " +" + word(t);
     return out;
 }
@@ -69,11 +70,8 @@ struct Frame {
     }
 
     Image cubes(const std::string& name) {
-        return g.image({.name = name,
-                        .width = kFace,
-                        .height = kFace,
-                        .layers = 6 * mirrors,
-                        .cube = true});
+        return g.image(
+            {.name = name, .width = kFace, .height = kFace, .layers = 6 * mirrors, .cube = true});
     }
 
     /// One scene pass for each mirror.
@@ -95,24 +93,17 @@ struct Frame {
             .reads(source, Use::sampled)
             .writes(hdr, Use::colour, kBlack)
             .record(nothing);
-        g.pass("compose")
-            .reads(hdr, Use::sampled)
-            .writes(ldr, Use::colour, kBlack)
-            .record(nothing);
+        g.pass("compose").reads(hdr, Use::sampled).writes(ldr, Use::colour, kBlack).record(nothing);
         g.want(ldr);
     }
 
     std::uint32_t mirrors;
     Graph g;
     Image shadow = g.image({.name = "shadow", .format = Format::d32f, .width = 32, .height = 32});
-    Image depth = g.image({.name = "depth",
-                           .format = Format::d32f,
-                           .width = kFace,
-                           .height = kFace,
-                           .layers = 6});
+    Image depth = g.image(
+        {.name = "depth", .format = Format::d32f, .width = kFace, .height = kFace, .layers = 6});
     Image hdr = g.image({.name = "hdr", .width = 32, .height = 32});
-    Image ldr =
-        g.image({.name = "ldr", .format = Format::rgba8_unorm, .width = 32, .height = 32});
+    Image ldr = g.image({.name = "ldr", .format = Format::rgba8_unorm, .width = 32, .height = 32});
 };
 
 /// Part one: every bounce captures all mirrors anew from the bounce before.

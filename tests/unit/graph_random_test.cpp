@@ -70,11 +70,11 @@ TEST(RandomGraphs, HavePlansThatHold) {
 
 TEST(RandomGraphs, NeedEachOfTheirBarriers) {
     for_each_sample([](const Sample& sample) {
-        for_each_barrier(sample.right, [&](Plan& wrong, std::vector<Barrier>& barriers,
-                                           std::size_t b) {
-            barriers.erase(barriers.begin() + static_cast<std::ptrdiff_t>(b));
-            sample.expect_refused(wrong, "without barrier " + std::to_string(b));
-        });
+        for_each_barrier(sample.right,
+                         [&](Plan& wrong, std::vector<Barrier>& barriers, std::size_t b) {
+                             barriers.erase(barriers.begin() + static_cast<std::ptrdiff_t>(b));
+                             sample.expect_refused(wrong, "without barrier " + std::to_string(b));
+                         });
     });
 }
 

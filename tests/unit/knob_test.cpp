@@ -8,8 +8,9 @@ namespace {
 
 using namespace catoptric;
 
-constexpr Knob kKnobs[] = {{.name = "steps", .help = "", .low = 0, .high = 8, .value = 2},
-                           {.name = "face", .help = "", .low = 1, .high = 64, .value = 16, .special = "auto"}};
+constexpr Knob kKnobs[] = {
+    {.name = "steps", .help = "", .low = 0, .high = 8, .value = 2},
+    {.name = "face", .help = "", .low = 1, .high = 64, .value = 16, .special = "auto"}};
 
 std::string refusal(std::string_view knob, std::string_view text) {
     Settings settings(kKnobs);
@@ -42,7 +43,8 @@ TEST(Knob, ASpecialWordIsNoNumber) {
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::internal);
-        EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("face"), testing::HasSubstr("auto")));
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(testing::HasSubstr("face"), testing::HasSubstr("auto")));
     }
 }
 
@@ -61,12 +63,16 @@ TEST(Knob, NumbersAreWrittenOut) {
 
 TEST(Knob, EveryRefusalNamesWhatIsAllowed) {
     for (const std::string_view text : {"0", "65", "2.5", "atuo", "", "automatic", "nan"})
-        EXPECT_THAT(refusal("face", text), testing::AllOf(testing::HasSubstr("'face' of 'row'"), testing::HasSubstr("1 to 64 or auto"),
+        EXPECT_THAT(refusal("face", text), testing::AllOf(testing::HasSubstr("'face' of 'row'"),
+                                                          testing::HasSubstr("1 to 64 or auto"),
                                                           testing::HasSubstr(std::string(text))));
     EXPECT_THAT(refusal("face", "atuo"), testing::HasSubstr("did you mean 'auto'?"));
     EXPECT_THAT(refusal("steps", "a"), testing::Not(testing::HasSubstr("did you mean")));
     for (const std::string_view text : {"9", "auto"}) // a knob without such a word
-        EXPECT_THAT(refusal("steps", text), testing::AllOf(testing::HasSubstr("0 to 8"), testing::Not(testing::HasSubstr("or auto")))) << text;
+        EXPECT_THAT(refusal("steps", text),
+                    testing::AllOf(testing::HasSubstr("0 to 8"),
+                                   testing::Not(testing::HasSubstr("or auto"))))
+            << text;
 }
 
 } // namespace

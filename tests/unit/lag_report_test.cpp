@@ -49,9 +49,7 @@ Comparison with_lag() {
     return made;
 }
 
-std::string said(const Comparison& made) {
-    return catoptric::report::to_markdown(made);
-}
+std::string said(const Comparison& made) { return catoptric::report::to_markdown(made); }
 
 TEST(LagReport, IsSilentWhereNobodyAsked) {
     EXPECT_THAT(said(usual()), Not(HasSubstr("Lag")));
@@ -74,8 +72,8 @@ TEST(LagReport, HasARowForEachSpeed) {
 
 TEST(LagReport, SaysWhereTheCapWasNotEnough) {
     Comparison made = with_lag();
-    EXPECT_TRUE(std::regex_search(
-        said(made), std::regex(R"(\| reuse +\| +2 \| +3 \| +1 \| +over 3 \|)")))
+    EXPECT_TRUE(
+        std::regex_search(said(made), std::regex(R"(\| reuse +\| +2 \| +3 \| +1 \| +over 3 \|)")))
         << said(made);
     made.lag->rows[1].restless_stills = 2;
     EXPECT_THAT(said(made), HasSubstr("parallax: 2 stills still changed after 3 frames."));
@@ -85,10 +83,12 @@ TEST(LagReport, PutsItInWords) {
     Comparison made = with_lag();
     EXPECT_THAT(
         said(made),
-        HasSubstr("reuse is behind its own still picture by an rmse of 0.0010 (median 0.0005, largest "
-                  "0.0020) at 1x, 0.0020 (median 0.0010, largest 0.0040) at 2x; after a cut from black it is within 1/255 "
-                  "from frame 2 by rmse, 3 in every pixel; after a jump of half the path from "
-                  "frame 1 by rmse, over 3 in every pixel."));
+        HasSubstr(
+            "reuse is behind its own still picture by an rmse of 0.0010 (median 0.0005, largest "
+            "0.0020) at 1x, 0.0020 (median 0.0010, largest 0.0040) at 2x; after a cut from black "
+            "it is within 1/255 "
+            "from frame 2 by rmse, 3 in every pixel; after a jump of half the path from "
+            "frame 1 by rmse, over 3 in every pixel."));
     EXPECT_THAT(said(made), HasSubstr("have no lag: naive, raytrace:depth=16."));
     made.lag->rows.clear();
     EXPECT_THAT(said(made), HasSubstr("have no lag: naive, raytrace:depth=16."));
@@ -129,7 +129,8 @@ TEST(LagReport, DrawsALineForEachSpeedAndEachRow) {
     Comparison made = with_lag();
     made.lag->rows[1].label = "<b>";
     const std::string html = catoptric::report::to_html(made);
-    EXPECT_EQ(count(html, "class=\"line\""), 2 * 2 + 2 + 2); // along the path, against speed, after a jump
+    EXPECT_EQ(count(html, "class=\"line\""),
+              2 * 2 + 2 + 2); // along the path, against speed, after a jump
     EXPECT_THAT(html, Not(HasSubstr("<b>")));
     EXPECT_THAT(html, Not(HasSubstr("nan")));
     EXPECT_THAT(html, HasSubstr("<h2>Lag</h2>"));
@@ -142,8 +143,8 @@ TEST(LinePlot, PutsZeroInItsLaneAndLeavesGapsOut) {
     catoptric::report::LinePlot plot{.x_name = "x", .y_name = "y", .says = "both", .x = {0, 1, 2}};
     plot.lines = {{"a", {0, 0.1, 0}}, {"b", {kNaN, 0.01, 0.1}}};
     const std::string drawn = line_plot(plot);
-    EXPECT_TRUE(std::regex_search(
-        drawn, std::regex(R"(d="M66\.0 238\.0L203\.0 [0-9.]+L340\.0 238\.0")")))
+    EXPECT_TRUE(
+        std::regex_search(drawn, std::regex(R"(d="M66\.0 238\.0L203\.0 [0-9.]+L340\.0 238\.0")")))
         << drawn;
     EXPECT_TRUE(std::regex_search(drawn, std::regex(R"(d="M203\.0 [0-9.]+L340\.0 [0-9.]+")")));
     plot.lines = {{"a", {kNaN}}};

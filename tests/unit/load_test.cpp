@@ -52,7 +52,8 @@ dvec3 world_position(const Scene& scene, const Object& object, std::size_t verte
     return dvec3(object.world_from_object * dvec4(scene.meshes[object.mesh].positions[vertex], 1));
 }
 
-/// Largest distance that `world_position` of equal vertices differs by; everything else is compared.
+/// Largest distance that `world_position` of equal vertices differs by; everything else is
+/// compared.
 double compare_objects(const Scene& found, const Scene& wanted) {
     double difference = 0;
     EXPECT_EQ(found.objects.size(), wanted.objects.size());
@@ -195,7 +196,8 @@ Scene awkward() {
     scene.objects[0].motion = Keyframes{.interpolation = Keyframes::Interpolation::linear,
                                         .times = {0, 1, 2},
                                         .values = {{0, 0, 0}, {1, 2, 4}, {0, 0, 1}}};
-    scene.cameras.push_back({.name = "from above", .eye = {0, 9, 0}, .target = {0, 1, 0}, .up = {1, 0, 0}});
+    scene.cameras.push_back(
+        {.name = "from above", .eye = {0, 9, 0}, .target = {0, 1, 0}, .up = {1, 0, 0}});
     return scene;
 }
 
@@ -252,7 +254,8 @@ TEST_F(Load, UnwritableTargetsAreNamed) {
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 TEST_F(Load, ObjFlatTrianglesGoAndMissingNormalsAreGeometric) {
-    const Scene scene = load(write("x.obj", kTriangle + "v 0 0 1\no a\nf 1 2 3\nf 1 3 4\nf 1 1 2\n"));
+    const Scene scene = load(
+        write("x.obj", kTriangle + "v 0 0 1\no a\nf 1 2 3\nf 1 3 4\nf 1 1 2\n"));
     const Mesh& mesh = scene.meshes[scene.objects.at(0).mesh];
     EXPECT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(mesh.positions.size(), 6u) << "flat shading shares no vertex";
@@ -263,8 +266,7 @@ TEST_F(Load, ObjFlatTrianglesGoAndMissingNormalsAreGeometric) {
 }
 
 TEST_F(Load, ObjNormalOfNoLengthIsGeometric) {
-    const Scene scene = load(write(
-        "x.obj", kTriangle + "vn 0 0 0\nvn 0 0 -5\nf 1//1 2//2 3//2\n"));
+    const Scene scene = load(write("x.obj", kTriangle + "vn 0 0 0\nvn 0 0 -5\nf 1//1 2//2 3//2\n"));
     const Mesh& mesh = scene.meshes[scene.objects.at(0).mesh];
     const uvec3 t = mesh.triangles[0];
     EXPECT_EQ(mesh.normals[t.x], vec3(0, 0, 1));
@@ -273,9 +275,11 @@ TEST_F(Load, ObjNormalOfNoLengthIsGeometric) {
 
 TEST_F(Load, ObjMirrorsAreObjectsWithAMirrorMaterial) {
     write("x.mtl", "newmtl dull grey\nKd 2 .5 -1\nnewmtl shiny\nillum 3\nKs 1 2 .5\n");
-    const Scene scene = load(write("x.obj", "mtllib x.mtl\n" + kTriangle +
-        "o a\nusemtl shiny\nf 1 2 3\nusemtl dull grey\nf 1 3 2\nusemtl shiny\nf 3 2 1\n"
-        "g b\nf -1 -2 -3\n"));
+    const Scene scene = load(
+        write("x.obj",
+              "mtllib x.mtl\n" + kTriangle +
+                  "o a\nusemtl shiny\nf 1 2 3\nusemtl dull grey\nf 1 3 2\nusemtl shiny\nf 3 2 1\n"
+                  "g b\nf -1 -2 -3\n"));
     ASSERT_EQ(scene.objects.size(), 3u);
     EXPECT_EQ(scene.objects[0].name, "a/shiny");
     EXPECT_EQ(scene.objects[1].name, "a/dull grey");
@@ -323,8 +327,9 @@ TEST_F(Load, ObjRemarksAreChecked) {
 }
 
 TEST_F(Load, ObjPolygonsAndContinuedLines) {
-    const Scene scene = load(write("x.obj", "v 0 0 0\r\nv 1 \\\n0 0\nv 1 1 0 # corner\nv 0 1 0\nvt 0 0\n"
-                                            "f 1/1 2/1 3/1 4/1\ns 1\nl 1 2\nvp 1 2\n"));
+    const Scene scene = load(write("x.obj",
+                                   "v 0 0 0\r\nv 1 \\\n0 0\nv 1 1 0 # corner\nv 0 1 0\nvt 0 0\n"
+                                   "f 1/1 2/1 3/1 4/1\ns 1\nl 1 2\nvp 1 2\n"));
     EXPECT_EQ(triangle_count(scene), 2u);
 }
 
@@ -374,7 +379,8 @@ TEST_F(Load, GltfErrorsNamePlaceWantedAndFound) {
     EXPECT_THAT(broken("\"nodes\":[0]", "\"nodes\":[0,0]"), HasSubstr("one parent"));
     EXPECT_THAT(broken("\"nodes\":[0]", "\"nodes\":[]"), HasSubstr("found none"));
     EXPECT_THAT(broken("\"mesh\":0", "\"mesh\":0,\"scale\":[0,0,0]"), HasSubstr("found none"));
-    EXPECT_THAT(broken("\"mesh\":0", "\"mesh\":0,\"scale\":[1e308,1e308,1e308],\"translation\":[1e308,1e308,0]"),
+    EXPECT_THAT(broken("\"mesh\":0",
+                       "\"mesh\":0,\"scale\":[1e308,1e308,1e308],\"translation\":[1e308,1e308,0]"),
                 HasSubstr("overflow"));
     EXPECT_THAT(broken("\"mesh\":0", "\"mesh\":0,\"extras\":{\"catoptric\":{\"sphere\":3}}"),
                 HasSubstr("[x, y, z, r]"));
@@ -417,8 +423,11 @@ TEST_F(Load, GltfParentsCarryAndTurnMotion) {
     bytes.replace(place, from.size(), to);
     const std::string end = R"("mesh":0})";
     const std::size_t tail = bytes.find(end) + end.size();
-    bytes.insert(tail, R"(,{"children":[0],"scale":[2,2,2],"rotation":[0,0,0.7071067811865476,0.7071067811865476]})");
-    const std::size_t json = bytes.find("BIN") - 4 - 20; // chunk length of JSON, kept a multiple of 4
+    bytes.insert(
+        tail,
+        R"(,{"children":[0],"scale":[2,2,2],"rotation":[0,0,0.7071067811865476,0.7071067811865476]})");
+    const std::size_t json = bytes.find("BIN") - 4 -
+                             20; // chunk length of JSON, kept a multiple of 4
     const std::string pad((4 - json % 4) % 4, ' ');
     bytes.insert(20 + json, pad);
     const auto put = [&](std::size_t offset, std::size_t value) {
@@ -449,7 +458,8 @@ TEST_F(Load, TruncatedFilesAreRefused) {
     for (std::size_t size = 0; size < glb.size(); size += size < 64 ? 1 : 17)
         refused("y.glb", glb.substr(0, size));
     const std::string gltf = gltf_text();
-    for (std::size_t size = 0; size + 1 < gltf.size(); size += 3) refused("y.gltf", gltf.substr(0, size));
+    for (std::size_t size = 0; size + 1 < gltf.size(); size += 3)
+        refused("y.gltf", gltf.substr(0, size));
     save_obj(awkward(), folder / "x.obj");
     const std::string obj = read_file(folder / "x.obj");
     for (std::size_t size = 0; size < obj.size(); size += 7)
@@ -461,14 +471,16 @@ TEST_F(Load, DamagedFilesNeverCrash) {
     save_obj(awkward(), folder / "x.obj");
     std::mt19937 random(1);
     for (const char* name : {"x.glb", "x.obj", "x.mtl", "x.gltf"}) {
-        const std::string whole = name == std::string("x.gltf") ? gltf_text() : read_file(folder / name);
+        const std::string whole = name == std::string("x.gltf") ? gltf_text()
+                                                                : read_file(folder / name);
         const std::string target = name == std::string("x.mtl") ? "x.obj" : name;
         const std::string digits = "0123456789-{}[],:\"./e# \n";
         for (int round = 0; round < 400; ++round) {
             std::string damaged = whole;
             for (unsigned i = 0; i <= random() % 3; ++i) {
                 char& byte = damaged[random() % damaged.size()];
-                byte = random() % 2 ? digits[random() % digits.size()] : static_cast<char>(random());
+                byte = random() % 2 ? digits[random() % digits.size()]
+                                    : static_cast<char>(random());
             }
             write(name, damaged);
             try_to_load((folder / target).string());

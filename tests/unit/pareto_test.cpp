@@ -23,8 +23,8 @@ TEST(Pareto, HandComputed) {
 }
 
 TEST(Pareto, Ties) {
-    EXPECT_EQ(front_of({{1, 2}, {1, 1}}), Front{1});            // same cost: the better one
-    EXPECT_EQ(front_of({{2, 1}, {1, 1}}), Front{1});            // same error: the cheaper one
+    EXPECT_EQ(front_of({{1, 2}, {1, 1}}), Front{1});              // same cost: the better one
+    EXPECT_EQ(front_of({{2, 1}, {1, 1}}), Front{1});              // same error: the cheaper one
     EXPECT_EQ(front_of({{1, 1}, {2, 2}, {1, 1}}), (Front{0, 2})); // the same: both, by index
     EXPECT_EQ(front_of({{0.0, 1}, {-0.0, 1}}), (Front{0, 1}));
 }

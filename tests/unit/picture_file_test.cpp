@@ -181,8 +181,7 @@ TEST_F(PictureFile, MaskIsWhatIsNotZero) {
     EXPECT_EQ(read_mask(file("b.png", kRgba8), 3, 1), (Mask{255, 0, 255}));
     EXPECT_THAT(message(Failure::bad_data, [&] { read_mask(folder / "a.png", 4, 2); }),
                 HasSubstr("a.png: wanted a mask of 4x2 as the pictures, found 2x2"));
-    EXPECT_THAT(message(Failure::bad_data,
-                        [&] { read_mask(file("c.exr", half_exr()), 2, 1); }),
+    EXPECT_THAT(message(Failure::bad_data, [&] { read_mask(file("c.exr", half_exr()), 2, 1); }),
                 HasSubstr("c.exr: wanted a PNG as mask, found OpenEXR"));
 }
 
@@ -219,9 +218,9 @@ TEST_F(PictureFile, PlacesThatCannotBeWritten) {
     const Picture picture(2, 2);
     EXPECT_THAT(message(Failure::cannot_create, [&] { write_png(picture, folder); }),
                 HasSubstr(folder.string()));
-    EXPECT_THAT(message(Failure::cannot_create,
-                        [&] { write_exr(picture, folder / "none" / "a.exr"); }),
-                HasSubstr("none/a.exr"));
+    EXPECT_THAT(
+        message(Failure::cannot_create, [&] { write_exr(picture, folder / "none" / "a.exr"); }),
+        HasSubstr("none/a.exr"));
     EXPECT_THAT(message(Failure::io, [&] { write_png(picture, "/dev/full"); }),
                 HasSubstr("/dev/full")); // a disk without room
 }

@@ -1,6 +1,6 @@
-// A compiler may fuse a product and a sum into one rounding, and then two devices disagree about an edge, unless
-// the instruction says that it must not. Software drivers do not fuse, so pictures cannot show what is missing;
-// the shaders' code can.
+// A compiler may fuse a product and a sum into one rounding, and then two devices disagree about an
+// edge, unless the instruction says that it must not. Software drivers do not fuse, so pictures
+// cannot show what is missing; the shaders' code can.
 #include "gpu/shader.hpp"
 
 #include <gtest/gtest.h>
@@ -16,15 +16,23 @@ namespace {
 
 // Of SPIR-V 1.6, sections 3.20 and 3.49.
 enum Op : std::uint32_t {
-    kName = 5, kExtInst = 12, kFunction = 54, kDecorate = 71, kFNegate = 127, kFAdd = 129, kFSub = 131,
-    kFMul = 133, kVectorTimesScalar = 142, kDot = 148
+    kName = 5,
+    kExtInst = 12,
+    kFunction = 54,
+    kDecorate = 71,
+    kFNegate = 127,
+    kFAdd = 129,
+    kFSub = 131,
+    kFMul = 133,
+    kVectorTimesScalar = 142,
+    kDot = 148
 };
 constexpr std::uint32_t kNoContraction = 42, kFma = 50; // the latter of GLSL.std.450
 constexpr std::array kFusible{kFNegate, kFAdd, kFSub, kFMul, kVectorTimesScalar, kDot};
 
 /// Functions whose results are compared bit for bit between devices.
 constexpr std::array<std::string_view, 6> kExact{"ray_shear(",   "product_error(", "edge_function(",
-                                                "short_edges(", "triangle_test(", "barycentric("};
+                                                 "short_edges(", "triangle_test(", "barycentric("};
 
 struct Count {
     int fixed = 0;   ///< instructions that must be rounded as they stand
@@ -42,7 +50,8 @@ std::map<std::string_view, Count> count(std::span<const std::uint32_t> words) {
         if (op == kName) names[operands[0]] = reinterpret_cast<const char*>(operands + 1);
         if (op == kDecorate && operands[1] == kNoContraction) fixed.insert(operands[0]);
         if (op == kFunction) {
-            const auto exact = std::ranges::find_if(kExact, [&](auto start) { return names[operands[1]].starts_with(start); });
+            const auto exact = std::ranges::find_if(
+                kExact, [&](auto start) { return names[operands[1]].starts_with(start); });
             here = exact == kExact.end() ? nullptr : &result[*exact];
         }
         if (here != nullptr && op == kExtInst && operands[3] == kFma) ++here->fusible;

@@ -31,8 +31,8 @@ private:
     }
 
     void add_resources() {
-        const Format formats[] = {Format::rgba16f, Format::r8_unorm, Format::rgba32f,
-                                  Format::d32f,    Format::r32f};
+        const Format formats[] = {Format::rgba16f, Format::r8_unorm, Format::rgba32f, Format::d32f,
+                                  Format::r32f};
         const std::uint32_t images = below(6) + 3;
         for (std::uint32_t i = 0; i < images; ++i) {
             images_.push_back(graph_.image({.name = "i" + std::to_string(i),
@@ -68,10 +68,14 @@ private:
         touched_[target.id] = true;
         const bool raster = is_depth(target) || chance(40);
         const bool copy = !raster && chance(30);
-        if (raster) add_attachments(pass, target);
-        else if (copy) pass.writes(target, Use::copy_to);
-        else if (is_written(target) && chance(40)) pass.writes(target, Use::storage);
-        else pass.writes(target, Use::storage_write);
+        if (raster)
+            add_attachments(pass, target);
+        else if (copy)
+            pass.writes(target, Use::copy_to);
+        else if (is_written(target) && chance(40))
+            pass.writes(target, Use::storage);
+        else
+            pass.writes(target, Use::storage_write);
         add_reads(pass, copy);
         add_disjoint_read(pass, target, copy);
         add_buffers(pass, copy);
@@ -118,8 +122,10 @@ private:
     void add_disjoint_read(PassBuilder& pass, const Image& target, bool copy) {
         if (target.first_layer == 0) return;
         const Image rest = images_[target.id].layers(0, target.first_layer);
-        if (is_written(rest) && chance(50)) pass.reads(rest, read_use(rest, copy));
-        else if (chance(10)) pass.reads(graph_.previous(target), Use::sampled);
+        if (is_written(rest) && chance(50))
+            pass.reads(rest, read_use(rest, copy));
+        else if (chance(10))
+            pass.reads(graph_.previous(target), Use::sampled);
     }
 
     void add_buffers(PassBuilder& pass, bool copy) {

@@ -162,7 +162,7 @@ private:
         for (const Barrier& b : barriers) {
             std::vector<Touch> scope = b.shared;
             if (!b.before.nothing) scope.push_back(b.before);
-            const Kind kind = b.is_buffer   ? Kind::buffer
+            const Kind kind = b.is_buffer  ? Kind::buffer
                               : b.previous ? Kind::previous
                                            : Kind::image;
             for (std::uint32_t l = 0; l < b.layer_count; ++l) {
@@ -177,8 +177,10 @@ private:
                 for (auto& [other, events] : events_) {
                     if (other != cell && !share_memory(cell, other)) continue;
                     for (Event& e : events) {
-                        if (e.is_in(cell, scope)) ordered.emplace_back(&e, cell, b.after);
-                        else if (moves) expect(false, cell, "change of layout races");
+                        if (e.is_in(cell, scope))
+                            ordered.emplace_back(&e, cell, b.after);
+                        else if (moves)
+                            expect(false, cell, "change of layout races");
                     }
                 }
             }
@@ -231,8 +233,10 @@ private:
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const Cell& cell = cells[i];
             expect(contents_.at(cell) == ideal[i], cell, "wrong contents");
-            if (cell.kind == Kind::image) check_left(cell);
-            else expect_ordered(cell, Use::copy_from);
+            if (cell.kind == Kind::image)
+                check_left(cell);
+            else
+                expect_ordered(cell, Use::copy_from);
         }
         for (std::uint32_t i = 0; i < plan_.images.size(); ++i)
             for (std::uint32_t l = 0; l < graph_.images()[i].layers; ++l)

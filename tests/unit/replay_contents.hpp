@@ -40,7 +40,9 @@ inline std::vector<CellUse> uses_of(const Pass& pass) {
         for (std::uint32_t l = 0; l < u.image.layer_count; ++l)
             uses.push_back({{u.image.previous ? Kind::previous : Kind::image, u.image.id,
                              u.image.first_layer + l},
-                            u.use, u.write, needs});
+                            u.use,
+                            u.write,
+                            needs});
     }
     for (const BufferUse& u : pass.buffers)
         uses.push_back(

@@ -26,16 +26,13 @@ using testing::Not;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-std::string said(const Comparison& made) {
-    return catoptric::report::to_markdown(made);
-}
+std::string said(const Comparison& made) { return catoptric::report::to_markdown(made); }
 
 TEST(ReportJson, HasTheContractsFieldsInItsOrder) {
     const std::string text = catoptric::report::to_json(usual());
     const auto document = nlohmann::ordered_json::parse(text);
     std::vector<std::string> names;
-    for (const auto& [name, value] : document.items())
-        names.push_back(name);
+    for (const auto& [name, value] : document.items()) names.push_back(name);
     EXPECT_THAT(names,
                 ElementsAre("schema", "version", "commit", "command", "complete", "device", "scene",
                             "size", "frames", "warmup", "timing", "time", "ambient", "exposure",
@@ -158,8 +155,7 @@ TEST(ReportCsv, GivesEveryLineTheSameNumberOfFields) {
         if (c == '\n' && !quoted) commas.push_back(0);
     }
     ASSERT_EQ(commas.size(), 6U); // the header, four rows, nothing
-    for (int line = 1; line < 5; ++line)
-        EXPECT_EQ(commas[line], commas[0]);
+    for (int line = 1; line < 5; ++line) EXPECT_EQ(commas[line], commas[0]);
 }
 
 TEST(ReportHtml, EscapesAndNeedsNothingFromOutside) {

@@ -13,9 +13,7 @@ using namespace catoptric::report::sample;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string said(const Comparison& made) {
-    return catoptric::report::to_markdown(made);
-}
+std::string said(const Comparison& made) { return catoptric::report::to_markdown(made); }
 
 TEST(ReportMarkdown, SetsTheSeedTableBesideOurs) {
     const std::string text = said(usual());

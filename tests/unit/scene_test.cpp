@@ -190,7 +190,7 @@ TEST(Motion, KeyframesStepLinearAndRepeat) {
     EXPECT_EQ(moved(keys, 0.5), dvec3(0)); // before the first key
     EXPECT_EQ(moved(keys, 1.5), dvec3(1, 0, 0));
     EXPECT_EQ(moved(keys, 3), dvec3(4, 0.5, 0));
-    EXPECT_EQ(moved(keys, 4), dvec3(6, 1, 0)); // the end itself
+    EXPECT_EQ(moved(keys, 4), dvec3(6, 1, 0));   // the end itself
     EXPECT_EQ(moved(keys, 5.5), dvec3(1, 0, 0)); // 4 s later, again
     keys.interpolation = Keyframes::Interpolation::step;
     EXPECT_EQ(moved(keys, 1.99), dvec3(0));
@@ -210,9 +210,7 @@ TEST(Motion, CubicKeysReproduceACubic) {
     for (const double t : {0.1, 0.5, 0.9, 1.7}) expect_near(moved(keys, t), p(t), 1e-14);
 }
 
-TEST(Motion, TimeMustBeFinite) {
-    EXPECT_THROW(at(cornell_mirrors(), std::nan("")), Error);
-}
+TEST(Motion, TimeMustBeFinite) { EXPECT_THROW(at(cornell_mirrors(), std::nan("")), Error); }
 
 // ---- lights
 
@@ -267,8 +265,8 @@ TEST(Lights, NormalAndAreaFollowTheTransform) {
     world[0] = dvec4(2, 0, 0, 0);
     world[1] = dvec4(0, 0, 3, 0);
     world[2] = dvec4(0, -1, 0, 0);
-    const auto found =
-        lights(glowing(quad("a", {0, 0, 0}, {1, 1, 0}, {1, 1, 1}, {0, 0, 1}), world));
+    const auto found = lights(
+        glowing(quad("a", {0, 0, 0}, {1, 1, 0}, {1, 1, 1}, {0, 0, 1}), world));
     ASSERT_EQ(found.size(), 1u);
     // edges become (2,0,3) and (0,-1,0): normal along their cross (b-a) x (c-a)
     const dvec3 normal = glm::normalize(glm::cross(dvec3(2, 0, 3), dvec3(2, -1, 3)));

@@ -15,13 +15,15 @@ using namespace catoptric;
 
 constexpr std::uint64_t kSeeds = 25;
 
-/// The share of black pixels where mirrors send nothing on: in a closed room with ambient light all else is lit.
+/// The share of black pixels where mirrors send nothing on: in a closed room with ambient light all
+/// else is lit.
 double mirror_share(const scene::Scene& scene, const scene::Camera& camera) {
     constexpr uvec2 kSize{64, 64};
     const stress::DoubleTracer tracer(scene, 1);
     std::size_t black = 0;
     for (std::uint32_t y = 0; y < kSize.y; ++y)
-        for (std::uint32_t x = 0; x < kSize.x; ++x) black += tracer.pixel(camera, kSize, x, y, 0) == dvec3(0);
+        for (std::uint32_t x = 0; x < kSize.x; ++x)
+            black += tracer.pixel(camera, kSize, x, y, 0) == dvec3(0);
     return static_cast<double>(black) / (kSize.x * kSize.y);
 }
 
@@ -32,20 +34,25 @@ scene::Scene moved_room(int mirrors, double scale, dvec3 by) {
     moved[3] = dvec4(by, 1);
     for (scene::Object& object : scene.objects) {
         object.world_from_object = moved * object.world_from_object;
-        if (object.sphere) object.sphere = scene::Sphere{object.sphere->centre * scale + by, object.sphere->radius * scale};
+        if (object.sphere)
+            object.sphere = scene::Sphere{object.sphere->centre * scale + by,
+                                          object.sphere->radius * scale};
     }
     return scene;
 }
 
 TEST(SeededCamera, SeesTheFrontOfAMirrorWhereverTheSceneIs) {
-    for (const auto& [mirrors, scale, by] :
-         {std::tuple{1, 1.0, dvec3(0)}, {3, 1.0, dvec3(0)}, {2, 1e4, dvec3(3e6, -2e6, 1e6)}, {2, 1e-3, dvec3(1, 2, 3)}}) {
+    for (const auto& [mirrors, scale, by] : {std::tuple{1, 1.0, dvec3(0)},
+                                             {3, 1.0, dvec3(0)},
+                                             {2, 1e4, dvec3(3e6, -2e6, 1e6)},
+                                             {2, 1e-3, dvec3(1, 2, 3)}}) {
         const scene::Scene scene = moved_room(mirrors, scale, by);
         std::set<std::string> drawn;
         for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
             const scene::Camera camera = app::seeded_camera(scene, 0, seed);
             drawn.insert(camera.name);
-            // 11 of 1024 rays, of which the grid's step may have caught a few more than their share.
+            // 11 of 1024 rays, of which the grid's step may have caught a few more than their
+            // share.
             EXPECT_GE(mirror_share(scene, camera), .005) << camera.name;
             for (const std::size_t mirror : scene::mirrors(scene)) {
                 const scene::Sphere& sphere = *scene.objects[mirror].sphere;
@@ -61,7 +68,8 @@ TEST(SeededCamera, SeesTheFrontOfAMirrorWhereverTheSceneIs) {
 TEST(SeededCamera, IsTheSameForTheSameSeedAndInstant) {
     const scene::Scene scene = scene::cornell_mirrors();
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-        const scene::Camera a = app::seeded_camera(scene, 1.5, seed), b = app::seeded_camera(scene, 1.5, seed);
+        const scene::Camera a = app::seeded_camera(scene, 1.5, seed),
+                            b = app::seeded_camera(scene, 1.5, seed);
         EXPECT_EQ(a.eye, b.eye);
         EXPECT_EQ(a.target, b.target);
         EXPECT_EQ(a.vertical_fov_degrees, b.vertical_fov_degrees);
@@ -71,12 +79,15 @@ TEST(SeededCamera, IsTheSameForTheSameSeedAndInstant) {
 TEST(SeededCamera, StandsInFrontOfAFlatMirror) {
     scene::Scene scene = test::room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
-    test::add_quad(scene, "pane", mirror, {-.5, -.5, 0}, {.5, -.5, 0}, {.5, .5, 0}, {-.5, .5, 0}); // looks along +z
-    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) EXPECT_GT(app::seeded_camera(scene, 0, seed).eye.z, 0) << seed;
+    test::add_quad(scene, "pane", mirror, {-.5, -.5, 0}, {.5, -.5, 0}, {.5, .5, 0},
+                   {-.5, .5, 0}); // looks along +z
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed)
+        EXPECT_GT(app::seeded_camera(scene, 0, seed).eye.z, 0) << seed;
 }
 
 TEST(SeededCamera, SceneWithoutMirrorsIsLookedAt) {
-    EXPECT_NE(app::seeded_camera(test::room(0, 1), 0, 1).name, app::seeded_camera(test::room(0, 1), 0, 2).name);
+    EXPECT_NE(app::seeded_camera(test::room(0, 1), 0, 1).name,
+              app::seeded_camera(test::room(0, 1), 0, 2).name);
 }
 
 TEST(SeededCamera, MirrorThatNobodyCanSeeIsSaid) {
@@ -84,14 +95,15 @@ TEST(SeededCamera, MirrorThatNobodyCanSeeIsSaid) {
     const std::size_t mirror = test::add_material(hidden, {.name = "mirror", .mirror = true});
     const std::size_t white = test::add_material(hidden, {.name = "white", .albedo = vec3(.7f)});
     test::add_ball(hidden, "ball", mirror, {0, 0, 0}, 1);
-    for (int face = 0; face < 6; ++face) test::add_mesh(hidden, test::wall(face, dvec3(-1.01), dvec3(1.01)), white);
-    for (const scene::Scene& scene : {hidden, scene::Scene{.name = "empty"}})
-        try {
+    for (int face = 0; face < 6; ++face)
+        test::add_mesh(hidden, test::wall(face, dvec3(-1.01), dvec3(1.01)), white);
+    for (const scene::Scene& scene : {hidden, scene::Scene{.name = "empty"}}) try {
             app::seeded_camera(scene, 0, 5);
             ADD_FAILURE() << scene.name;
         } catch (const Error& error) {
             EXPECT_EQ(error.failure, Failure::usage);
-            EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("'" + scene.name + "'"), testing::HasSubstr("seed 5")));
+            EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("'" + scene.name + "'"),
+                                                     testing::HasSubstr("seed 5")));
         }
 }
 

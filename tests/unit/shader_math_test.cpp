@@ -14,8 +14,8 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 ::testing::AssertionResult near(const vec3& a, const vec3& b, float tolerance) {
     if (glm::length(a - b) <= tolerance) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x
-                                         << ' ' << b.y << ' ' << b.z;
+    return ::testing::AssertionFailure()
+           << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
 struct TriangleHit {
@@ -62,8 +62,8 @@ TEST(Light, NeedsNoShadowRayWhereACosineIsNotPositive) {
     vec3 direction;
     float distance, factor;
     const auto lit = [&](vec3 normal, vec3 light, vec3 light_normal) {
-        const bool result =
-            f32::light_term(vec3(0), normal, light, light_normal, direction, distance, factor);
+        const bool result = f32::light_term(vec3(0), normal, light, light_normal, direction,
+                                            distance, factor);
         EXPECT_EQ(result, factor > 0);
         return result;
     };
@@ -97,8 +97,8 @@ TEST(Mirror, NeverPointsBelowTheFacet) {
 // ---- Triangles
 
 TEST(TriangleTest, KnownHit) {
-    const auto [hit, t, weights] =
-        hit_triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}, {1, 2, 0}, {0, 0, 0.5f});
+    const auto [hit, t, weights] = hit_triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}, {1, 2, 0},
+                                                {0, 0, 0.5f});
     ASSERT_TRUE(hit);
     EXPECT_EQ(t, 4);
     EXPECT_TRUE(near(f32::barycentric(weights), vec3(0.25f, 0.25f, 0.5f), 1e-7f));
@@ -165,8 +165,7 @@ TEST(TriangleTest, EdgeFunctionHasTheExactSign) {
         const float a = random.between(0.5f, 1), b = random.between(0.5f, 1);
         const float c = std::nextafter(a, random.between(0, 2));
         const float d = static_cast<float>(static_cast<long double>(a) * b / c);
-        const long double exact =
-            static_cast<long double>(a) * b - static_cast<long double>(c) * d;
+        const long double exact = static_cast<long double>(a) * b - static_cast<long double>(c) * d;
         const float found = f32::edge_function(a, b, c, d);
         ASSERT_EQ(found > 0, exact > 0);
         ASSERT_EQ(found < 0, exact < 0);
@@ -264,8 +263,7 @@ TEST(Spawn, NeverMeetsItsOwnTriangle) {
             vec3 error;
             const vec3 p = f32::triangle_point(a, b, c, {1 - s, s * (1 - r), s * r}, error);
             const vec3 direction = random.direction();
-            const vec3 origin =
-                f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
+            const vec3 origin = f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
             ASSERT_FALSE(hit_triangle(a, b, c, origin, direction).hit) << i << ' ' << k;
         }
     }

@@ -14,9 +14,9 @@ namespace {
 TEST(Summary, HandComputed) {
     const Summary s = summarise(std::vector<double>{4, 1, 3, 2, 10});
     EXPECT_DOUBLE_EQ(s.median, 3);
-    EXPECT_DOUBLE_EQ(s.p05, 1.2);  // rank 0.2
-    EXPECT_DOUBLE_EQ(s.p95, 8.8);  // rank 3.8
-    EXPECT_DOUBLE_EQ(s.mad, 1);    // of 1 2 0 1 7
+    EXPECT_DOUBLE_EQ(s.p05, 1.2); // rank 0.2
+    EXPECT_DOUBLE_EQ(s.p95, 8.8); // rank 3.8
+    EXPECT_DOUBLE_EQ(s.mad, 1);   // of 1 2 0 1 7
     EXPECT_EQ(s.n, 5U);
     EXPECT_EQ(s.samples, (std::vector<double>{4, 1, 3, 2, 10})); // in the order they came
 }

@@ -29,8 +29,7 @@ std::string refusal(const Graph& graph, Failure failure = Failure::internal, Lim
 /// A graph with one image that pass 'make' writes; tests add what is wrong.
 struct WrongGraph : ::testing::Test {
     Graph g;
-    Image cubes =
-        g.image({.name = "cubes", .width = 8, .height = 8, .layers = 24, .cube = true});
+    Image cubes = g.image({.name = "cubes", .width = 8, .height = 8, .layers = 24, .cube = true});
     Image out = g.image({.name = "out", .width = 8, .height = 8});
     Image depth = g.image({.name = "depth", .format = Format::d32f, .width = 8, .height = 8});
     Buffer args = g.buffer({.name = "args", .bytes = 64});
@@ -175,8 +174,7 @@ TEST_F(WrongGraph, WantedLayersOutOfRange) {
 TEST_F(WrongGraph, WantedPrevious) {
     make(out);
     g.want(g.previous(out));
-    EXPECT_EQ(refusal(g),
-              "previous('out') [0,1) is wanted: only this frame's contents can be");
+    EXPECT_EQ(refusal(g), "previous('out') [0,1) is wanted: only this frame's contents can be");
 }
 
 TEST_F(WrongGraph, WantedOfAnotherGraph) {
@@ -262,14 +260,12 @@ TEST_F(WrongGraph, AttachmentSizesDiffer) {
 }
 
 TEST_F(WrongGraph, TwoDepthAttachments) {
-    const Image other =
-        g.image({.name = "other", .format = Format::d32f, .width = 8, .height = 8});
+    const Image other = g.image({.name = "other", .format = Format::d32f, .width = 8, .height = 8});
     g.pass("view")
         .writes(other, Use::depth, kBlack)
         .writes(depth, Use::depth, kBlack)
         .record(nothing);
-    EXPECT_EQ(refusal(g),
-              "pass 'view' attaches both 'other' [0,1) and 'depth' [0,1) as depth");
+    EXPECT_EQ(refusal(g), "pass 'view' attaches both 'other' [0,1) and 'depth' [0,1) as depth");
 }
 
 TEST_F(WrongGraph, DepthUseOfAColourFormat) {
@@ -444,7 +440,8 @@ TEST_F(WrongGraph, OverMemoryInOnePiece) {
     make(cubes);
     g.want(cubes);
     EXPECT_EQ(refusal(g, Failure::exhausted, {.max_allocation = 12287}),
-              "the frame wants 12288 bytes of memory in one piece, device allows max_allocation = 12287; the "
+              "the frame wants 12288 bytes of memory in one piece, device allows max_allocation = "
+              "12287; the "
               "largest is 'cubes' with 12288");
 }
 

@@ -1,6 +1,7 @@
 // VK_LAYER_CATOPTRIC_faults: makes one Vulkan call fail and counts all of them. By environment:
-//   CATOPTRIC_FAULT=vkCreateBuffer:3:-2   the third call of that name returns VkResult -2 instead of being made
-//   CATOPTRIC_FAULT_REPORT=FILE           at exit gets a line "NAME CALLS ALIVE" for each call made, then
+//   CATOPTRIC_FAULT=vkCreateBuffer:3:-2   the third call of that name returns VkResult -2 instead
+//   of being made CATOPTRIC_FAULT_REPORT=FILE           at exit gets a line "NAME CALLS ALIVE" for
+//   each call made, then
 //                                         "strays N": handles destroyed that were not alive, and
 //                                         "most_bytes N": of memory that was alive at one time
 // For one instance, one device and one thread at a time, as the engine has them.
@@ -23,35 +24,39 @@
 namespace {
 
 // Calls that make something, and the call that ends its life.
-#define FOR_CREATORS(X)                                  \
-    X(AllocateMemory, FreeMemory)                        \
-    X(CreateBuffer, DestroyBuffer)                       \
-    X(CreateBufferView, DestroyBufferView)               \
-    X(CreateImage, DestroyImage)                         \
-    X(CreateImageView, DestroyImageView)                 \
-    X(CreateSampler, DestroySampler)                     \
-    X(CreateShaderModule, DestroyShaderModule)           \
-    X(CreateDescriptorSetLayout, DestroyDescriptorSetLayout) \
-    X(CreatePipelineLayout, DestroyPipelineLayout)       \
-    X(CreateGraphicsPipelines, DestroyPipeline)          \
-    X(CreateComputePipelines, DestroyPipeline)           \
-    X(CreateDescriptorPool, DestroyDescriptorPool)       \
-    X(CreateCommandPool, DestroyCommandPool)             \
-    X(CreateSemaphore, DestroySemaphore)                 \
-    X(CreateFence, DestroyFence)                         \
-    X(CreateEvent, DestroyEvent)                         \
-    X(CreatePipelineCache, DestroyPipelineCache)         \
+#define FOR_CREATORS(X)                                                                            \
+    X(AllocateMemory, FreeMemory)                                                                  \
+    X(CreateBuffer, DestroyBuffer)                                                                 \
+    X(CreateBufferView, DestroyBufferView)                                                         \
+    X(CreateImage, DestroyImage)                                                                   \
+    X(CreateImageView, DestroyImageView)                                                           \
+    X(CreateSampler, DestroySampler)                                                               \
+    X(CreateShaderModule, DestroyShaderModule)                                                     \
+    X(CreateDescriptorSetLayout, DestroyDescriptorSetLayout)                                       \
+    X(CreatePipelineLayout, DestroyPipelineLayout)                                                 \
+    X(CreateGraphicsPipelines, DestroyPipeline)                                                    \
+    X(CreateComputePipelines, DestroyPipeline)                                                     \
+    X(CreateDescriptorPool, DestroyDescriptorPool)                                                 \
+    X(CreateCommandPool, DestroyCommandPool)                                                       \
+    X(CreateSemaphore, DestroySemaphore)                                                           \
+    X(CreateFence, DestroyFence)                                                                   \
+    X(CreateEvent, DestroyEvent)                                                                   \
+    X(CreatePipelineCache, DestroyPipelineCache)                                                   \
     X(CreateQueryPool, DestroyQueryPool)
-#define FOR_DESTROYERS(X)                                                                                    \
-    X(FreeMemory) X(DestroyBuffer) X(DestroyBufferView) X(DestroyImage) X(DestroyImageView) X(DestroySampler) \
-    X(DestroyShaderModule) X(DestroyDescriptorSetLayout) X(DestroyPipelineLayout) X(DestroyPipeline)         \
-    X(DestroyDescriptorPool) X(DestroyCommandPool) X(DestroySemaphore) X(DestroyFence) X(DestroyEvent)       \
-    X(DestroyPipelineCache) X(DestroyQueryPool)
+#define FOR_DESTROYERS(X)                                                                          \
+    X(FreeMemory)                                                                                  \
+    X(DestroyBuffer)                                                                               \
+    X(DestroyBufferView) X(DestroyImage) X(DestroyImageView) X(DestroySampler)                     \
+        X(DestroyShaderModule) X(DestroyDescriptorSetLayout) X(DestroyPipelineLayout)              \
+            X(DestroyPipeline) X(DestroyDescriptorPool) X(DestroyCommandPool) X(DestroySemaphore)  \
+                X(DestroyFence) X(DestroyEvent) X(DestroyPipelineCache) X(DestroyQueryPool)
 // Calls that may fail and make nothing of their own; sets and command buffers go with their pools.
-#define FOR_CALLS(X)                                                                                       \
-    X(AllocateDescriptorSets) X(AllocateCommandBuffers) X(BindBufferMemory) X(BindImageMemory) X(MapMemory) \
-    X(BeginCommandBuffer) X(EndCommandBuffer) X(QueueSubmit2) X(WaitSemaphores) X(QueueWaitIdle)           \
-    X(DeviceWaitIdle) X(GetQueryPoolResults)
+#define FOR_CALLS(X)                                                                               \
+    X(AllocateDescriptorSets)                                                                      \
+    X(AllocateCommandBuffers)                                                                      \
+    X(BindBufferMemory) X(BindImageMemory) X(MapMemory) X(BeginCommandBuffer) X(EndCommandBuffer)  \
+        X(QueueSubmit2) X(WaitSemaphores) X(QueueWaitIdle) X(DeviceWaitIdle)                       \
+            X(GetQueryPoolResults)
 
 struct Counter {
     int calls = 0, alive = 0;
@@ -63,14 +68,15 @@ struct Alive {
     std::uint64_t bytes = 0; ///< of memory
 };
 
-/// Everything the layer knows. The report is written when the program ends, and so is missing when it
-/// crashed; the library is linked to stay loaded until then.
+/// Everything the layer knows. The report is written when the program ends, and so is missing when
+/// it crashed; the library is linked to stay loaded until then.
 struct State {
     State() {
         if (const char* text = std::getenv("CATOPTRIC_FAULT")) {
             char name[64] = {};
             if (std::sscanf(text, "%63[^:]:%d:%d", name, &fault_at, &fault_result) != 3) {
-                std::fprintf(stderr, "CATOPTRIC_FAULT: wanted NAME:CALL:RESULT, found '%s'\n", text);
+                std::fprintf(stderr, "CATOPTRIC_FAULT: wanted NAME:CALL:RESULT, found '%s'\n",
+                             text);
                 std::abort();
             }
             fault_name = name;
@@ -81,8 +87,10 @@ struct State {
         std::FILE* file = path ? std::fopen(path, "w") : nullptr;
         if (!file) return;
         for (const auto& [name, counter] : counters)
-            if (counter.calls > 0) std::fprintf(file, "%s %d %d\n", name.c_str(), counter.calls, counter.alive);
-        std::fprintf(file, "strays %d\nmost_bytes %llu\n", strays, static_cast<unsigned long long>(most_bytes));
+            if (counter.calls > 0)
+                std::fprintf(file, "%s %d %d\n", name.c_str(), counter.calls, counter.alive);
+        std::fprintf(file, "strays %d\nmost_bytes %llu\n", strays,
+                     static_cast<unsigned long long>(most_bytes));
         std::fclose(file);
     }
 
@@ -149,7 +157,8 @@ void let_work_finish() {
 }
 
 bool may_say_lost(std::string_view name) {
-    for (const char* one : {"vkQueueSubmit2", "vkWaitSemaphores", "vkQueueWaitIdle", "vkDeviceWaitIdle", "vkGetQueryPoolResults"})
+    for (const char* one : {"vkQueueSubmit2", "vkWaitSemaphores", "vkQueueWaitIdle",
+                            "vkDeviceWaitIdle", "vkGetQueryPoolResults"})
         if (name == one) return true;
     return false;
 }
@@ -173,7 +182,8 @@ std::uint32_t handle_count(const std::tuple<Args...>& args) {
 /// What a call allocates.
 template <typename... Args>
 std::uint64_t bytes_of(const std::tuple<Args...>& args) {
-    if constexpr (std::is_same_v<std::tuple_element_t<1, std::tuple<Args...>>, const VkMemoryAllocateInfo*>)
+    if constexpr (std::is_same_v<std::tuple_element_t<1, std::tuple<Args...>>,
+                                 const VkMemoryAllocateInfo*>)
         return std::get<1>(args)->allocationSize;
     return 0;
 }
@@ -228,10 +238,13 @@ struct Hook {
 };
 
 const Hook kDeviceHooks[] = {
-#define CREATOR(call, destroyer) \
-    {k##call, reinterpret_cast<PFN_vkVoidFunction>(&Creator<k##call, k##destroyer, PFN_vk##call>::hook)},
-#define DESTROYER(call) {k##call, reinterpret_cast<PFN_vkVoidFunction>(Destroyed<PFN_vk##call>::hook<k##call>)},
-#define CALL(call) {k##call, reinterpret_cast<PFN_vkVoidFunction>(&Call<k##call, PFN_vk##call>::hook)},
+#define CREATOR(call, destroyer)                                                                   \
+    {k##call,                                                                                      \
+     reinterpret_cast<PFN_vkVoidFunction>(&Creator<k##call, k##destroyer, PFN_vk##call>::hook)},
+#define DESTROYER(call)                                                                            \
+    {k##call, reinterpret_cast<PFN_vkVoidFunction>(Destroyed<PFN_vk##call>::hook<k##call>)},
+#define CALL(call)                                                                                 \
+    {k##call, reinterpret_cast<PFN_vkVoidFunction>(&Call<k##call, PFN_vk##call>::hook)},
     FOR_CREATORS(CREATOR) FOR_DESTROYERS(DESTROYER) FOR_CALLS(CALL)
 #undef CREATOR
 #undef DESTROYER
@@ -241,20 +254,24 @@ const Hook kDeviceHooks[] = {
 /// The loader's link to what is below us, in the chain of a create call.
 template <typename Link, typename Info>
 Link* find_link(const Info* create, VkStructureType type) {
-    for (auto* next = static_cast<const VkBaseInStructure*>(create->pNext); next; next = next->pNext) {
+    for (auto* next = static_cast<const VkBaseInStructure*>(create->pNext); next;
+         next = next->pNext) {
         auto* link = const_cast<Link*>(reinterpret_cast<const Link*>(next));
         if (next->sType == type && link->function == VK_LAYER_LINK_INFO) return link;
     }
     return nullptr;
 }
 
-VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationCallbacks* callbacks, VkInstance* instance) {
+VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationCallbacks* callbacks,
+                         VkInstance* instance) {
     if (const VkResult result = refusal("vkCreateInstance"); result != VK_SUCCESS) return result;
-    auto* link = find_link<VkLayerInstanceCreateInfo>(create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+    auto* link = find_link<VkLayerInstanceCreateInfo>(
+        create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     state.next_instance_proc = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
-    const auto next = reinterpret_cast<PFN_vkCreateInstance>(state.next_instance_proc(VK_NULL_HANDLE, "vkCreateInstance"));
+    const auto next = reinterpret_cast<PFN_vkCreateInstance>(
+        state.next_instance_proc(VK_NULL_HANDLE, "vkCreateInstance"));
     const VkResult result = next(create, callbacks, instance);
     if (result != VK_SUCCESS) return result;
     born(counter_of("vkCreateInstance"), "vkDestroyInstance", *instance);
@@ -266,13 +283,15 @@ VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationC
 
 void destroy_instance(VkInstance instance, const VkAllocationCallbacks* callbacks) {
     died("vkDestroyInstance", instance);
-    reinterpret_cast<PFN_vkDestroyInstance>(counter_of("vkDestroyInstance").next)(instance, callbacks);
+    reinterpret_cast<PFN_vkDestroyInstance>(counter_of("vkDestroyInstance").next)(instance,
+                                                                                  callbacks);
 }
 
-VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* create, const VkAllocationCallbacks* callbacks,
-                       VkDevice* device) {
+VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* create,
+                       const VkAllocationCallbacks* callbacks, VkDevice* device) {
     if (const VkResult result = refusal("vkCreateDevice"); result != VK_SUCCESS) return result;
-    auto* link = find_link<VkLayerDeviceCreateInfo>(create, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+    auto* link = find_link<VkLayerDeviceCreateInfo>(create,
+                                                    VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     state.next_device_proc = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
@@ -281,7 +300,8 @@ VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* crea
     if (result != VK_SUCCESS) return result;
     state.device = *device;
     born(counter_of("vkCreateDevice"), "vkDestroyDevice", *device);
-    for (const Hook& hook : kDeviceHooks) counter_of(hook.name).next = state.next_device_proc(*device, hook.name.data());
+    for (const Hook& hook : kDeviceHooks)
+        counter_of(hook.name).next = state.next_device_proc(*device, hook.name.data());
     return result;
 }
 
@@ -295,8 +315,10 @@ void destroy_device(VkDevice device, const VkAllocationCallbacks* callbacks) {
 constexpr char kEnumerate[] = "vkEnumeratePhysicalDevices";
 
 PFN_vkVoidFunction device_proc(VkDevice device, const char* name) {
-    if (!std::strcmp(name, "vkGetDeviceProcAddr")) return reinterpret_cast<PFN_vkVoidFunction>(device_proc);
-    if (!std::strcmp(name, "vkDestroyDevice")) return reinterpret_cast<PFN_vkVoidFunction>(destroy_device);
+    if (!std::strcmp(name, "vkGetDeviceProcAddr"))
+        return reinterpret_cast<PFN_vkVoidFunction>(device_proc);
+    if (!std::strcmp(name, "vkDestroyDevice"))
+        return reinterpret_cast<PFN_vkVoidFunction>(destroy_device);
     for (const Hook& hook : kDeviceHooks)
         if (hook.name == name) return hook.function;
     return state.next_device_proc(device, name);
@@ -310,7 +332,8 @@ PFN_vkVoidFunction instance_proc(VkInstance instance, const char* name) {
         {"vkDestroyInstance", reinterpret_cast<PFN_vkVoidFunction>(destroy_instance)},
         {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(create_device)},
         {"vkDestroyDevice", reinterpret_cast<PFN_vkVoidFunction>(destroy_device)},
-        {kEnumerate, reinterpret_cast<PFN_vkVoidFunction>(&Call<kEnumerate, PFN_vkEnumeratePhysicalDevices>::hook)}};
+        {kEnumerate, reinterpret_cast<PFN_vkVoidFunction>(
+                         &Call<kEnumerate, PFN_vkEnumeratePhysicalDevices>::hook)}};
     for (const Hook& hook : hooks)
         if (hook.name == name) return hook.function;
     for (const Hook& hook : kDeviceHooks)
@@ -320,7 +343,8 @@ PFN_vkVoidFunction instance_proc(VkInstance instance, const char* name) {
 
 } // namespace
 
-extern "C" VK_LAYER_EXPORT VkResult vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* interface) {
+extern "C" VK_LAYER_EXPORT VkResult
+vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* interface) {
     interface->loaderLayerInterfaceVersion = 2;
     interface->pfnGetInstanceProcAddr = instance_proc;
     interface->pfnGetDeviceProcAddr = device_proc;
