@@ -23,6 +23,7 @@
 
 namespace {
 
+// clang-format off
 // Calls that make something, and the call that ends its life.
 #define FOR_CREATORS(X)                                                                            \
     X(AllocateMemory, FreeMemory)                                                                  \
@@ -44,19 +45,18 @@ namespace {
     X(CreatePipelineCache, DestroyPipelineCache)                                                   \
     X(CreateQueryPool, DestroyQueryPool)
 #define FOR_DESTROYERS(X)                                                                          \
-    X(FreeMemory)                                                                                  \
-    X(DestroyBuffer)                                                                               \
-    X(DestroyBufferView) X(DestroyImage) X(DestroyImageView) X(DestroySampler)                     \
-        X(DestroyShaderModule) X(DestroyDescriptorSetLayout) X(DestroyPipelineLayout)              \
-            X(DestroyPipeline) X(DestroyDescriptorPool) X(DestroyCommandPool) X(DestroySemaphore)  \
-                X(DestroyFence) X(DestroyEvent) X(DestroyPipelineCache) X(DestroyQueryPool)
+    X(FreeMemory) X(DestroyBuffer) X(DestroyBufferView) X(DestroyImage) X(DestroyImageView)        \
+    X(DestroySampler) X(DestroyShaderModule) X(DestroyDescriptorSetLayout)                         \
+    X(DestroyPipelineLayout) X(DestroyPipeline) X(DestroyDescriptorPool)                           \
+    X(DestroyCommandPool) X(DestroySemaphore) X(DestroyFence) X(DestroyEvent)                      \
+    X(DestroyPipelineCache) X(DestroyQueryPool)
 // Calls that may fail and make nothing of their own; sets and command buffers go with their pools.
 #define FOR_CALLS(X)                                                                               \
-    X(AllocateDescriptorSets)                                                                      \
-    X(AllocateCommandBuffers)                                                                      \
-    X(BindBufferMemory) X(BindImageMemory) X(MapMemory) X(BeginCommandBuffer) X(EndCommandBuffer)  \
-        X(QueueSubmit2) X(WaitSemaphores) X(QueueWaitIdle) X(DeviceWaitIdle)                       \
-            X(GetQueryPoolResults)
+    X(AllocateDescriptorSets) X(AllocateCommandBuffers) X(BindBufferMemory)                        \
+    X(BindImageMemory) X(MapMemory) X(BeginCommandBuffer) X(EndCommandBuffer)                      \
+    X(QueueSubmit2) X(WaitSemaphores) X(QueueWaitIdle) X(DeviceWaitIdle)                           \
+    X(GetQueryPoolResults)
+// clang-format on
 
 struct Counter {
     int calls = 0, alive = 0;
