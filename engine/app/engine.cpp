@@ -215,6 +215,27 @@ std::vector<Part> read_parts(graph::Runner& runner, const FrameGraph& frame,
     return parts;
 }
 
+/// Sees frames of a still scene until one more would change nothing.
+class Settling {
+public:
+    /// Whether this frame equals the one before byte for byte: linear pictures, and all that the
+    /// next frame can see. True at once where nothing is remembered.
+    bool is_settled(graph::Runner& runner, const FrameGraph& frame) {
+        std::vector<std::byte> now = runner.read_history();
+        if (now.empty()) return true;
+        for (const Declared& part : frame.parts) {
+            const std::vector<std::byte> picture = runner.read(part.outputs.hdr);
+            now.insert(now.end(), picture.begin(), picture.end());
+        }
+        const bool same = now == last_;
+        last_ = std::move(now);
+        return same;
+    }
+
+private:
+    std::vector<std::byte> last_;
+};
+
 } // namespace
 
 double last_time(const Request& request) {
@@ -245,6 +266,7 @@ Result Engine::run(const Request& request) {
                                                            : graph::Timing::pipelined;
     const int total = request.warmup + request.frames;
     Result result;
+    Settling settling;
     std::optional<double> shown;
     for (int k = 1; k <= total; ++k) {
         check_stopped();
@@ -263,7 +285,8 @@ Result Engine::run(const Request& request) {
         if (k > request.warmup) result.frames.push_back(to_frame(times));
         const ReadParts read = [&] { return read_parts(runner, frame, plan, scene, request); };
         const bool enough = request.watch && !request.watch(k, read);
-        const bool last = enough || k == total;
+        result.settled = request.until_settled && settling.is_settled(runner, frame);
+        const bool last = enough || result.settled || k == total;
         if (last) result.parts = read();
         for (std::size_t i = 0; i < mended.size(); ++i)
             result.parts[i].mended = std::move(mended[i]);

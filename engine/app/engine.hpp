@@ -46,8 +46,12 @@ struct Request {
     std::vector<std::string> techniques;
     scene::Camera camera;
     uvec2 size{512, 512};
-    int frames = 20;      ///< measured
-    int warmup = 8;       ///< before them; frames count from 1 at cold history, these included
+    int frames = 20; ///< measured
+    int warmup = 8;  ///< before them; frames count from 1 at cold history, these included
+    /// End with the first frame that cannot change any more: at once where nothing is remembered,
+    /// else when a frame's linear pictures and all captures equal those of the frame before, byte
+    /// for byte.
+    bool until_settled = false;
     double time = 0;      ///< seconds into the scene's motion
     bool animate = false; ///< frame k at time + (k-1)/60 s; otherwise all at `time`
     /// Seconds into the scene's motion of frame k, in place of `time` and `animate`; may be empty.
@@ -125,8 +129,9 @@ struct Part {
 
 struct Result {
     std::vector<Part> parts; ///< one per technique, of the last frame
-    std::vector<Frame>
-        frames; ///< the measured ones; fewer than asked for where `watch` ended the run
+    /// The measured ones; fewer than asked for where `watch` or `until_settled` ended the run.
+    std::vector<Frame> frames;
+    bool settled = false; ///< with `until_settled`: any further frame would show the same
 };
 
 /// How the compiled plan of a request's frame is written.

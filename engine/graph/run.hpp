@@ -55,6 +55,9 @@ public:
     /// other.
     std::vector<std::byte> read(Image image);
     std::vector<std::byte> read(Buffer buffer);
+    /// Everything that the next frame can see of the last one: texels of the images that have a
+    /// `previous`, one after the other. Empty where nothing is remembered.
+    std::vector<std::byte> read_history();
 
     // For Commands only.
     gpu::Device& device() { return device_; }

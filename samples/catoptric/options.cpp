@@ -185,8 +185,8 @@ app::Request make_request(const Common& common) {
     for (const std::string& warning : request.scene.warnings) warn(warning);
     request.camera = choose_camera(common, request.scene);
     request.size = common.size;
-    request.frames = common.frames;
-    request.warmup = common.warmup;
+    request.frames = common.frames.value_or(request.frames);
+    request.warmup = common.warmup.value_or(request.warmup);
     request.time = common.time;
     request.animate = common.animate;
     request.ambient = common.ambient;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -16,8 +17,8 @@ struct Common {
     Manners manners;
     std::string scene = "cornell-mirrors";
     uvec2 size{512, 512};
-    int frames = 20;
-    int warmup = 8;
+    std::optional<int> frames; ///< 20 unless the user says otherwise
+    std::optional<int> warmup; ///< 8
     double time = 0;
     bool animate = false;
     std::string camera; ///< resolved when the scene is there; empty = its first
