@@ -18,9 +18,10 @@ struct CompareRequest {
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
 };
 
-/// The seed report's rows and what goes beyond them: naive 0..4, reuse, parallax, every search
-/// there is, ray tracing at depths 0..4 and 8, exact spheres.
+/// The rows that each technique of the table names for itself (reflect::Technique::compared).
 std::vector<std::string> default_techniques();
+/// Throws `bad_data`, saying how to make one, where a scene has no mirror.
+void check_has_mirror(const scene::Scene& scene);
 
 /// Renders every row and the reference, measures speed and error. A row with `samples` is judged
 /// against the reference at as many samples. After a stop signal the rows so far come back with

@@ -26,6 +26,7 @@ struct SceneFacts {
     std::size_t triangles = 0;
     std::size_t mirrors = 0;
     std::string hash;
+    bool is_seed = false; ///< the scene of the seed report, beside whose figures its own may stand
 };
 
 /// A knob and its value; `number` when it is one, else `text`.
@@ -84,6 +85,7 @@ struct Row {
     std::vector<float> flip_map; ///< against the reference, row-major
     std::string image;           ///< file name without folder and ending: "naive-bounces1"
     bool is_reference = false;   ///< same technique and settings as the reference
+    bool mirrors_black = false;  ///< it draws nothing in them: a floor for time, no technique
 };
 
 struct Comparison {

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace catoptric::report {
@@ -60,18 +61,32 @@ std::string headline(const std::string& name, const std::string& figure, const s
                        html_escaped(of));
 }
 
+/// Rows that are in no other's shadow by time, mirrors drawn: one, or several that are not told
+/// apart.
+std::vector<const Row*> fastest_rows(const Comparison& comparison) {
+    const auto counts = [](const Row& row) { return judged(&row) && !row.mirrors_black; };
+    std::vector<const Row*> fastest;
+    for (const Row& row : comparison.rows)
+        if (counts(row) && std::ranges::none_of(comparison.rows, [&](const Row& other) {
+                return counts(other) && is_faster(other, row);
+            }))
+            fastest.push_back(&row);
+    return fastest;
+}
+
 /// Fastest, closest but for the reference itself, the front, the reference.
 std::string headlines(const Comparison& comparison) {
-    const Row* fastest = nullptr;
     const Row* closest = nullptr;
     for (const Row& row : comparison.rows) {
-        if (fastest == nullptr || row.gpu_ms.median < fastest->gpu_ms.median) fastest = &row;
         if (row.is_reference || !judged(&row)) continue;
         if (closest == nullptr || row.error.flip < closest->error.flip) closest = &row;
     }
     std::string html = "<dl class=\"headline\">";
-    if (fastest != nullptr)
-        html += headline("Fastest", ms_text(fastest->gpu_ms.median) + " ms", fastest->label);
+    if (const std::vector<const Row*> fastest = fastest_rows(comparison); fastest.size() == 1)
+        html += headline("Fastest", ms_text(fastest.front()->gpu_ms.median) + " ms",
+                         fastest.front()->label);
+    else if (!fastest.empty())
+        html += headline("Fastest", std::to_string(fastest.size()) + " rows", "not told apart");
     if (closest != nullptr)
         html += headline("Closest", "FLIP " + error_text(closest->error.flip), closest->label);
     html += headline("On the front", std::to_string(comparison.pareto.size()),
@@ -199,10 +214,10 @@ std::string to_html(const Comparison& comparison) {
     const std::vector<std::string> notes = cautions(comparison);
     if (!notes.empty()) html += "<aside class=\"caution\">" + list_of(notes) + "</aside>";
     html += headlines(comparison) + "</header>\n<main>" + front(comparison) +
-            to_html(seed_table(comparison), "seed", false);
+            (comparison.scene.is_seed ? to_html(seed_table(comparison), "seed", false) : "");
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty())
-        html += "<section><h2>What this says of the seed report</h2>" + list_of(sentences) +
+        html += "<section><h2>" + findings_title(comparison) + "</h2>" + list_of(sentences) +
                 "</section>\n";
     html += to_html(rows_table(comparison), "all", true) +
             to_html(mirror_table(comparison), "mirrors", true) +

@@ -46,9 +46,9 @@ app::Part Bench::render(const app::Request& request) {
 }
 
 void Bench::add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,
-                     double limit) {
+                     double limit, bool is_quality) {
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
-    add(what, nonfinite(found.hdr) > 0 ? std::nan("") : flip, limit);
+    row_.cases.push_back({what, nonfinite(found.hdr) > 0 ? std::nan("") : flip, limit, is_quality});
     if (row_.cases.back().holds()) return;
     const std::string name = row_.id + "-" + as_file_name(what);
     row_.pictures.push_back({name + "-found", found.display});

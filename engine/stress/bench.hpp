@@ -34,7 +34,7 @@ public:
     }
     /// Mean FLIP of two pictures; both are kept where it is above the limit.
     void add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,
-                  double limit);
+                  double limit, bool is_quality = false);
     /// Pixels that are no numbers; limit 0.
     void add_nonfinite(const std::string& what, const app::Part& part);
     /// That `work` is done, or ends in an error that says what the device allows; limit 0.

@@ -48,7 +48,7 @@ app::CompareRequest make_compare_request(const Options& options) {
         check_no_scene(text);
         app::parse_technique(text);
     }
-    request.base = make_request(options.common);
+    request.base = make_request(options.common, app::check_has_mirror);
     request.base.techniques = options.techniques;
     request.reference = options.common.reference;
     request.together = options.together;

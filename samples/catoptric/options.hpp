@@ -49,7 +49,9 @@ void require_given(bool given, const std::string& verb, const std::string& optio
 
 /// Scene, camera and numbers as the engine takes them, without techniques. What the loader had to
 /// say and which camera stands in for a missing one goes to stderr.
-app::Request make_request(const Common& common);
+/// `check`, where given, refuses the scene before anything else is said of it.
+app::Request make_request(const Common& common,
+                          const std::function<void(const scene::Scene&)>& check = {});
 app::EngineOptions engine_options(const Common& common);
 
 /// The camera that the user named: a name, an index from 0, or "EX,EY,EZ:TX,TY,TZ:FOV".
