@@ -1,4 +1,5 @@
 #include "faults/faults.hpp"
+#include "places.hpp"
 
 #include <atomic>
 #include <functional>
