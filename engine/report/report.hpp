@@ -17,13 +17,13 @@ std::string to_markdown(const Comparison& comparison);
 /// report.html: one self-contained page, table and pictures (data: URIs) side by side, no script.
 std::string to_html(const Comparison& comparison);
 
-/// Makes `folder` (its parent must exist) and `images` in it; folders that are there are taken. For
-/// before long work, whose results would have no place. Throws `cannot_create`.
+/// Makes `folder` with its parents; folders that are there are taken. For before long work, whose
+/// results would have no place. Throws `cannot_create`.
 void create_folder(const std::filesystem::path& folder);
 
-/// Makes the folder as above and writes report.json, report.md, report.html, rows.csv,
-/// images/<row>.png and .exr, images/<row>-error.png and images/reference.png. Every file is put
-/// into place whole. Throws `cannot_create`, `io`.
+/// Makes the folder and `images` in it as above, and writes report.json, report.md, report.html,
+/// rows.csv, images/<row>.png and .exr, images/<row>-error.png and images/reference.png. Every file
+/// is put into place whole. Throws `cannot_create`, `io`.
 void write(const Comparison& comparison, const std::filesystem::path& folder);
 
 } // namespace catoptric::report

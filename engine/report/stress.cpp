@@ -119,7 +119,7 @@ std::string to_markdown(const Stress& stress) {
 }
 
 void write(const Stress& stress, const std::filesystem::path& folder) {
-    create_folder(folder);
+    create_folder(folder / "images");
     for (const StressRow& row : stress.rows)
         for (const StressPicture& picture : row.pictures)
             measure::write_png(picture.display, folder / "images" / (picture.name + ".png"));

@@ -12,13 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void make(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directory(folder, error); // a folder that is there is no error
-    check(!error, Failure::cannot_create, folder.string(),
-          ": the folder cannot be created: ", error.message());
-}
-
 void write_pictures(const Comparison& comparison, const fs::path& images) {
     if (!comparison.reference_display.pixels.empty())
         measure::write_png(comparison.reference_display, images / "reference.png");
@@ -34,18 +27,14 @@ void write_pictures(const Comparison& comparison, const fs::path& images) {
 } // namespace
 
 void create_folder(const fs::path& folder) {
-    const fs::path named = folder.has_filename() ? folder : folder.parent_path(); // "out/" is "out"
-    const fs::path parent = named.has_parent_path() ? named.parent_path() : fs::path(".");
     std::error_code error;
-    check(fs::is_directory(parent, error), Failure::cannot_create, named.string(),
-          ": wanted its parent '", parent.string(), "' to be a folder, found ",
-          fs::exists(parent, error) ? "something else" : "nothing");
-    make(named);
-    make(named / "images");
+    fs::create_directories(folder, error); // what is there already is no error
+    check(!error, Failure::cannot_create, folder.string(),
+          ": the folder cannot be created: ", error.message());
 }
 
 void write(const Comparison& comparison, const fs::path& folder) {
-    create_folder(folder);
+    create_folder(folder / "images");
     write_pictures(comparison, folder / "images");
     write_file(folder / "rows.csv", to_csv(comparison));
     write_file(folder / "report.md", to_markdown(comparison));

@@ -96,6 +96,7 @@ int run(const Options& options) {
                                                              : options.techniques.size();
     app::Engine engine(engine_options(options.common));
     detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
+    report::create_folder(options.folder);
 
     stop_on_signals();
     Progress progress(manners);

@@ -83,11 +83,14 @@ void check_file_can_be_made(const fs::path& path) {
 }
 
 void check_folder_can_be_made(const fs::path& path) {
+    check(!path.empty(), Failure::cannot_create, "wanted the name of a folder, found none");
     std::error_code error;
-    if (fs::is_directory(path, error)) return check_writable(path, path);
-    check(!path.empty() && !fs::exists(path, error), Failure::cannot_create, path.string(),
-          ": wanted a folder, found a file");
-    check_parent(path);
+    fs::path there = path; // it, or the nearest above it
+    while (!fs::exists(fs::symlink_status(there, error))) there = parent_of(there);
+    check(fs::is_directory(there, error), Failure::cannot_create, path.string(),
+          ": cannot be created: wanted ", there == path ? "" : there.string() + " to be ",
+          "a folder, found a file");
+    check_writable(there, path);
 }
 
 } // namespace catoptric::cli

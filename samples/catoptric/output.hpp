@@ -31,7 +31,8 @@ void warn(const std::string& text);
 /// Throws `cannot_create` where a file cannot be made at `path`, before work is spent on it: its
 /// folder is missing, or the name is a folder's.
 void check_file_can_be_made(const std::filesystem::path& path);
-/// The same for a folder: it is there, or its parent is.
+/// The same for a folder, which is made with its parents: the nearest of them that is there is a
+/// folder and takes entries.
 void check_folder_can_be_made(const std::filesystem::path& path);
 
 } // namespace catoptric::cli

@@ -6,6 +6,7 @@
 #include "options.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
+#include "report/report.hpp"
 #include "signals.hpp"
 #include "stress/property.hpp"
 #include "table.hpp"
@@ -54,6 +55,7 @@ int run(const Options& options) {
     for (const std::string& id : options.only) stress::find_property(id); // before any work
     if (!options.folder.empty()) check_folder_can_be_made(options.folder);
     app::Engine engine({.device = options.device, .validate = options.validate});
+    if (!options.folder.empty()) report::create_folder(options.folder);
     stop_on_signals();
     Progress progress(options.manners);
     const report::Stress found = stress::run(
