@@ -40,6 +40,20 @@ TEST_F(File, ComesBackByteForByteAndReplaces) {
     EXPECT_EQ(entries(), 1);
 }
 
+/// Neither wider, where it was private, nor narrower; and the mode is there before the bytes are.
+TEST_F(File, ReplacedFileKeepsItsMode) {
+    for (const fs::perms mode : {fs::perms(0600), fs::perms(0444), fs::perms(0775)}) {
+        catoptric::write_file(folder / "x", "old");
+        fs::permissions(folder / "x", mode);
+        catoptric::write_file(folder / "x", "new");
+        EXPECT_EQ(fs::status(folder / "x").permissions(), mode);
+        EXPECT_EQ(catoptric::read_file(folder / "x"), "new");
+    }
+    fs::create_symlink("x", folder / "link");
+    catoptric::write_file(folder / "link", "through a link");
+    EXPECT_EQ(fs::status(folder / "x").permissions(), fs::perms(0775));
+}
+
 TEST_F(File, LinkIsFollowed) {
     fs::create_symlink("real", folder / "link");
     catoptric::write_file(folder / "link", "text");
