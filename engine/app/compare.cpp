@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <new>
 
 namespace catoptric::app {
 
@@ -145,13 +146,14 @@ public:
             if (!clear.empty()) comparison_.clear_ms = measure::summarise(clear);
             request_.together ? run_together() : run_apart();
             if (request_.lag) add_lag();
+            comparison_.complete = true;
         } catch (const Error& error) {
-            const bool stopped = error.failure == Failure::interrupted ||
-                                 error.failure == Failure::terminated;
-            if (!stopped) throw;
-            comparison_.complete = false;
+            if (comparison_.rows.empty() && !is_stop(error.failure)) throw;
+            comparison_.stopped = error;
+        } catch (const std::bad_alloc&) {
+            if (comparison_.rows.empty()) throw;
+            comparison_.stopped = Error(Failure::exhausted, "out of memory");
         }
-        finish();
         return std::move(comparison_);
     }
 
@@ -162,6 +164,8 @@ private:
         comparison_.version = version();
         comparison_.commit = commit();
         comparison_.command = request_.command;
+        comparison_.complete = false;
+        comparison_.asked = base.techniques.size();
         comparison_.device = {device.name, device.driver, device.api, device.type, device.threads};
         comparison_.scene = {base.scene.name, scene::triangle_count(base.scene), mirrors_,
                              scene::hash(base.scene)};
@@ -263,6 +267,12 @@ private:
         row.is_reference = same(parse_technique(text),
                                 parse_technique(reference_at(request_.reference, samples)));
         comparison_.rows.push_back(std::move(row));
+        judge_front();
+        tell();
+    }
+
+    void tell() const {
+        if (request_.on_finished_row) request_.on_finished_row(comparison_);
     }
 
     void run_apart() {
@@ -284,13 +294,15 @@ private:
     }
 
     void add_lag() {
-        comparison_.lag = measure_lag(
-            engine_,
-            {.base = request_.base, .reference = request_.reference, .on_row = request_.on_row});
-        comparison_.complete = comparison_.lag->complete;
+        measure_lag(engine_,
+                    {.base = request_.base,
+                     .reference = request_.reference,
+                     .on_row = request_.on_row,
+                     .on_finished_row = [this] { tell(); }},
+                    comparison_.lag.emplace());
     }
 
-    void finish() {
+    void judge_front() {
         std::vector<measure::Candidate> candidates;
         constexpr double kNever =
             std::numeric_limits<double>::quiet_NaN(); // a failed row is on no front

@@ -9,7 +9,6 @@
 #include "table.hpp"
 #include "verbs.hpp"
 
-#include <csignal>
 #include <memory>
 
 namespace catoptric::cli {
@@ -72,15 +71,13 @@ void show(const Options& options, const report::Comparison& comparison) {
     const Manners& manners = options.common.manners;
     for (const std::string& warning : comparison.warnings) detail(manners, "warning: " + warning);
     put(manners.json ? report::to_json(comparison) : compare_table(comparison));
-    note(manners, "written: " + options.folder);
+    if (!comparison.stopped) note(manners, "written: " + options.folder);
 }
 
-int exit_code(const report::Comparison& comparison, std::size_t row_count) {
-    if (!comparison.complete)
-        fail(app::stop_signal == SIGTERM ? Failure::terminated : Failure::interrupted,
-             "stopped after ", comparison.rows.size(), " of ", row_count, " rows",
-             comparison.lag ? ", while their lag was measured" : "",
-             "; what there is has been written");
+int exit_code(const Options& options, const report::Comparison& comparison) {
+    if (comparison.stopped)
+        fail_incomplete(*comparison.stopped, comparison.rows.size(), comparison.asked,
+                        comparison.lag ? ", while their lag was measured" : "", options.folder);
     const std::vector<std::string> broken = broken_rows(comparison);
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
@@ -104,13 +101,15 @@ int run(const Options& options) {
     request.on_row = [&](const std::string& label, std::size_t index, std::size_t count) {
         progress.row(label, index, count);
     };
+    report::Writer writer(options.folder);
+    request.on_finished_row = [&](const report::Comparison& so_far) { writer.write(so_far); };
     request.base.progress = [&](int number, int total) { progress.frame(number, total); };
     const report::Comparison comparison = app::compare(engine, request);
     progress.clear();
 
-    report::write(comparison, options.folder);
+    writer.write(comparison);
     show(options, comparison);
-    const int code = exit_code(comparison, row_count);
+    const int code = exit_code(options, comparison);
     if (options.common.validate) engine.check_validation();
     return code;
 }

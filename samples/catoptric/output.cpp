@@ -1,7 +1,5 @@
 #include "output.hpp"
 
-#include "core/error.hpp"
-
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -74,6 +72,13 @@ void detail(const Manners& manners, const std::string& text) {
 }
 
 void warn(const std::string& text) { line("catoptric: warning: " + text); }
+
+void fail_incomplete(const Error& stopped, std::size_t rows, std::size_t asked,
+                     const std::string& where, const fs::path& folder) {
+    fail(stopped.failure, stopped.what(), ", after ", rows, " of ", asked, " rows", where,
+         folder.empty() ? ""
+                        : "; what there is lies in " + folder.string() + ", marked incomplete");
+}
 
 void check_file_can_be_made(const fs::path& path) {
     std::error_code error;

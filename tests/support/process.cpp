@@ -78,6 +78,9 @@ Ended run_process(const Start& start) {
             std::this_thread::sleep_for(start.signal_after);
             signalled = Clock::now();
             ::kill(child, start.signal);
+            if (start.again_after.count() == 0) return;
+            std::this_thread::sleep_for(start.again_after);
+            ::kill(child, start.signal);
         };
     ended.err = read_all(err[0], start.signal_at, send);
     reader.join();

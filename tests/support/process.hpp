@@ -27,6 +27,7 @@ struct Start {
     int signal = 0;                 ///< sent once stderr has `signal_at` in it; 0 = none
     std::string signal_at = {};
     std::chrono::milliseconds signal_after{0}; ///< from then
+    std::chrono::milliseconds again_after{0};  ///< from the signal to the same once more; 0 = once
     std::filesystem::path folder = {};         ///< where it runs; empty = here
 };
 
