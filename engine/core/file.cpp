@@ -77,6 +77,13 @@ void replace(const fs::path& target, fs::file_status old, std::string_view conte
 
 } // namespace
 
+fs::path real_path(const fs::path& path) {
+    std::error_code error;
+    const fs::path target = fs::absolute(destination(path), error);
+    const fs::path real = fs::weakly_canonical(target, error);
+    return error ? target.lexically_normal() : real; // such as a folder that may not be read
+}
+
 void write_file(const fs::path& path, std::string_view content) {
     std::error_code error;
     const fs::path target = destination(path);

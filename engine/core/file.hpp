@@ -8,6 +8,10 @@
 
 namespace catoptric {
 
+/// Where bytes written to `path` finally lie: absolute, without `.` and `..`, at the end of all
+/// links. Nothing need be there.
+std::filesystem::path real_path(const std::filesystem::path& path);
+
 /// Puts `content` at `path`: written to a temporary in the same folder, flushed, closed, renamed,
 /// so that readers see the old file or the whole new one, with the old one's mode. A link is
 /// followed; a device or pipe is

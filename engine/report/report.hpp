@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace catoptric::report {
 
@@ -40,6 +41,9 @@ private:
     bool has_reference_ = false; ///< its picture is there
     std::size_t rows_ = 0;       ///< whose pictures are there
 };
+
+/// The files that a writer of rows with these `Row::image`s puts into its folder, relative to it.
+std::vector<std::filesystem::path> files_of(const std::vector<std::string>& images);
 
 /// All of it once.
 void write(const Comparison& comparison, const std::filesystem::path& folder);

@@ -42,6 +42,15 @@ void Writer::write(const Comparison& comparison) {
     write_file(folder_ / "report.json", to_json(comparison));
 }
 
+std::vector<fs::path> files_of(const std::vector<std::string>& images) {
+    std::vector<fs::path> files{"report.json", "report.html", "report.md", "rows.csv",
+                                "images/reference.png"};
+    for (const std::string& image : images)
+        for (const char* ending : {".exr", ".png", "-error.png"})
+            files.push_back(fs::path("images") / (image + ending));
+    return files;
+}
+
 void write(const Comparison& comparison, const fs::path& folder) {
     Writer(folder).write(comparison);
 }

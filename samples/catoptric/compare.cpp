@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "options.hpp"
+#include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
 #include "signals.hpp"
@@ -57,6 +58,17 @@ app::CompareRequest make_compare_request(const Options& options) {
     return request;
 }
 
+void check_places(const Options& options, const app::Request& request) {
+    std::vector<std::string> images;
+    for (const std::string& text :
+         options.techniques.empty() ? app::default_techniques() : options.techniques)
+        images.push_back(app::parse_technique(text).file_name);
+    std::vector<std::filesystem::path> outputs{kStdout};
+    for (const std::filesystem::path& file : report::files_of(images))
+        outputs.push_back(std::filesystem::path(options.folder) / file);
+    check_apart(outputs, input_files(request.scene, options.common.scene));
+}
+
 /// Labels of the rows with pixels that are NaN or infinite.
 std::vector<std::string> broken_rows(const report::Comparison& comparison) {
     std::vector<std::string> broken;
@@ -89,6 +101,7 @@ int run(const Options& options) {
     require_given(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
     check_folder_can_be_made(options.folder);
     app::CompareRequest request = make_compare_request(options);
+    check_places(options, request.base);
     const std::size_t row_count = options.techniques.empty() ? app::default_techniques().size()
                                                              : options.techniques.size();
     app::Engine engine(engine_options(options.common));

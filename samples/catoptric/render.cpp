@@ -7,6 +7,7 @@
 #include "measure/picture_file.hpp"
 #include "measure/statistics.hpp"
 #include "options.hpp"
+#include "places.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 #include "verbs.hpp"
@@ -52,6 +53,14 @@ void check_output(const Options& options) {
     if (!options.trace.empty()) check_file_can_be_made(options.trace);
 }
 
+void check_places(const Options& options, const scene::Scene& scene) {
+    std::vector<std::filesystem::path> outputs;
+    if (is_stdout(options) || options.common.manners.json) outputs.push_back(kStdout);
+    if (!is_stdout(options)) outputs.push_back(options.output);
+    if (!options.trace.empty()) outputs.push_back(options.trace);
+    check_apart(outputs, input_files(scene, options.common.scene));
+}
+
 void write_picture(const Options& options, const app::Part& part) {
     if (is_stdout(options)) return put(measure::png_bytes(part.display));
     if (is_exr(options)) return measure::write_exr(part.hdr, options.output);
@@ -87,6 +96,7 @@ int run(const Options& options) {
     check_output(options);
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
+    check_places(options, request.scene);
     app::Engine engine(engine_options(options.common));
     detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
 

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "options.hpp"
 #include "parse.hpp"
+#include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
 #include "signals.hpp"
@@ -52,7 +53,12 @@ std::string table_of(const report::Stress& stress) {
 
 int run(const Options& options) {
     for (const std::string& id : options.only) stress::find_property(id); // before any work
-    if (!options.folder.empty()) check_folder_can_be_made(options.folder);
+    if (!options.folder.empty()) {
+        check_folder_can_be_made(options.folder);
+        const std::filesystem::path folder = options.folder;
+        check_apart({kStdout, folder / "stress.json", folder / "stress.html", folder / "stress.md"},
+                    {});
+    }
     app::Engine engine({.device = options.device, .validate = options.validate});
     if (!options.folder.empty()) report::create_folder(options.folder);
     stop_on_signals();

@@ -54,6 +54,22 @@ TEST_F(File, ReplacedFileKeepsItsMode) {
     EXPECT_EQ(fs::status(folder / "x").permissions(), fs::perms(0775));
 }
 
+TEST_F(File, RealPathIsTheEndOfAllLinks) {
+    using catoptric::real_path;
+    const fs::path real = fs::canonical(folder);
+    fs::create_directories(folder / "a/b");
+    fs::create_directory_symlink("a/b", folder / "short");
+    fs::create_symlink("a/missing.txt", folder / "dangling");
+    fs::create_symlink("../dangling", folder / "a/twice");
+    EXPECT_EQ(real_path(folder / "short/../b/./x"), real / "a/b/x");
+    EXPECT_EQ(real_path(folder / "dangling"), real / "a/missing.txt");
+    EXPECT_EQ(real_path(folder / "a/twice"), real / "a/missing.txt");
+    EXPECT_EQ(real_path(folder / "no/../such/folder/x"), real / "such/folder/x");
+    EXPECT_EQ(real_path("x"), fs::canonical(".") / "x");
+    fs::create_symlink("loop", folder / "loop"); // ends somewhere
+    EXPECT_EQ(real_path(folder / "loop"), folder / "loop");
+}
+
 TEST_F(File, LinkIsFollowed) {
     fs::create_symlink("real", folder / "link");
     catoptric::write_file(folder / "link", "text");

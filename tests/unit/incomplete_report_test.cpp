@@ -98,6 +98,9 @@ TEST_F(GrowingReport, WritesPicturesOnce) {
     writer.write(made);
     EXPECT_EQ(images(), (std::vector<std::string>{"naive0-error.png", "naive0.exr", "naive0.png",
                                                   "reference.png"}));
+    for (const fs::path& file : catoptric::report::files_of({"naive0"}))
+        EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
+    EXPECT_EQ(catoptric::report::files_of({"naive0"}).size(), 4 + images().size());
     fs::remove_all(folder / "out/images");
     made.rows.push_back(whole.rows[1]);
     writer.write(made);
