@@ -130,8 +130,7 @@ class Comparer {
 public:
     Comparer(Engine& engine, const CompareRequest& request) : engine_(engine), request_(request) {
         if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
-        for (const std::string& text : request_.base.techniques)
-            parse_technique(text); // refused before any work
+        check_rows(request_.base.techniques); // before any work
         mirrors_ = scene::mirrors(request_.base.scene).size();
     }
 
@@ -335,6 +334,17 @@ std::vector<std::string> default_techniques() {
             "raytrace:depth=1", "raytrace:depth=2",
             "raytrace:depth=3", "raytrace:depth=4",
             "raytrace:depth=8", "raytrace:sphere=exact"};
+}
+
+void check_rows(const std::vector<std::string>& techniques) {
+    std::vector<TechniqueChoice> choices;
+    for (const std::string& text : techniques) {
+        const TechniqueChoice choice = parse_technique(text);
+        for (const TechniqueChoice& other : choices)
+            check(!same(choice, other), Failure::usage, "technique '", text,
+                  "' is asked for twice");
+        choices.push_back(choice);
+    }
 }
 
 report::Comparison compare(Engine& engine, const CompareRequest& request) {

@@ -25,6 +25,9 @@ struct CompareRequest {
 /// there is, ray tracing at depths 0..4 and 8, exact spheres.
 std::vector<std::string> default_techniques();
 
+/// Throws `usage` for rows that are unknown or, with the same settings, asked for twice.
+void check_rows(const std::vector<std::string>& techniques);
+
 /// Renders every row and the reference, measures speed and error. A row with `samples` is judged
 /// against the reference at as many samples. What ends the run early (a signal, a lost device, no
 /// memory, `on_finished_row`) is in `stopped` of the rows so far, or thrown where there is none and

@@ -44,10 +44,8 @@ void check_no_scene(const std::string& text) {
 
 app::CompareRequest make_compare_request(const Options& options) {
     app::CompareRequest request;
-    for (const std::string& text : options.techniques) { // before any work
-        check_no_scene(text);
-        app::parse_technique(text);
-    }
+    for (const std::string& text : options.techniques) check_no_scene(text); // before any work
+    app::check_rows(options.techniques);
     request.base = make_request(options.common);
     request.base.techniques = options.techniques;
     request.reference = options.common.reference;
