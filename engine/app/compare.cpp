@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <new>
 
 namespace catoptric::app {
 
@@ -147,8 +148,7 @@ class Comparer {
 public:
     Comparer(Engine& engine, const CompareRequest& request) : engine_(engine), request_(request) {
         if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
-        for (const std::string& text : request_.base.techniques)
-            parse_technique(text); // refused before any work
+        check_rows(request_.base.techniques); // before any work
         check_has_mirror(request_.base.scene);
         mirrors_ = scene::mirrors(request_.base.scene).size();
     }
@@ -164,13 +164,14 @@ public:
             if (!clear.empty()) comparison_.clear_ms = measure::summarise(clear);
             request_.together ? run_together() : run_apart();
             if (request_.lag) add_lag();
+            comparison_.complete = true;
         } catch (const Error& error) {
-            const bool stopped = error.failure == Failure::interrupted ||
-                                 error.failure == Failure::terminated;
-            if (!stopped) throw;
-            comparison_.complete = false;
+            if (comparison_.rows.empty() && !is_stop(error.failure)) throw;
+            comparison_.stopped = error;
+        } catch (const std::bad_alloc&) {
+            if (comparison_.rows.empty()) throw;
+            comparison_.stopped = Error(Failure::exhausted, "out of memory");
         }
-        finish();
         return std::move(comparison_);
     }
 
@@ -181,6 +182,8 @@ private:
         comparison_.version = version();
         comparison_.commit = commit();
         comparison_.command = request_.command;
+        comparison_.complete = false;
+        comparison_.asked = base.techniques.size();
         comparison_.device = {device.name, device.driver, device.api, device.type, device.threads};
         comparison_.scene = {base.scene.name, scene::triangle_count(base.scene), mirrors_,
                              scene::hash(base.scene),
@@ -283,6 +286,12 @@ private:
         row.is_reference = same(parse_technique(text),
                                 parse_technique(reference_at(request_.reference, samples)));
         comparison_.rows.push_back(std::move(row));
+        judge_front();
+        tell();
+    }
+
+    void tell() const {
+        if (request_.on_finished_row) request_.on_finished_row(comparison_);
     }
 
     void run_apart() {
@@ -304,13 +313,15 @@ private:
     }
 
     void add_lag() {
-        comparison_.lag = measure_lag(
-            engine_,
-            {.base = request_.base, .reference = request_.reference, .on_row = request_.on_row});
-        comparison_.complete = comparison_.lag->complete;
+        measure_lag(engine_,
+                    {.base = request_.base,
+                     .reference = request_.reference,
+                     .on_row = request_.on_row,
+                     .on_finished_row = [this] { tell(); }},
+                    comparison_.lag.emplace());
     }
 
-    void finish() {
+    void judge_front() {
         std::vector<measure::Candidate> candidates;
         for (const report::Row& row : comparison_.rows)
             candidates.push_back(report::candidate_of(row));
@@ -343,6 +354,17 @@ void check_has_mirror(const scene::Scene& scene) {
           "material metallicFactor 1, roughnessFactor 0 and a white base colour in glTF, or illum "
           "3 and "
           "Ks 1 1 1 in an .mtl");
+}
+
+void check_rows(const std::vector<std::string>& techniques) {
+    std::vector<TechniqueChoice> choices;
+    for (const std::string& text : techniques) {
+        const TechniqueChoice choice = parse_technique(text);
+        for (const TechniqueChoice& other : choices)
+            check(!same(choice, other), Failure::usage, "technique '", text,
+                  "' is asked for twice");
+        choices.push_back(choice);
+    }
 }
 
 report::Comparison compare(Engine& engine, const CompareRequest& request) {

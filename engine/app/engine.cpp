@@ -90,8 +90,11 @@ double instant_of(const Request& request, int k) {
 
 void check_stopped() {
     const int signal = stop_signal.load();
-    check(signal == 0, signal == 15 ? Failure::terminated : Failure::interrupted,
-          "stopped by signal ", signal);
+    if (signal == 0) return;
+    const Failure failure = signal == 1    ? Failure::hangup
+                            : signal == 15 ? Failure::terminated
+                                           : Failure::interrupted;
+    fail(failure, "stopped by signal ", signal);
 }
 
 Frame to_frame(const graph::FrameTimes& times) {
@@ -255,6 +258,7 @@ Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(opti
 Engine::~Engine() = default;
 
 const DeviceInfo& Engine::device() const { return impl_->info; }
+bool Engine::usable() const { return !impl_->device.abandoned(); }
 void Engine::check_validation() const { impl_->device.check_validation(); }
 
 Result Engine::run(const Request& request) {
@@ -349,6 +353,8 @@ std::vector<double> Engine::clear_ms(const Request& request) {
 render::Captured Engine::capture(const scene::Scene& scene, std::uint32_t face, Format distance) {
     return render::capture(impl_->device, impl_->pipelines, scene, face, distance);
 }
+
+bool any_abandoned() { return gpu::any_abandoned(); }
 
 std::vector<DeviceInfo> devices() {
     std::vector<DeviceInfo> list;

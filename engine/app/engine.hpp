@@ -172,11 +172,16 @@ struct DeviceInfo {
 std::vector<DeviceInfo> devices();
 
 /// Set to a signal's number to end the frame loop after the current frame:
-/// run() then throws `Failure::interrupted` (2) or `terminated` (15).
+/// run() then throws `Failure::hangup` (1), `interrupted` (2) or `terminated` (15).
 extern std::atomic<int> stop_signal;
 
 std::string version(); ///< "0.1.0"
 std::string commit();  ///< abbreviated, "unknown" outside a checkout
+
+/// Whether an Engine of this process had to give up its device (Engine::usable). Its driver's
+/// threads may still be at work, and to take the program down under them can crash: such a program
+/// ends with std::_Exit.
+bool any_abandoned();
 
 /// A device with what has been compiled for it. One thread at a time.
 class Engine {
@@ -184,7 +189,13 @@ public:
     explicit Engine(const EngineOptions& options);
     ~Engine();
 
-    /// The only frame loop. Throws `usage`, `exhausted`, `device_lost`, `interrupted`.
+    /// False once the device was lost or could not be waited for, which threw `device_lost` or
+    /// `exhausted`. Then all that needs the device throws the same again, and what the driver may
+    /// still use is never freed. Another Engine can be made.
+    bool usable() const;
+
+    /// The only frame loop. Throws `usage`, `exhausted`, `device_lost`, and for a stop signal
+    /// `hangup`, `interrupted` or `terminated`.
     Result run(const Request& request);
     /// The plan of the request's second frame (when history exists), written out.
     std::string plan(const Request& request, PlanFormat format);

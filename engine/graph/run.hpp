@@ -37,7 +37,6 @@ struct FrameTimes {
 class Runner {
 public:
     Runner(gpu::Device& device, gpu::Pipelines& pipelines);
-    ~Runner();
     Runner(const Runner&) = delete;
     Runner& operator=(const Runner&) = delete;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/error.hpp"
 #include "measure/difference.hpp"
 #include "measure/lookup.hpp"
 #include "measure/picture.hpp"
@@ -91,7 +92,9 @@ struct Row {
 struct Comparison {
     std::string version, commit;
     std::vector<std::string> command;
-    bool complete = true; ///< false: interrupted, rows so far
+    bool complete = true;         ///< false: the rows so far, of a run that goes on or was stopped
+    std::size_t asked = 0;        ///< rows that it is to have
+    std::optional<Error> stopped; ///< what ended it early
     DeviceFacts device;
     SceneFacts scene;
     int width = 0, height = 0;

@@ -96,12 +96,12 @@ std::string headlines(const Comparison& comparison) {
     return html + "</dl>";
 }
 
-std::string figure(const measure::Picture& display, const std::string& alt,
+std::string figure(const measure::Picture& size, const std::string& png, const std::string& alt,
                    const std::string& caption) {
-    if (display.pixels.empty()) return "";
+    if (png.empty()) return "";
     return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">"
                        "<figcaption>{}</figcaption></figure>",
-                       display.width, display.height, html_escaped(alt), data_uri(display),
+                       size.width, size.height, html_escaped(alt), data_uri(png),
                        html_escaped(caption));
 }
 
@@ -136,7 +136,8 @@ std::string details(const Row& row) {
     return html + "</tbody></table></details>";
 }
 
-std::string article(const Comparison& comparison, std::size_t index) {
+std::string article(const Comparison& comparison, const EncodedPictures& encoded,
+                    std::size_t index) {
     const Row& row = comparison.rows[index];
     std::string html = fmt::format("<article id=\"row-{}\"><div class=\"title\"><h3>{}</h3>", index,
                                    html_escaped(row.label));
@@ -145,12 +146,11 @@ std::string article(const Comparison& comparison, std::size_t index) {
           std::pair(row.is_reference, "the reference"), std::pair(failed(row), "failed")})
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
     html += "</div><div class=\"pair\">" +
-            figure(row.display, "Picture by " + row.label, "Picture");
-    if (!row.flip_map.empty())
-        html += figure(measure::heat(row.flip_map, row.display.width, row.display.height),
-                       "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
-                           error_text(row.error.flip),
-                       "FLIP error");
+            figure(row.display, encoded.rows[index].picture, "Picture by " + row.label, "Picture") +
+            figure(row.display, encoded.rows[index].error,
+                   "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
+                       error_text(row.error.flip),
+                   "FLIP error");
     return html + "</div>" + numbers(row) + details(row) + "</article>\n";
 }
 
@@ -165,14 +165,16 @@ std::string heat_scale() {
            ")\"></div><div class=\"ends\"><span>FLIP 0: no difference</span><span>1</span></div>";
 }
 
-std::string pictures(const Comparison& comparison) {
+std::string pictures(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html =
         "<section><h2>Pictures</h2><div class=\"reference\">" +
-        figure(comparison.reference_display, "Reference picture by " + comparison.reference_label,
+        figure(comparison.reference_display, encoded.reference,
+               "Reference picture by " + comparison.reference_label,
                "Reference: " + comparison.reference_label) +
         "<div><p>Each row: its last frame, and where it differs from the reference.</p>" +
         heat_scale() + "</div></div><div class=\"rows\">";
-    for (std::size_t i = 0; i < comparison.rows.size(); ++i) html += article(comparison, i);
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i)
+        html += article(comparison, encoded, i);
     return html + "</div></section>\n";
 }
 
@@ -202,6 +204,12 @@ std::string circumstances(const Comparison& comparison) {
 } // namespace
 
 std::string to_html(const Comparison& comparison) {
+    EncodedPictures pictures;
+    encode_new(pictures, comparison);
+    return to_html(comparison, pictures);
+}
+
+std::string to_html(const Comparison& comparison, const EncodedPictures& encoded) {
     const std::string scene = html_escaped(comparison.scene.name);
     std::string html =
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
@@ -224,7 +232,7 @@ std::string to_html(const Comparison& comparison) {
             to_html(lookup_table(comparison), "lookups", true) +
             to_html(cause_table(comparison), "causes", false) + lag_plots(comparison) +
             to_html(lag_table(comparison), "lag", false) +
-            to_html(settling_table(comparison), "lag", false) + pictures(comparison) +
+            to_html(settling_table(comparison), "lag", false) + pictures(comparison, encoded) +
             circumstances(comparison);
     return html + "</main></body></html>\n";
 }

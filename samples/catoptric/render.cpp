@@ -7,6 +7,7 @@
 #include "measure/picture_file.hpp"
 #include "measure/statistics.hpp"
 #include "options.hpp"
+#include "places.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 #include "verbs.hpp"
@@ -52,6 +53,14 @@ void check_output(const Options& options) {
               "-o: wanted a name ending in .exr or .png, or -, found '", options.output, "'");
     }
     if (!options.trace.empty()) check_file_can_be_made(options.trace);
+}
+
+void check_places(const Options& options, const scene::Scene& scene) {
+    std::vector<std::filesystem::path> outputs;
+    if (is_stdout(options) || options.common.manners.json) outputs.push_back(kStdout);
+    if (!is_stdout(options)) outputs.push_back(options.output);
+    if (!options.trace.empty()) outputs.push_back(options.trace);
+    check_apart(outputs, input_files(scene, options.common.scene));
 }
 
 /// A picture, no measurement: nothing asks for times or for a certain number of frames.
@@ -115,6 +124,7 @@ int run(const Options& options) {
     const app::TechniqueChoice choice = app::parse_technique(options.technique);
     check_output(options);
     app::Request request = make_render_request(options);
+    check_places(options, request.scene);
     app::Engine engine(engine_options(options.common));
     detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
 

@@ -75,7 +75,7 @@ TEST_F(Surroundings, SignalKeepsTheRowsAndIsHeardSoon) {
 /// A frame is one submit, which ends; what it showed is not written.
 TEST_F(Surroundings, SignalInTheLastFrameStopsToo) {
     test::Start process = start({"render", "--technique", "raytrace:samples=128", "--size",
-                                 "512x512", "--frames", "1", "--warmup", "0", "--progress",
+                                 "256x256", "--frames", "1", "--warmup", "0", "--progress",
                                  "always", "-o", "x.png"});
     process.signal = SIGINT;
     process.signal_at = "[1/1]";

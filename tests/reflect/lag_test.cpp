@@ -21,7 +21,9 @@ app::LagRequest lag_request(const scene::Scene& scene, const std::vector<std::st
 }
 
 report::Lag measure(const app::LagRequest& request) {
-    return app::measure_lag(test::engine(), request);
+    report::Lag lag;
+    app::measure_lag(test::engine(), request, lag);
+    return lag;
 }
 
 void expect_no_lag(const report::Lag& lag, std::size_t rows, std::size_t speeds) {
@@ -186,8 +188,13 @@ TEST(Lag, KeepsWhatThereIsWhenStopped) {
         EXPECT_EQ(count, 3u) << "the reference and two rows";
         if (label == "lag of parallax:face=32") app::stop_signal = 2;
     };
-    const report::Lag lag = measure(request);
+    int finished = 0;
+    request.on_finished_row = [&] { ++finished; };
+    report::Lag lag;
+    test::expect_refused([&] { app::measure_lag(test::engine(), request, lag); },
+                         Failure::interrupted, {"signal 2"});
     app::stop_signal = 0;
+    EXPECT_EQ(finished, 1);
     EXPECT_FALSE(lag.complete);
     ASSERT_EQ(lag.rows.size(), 1u);
     EXPECT_EQ(lag.rows[0].speeds.size(), 2u);
