@@ -13,12 +13,12 @@ struct Candidate {
     double error = 0;
 };
 
-/// Whether one is the better choice: cheaper, their bands apart, with no more error; or with less error
-/// and not dearer with their bands apart. A NaN beats nobody and is beaten by nobody.
+/// Whether one is the better choice: cheaper, their bands apart, with no more error; or with less
+/// error and not dearer with their bands apart. A NaN beats nobody and is beaten by nobody.
 bool beats(const Candidate& a, const Candidate& b);
 
-/// Indices of the candidates that no other one beats, equal and tied ones together, in order of cost,
-/// then index. A NaN is never on it. Costs O(n^2).
+/// Indices of the candidates that no other one beats, equal and tied ones together, in order of
+/// cost, then index. A NaN is never on it. Costs O(n^2).
 std::vector<std::size_t> pareto_front(std::span<const Candidate> candidates);
 
 } // namespace catoptric::measure

@@ -17,8 +17,8 @@ bool is_finite(const Vector& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Along the normal, of any length; zero where the triangle has no area. Edges are scaled first, so that
-/// no size of a triangle over- or underflows.
+/// Along the normal, of any length; zero where the triangle has no area. Edges are scaled first, so
+/// that no size of a triangle over- or underflows.
 dvec3 edge_cross(const dvec3& a, const dvec3& b, const dvec3& c) {
     const auto scaled = [](const dvec3& edge) {
         const double size = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
