@@ -53,6 +53,7 @@ std::size_t find_wanted(const std::vector<DeviceInfo>& devices, const std::strin
 
 std::vector<DeviceInfo> describe_all(const std::vector<VkPhysicalDevice>& devices) {
     std::vector<DeviceInfo> list;
+    list.reserve(devices.size());
     for (VkPhysicalDevice device : devices) list.push_back(describe(device));
     return list;
 }
