@@ -52,6 +52,8 @@ void read_report(const std::string& report, Watched& watched) {
             words >> watched.strays;
         } else if (call == "untimely") {
             words >> watched.untimely;
+        } else if (call == "loose_stamps") {
+            words >> watched.loose_stamps;
         } else if (call == "most_bytes") {
             words >> watched.most_bytes;
         } else {

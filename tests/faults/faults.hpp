@@ -25,6 +25,7 @@ struct Watched {
         counts;                   ///< empty when the program crashed or the layer was not there
     int strays = 0;               ///< handles destroyed that were not alive
     int untimely = 0;             ///< handles destroyed that the device may still use
+    int loose_stamps = 0;         ///< time stamps that no execution barrier follows at once
     std::uint64_t most_bytes = 0; ///< of device memory at one time
 
     /// What is wrong with what it left on the device; empty = nothing.

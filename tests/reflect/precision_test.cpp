@@ -88,13 +88,22 @@ TEST(Precision, TexelsThatHalvesCutOffAreCounted) {
     };
     for (const std::string technique : {"naive:bounces=1,", "reuse:", "layered:", "hybrid:"})
         EXPECT_EQ(counted(technique + "face=64"), 0u) << technique;
-    for (scene::Material& material : room.materials)
-        if (material.emission != vec3(0)) material.emission = vec3(1e5f);
+    const auto shine = [&](const vec3& emission) {
+        for (scene::Material& material : room.materials)
+            if (material.emission != vec3(0)) material.emission = emission;
+    };
+    shine(vec3(1e5f));
     const std::optional<std::size_t> naive = counted("naive:bounces=1,face=64");
     EXPECT_GT(naive.value(), 10u) << "the lamp";
     for (const std::string technique : {"reuse:", "layered:", "hybrid:"})
         EXPECT_EQ(counted(technique + "face=64"), naive) << technique;
     EXPECT_FALSE(counted("reuse:face=64,colour=float").has_value());
+    for (int channel = 0; channel < 3; ++channel) { // a texel counts once, whichever are cut off
+        vec3 one_colour(1);
+        one_colour[channel] = 1e5f;
+        shine(one_colour);
+        EXPECT_EQ(counted("naive:bounces=1,face=64"), naive) << channel;
+    }
 }
 
 /// A ball of radius 0.3 seen from two thousand units away.

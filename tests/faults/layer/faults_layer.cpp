@@ -2,9 +2,11 @@
 // read whenever an instance is made:
 // - CATOPTRIC_FAULT=vkCreateBuffer:3:-2: the third call of that name returns VkResult -2 instead of
 //   being made.
+//   A dispatch returns nothing: it is left out.
 // - CATOPTRIC_FAULT_REPORT=FILE: gets a line "NAME CALLS ALIVE" for each call made, then "strays N"
 //   (handles destroyed that were not alive), "untimely N" (destroyed while the device may use
-//   them) and "most_bytes N" (of memory that was alive at one time).
+//   them), "loose_stamps N" (time stamps that no execution barrier follows at once) and
+//   "most_bytes N" (of memory that was alive at one time).
 //
 // Faults come as the world makes them. A wait that fails has not waited. A submit that says "lost"
 // has submitted, and a lost device stays lost. Of the physical devices result 0 finds none; 5
@@ -64,6 +66,11 @@ namespace {
     X(BindImageMemory) X(MapMemory) X(BeginCommandBuffer) X(EndCommandBuffer)                      \
     X(QueueSubmit2) X(WaitSemaphores) X(QueueWaitIdle) X(DeviceWaitIdle)                           \
     X(GetQueryPoolResults)
+// Recorded commands that a time stamp may stand before.
+#define FOR_COMMANDS(X)                                                                            \
+    X(CmdBeginRendering) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdClearColorImage)               \
+    X(CmdCopyBuffer) X(CmdCopyImage) X(CmdCopyImageToBuffer) X(CmdFillBuffer)                      \
+    X(CmdPipelineBarrier2) X(CmdPipelineBarrier) X(CmdWriteTimestamp2)
 // clang-format on
 
 struct Counter {
@@ -87,6 +94,8 @@ struct State {
     bool failed = false; ///< the fault has come
     bool lost = false;   ///< the device has been reported lost, and stays so
     int strays = 0, untimely = 0;
+    bool stamped = false; ///< the command recorded last is a time stamp
+    int loose_stamps = 0;
     std::map<std::string, Counter, std::less<>> counters;
     std::uint64_t bytes = 0, most_bytes = 0; ///< of memory that is alive
     std::map<Key, Alive> alive;
@@ -117,7 +126,8 @@ void report() {
     for (const auto& [name, counter] : state.counters)
         if (counter.calls > 0)
             std::fprintf(file, "%s %d %d\n", name.c_str(), counter.calls, counter.alive);
-    std::fprintf(file, "strays %d\nuntimely %d\nmost_bytes %llu\n", state.strays, state.untimely,
+    std::fprintf(file, "strays %d\nuntimely %d\nloose_stamps %d\nmost_bytes %llu\n", state.strays,
+                 state.untimely, state.loose_stamps,
                  static_cast<unsigned long long>(state.most_bytes));
     std::fclose(file);
 }
@@ -232,6 +242,26 @@ struct Creator<kName, kDestroyer, VkResult(VKAPI_PTR*)(Args...)> {
     }
 };
 
+template <const auto& kName, typename Pfn>
+struct Command;
+template <const auto& kName, typename... Args>
+struct Command<kName, void(VKAPI_PTR*)(VkCommandBuffer, Args...)> {
+    static void hook(VkCommandBuffer buffer, Args... args) {
+        constexpr std::string_view kThis = kName;
+        bool divides = false; // everything after it waits for everything before it
+        if constexpr (kThis == "vkCmdPipelineBarrier") {
+            const std::tuple<Args...> list(args...);
+            divides = std::get<0>(list) == VK_PIPELINE_STAGE_ALL_COMMANDS_BIT &&
+                      std::get<1>(list) == VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+        }
+        state.loose_stamps += state.stamped && !divides;
+        state.stamped = kThis == "vkCmdWriteTimestamp2";
+        if (is_fault(kName)) return;
+        reinterpret_cast<void(VKAPI_PTR*)(VkCommandBuffer, Args...)>(counter_of(kName).next)(
+            buffer, args...);
+    }
+};
+
 template <const auto& kName, typename Handle>
 void destroy_hook(VkDevice device, Handle handle, const VkAllocationCallbacks* callbacks) {
     died(kName, handle);
@@ -250,6 +280,7 @@ struct Destroyed<void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*
 FOR_CREATORS(NAME)
 FOR_DESTROYERS(NAME)
 FOR_CALLS(NAME)
+FOR_COMMANDS(NAME)
 #undef NAME
 
 struct Hook {
@@ -265,7 +296,10 @@ const Hook kDeviceHooks[] = {
     {k##call, reinterpret_cast<PFN_vkVoidFunction>(Destroyed<PFN_vk##call>::hook<k##call>)},
 #define CALL(call)                                                                                 \
     {k##call, reinterpret_cast<PFN_vkVoidFunction>(&Call<k##call, PFN_vk##call>::hook)},
-    FOR_CREATORS(CREATOR) FOR_DESTROYERS(DESTROYER) FOR_CALLS(CALL)
+#define COMMAND(call)                                                                              \
+    {k##call, reinterpret_cast<PFN_vkVoidFunction>(&Command<k##call, PFN_vk##call>::hook)},
+    FOR_CREATORS(CREATOR) FOR_DESTROYERS(DESTROYER) FOR_CALLS(CALL) FOR_COMMANDS(COMMAND)
+#undef COMMAND
 #undef CREATOR
 #undef DESTROYER
 #undef CALL

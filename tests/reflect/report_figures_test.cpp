@@ -1,0 +1,212 @@
+// What a report says of pictures and times is what these say: every figure is computed again from
+// pictures rendered apart, by loops that share nothing with the engine's.
+#include "app/compare.hpp"
+#include "measure/flip.hpp"
+#include "report/report.hpp"
+#include "support/rendering.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <numeric>
+
+namespace {
+
+using namespace catoptric;
+using nlohmann::json;
+
+constexpr uvec2 kSize{40, 30};
+constexpr int kFrames = 5, kWarmup = 3;
+constexpr double kStops = -1;
+
+app::CompareRequest asked(const std::vector<std::string>& rows) {
+    app::CompareRequest request;
+    request.base = test::request(test::hall(), rows, kSize);
+    request.base.frames = kFrames, request.base.warmup = kWarmup;
+    request.base.exposure = kStops;
+    return request;
+}
+
+json compared(const app::CompareRequest& request) {
+    return json::parse(report::to_json(app::compare(test::engine(), request)));
+}
+
+app::Part rendered(const std::string& technique) {
+    app::Request request = test::request(test::hall(), {technique}, kSize);
+    request.frames = kFrames, request.warmup = kWarmup;
+    request.exposure = kStops;
+    return std::move(test::engine().run(request).parts.front());
+}
+
+/// Which pixels a figure is about, by the first two mirrors that a ray meets; 0: none.
+using Chosen = std::function<bool(unsigned, unsigned)>;
+
+/// Computed from the definitions: linear, clamped, over pixels and channels.
+void expect_errors(const json& found, const app::Part& part, const app::Part& truth,
+                   const std::vector<std::uint32_t>& hits, const Chosen& chosen) {
+    const std::vector<float> map = measure::flip(part.display, truth.display);
+    double squares = 0, sum = 0, flip = 0;
+    std::vector<std::pair<double, std::size_t>> largest;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (!chosen(hits[i] & 0xffff, hits[i] >> 16)) continue;
+        double most = 0;
+        for (int c = 0; c < 3; ++c) {
+            const double a = std::clamp<double>(part.hdr.pixels[i][c], 0, 1);
+            const double b = std::clamp<double>(truth.hdr.pixels[i][c], 0, 1);
+            squares += (a - b) * (a - b), sum += std::abs(a - b);
+            most = std::max(most, std::abs(a - b));
+        }
+        flip += map[i];
+        largest.emplace_back(most, i);
+    }
+    const auto count = static_cast<double>(largest.size());
+    ASSERT_GT(count, 0);
+    EXPECT_EQ(found["pixels"], largest.size());
+    EXPECT_EQ(found["nonfinite"], 0);
+    const double rmse = std::sqrt(squares / (3 * count));
+    EXPECT_NEAR(found["rmse"].get<double>(), rmse, 1e-9);
+    EXPECT_NEAR(found["mae"].get<double>(), sum / (3 * count), 1e-9);
+    EXPECT_NEAR(found["flip"].get<double>(), flip / count, 1e-6);
+    if (rmse > 0) {
+        EXPECT_NEAR(found["psnr"].get<double>(), -20 * std::log10(rmse), 1e-6);
+    }
+    std::ranges::stable_sort(largest, [](auto a, auto b) { return a.first < b.first; });
+    const double position = .99 * (count - 1);
+    const auto below = static_cast<std::size_t>(position);
+    const double above = largest[std::min(below + 1, largest.size() - 1)].first;
+    EXPECT_NEAR(found["p99"].get<double>(),
+                largest[below].first +
+                    (position - static_cast<double>(below)) * (above - largest[below].first),
+                1e-9);
+    EXPECT_NEAR(found["max"].get<double>(), largest.back().first, 1e-9);
+    const auto first = std::ranges::find(largest, largest.back().first,
+                                         &std::pair<double, std::size_t>::first);
+    EXPECT_EQ(found["max_at"], json({first->second % kSize.x, first->second / kSize.x}));
+}
+
+void expect_mean(const json& found, const measure::Picture& picture, double most) {
+    for (int c = 0; c < 3; ++c) {
+        double sum = 0;
+        for (const vec3& pixel : picture.pixels) sum += std::clamp<double>(pixel[c], 0, most);
+        EXPECT_NEAR(found[c].get<double>(), sum / static_cast<double>(picture.pixels.size()), 1e-6);
+    }
+}
+
+TEST(ReportFigures, AreThoseOfThePictures) {
+    const std::vector<std::string> rows{"parallax:face=32", "raytrace:depth=1",
+                                        "raytrace:depth=1,samples=4"};
+    const json document = compared(asked(rows));
+    const app::Part truth = rendered(app::kReference);
+    const app::Part finer = rendered("raytrace:depth=16,samples=4");
+    const std::map<std::string, Chosen> masks{
+        {"error", [](unsigned first, unsigned) { return first != 0; }},
+        {"error_first_order", [](unsigned first, unsigned next) { return first && !next; }},
+        {"error_mirror_in_mirror", [](unsigned first, unsigned next) { return first && next; }},
+        {"error_non_mirror", [](unsigned first, unsigned) { return first == 0; }},
+        {"error_all", [](unsigned, unsigned) { return true; }}};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        SCOPED_TRACE(rows[i]);
+        const json& row = document["rows"][i];
+        const app::Part part = rendered(rows[i]);
+        const app::Part& wanted = i == 2 ? finer : truth; // at the row's own sample count
+        for (const auto& [name, chosen] : masks) {
+            SCOPED_TRACE(name);
+            expect_errors(row[name], part, wanted, truth.hits, chosen);
+        }
+        ASSERT_EQ(row["error_per_mirror"].size(), 3U);
+        for (unsigned mirror = 1; mirror <= 3; ++mirror) {
+            SCOPED_TRACE(mirror);
+            EXPECT_EQ(row["error_per_mirror"][mirror - 1]["mirror"], mirror);
+            expect_errors(row["error_per_mirror"][mirror - 1], part, wanted, truth.hits,
+                          [&](unsigned first, unsigned) { return first == mirror; });
+        }
+        expect_mean(row["mean"], part.hdr, 1e9);
+        expect_mean(row["mean_clamped"], part.hdr, 1);
+        EXPECT_NE(row["mean"], row["mean_clamped"]) << "the lamp is in view";
+        EXPECT_EQ(row["scene_passes"], part.scene_passes);
+        EXPECT_EQ(row["scene_draws"], part.scene_draws);
+        EXPECT_EQ(row["memory_bytes"], part.memory_bytes);
+        EXPECT_EQ(row["is_reference"], false);
+    }
+}
+
+/// Whatever stands before it in the list.
+TEST(ReportFigures, ARowIsJudgedAtItsOwnSampleCount) {
+    const std::vector<std::string> rows{"raytrace:depth=16,samples=4", "raytrace:depth=16",
+                                        "raytrace:depth=16,samples=9", "reuse:face=32"};
+    const json document = compared(asked(rows));
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(document["rows"][i]["error_all"]["max"], 0) << rows[i];
+        EXPECT_EQ(document["rows"][i]["is_reference"], true) << rows[i];
+    }
+    const app::Part truth = rendered(app::kReference);
+    expect_errors(document["rows"][3]["error"], rendered(rows[3]), truth, truth.hits,
+                  [](unsigned first, unsigned) { return first != 0; });
+}
+
+/// Linear between the two nearest of the sorted samples.
+double percentile(std::vector<double> samples, double fraction) {
+    std::ranges::sort(samples);
+    const double position = fraction * static_cast<double>(samples.size() - 1);
+    const auto below = static_cast<std::size_t>(position);
+    if (below + 1 == samples.size()) return samples.back();
+    return std::lerp(samples[below], samples[below + 1], position - static_cast<double>(below));
+}
+
+void expect_summary(const json& found) {
+    const auto samples = found["samples"].get<std::vector<double>>();
+    ASSERT_EQ(samples.size(), std::size_t{kFrames});
+    EXPECT_EQ(found["n"], samples.size());
+    const double median = percentile(samples, .5);
+    EXPECT_DOUBLE_EQ(found["median"].get<double>(), median);
+    EXPECT_DOUBLE_EQ(found["p05"].get<double>(), percentile(samples, .05));
+    EXPECT_DOUBLE_EQ(found["p95"].get<double>(), percentile(samples, .95));
+    std::vector<double> off;
+    for (const double sample : samples) off.push_back(std::abs(sample - median));
+    EXPECT_NEAR(found["mad"].get<double>(), percentile(off, .5), 1e-12);
+}
+
+/// The time of the row's passes in measured frame `k`.
+double of_passes(const json& row, int k) {
+    double sum = 0;
+    for (const json& pass : row["passes"]) sum += pass["gpu_ms"]["samples"][k].get<double>();
+    return sum;
+}
+
+TEST(ReportFigures, TimesAreThoseOfTheFramesAndTheirPasses) {
+    const json document = compared(asked({"parallax:face=32", "raytrace"}));
+    for (const json& row : document["rows"]) {
+        SCOPED_TRACE(row["label"]);
+        for (const char* name : {"gpu_ms", "cpu_record_ms", "wall_ms", "closure"})
+            expect_summary(row[name]);
+        for (const json& pass : row["passes"]) expect_summary(pass["gpu_ms"]);
+        for (int k = 0; k < kFrames; ++k) {
+            const double passes = of_passes(row, k);
+            const double gpu = row["gpu_ms"]["samples"][k], wall = row["wall_ms"]["samples"][k];
+            EXPECT_NEAR(row["closure"]["samples"][k].get<double>(), passes / wall, 1e-9);
+            EXPECT_LE(passes, gpu * (1 + 1e-9)) << "passes lie between the first and last stamp";
+            EXPECT_LE(gpu, wall) << "stamps lie between submit and fence";
+        }
+    }
+    expect_summary(document["reference"]["gpu_ms"]);
+}
+
+TEST(ReportFigures, TogetherARowCostsItsOwnPasses) {
+    app::CompareRequest request = asked({"parallax:face=32", "raytrace"});
+    request.together = true;
+    const json document = compared(request);
+    for (int k = 0; k < kFrames; ++k) {
+        double all = 0;
+        for (const json& row : document["rows"]) {
+            EXPECT_NEAR(row["gpu_ms"]["samples"][k].get<double>(), of_passes(row, k), 1e-9);
+            all += of_passes(row, k);
+        }
+        for (const json& row : document["rows"]) // of the whole frame
+            EXPECT_NEAR(row["closure"]["samples"][k].get<double>(),
+                        all / row["wall_ms"]["samples"][k].get<double>(), 1e-9);
+    }
+    EXPECT_EQ(document["rows"][0]["passes"].size() + document["rows"][1]["passes"].size(),
+              document["rows"][0]["passes"].size() + 2U)
+        << "raytrace and its compose";
+}
+
+} // namespace

@@ -1,0 +1,284 @@
+// Every figure of a report stands where its name says: a row in which no two figures are equal is
+// written, read back by name and compared.
+#include "report/report.hpp"
+
+#include "report/rows.hpp"
+#include "report/tables.hpp"
+#include "report_sample.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+
+namespace {
+
+using namespace catoptric::report;
+using catoptric::measure::Difference;
+using catoptric::measure::LookupError;
+using catoptric::measure::Mean;
+using catoptric::measure::Summary;
+using nlohmann::json;
+
+/// A figure, where in the row's JSON it is wanted and in which column of the CSV; no column: not
+/// there.
+struct Field {
+    std::string pointer, column;
+    double value;
+};
+
+/// Gives every figure of a row a value that no other has.
+class Filler {
+public:
+    Row row;
+    std::vector<Field> fields;
+
+    Filler() {
+        row.technique = "parallax";
+        row.label = "parallax:face=64";
+        row.image = "parallax-face64";
+        set(row.scene_passes, "/scene_passes", "scene_passes");
+        set(row.scene_draws, "/scene_draws", "scene_draws");
+        set(row.gpu_ms, "/gpu_ms", "gpu_ms");
+        set(row.cpu_record_ms, "/cpu_record_ms", "cpu_record_ms");
+        set(row.wall_ms, "/wall_ms", "wall_ms");
+        set(row.closure, "/closure", "");
+        row.passes.resize(2);
+        for (std::size_t i = 0; i < 2; ++i)
+            set(row.passes[i].gpu_ms, "/passes/" + std::to_string(i) + "/gpu_ms", "");
+        set(row.error, "/error", "mirrors");
+        set(row.error_first_order, "/error_first_order", "first_order");
+        set(row.error_mirror_in_mirror, "/error_mirror_in_mirror", "mirror_in_mirror");
+        set(row.error_non_mirror, "/error_non_mirror", "non_mirror");
+        set(row.error_all, "/error_all", "all");
+        row.error_per_mirror.resize(2);
+        for (std::size_t i = 0; i < 2; ++i)
+            set(row.error_per_mirror[i], "/error_per_mirror/" + std::to_string(i),
+                "mirror_" + std::to_string(i + 1));
+        set(row.memory_bytes, "/memory_bytes", "memory_bytes");
+        row.rays.emplace();
+        set(row.rays->primary, "/rays/primary", "rays_primary");
+        set(row.rays->mirror, "/rays/mirror", "rays_mirror");
+        set(row.rays->shadow, "/rays/shadow", "rays_shadow");
+        set(row.saturated_texels.emplace(), "/saturated_texels", "");
+        set(row.traced_fraction.emplace(), "/traced_fraction", "traced_fraction");
+        set(row.mean, "/mean", "mean");
+        set(row.mean_clamped, "/mean_clamped", "mean_clamped");
+        fill_lookup(row.lookup.emplace());
+        fill_causes(row.causes.emplace());
+        row.auto_face.emplace().needs.resize(2);
+        set(row.auto_face->edge, "/auto_face/edge", "");
+        set(row.auto_face->needs[0], "/auto_face/needs/0", "");
+        set(row.auto_face->needs[1], "/auto_face/needs/1", "");
+    }
+
+private:
+    /// Whole numbers stay whole; all others are exact in binary and four decimals tell them apart.
+    template <typename Number>
+    void set(Number& figure, const std::string& pointer, const std::string& column) {
+        ++count_;
+        figure = static_cast<Number>(std::is_integral_v<Number> ? count_ : count_ / 1024.0);
+        fields.push_back({pointer, column, static_cast<double>(figure)});
+    }
+    static std::string part(const std::string& column, const char* name) {
+        return column.empty() ? "" : column + "_" + name;
+    }
+    void set(Summary& times, const std::string& pointer, const std::string& column) {
+        set(times.median, pointer + "/median", part(column, "median"));
+        set(times.p05, pointer + "/p05", part(column, "p05"));
+        set(times.p95, pointer + "/p95", part(column, "p95"));
+        set(times.mad, pointer + "/mad", part(column, "mad"));
+        set(times.n, pointer + "/n", part(column, "n"));
+        times.samples.resize(2);
+        set(times.samples[0], pointer + "/samples/0", "");
+        set(times.samples[1], pointer + "/samples/1", "");
+    }
+    void set(Difference& error, const std::string& pointer, const std::string& column) {
+        set(error.pixels, pointer + "/pixels", part(column, "pixels"));
+        set(error.nonfinite, pointer + "/nonfinite", part(column, "nonfinite"));
+        set(error.rmse, pointer + "/rmse", part(column, "rmse"));
+        set(error.mae, pointer + "/mae", part(column, "mae"));
+        set(error.flip, pointer + "/flip", part(column, "flip"));
+        set(error.psnr.emplace(), pointer + "/psnr", part(column, "psnr"));
+        set(error.p99, pointer + "/p99", part(column, "p99"));
+        set(error.max, pointer + "/max", part(column, "max"));
+        set(error.max_x, pointer + "/max_at/0", "");
+        set(error.max_y, pointer + "/max_at/1", "");
+    }
+    void set(Mean& mean, const std::string& pointer, const std::string& column) {
+        set(mean.rgb.x, pointer + "/0", part(column, "r"));
+        set(mean.rgb.y, pointer + "/1", part(column, "g"));
+        set(mean.rgb.z, pointer + "/2", part(column, "b"));
+    }
+    void fill_lookup(LookupError& lookup) {
+        set(lookup.pixels, "/lookup/pixels", "");
+        set(lookup.mean_degrees, "/lookup/mean_degrees", "");
+        set(lookup.p95_degrees, "/lookup/p95_degrees", "");
+        set(lookup.p99_degrees, "/lookup/p99_degrees", "");
+        set(lookup.wrong_object, "/lookup/wrong_object", "");
+        set(lookup.unknown, "/lookup/unknown", "");
+        set(lookup.miss, "/lookup/miss", "");
+        set(lookup.p95_residual, "/lookup/p95_residual", "");
+    }
+    void fill_causes(Causes& causes) {
+        set(causes.squared_error, "/causes/squared_error", "");
+        set(causes.rest_rmse, "/causes/rest_rmse", "");
+        set(causes.at_light_edges, "/causes/at_light_edges", "");
+        set(causes.squared_error_per_mirror.emplace_back(), "/causes/squared_error_per_mirror/0",
+            "");
+        causes.list.resize(2);
+        for (std::size_t i = 0; i < 2; ++i) {
+            Cause& cause = causes.list[i];
+            const std::string at = "/causes/list/" + std::to_string(i);
+            cause.name = i == 0 ? "one" : "other";
+            set(cause.in_turn, at + "/in_turn", "");
+            set(cause.alone, at + "/alone", "");
+            set(cause.in_turn_per_mirror.emplace_back(), at + "/in_turn_per_mirror/0", "");
+            set(cause.alone_per_mirror.emplace_back(), at + "/alone_per_mirror/0", "");
+        }
+    }
+
+    int count_ = 0;
+};
+
+Comparison distinct(const Filler& filler) { return sample::comparison({filler.row}); }
+
+/// The pointers of all numbers in a document.
+void collect_numbers(const json& document, const std::string& at, std::vector<std::string>& found) {
+    if (document.is_number()) found.push_back(at);
+    if (document.is_object())
+        for (const auto& [name, value] : document.items())
+            collect_numbers(value, at + "/" + name, found);
+    if (document.is_array())
+        for (std::size_t i = 0; i < document.size(); ++i)
+            collect_numbers(document[i], at + "/" + std::to_string(i), found);
+}
+
+TEST(ReportFields, JsonHoldsEachFigureUnderItsName) {
+    const Filler filler;
+    const json row = json::parse(to_json(distinct(filler)))["rows"][0];
+    std::vector<std::string> wanted{"/error_per_mirror/0/mirror", "/error_per_mirror/1/mirror"};
+    for (const Field& field : filler.fields) {
+        ASSERT_TRUE(row.contains(json::json_pointer(field.pointer))) << field.pointer;
+        EXPECT_EQ(row.at(json::json_pointer(field.pointer)), field.value) << field.pointer;
+        wanted.push_back(field.pointer);
+    }
+    std::vector<std::string> found;
+    collect_numbers(row, "", found);
+    EXPECT_THAT(found, testing::UnorderedElementsAreArray(wanted)) << "a figure nobody looks at";
+}
+
+/// Fields of a line without quotes.
+std::vector<std::string> split(const std::string& line) {
+    std::vector<std::string> fields(1);
+    for (const char c : line) {
+        if (c == '\r') break;
+        if (c == ',')
+            fields.emplace_back();
+        else
+            fields.back() += c;
+    }
+    return fields;
+}
+
+TEST(ReportFields, CsvHoldsEachFigureInItsColumn) {
+    const Filler filler;
+    const std::string csv = to_csv(distinct(filler));
+    const std::vector<std::string> names = split(csv),
+                                   cells = split(csv.substr(csv.find('\n') + 1));
+    ASSERT_EQ(names.size(), cells.size());
+    std::map<std::string, std::string> found;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        EXPECT_TRUE(found.emplace(names[i], cells[i]).second) << names[i] << " is there twice";
+    std::size_t wanted = 0;
+    for (const Field& field : filler.fields) {
+        if (field.column.empty()) continue;
+        ++wanted;
+        ASSERT_TRUE(found.contains(field.column)) << field.column;
+        EXPECT_EQ(std::stod(found[field.column]), field.value) << field.column;
+    }
+    // Beside the figures: names and marks.
+    EXPECT_EQ(names.size(), wanted + std::size_t{9});
+    EXPECT_EQ(found["failed"], "1"); // it has pixels that are no numbers
+    EXPECT_EQ(found["on_front"], "0");
+}
+
+/// The table's cells by the names of its columns.
+std::map<std::string, std::string> cells_of(const Table& table, std::size_t row) {
+    std::map<std::string, std::string> cells;
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+        cells[table.columns[i].name] = table.rows.at(row).at(i);
+    return cells;
+}
+
+std::string with_decimals(double value, int decimals) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
+    Filler filler;
+    filler.row.memory_bytes = 5 << 20;
+    const Row& row = filler.row;
+    const auto error = [](double value) { return with_decimals(value, 4); };
+    const auto ms = [](double value) { return with_decimals(value, 4); };
+    const auto degrees = [](double value) { return with_decimals(value, 2); };
+    const auto percent = [](double share) { return with_decimals(100 * share, 2); };
+
+    std::map<std::string, std::string> cells = cells_of(rows_table(distinct(filler)), 0);
+    const std::map<std::string, std::string> wanted{
+        {"Row", row.label},
+        {"R", std::to_string(row.scene_passes)},
+        {"Draws", std::to_string(row.scene_draws)},
+        {"ms", ms(row.gpu_ms.median)},
+        {"5–95 %", ms(row.gpu_ms.p05) + "–" + ms(row.gpu_ms.p95)},
+        {"wall ms", ms(row.wall_ms.median)},
+        {"rmse", error(row.error.rmse)},
+        {"MAE", error(row.error.mae)},
+        {"FLIP", error(row.error.flip)},
+        {"PSNR dB", with_decimals(*row.error.psnr, 1)},
+        {"p99", error(row.error.p99)},
+        {"rmse, first order", error(row.error_first_order.rmse)},
+        {"rmse, mirror in mirror", error(row.error_mirror_in_mirror.rmse)},
+        {"rmse, not a mirror", error(row.error_non_mirror.rmse)},
+        {"rmse, all", error(row.error_all.rmse)},
+        {"MiB", "5.0"},
+        {"Remark", "failed"}};
+    EXPECT_NEAR(std::stod(cells["record ms"]), row.cpu_record_ms.median, 1e-3);
+    cells.erase("record ms");
+    EXPECT_EQ(cells, wanted);
+
+    EXPECT_EQ(
+        cells_of(mirror_table(distinct(filler)), 0),
+        (std::map<std::string, std::string>{{"Row", row.label},
+                                            {"Mirror 1", error(row.error_per_mirror[0].rmse)},
+                                            {"Mirror 2", error(row.error_per_mirror[1].rmse)}}));
+
+    const LookupError& lookup = *row.lookup;
+    EXPECT_EQ(cells_of(lookup_table(distinct(filler)), 0),
+              (std::map<std::string, std::string>{
+                  {"Row", row.label},
+                  {"Pixels", std::to_string(lookup.pixels)},
+                  {"Mean, degrees", with_decimals(lookup.mean_degrees, 3)},
+                  {"95 %", degrees(lookup.p95_degrees)},
+                  {"99 %", degrees(lookup.p99_degrees)},
+                  {"Wrong object, %", percent(lookup.wrong_object)},
+                  {"Unknown, %", percent(lookup.unknown)},
+                  {"Miss, %", percent(lookup.miss)},
+                  {"Traced, %", percent(*row.traced_fraction)}}));
+}
+
+/// What a row is judged by, and so the front, is FLIP over the mirrors and the median time.
+TEST(ReportFields, ARowIsJudgedByFlipOverTheMirrors) {
+    Filler filler;
+    Row& row = filler.row;
+    row.error.nonfinite = row.error_all.nonfinite = 0;
+    const catoptric::measure::Candidate candidate = candidate_of(row);
+    EXPECT_EQ(candidate.cost, row.gpu_ms.median);
+    EXPECT_EQ(candidate.cost_low, row.gpu_ms.p05);
+    EXPECT_EQ(candidate.cost_high, row.gpu_ms.p95);
+    EXPECT_EQ(candidate.error, row.error.flip);
+}
+
+} // namespace
