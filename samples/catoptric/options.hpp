@@ -15,6 +15,7 @@ namespace catoptric::cli {
 struct Common {
     Manners manners;
     std::string scene = "cornell-mirrors";
+    std::string root; ///< files of the scene may lie below it too; empty: none
     uvec2 size{512, 512};
     int frames = 20;
     int warmup = 8;
