@@ -9,22 +9,24 @@ namespace catoptric::scene {
 
 /// How much a scene file may ask for. A loader adds up what the file claims and stops before it
 /// allocates or works for more: `bad_data` naming the place, the total, the budget and what was
-/// found. Within it a load takes at most 1 GiB of memory and 10 s, whatever the file says; a
-/// million triangles with a normal at each corner fit. Nothing here limits scenes made in code.
+/// found. Within it a load takes at most 1 GiB of memory and 10 s, whatever the file says, and so
+/// does a small picture of what was loaded. A million triangles that share no normal fit. Nothing
+/// here limits scenes made in code.
 struct Budget {
     std::uint64_t file_bytes = 256 << 20;  ///< of all files of the scene, each counted once
-    std::uint64_t files = 4 << 10;         ///< names of files, read or not
+    std::uint64_t files = 4'000;           ///< names of files, read or not
     std::uint64_t json_bytes = 64 << 20;   ///< of glTF's JSON, without a GLB's binary chunk
     std::uint64_t json_memory = 384 << 20; ///< bytes that its values take once they are read
     /// Listed in the file (positions, normals), kept in meshes (with those that missing normals
     /// add), and shown by objects: each of these.
-    std::uint64_t vertices = 4 << 20;
-    std::uint64_t triangles = 2 << 20;   ///< in meshes, and shown by objects: each of these
-    std::uint64_t objects = 128 << 10;   ///< nodes, meshes, primitives, materials, cameras,
-                                         ///< animation channels, objects: each of these
-    std::uint64_t keys = 1 << 20;        ///< of animations, each sampler once
+    std::uint64_t vertices = 4'000'000;
+    /// In meshes, and shown by objects: each of these.
+    std::uint64_t triangles = 2'000'000;
+    /// Nodes, meshes, primitives, materials, cameras, animation channels, objects: each of these.
+    std::uint64_t objects = 125'000;
+    std::uint64_t keys = 1'000'000;      ///< of animations, each sampler once
     std::uint64_t name_bytes = 64 << 20; ///< of the names of meshes and objects
-    std::uint64_t cuts = 128 << 20;      ///< comparisons that cut concave polygons of an .obj
+    std::uint64_t cuts = 100'000'000;    ///< comparisons that cut concave polygons of an .obj
 };
 
 /// One of the totals while a file is loaded.
@@ -67,6 +69,7 @@ struct Account {
     Total primitives{"primitives", budget.objects};
     Total materials{"materials", budget.objects};
     Total material_names{"names of materials used", budget.objects};
+    Total remarks{"objects named by comments", budget.objects};
     Total cameras{"cameras", budget.objects};
     Total channels{"animation channels", budget.objects};
     Total objects{"objects", budget.objects};

@@ -59,8 +59,8 @@ std::string data_of(std::string_view uri, const std::string& place) {
     check(comma != uri.npos && uri.substr(0, comma).ends_with(";base64"), Failure::bad_data, place,
           ": uri: wanted data in base64, found ", in_quotes(uri.substr(0, comma)));
     std::string_view text = uri.substr(comma + 1);
-    for (int i = 0; i < 2 && text.size() % 4 == 0 && text.ends_with('='); ++i)
-        text.remove_suffix(1);
+    const int most = text.size() % 4 == 0 ? 2 : 0; // of padding
+    for (int i = 0; i < most && text.ends_with('='); ++i) text.remove_suffix(1);
     static const std::array<std::uint8_t, 256> values = base64_values();
     std::string bytes;
     bytes.reserve(text.size() / 4 * 3 + 3);

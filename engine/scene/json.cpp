@@ -70,15 +70,25 @@ std::string shown(const Json& value) {
 }
 
 std::string Item::label(std::string_view before) const {
-    if (parent_ == nullptr) return {};
-    std::string text = parent_->label(before);
-    text += text.empty() ? before : std::string_view(": ");
-    text += key_;
-    if (in_list_) text += "[" + std::to_string(index_) + "]";
-    const Json* given = json_->is_object() ? find("name") : nullptr;
-    if (given != nullptr && given->is_string() && !given->get_ref<const std::string&>().empty())
-        text += " " + in_quotes(given->get_ref<const std::string&>());
+    std::string text;
+    for (std::size_t i = 0; i < steps_; ++i) {
+        const auto& [key, index, json] = way_[i];
+        text += i == 0 ? before : std::string_view(": ");
+        text += key;
+        if (index) text += "[" + std::to_string(*index) + "]";
+        const auto name = json->find("name"); // of what is no object there is none
+        if (name != json->end() && name->is_string() && *name != "")
+            text += " " + in_quotes(name->get_ref<const std::string&>());
+    }
     return text;
+}
+
+Item Item::to(const Step& step) const {
+    if (steps_ == kMostSteps) fail(Failure::internal, place(), ": ", step.key, ": lies too deep");
+    Item item = *this;
+    item.way_[item.steps_++] = step;
+    item.json_ = step.json;
+    return item;
 }
 
 const Json* Item::find(std::string_view key) const {
@@ -90,7 +100,7 @@ std::optional<Item> Item::object(std::string_view key) const {
     const Json* value = find(key);
     if (value == nullptr) return std::nullopt;
     require(value->is_object(), key, ": wanted an object, found ", shown(*value));
-    return Item(*value, *this, key, 0, false);
+    return to({key, std::nullopt, value});
 }
 
 const Json* Item::list(std::string_view key) const {
@@ -107,7 +117,7 @@ std::size_t Item::size(std::string_view key) const {
 
 Item Item::at(std::string_view key, std::size_t index) const {
     const Json& value = (*list(key))[index];
-    const Item item(value, *this, key, index, true);
+    const Item item = to({key, index, &value});
     if (!value.is_object())
         fail(Failure::bad_data, item.place(), ": wanted an object, found ", shown(value));
     return item;

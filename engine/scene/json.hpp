@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "scene/budget.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,8 +25,8 @@ Json parse_json(const std::string& file, std::string_view text, Account& account
 std::string shown(const Json& value);
 
 /// An object of the document and the way to it. What is absent has a default; what is there but of
-/// the wrong kind throws `bad_data` with place, wanted and found. An item that came from another
-/// must not outlive it.
+/// the wrong kind throws `bad_data` with place, wanted and found. Valid as long as the
+/// document and the file's name.
 class Item {
 public:
     Item(const Json& document, const std::string& file) : json_(&document), file_(&file) {}
@@ -52,7 +53,7 @@ public:
     void each(std::string_view key, Body&& body) const {
         for (std::size_t i = 0, count = size(key); i < count; ++i) body(at(key, i));
     }
-    std::size_t number_in_list() const { return index_; }
+    std::size_t number_in_list() const { return way_[steps_ - 1].index.value_or(0); }
 
     /// A whole number below `count`.
     std::optional<std::size_t> index(std::string_view key, std::size_t count) const;
@@ -67,10 +68,15 @@ public:
     std::vector<double> numbers(std::string_view key, std::size_t count) const;
 
 private:
-    Item(const Json& json, const Item& parent, std::string_view key, std::size_t index,
-         bool in_list)
-        : json_(&json), file_(parent.file_), parent_(&parent), key_(key), index_(index),
-          in_list_(in_list) {}
+    /// Of the way: `key`, or with an index one of the list `key`.
+    struct Step {
+        std::string_view key;
+        std::optional<std::size_t> index;
+        const Json* json = nullptr; ///< what is there
+    };
+    static constexpr std::size_t kMostSteps = 4; // glTF's own objects lie no deeper
+
+    Item to(const Step& step) const;
     std::string label(std::string_view before) const;
     std::uint64_t whole_of(const Json& value, std::string_view key) const;
     std::size_t index_of(const Json& value, std::string_view key, std::size_t count) const;
@@ -78,10 +84,8 @@ private:
 
     const Json* json_;
     const std::string* file_;
-    const Item* parent_ = nullptr; ///< none: the document
-    std::string_view key_;
-    std::size_t index_ = 0;
-    bool in_list_ = false;
+    std::array<Step, kMostSteps> way_{};
+    std::size_t steps_ = 0; ///< 0: the document
 };
 
 } // namespace catoptric::scene::gltf

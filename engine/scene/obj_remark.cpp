@@ -45,8 +45,8 @@ Keyframes keyframes(const Line& line, std::string_view name, std::string_view re
     const double count = number_of(line, take_word(rest));
     const std::size_t found = count_words(rest);
     check(count >= 1 && count * double(stride) == double(found), Failure::bad_data, line.where(),
-          ": motion of ", in_quotes(name), " wants ", stride, " numbers for each of ",
-          count, " keys, found ", found);
+          ": motion of ", in_quotes(name), " wants ", stride, " numbers for each of ", count,
+          " keys, found ", found);
     account.keys.add(found / stride, line.where());
     auto keys = std::make_shared<Keys>(Keys{.interpolation = interpolation});
     const auto vector = [&] {
@@ -96,7 +96,10 @@ void add_remark(Remarks& remarks, const Line& line, Account& account) {
         remarks.cameras.push_back(camera(line, list));
         return;
     }
-    remarks.named_at.try_emplace(name, line.where());
+    if (!remarks.named_at.contains(name)) {
+        account.remarks.add(1, line.where());
+        remarks.named_at[name] = line.where();
+    }
     if (line.keyword == "#motion")
         remarks.motions[name] = motion(line, account);
     else if (line.keyword == "#sphere")
