@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "scene/core.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
@@ -12,8 +13,14 @@ namespace catoptric::scene {
 
 namespace {
 
+/// Along the normal, of any length; zero where the triangle has no area. Edges are scaled first, so
+/// that no size of a triangle over- or underflows.
 dvec3 edge_cross(const dvec3& a, const dvec3& b, const dvec3& c) {
-    return glm::cross(b - a, c - a);
+    const auto scaled = [](const dvec3& edge) {
+        const double size = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
+        return size > 0 ? edge / size : edge;
+    };
+    return glm::cross(scaled(b - a), scaled(c - a));
 }
 
 dvec3 normal_of(const Mesh& mesh, const uvec3& t) {
@@ -103,6 +110,8 @@ void finish(Scene& scene, const std::string& file, Notes& notes) {
         notes.add("objects that have no triangle with an area, left out", in_quotes(object.name));
         return true;
     });
+    for (const std::string& name : leave_out_unreachable(scene))
+        notes.add("objects farther away than floats reach, left out", in_quotes(name));
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none");
     scene.warnings = notes.lines(file);

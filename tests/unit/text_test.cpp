@@ -43,9 +43,11 @@ TEST(Text, WhatIsPrintableStays) {
 TEST(Text, QuotesAreShort) {
     EXPECT_EQ(in_quotes("a\x1b"), "'a\\x1b'");
     EXPECT_EQ(in_quotes(std::string(80, 'x')), "'" + std::string(80, 'x') + "'");
-    EXPECT_EQ(in_quotes(std::string(20'000, 'x')), "'" + std::string(80, 'x') + "...' (20000 bytes)");
+    EXPECT_EQ(in_quotes(std::string(20'000, 'x')),
+              "'" + std::string(80, 'x') + "...' (20000 bytes)");
     // never half a character
-    EXPECT_EQ(in_quotes(std::string(79, 'x') + "üüü"), "'" + std::string(79, 'x') + "...' (85 bytes)");
+    EXPECT_EQ(in_quotes(std::string(79, 'x') + "üüü"),
+              "'" + std::string(79, 'x') + "...' (85 bytes)");
 }
 
 TEST(Suggestion, IsForASlipOfTheFinger) {
