@@ -1,6 +1,7 @@
 #include "core/knob.hpp"
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -10,6 +11,10 @@
 namespace catoptric {
 
 namespace {
+
+// A suggestion is for a slip of the finger: at most 64 x 96 steps for each of so many names.
+constexpr std::size_t kLongestWord = 64;
+constexpr std::size_t kMostNames = 10'000;
 
 std::string format(double value) {
     char text[32];
@@ -103,9 +108,11 @@ std::string Settings::text(std::string_view knob) const {
 }
 
 std::string nearest_name(std::string_view word, std::span<const std::string> names) {
+    if (word.size() > kLongestWord) return {};
     std::size_t best = std::max<std::size_t>(2, word.size() / 2) + 1;
     std::string nearest;
-    for (const std::string& name : names) {
+    for (const std::string& name : names.first(std::min(names.size(), kMostNames))) {
+        if (name.size() >= word.size() + best) continue; // so many letters are missing at least
         const std::size_t distance = edit_distance(word, name);
         if (distance < best) best = distance, nearest = name;
     }
@@ -114,7 +121,7 @@ std::string nearest_name(std::string_view word, std::span<const std::string> nam
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> names) {
     const std::string nearest = nearest_name(word, names);
-    return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
+    return nearest.empty() ? "" : " (did you mean " + in_quotes(nearest) + "?)";
 }
 
 } // namespace catoptric

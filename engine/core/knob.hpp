@@ -54,8 +54,9 @@ private:
     std::vector<std::optional<double>> values_; ///< nothing: the special word
 };
 
-/// The name with the smallest edit distance to `word`, or empty when none is near
-/// (distance above half the word's length, at least 2).
+/// The name with the smallest edit distance to `word`, or empty when none is near (distance above
+/// half the word's length, at least 2). A word of more than 64 bytes is near nothing, and of many
+/// names only the first 10,000 are compared: some 50 ms at most.
 std::string nearest_name(std::string_view word, std::span<const std::string> names);
 
 /// " (did you mean 'x'?)" or nothing: the end of every message about an unknown name.

@@ -1,4 +1,5 @@
 // rows.csv: RFC 4180, so lines end in CR LF. What is not there is empty.
+#include "core/text.hpp"
 #include "report/report.hpp"
 #include "report/rows.hpp"
 #include "report/text.hpp"
@@ -13,9 +14,10 @@ namespace catoptric::report {
 namespace {
 
 std::string quoted(const std::string& field) {
-    if (field.find_first_of("\",\r\n") == std::string::npos) return field;
+    const std::string shown = printable(field, "\n");
+    if (shown.find_first_of("\",\n") == std::string::npos) return shown;
     std::string result = "\"";
-    for (const char c : field) result += c == '"' ? "\"\"" : std::string(1, c);
+    for (const char c : shown) result += c == '"' ? "\"\"" : std::string(1, c);
     return result + "\"";
 }
 

@@ -1,5 +1,8 @@
 #include "report/html_text.hpp"
 
+#include "core/text.hpp"
+#include "measure/picture_file.hpp"
+
 #include <cstdint>
 
 namespace catoptric::report {
@@ -25,7 +28,7 @@ std::string base64(std::string_view bytes) {
 
 std::string html_escaped(std::string_view text) {
     std::string result;
-    for (const char c : text) {
+    for (const char c : printable(text, "\n")) {
         switch (c) {
         case '&': result += "&amp;"; break;
         case '<': result += "&lt;"; break;

@@ -211,8 +211,8 @@ std::string to_json(const Comparison& comparison) {
     for (const Row& row : comparison.rows) json["rows"].push_back(to_json(row));
     json["pareto"] = comparison.pareto;
     if (comparison.lag) json["lag"] = to_json(*comparison.lag);
-    // Names from files may be any bytes; JSON is UTF-8.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    // Names from files may be any bytes. In ASCII no terminal finds an order in them.
+    return json.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace catoptric::report

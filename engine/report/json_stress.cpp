@@ -50,7 +50,7 @@ std::string to_json(const Stress& stress) {
     json["seed"] = stress.seed;
     json["rows"] = Json::array();
     for (const StressRow& row : stress.rows) json["rows"].push_back(to_json(row));
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace catoptric::report

@@ -1,3 +1,4 @@
+#include "core/text.hpp"
 #include "report/findings.hpp"
 #include "report/lag_tables.hpp"
 #include "report/report.hpp"
@@ -13,10 +14,9 @@ namespace {
 /// Text that Markdown leaves as it is, on one line.
 std::string escaped(const std::string& text) {
     std::string result;
-    for (const char c : text) {
+    for (const char c : printable(text, "\n")) {
         if (std::string_view("\\`*_[]<>|#&~").find(c) != std::string_view::npos) result += '\\';
-        const bool control = static_cast<unsigned char>(c) < ' ';
-        result += control ? ' ' : c;
+        result += c == '\n' ? ' ' : c;
     }
     return result;
 }

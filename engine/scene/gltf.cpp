@@ -1,4 +1,5 @@
-#include "core/error.hpp"
+#include "core/text.hpp"
+#include "scene/gltf_container.hpp"
 #include "scene/gltf_document.hpp"
 #include "scene/load.hpp"
 #include "scene/repair.hpp"
@@ -27,18 +28,14 @@ struct Placed {
 /// The node's own translation relative to its rest, carried into the world; else its parent's.
 Motion motion_of(const Node& node, const Placed& parent) {
     if (!node.motion) return parent.motion;
-    const dmat3 world_from_parent(parent.world_from_node);
-    const dvec3 rest(node.parent_from_node[3]);
-    Keyframes keys = *node.motion;
-    for (dvec3& value : keys.values) value = world_from_parent * (value - rest);
-    for (dvec3& tangent : keys.in_tangents) tangent = world_from_parent * tangent;
-    for (dvec3& tangent : keys.out_tangents) tangent = world_from_parent * tangent;
-    return keys;
+    return Keyframes{.keys = node.motion,
+                     .world_from_keys = dmat3(parent.world_from_node),
+                     .rest = dvec3(node.parent_from_node[3])};
 }
 
-/// World transforms from the roots down, without recursion. A node that is reached twice (a cycle,
-/// or two parents) is refused, so this ends.
-std::vector<Placed> place(Document& document, const std::string& file) {
+/// World transforms from the roots down, without recursion. The nodes are a forest; but a scene may
+/// name a node twice, or beside its parent.
+std::vector<Placed> place(const Document& document, const std::string& file, Notes& notes) {
     std::vector<Placed> placed(document.nodes.size());
     std::vector<std::pair<std::size_t, Placed>> waiting; // node and its parent's place
     for (const std::size_t root : document.roots) waiting.push_back({root, {}});
@@ -46,11 +43,11 @@ std::vector<Placed> place(Document& document, const std::string& file) {
         const auto [index, parent] = std::move(waiting.back());
         waiting.pop_back();
         const Node& node = document.nodes[index];
-        check(!placed[index].reached, Failure::bad_data, file, ": node ", index, " '", node.name,
-              "': wanted one parent at most, found a second way to it");
+        check(!placed[index].reached, Failure::bad_data, file, ": ", node.label,
+              ": wanted one parent at most, found a second way to it");
         if (node.motion && !std::holds_alternative<std::monostate>(parent.motion))
-            document.warnings.push_back(file + ": node '" + node.name +
-                                        "' moves within a moving parent, whose motion is left out");
+            notes.add("nodes that move within a moving parent, whose motion is left out",
+                      node.label);
         placed[index] = {parent.world_from_node * node.parent_from_node, motion_of(node, parent),
                          true};
         for (const std::size_t child : node.children) waiting.push_back({child, placed[index]});
@@ -61,33 +58,6 @@ std::vector<Placed> place(Document& document, const std::string& file) {
 /// A mirrored node turns triangles inside out; glTF wants them turned back.
 bool turns_inside_out(const dmat4& world_from_node) {
     return glm::determinant(dmat3(world_from_node)) < 0;
-}
-
-/// The primitives of one group that share a material, as one mesh: a mirror is a node, however many
-/// primitives an exporter cut it into.
-Mesh merged(const gltf::PrimitiveGroup& group, std::size_t material) {
-    Mesh mesh{.name = group.name};
-    for (const gltf::Primitive& part : group.primitives) {
-        if (part.material != material) continue;
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        const auto append = [](auto& to, const auto& from) {
-            to.insert(to.end(), from.begin(), from.end());
-        };
-        append(mesh.positions, part.mesh.positions);
-        append(mesh.normals, part.mesh.normals);
-        mesh.normals.resize(mesh.positions.size(), vec3(0));
-        for (const uvec3& triangle : part.mesh.triangles)
-            mesh.triangles.push_back(triangle + uvec3(first));
-    }
-    return mesh;
-}
-
-std::vector<std::size_t> materials_of(const gltf::PrimitiveGroup& group) {
-    std::vector<std::size_t> materials;
-    for (const gltf::Primitive& part : group.primitives)
-        if (std::ranges::find(materials, part.material) == materials.end())
-            materials.push_back(part.material);
-    return materials;
 }
 
 /// The exact sphere in world space, if the mesh lies on it and the node scales it uniformly.
@@ -111,88 +81,129 @@ std::optional<Sphere> world_sphere(const Sphere& sphere, const Mesh& mesh,
 
 /// Makes objects of nodes; a mesh that several nodes share stays one.
 struct Builder {
-    std::string file;
+    const std::string& file;
     const Document& document;
+    gltf::Context& context;
     Scene scene;
     struct Key {
-        std::size_t group, material;
+        std::size_t group, part;
         bool inside_out;
         auto operator<=>(const Key&) const = default;
     };
     std::map<Key, std::size_t> meshes;
 
+    Mesh repaired(std::size_t group, std::size_t part);
     std::size_t mesh_for(const Key& key);
-    void add_objects(const Node& node, const Placed& placed);
+    std::string object_name(const Node& node, std::size_t part);
+    void add_object(const Node& node, const Placed& placed, std::size_t part);
     void add_camera(const Node& node, const Placed& placed);
+    void check_unshown();
 };
+
+Mesh Builder::repaired(std::size_t group_index, std::size_t part) {
+    const gltf::PrimitiveGroup& group = document.meshes[group_index];
+    Mesh mesh = mesh_of(group, group.parts[part], context);
+    context.account.mesh_vertices.add(corners_without_normal(mesh), group.place);
+    const std::size_t dropped = repair(mesh);
+    context.notes.add("triangles without area, left out", "in " + in_quotes(mesh.name), dropped);
+    return mesh;
+}
 
 std::size_t Builder::mesh_for(const Key& key) {
     const auto [entry, is_new] = meshes.try_emplace(key, scene.meshes.size());
     if (!is_new) return entry->second;
-    Mesh mesh = merged(document.meshes[key.group], key.material);
-    const std::string place = file + ": mesh '" + mesh.name + "'";
-    if (key.inside_out)
+    Mesh mesh = repaired(key.group, key.part);
+    if (key.inside_out) // after the normals that were missing: they belong to the file's winding
         for (uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
-    if (const std::size_t dropped = repair(mesh); dropped > 0)
-        scene.warnings.push_back(place + ": " + std::to_string(dropped) +
-                                 " triangles without area left out");
     scene.meshes.push_back(std::move(mesh));
     return entry->second;
 }
 
-void Builder::add_objects(const Node& node, const Placed& placed) {
+/// The node's name, or its mesh's; with the material where the mesh has several.
+std::string Builder::object_name(const Node& node, std::size_t part) {
     const gltf::PrimitiveGroup& group = document.meshes[*node.mesh];
-    const std::vector<std::size_t> materials = materials_of(group);
-    for (const std::size_t material : materials) {
-        Object object{.name = node.name.empty() ? group.name : node.name, .material = material};
-        if (materials.size() > 1) object.name += "/" + scene.materials[material].name;
-        object.world_from_object = placed.world_from_node;
-        object.motion = placed.motion;
-        object.seen_by_camera = node.marks.seen_by_camera;
-        object.mesh = mesh_for({*node.mesh, material, turns_inside_out(placed.world_from_node)});
-        if (node.marks.sphere) {
-            object.sphere = world_sphere(*node.marks.sphere, scene.meshes[object.mesh],
-                                         placed.world_from_node);
-            if (!object.sphere)
-                scene.warnings.push_back(file + ": node '" + object.name +
-                                         "' is marked as a sphere, but its mesh or scale is not");
-        }
-        scene.objects.push_back(std::move(object));
+    const std::string& own = node.name.empty() ? group.name : node.name;
+    const bool is_one = group.parts.size() == 1;
+    const std::string& material = scene.materials[group.parts[part].material].name;
+    context.account.name_bytes.add(own.size() + (is_one ? 0 : 1 + material.size()), file, ": ",
+                                   node.label);
+    return is_one ? own : own + "/" + material;
+}
+
+void Builder::add_object(const Node& node, const Placed& placed, std::size_t part) {
+    gltf::Context& its = context;
+    its.account.objects.add(1, file, ": ", node.label);
+    Object object{.name = object_name(node, part),
+                  .material = document.meshes[*node.mesh].parts[part].material,
+                  .world_from_object = placed.world_from_node,
+                  .motion = placed.motion,
+                  .seen_by_camera = node.marks.seen_by_camera};
+    object.mesh = mesh_for({*node.mesh, part, turns_inside_out(placed.world_from_node)});
+    const Mesh& mesh = scene.meshes[object.mesh];
+    its.account.shown_vertices.add(mesh.positions.size(), file, ": ", node.label);
+    its.account.shown_triangles.add(mesh.triangles.size(), file, ": ", node.label);
+    if (node.marks.sphere) {
+        object.sphere = world_sphere(*node.marks.sphere, mesh, placed.world_from_node);
+        if (!object.sphere)
+            its.notes.add("nodes marked as a sphere whose mesh or scale is not one", node.label);
     }
+    scene.objects.push_back(std::move(object));
 }
 
 /// A glTF camera looks along -z with +y up.
 void Builder::add_camera(const Node& node, const Placed& placed) {
-    Camera camera = document.cameras[*node.camera];
+    if (!document.cameras[*node.camera]) return;
+    Camera camera = *document.cameras[*node.camera];
     if (!node.name.empty()) camera.name = node.name;
+    context.account.name_bytes.add(camera.name.size(), file, ": ", node.label);
     const dmat4& world = placed.world_from_node;
     const dvec3 forward = -normalized_or_zero(dvec3(world[2]));
     const dvec3 up = normalized_or_zero(dvec3(world[1]));
-    check(glm::cross(forward, up) != dvec3(0), Failure::bad_data, file, ": camera '", camera.name,
-          "': wanted a node with three axes, found a scale of zero");
+    check(glm::cross(forward, up) != dvec3(0), Failure::bad_data, file, ": ", node.label,
+          ": wanted a camera's node with three axes, found a scale of zero");
     camera.eye = dvec3(world[3]);
     camera.target = camera.eye + node.marks.distance.value_or(1) * forward;
+    check(is_finite(camera.eye) && is_finite(camera.target), Failure::bad_data, file, ": ",
+          node.label, ": wanted a camera at finite coordinates, found an overflow");
     camera.up = up;
     scene.cameras.push_back(std::move(camera));
 }
 
+/// What no node shows is read all the same: a file is right or it is not.
+void Builder::check_unshown() {
+    std::vector<bool> is_shown(document.meshes.size(), false);
+    for (const auto& [key, mesh] : meshes) is_shown[key.group] = true;
+    for (std::size_t group = 0; group < is_shown.size(); ++group)
+        for (std::size_t part = 0; !is_shown[group] && part < document.meshes[group].parts.size();
+             ++part)
+            mesh_of(document.meshes[group], document.meshes[group].parts[part], context);
+}
+
 } // namespace
 
-Scene load_gltf(const std::filesystem::path& path) {
+Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
     const std::string file = path.string();
-    Document document = gltf::read(path);
-    const std::vector<Placed> placed = place(document, file);
-    Builder builder{.file = file, .document = document};
-    builder.scene = {.name = path.stem().string(),
-                     .materials = document.materials,
-                     .warnings = document.warnings};
+    Account account(options.budget);
+    Files files(path, options.root, account);
+    const gltf::Container container = gltf::read_container(file, files, account);
+    const gltf::Item root(container.document, file);
+    gltf::Accessors accessors(root, container.buffers);
+    Notes notes;
+    gltf::Context context{accessors, files, account, notes};
+    const Document document = gltf::read(root, context);
+    const std::vector<Placed> placed = place(document, file, notes);
+    Builder builder{.file = file, .document = document, .context = context};
+    builder.scene = {.name = path.stem().string(), .materials = document.materials};
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const Node& node = document.nodes[i];
         if (!placed[i].reached) continue;
-        if (node.mesh) builder.add_objects(node, placed[i]);
+        const std::size_t parts = node.mesh ? document.meshes[*node.mesh].parts.size() : 0;
+        for (std::size_t part = 0; part < parts; ++part) builder.add_object(node, placed[i], part);
         if (node.camera) builder.add_camera(node, placed[i]);
     }
-    finish(builder.scene, file);
+    builder.check_unshown();
+    finish(builder.scene, file, notes);
+    builder.scene.files = files.found();
     return std::move(builder.scene);
 }
 

@@ -1,15 +1,18 @@
 #pragma once
 
+#include "scene/files.hpp"
+#include "scene/gltf_accessor.hpp"
+#include "scene/json.hpp"
+#include "scene/notes.hpp"
 #include "scene/scene.hpp"
 
-#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-/// A glTF 2.0 file in our own types, checked, but with its node tree not yet flattened. Indices
-/// that may be absent are optional; every index is in range.
+/// A glTF 2.0 file in our own types, checked, but with its node tree not yet flattened and its
+/// meshes not yet read. Indices that may be absent are optional; every index is in range.
 namespace catoptric::scene::gltf {
 
 /// What glTF has no word for, from a node's `extras`:
@@ -22,23 +25,30 @@ struct Marks {
     bool seen_by_camera = true;
 };
 
-/// Triangles as the file has them: indices and numbers are checked, normals may be missing.
+/// Triangles; the numbers are accessors.
 struct Primitive {
-    Mesh mesh;
-    std::size_t material = 0;
+    std::size_t positions = 0;
+    std::optional<std::size_t> normals, indices;
 };
 
-struct PrimitiveGroup {
-    std::string name;
+/// The primitives of a mesh that share a material: one mesh of ours, since a mirror is a node,
+/// however many primitives an exporter cut it into.
+struct Part {
+    std::size_t material = 0;
     std::vector<Primitive> primitives;
 };
 
+struct PrimitiveGroup {
+    std::string name, place;
+    std::vector<Part> parts; ///< in the order in which the materials come
+};
+
 struct Node {
-    std::string name;
+    std::string name, label;
     dmat4 parent_from_node{1};
     std::optional<std::size_t> mesh, camera;
     std::vector<std::size_t> children;
-    std::optional<Keyframes> motion; ///< the node's translation in its parent's space, not relative
+    std::shared_ptr<const Keys> motion; ///< of its translation in its parent's space, not relative
     Marks marks;
 };
 
@@ -47,32 +57,41 @@ struct Document {
     std::vector<std::size_t> roots;
     std::vector<PrimitiveGroup> meshes;
     std::vector<Material> materials;
-    std::vector<Camera> cameras; ///< name and field of view
-    std::vector<std::string> warnings;
+    std::vector<std::optional<Camera>> cameras; ///< name and field of view; none of an unread kind
 };
 
-/// Reads a node's extras; a text without our marks, or none, gives the defaults. Throws `bad_data`
-/// naming `place` for a mark of the wrong kind.
-Marks marks(const std::string& extras_json, const std::string& place);
-
-/// A node's matrix from the properties that it has; the others are empty.
-dmat4 matrix_of(const std::vector<double>& matrix, const std::vector<double>& translation,
-                const std::vector<double>& rotation, const std::vector<double>& scale);
-
-/// An animation sampler's keys; cubic ones come as in-tangent, value, out-tangent. Throws
-/// `bad_data` naming `place` for times that do not increase, counts that do not match, or what is
-/// not finite.
-Keyframes keyframes(const std::string& interpolation, std::vector<double> times,
-                    const std::vector<dvec3>& output, const std::string& place);
+/// What reading needs beside the JSON.
+struct Context {
+    Accessors& accessors;
+    Files& files;
+    Account& account;
+    Notes& notes;
+};
 
 /// Throws as `load_gltf`.
-Document read(const std::filesystem::path& path);
+Document read(const Item& root, Context& context);
 
-/// What must hold before a general reader may see the bytes: GLB header, JSON that nests less than
-/// 64 deep, asset version 2, no required extension that we lack, buffers in the file's folder.
-/// Throws `bad_data` or `missing_input`.
-void preflight(const std::filesystem::path& path, std::string_view bytes);
+// The parts of `read`, by file.
 
-bool is_binary(std::string_view bytes);
+/// gltf_node.cpp
+std::vector<Node> read_nodes(const Item& root, Context& context);
+/// The default scene's nodes, or the first one's, or every node that is no child.
+std::vector<std::size_t> read_roots(const Item& root, const std::vector<Node>& nodes);
+/// Throws `bad_data` unless every node has one parent at most, none is its own ancestor, and there
+/// are at most 4096 above one another.
+void check_forest(const Item& root, const std::vector<Node>& nodes);
+
+/// gltf_mesh.cpp. For primitives without a material there is one more, white.
+std::vector<PrimitiveGroup> read_meshes(const Item& root, std::vector<Material>& materials,
+                                        Context& context);
+/// One part's triangles, unused vertices left out; normals may be missing or have no length.
+Mesh mesh_of(const PrimitiveGroup& group, const Part& part, Context& context);
+
+/// gltf_animation.cpp: gives nodes their motion. Each sampler is read once.
+void read_animations(const Item& root, std::vector<Node>& nodes, Context& context);
+
+/// gltf_unread.cpp: names with a count what this reader does not know, and checks the indices and
+/// names of files in it.
+void note_unread(const Item& root, Context& context);
 
 } // namespace catoptric::scene::gltf

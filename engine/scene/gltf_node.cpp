@@ -1,91 +1,124 @@
-#include "core/error.hpp"
 #include "scene/gltf_document.hpp"
 
 #include <cmath>
 
 #include <glm/gtc/quaternion.hpp>
-#include <nlohmann/json.hpp>
 
 namespace catoptric::scene::gltf {
 
 namespace {
 
-using Json = nlohmann::json;
+constexpr std::size_t kDeepest = 4096; // nodes above one another
 
-double positive(const Json& value, const std::string& place) {
-    check(value.is_number() && value.get<double>() > 0, Failure::bad_data, place,
-          ": wanted a number above 0, found ", value.dump());
+double positive(const Item& item, const Json& value, std::string_view what) {
+    item.require(value.is_number() && value.get<double>() > 0, what,
+                 ": wanted a number above 0, found ", shown(value));
     return value.get<double>();
 }
 
-std::optional<Sphere> sphere(const Json& value, const std::string& place) {
-    if (value == false) return std::nullopt;
-    if (value == true) return Sphere{.radius = 1};
-    check(value.is_array() && value.size() == 4, Failure::bad_data, place,
-          ": wanted true, false or [x, y, z, r], found ", value.dump());
-    for (const Json& number : value)
-        check(number.is_number(), Failure::bad_data, place, ": wanted numbers, found ",
-              number.dump());
-    const auto number = [&](std::size_t i) { return value[i].get<double>(); };
-    return Sphere{.centre = {number(0), number(1), number(2)}, .radius = positive(value[3], place)};
+std::optional<Sphere> sphere(const Item& ours) {
+    const Json* value = ours.find("sphere");
+    if (value == nullptr || *value == false) return std::nullopt;
+    if (*value == true) return Sphere{.radius = 1};
+    ours.require(value->is_array() && value->size() == 4,
+                 "sphere: wanted true, false or [x, y, z, r], found ", shown(*value));
+    const std::vector<double> numbers = ours.numbers("sphere", 4);
+    return Sphere{.centre = {numbers[0], numbers[1], numbers[2]},
+                  .radius = positive(ours, (*value)[3], "sphere")};
+}
+
+Marks marks_of(const Item& node) {
+    Marks marks;
+    const Json* extras = node.find("extras"); // of any kind; ours is an object
+    if (extras == nullptr || !extras->is_object()) return marks;
+    const std::optional<Item> ours = node.object("extras")->object("catoptric");
+    if (!ours) return marks;
+    marks.sphere = sphere(*ours);
+    if (const Json* distance = ours->find("distance"))
+        marks.distance = positive(*ours, *distance, "distance");
+    marks.seen_by_camera = ours->flag("seen_by_camera", true);
+    return marks;
+}
+
+dmat4 matrix_of(const Item& node) {
+    dmat4 result(1);
+    if (const std::vector<double> matrix = node.numbers("matrix", 16); !matrix.empty()) {
+        for (int i = 0; i < 16; ++i) result[i / 4][i % 4] = matrix[std::size_t(i)];
+        return result;
+    }
+    if (const std::vector<double> r = node.numbers("rotation", 4); !r.empty()) {
+        const glm::dquat rotation(r[3], r[0], r[1], r[2]);
+        const double length = glm::length(rotation);
+        node.require(length > 0 && std::isfinite(length),
+                     "rotation: wanted a quaternion with a length, found ", length);
+        result = dmat4(glm::mat3_cast(glm::normalize(rotation)));
+    }
+    const std::vector<double> scale = node.numbers("scale", 3),
+                              translation = node.numbers("translation", 3);
+    for (int i = 0; i < 3 && !scale.empty(); ++i) result[i] *= scale[std::size_t(i)];
+    if (const auto& t = translation; !t.empty()) result[3] = dvec4(t[0], t[1], t[2], 1);
+    return result;
 }
 
 } // namespace
 
-Marks marks(const std::string& extras_json, const std::string& place) {
-    Marks marks;
-    const Json extras = Json::parse(extras_json, nullptr, false); // not JSON: no marks
-    if (!extras.is_object() || !extras.contains("catoptric")) return marks;
-    const Json& ours = extras["catoptric"];
-    check(ours.is_object(), Failure::bad_data, place,
-          ": extras.catoptric: wanted an object, found ", ours.dump());
-    if (ours.contains("sphere")) marks.sphere = sphere(ours["sphere"], place + ": sphere");
-    if (ours.contains("distance"))
-        marks.distance = positive(ours["distance"], place + ": distance");
-    if (ours.contains("seen_by_camera")) {
-        check(ours["seen_by_camera"].is_boolean(), Failure::bad_data, place,
-              ": seen_by_camera: wanted true or false, found ", ours["seen_by_camera"].dump());
-        marks.seen_by_camera = ours["seen_by_camera"].get<bool>();
-    }
-    return marks;
+std::vector<Node> read_nodes(const Item& root, Context& context) {
+    std::vector<Node> nodes;
+    const std::size_t node_count = root.size("nodes"), mesh_count = root.size("meshes"),
+                      camera_count = root.size("cameras");
+    root.each("nodes", [&](const Item& item) {
+        context.account.nodes.add(1, item.place());
+        nodes.push_back({.name = item.name(),
+                         .label = item.label(),
+                         .parent_from_node = matrix_of(item),
+                         .mesh = item.index("mesh", mesh_count),
+                         .camera = item.index("camera", camera_count),
+                         .children = item.indices("children", node_count),
+                         .marks = marks_of(item)});
+    });
+    return nodes;
 }
 
-dmat4 matrix_of(const std::vector<double>& matrix, const std::vector<double>& translation,
-                const std::vector<double>& rotation, const std::vector<double>& scale) {
-    dmat4 result(1);
-    if (matrix.size() == 16) {
-        for (int i = 0; i < 16; ++i) result[i / 4][i % 4] = matrix[std::size_t(i)];
-        return result;
+void check_forest(const Item& root, const std::vector<Node>& nodes) {
+    constexpr std::size_t kNone = ~std::size_t(0);
+    std::vector<std::size_t> parent(nodes.size(), kNone), depth(nodes.size(), 0);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        for (const std::size_t child : nodes[i].children) {
+            root.require(parent[child] == kNone, nodes[child].label,
+                         ": wanted one parent at most, found ",
+                         nodes[parent[child] % nodes.size()].label, " and ", nodes[i].label);
+            parent[child] = i;
+        }
+    std::vector<std::size_t> waiting; // with their depth known
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (parent[i] == kNone) depth[i] = 1, waiting.push_back(i);
+    while (!waiting.empty()) {
+        const std::size_t i = waiting.back();
+        waiting.pop_back();
+        root.require(depth[i] <= kDeepest, nodes[i].label, ": wanted at most ", kDeepest,
+                     " nodes one in another, found more");
+        for (const std::size_t child : nodes[i].children)
+            depth[child] = depth[i] + 1, waiting.push_back(child);
     }
-    if (const auto& r = rotation; r.size() == 4)
-        result = dmat4(glm::mat3_cast(glm::normalize(glm::dquat(r[3], r[0], r[1], r[2]))));
-    for (int i = 0; i < 3 && scale.size() == 3; ++i) result[i] *= scale[std::size_t(i)];
-    if (const auto& t = translation; t.size() == 3) result[3] = dvec4(t[0], t[1], t[2], 1);
-    return result;
+    for (std::size_t i = 0; i < nodes.size(); ++i) // who has no first ancestor is its own
+        root.require(depth[i] > 0, nodes[i].label, ": wanted a tree, found a node within itself");
 }
 
-Keyframes keyframes(const std::string& interpolation, std::vector<double> times,
-                    const std::vector<dvec3>& output, const std::string& place) {
-    using enum Keyframes::Interpolation;
-    const bool is_cubic = interpolation == "CUBICSPLINE";
-    Keyframes keys{.interpolation = is_cubic ? cubic : interpolation == "STEP" ? step : linear};
-    const std::size_t each = is_cubic ? 3 : 1;
-    check(output.size() == each * times.size(), Failure::bad_data, place, ": wanted ", each,
-          " values for each of ", times.size(), " keys, found ", output.size());
-    for (const dvec3& v : output)
-        check(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z), Failure::bad_data,
-              place, ": wanted finite values, found NaN or infinity");
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        const bool increases = times[i] >= 0 && (i == 0 || times[i] > times[i - 1]);
-        check(increases && std::isfinite(times[i]), Failure::bad_data, place,
-              ": wanted increasing times from 0 on, found ", times[i]);
-        keys.values.push_back(output[each * i + each / 2]);
-        if (!is_cubic) continue;
-        keys.in_tangents.push_back(output[3 * i]);
-        keys.out_tangents.push_back(output[3 * i + 2]);
-    }
-    keys.times = std::move(times);
-    return keys;
+std::vector<std::size_t> read_roots(const Item& root, const std::vector<Node>& nodes) {
+    const std::size_t scene_count = root.size("scenes");
+    const std::size_t chosen = root.index("scene", scene_count).value_or(0);
+    std::vector<std::size_t> roots;
+    root.each("scenes", [&](const Item& item) {
+        std::vector<std::size_t> listed = item.indices("nodes", nodes.size());
+        if (item.number_in_list() == chosen) roots = std::move(listed);
+    });
+    if (scene_count > 0) return roots;
+    std::vector<bool> is_child(nodes.size(), false);
+    for (const Node& node : nodes)
+        for (const std::size_t child : node.children) is_child[child] = true;
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+        if (!is_child[i]) roots.push_back(i);
+    return roots;
 }
 
 } // namespace catoptric::scene::gltf

@@ -36,7 +36,7 @@ struct Writer {
     std::size_t times(const std::vector<float>& list);
     std::size_t indices(const Mesh& mesh, bool inside_out);
     std::size_t mesh_for(const Object& object);
-    void add_motion(const Keyframes& keys, const dvec3& rest, std::size_t node);
+    void add_motion(const Keys& keys, const dvec3& rest, std::size_t node);
     void add_object(const Object& object);
     void add_camera(const Camera& camera);
     void add_material(const Material& material);
@@ -107,9 +107,9 @@ std::size_t Writer::mesh_for(const Object& object) {
 
 /// One period as 64 Hermite pieces with the true derivative at each key: the error is below
 /// (2 pi / 64)^4 / 384 = 2.5e-7 of the amplitude.
-Keyframes keyframes(const Harmonic& motion) {
+Keys keys_of(const Harmonic& motion) {
     constexpr int kPieces = 64;
-    Keyframes keys{.interpolation = Keyframes::Interpolation::cubic};
+    Keys keys{.interpolation = Keys::Interpolation::cubic};
     for (int i = 0; i <= kPieces; ++i) {
         const double angle = 2 * std::numbers::pi * i / kPieces;
         keys.times.push_back(motion.period * i / kPieces);
@@ -121,15 +121,15 @@ Keyframes keyframes(const Harmonic& motion) {
     return keys;
 }
 
-std::optional<Keyframes> keyframes(const Motion& motion) {
-    if (const auto* harmonic = std::get_if<Harmonic>(&motion)) return keyframes(*harmonic);
-    if (const auto* keys = std::get_if<Keyframes>(&motion); keys && !keys->times.empty())
-        return *keys;
+std::optional<Keys> keys_of(const Motion& motion) {
+    if (const auto* harmonic = std::get_if<Harmonic>(&motion)) return keys_of(*harmonic);
+    if (const auto* frames = std::get_if<Keyframes>(&motion))
+        if (Keys keys = in_the_world(*frames); !keys.times.empty()) return keys;
     return std::nullopt;
 }
 
-void Writer::add_motion(const Keyframes& keys, const dvec3& rest, std::size_t node) {
-    using enum Keyframes::Interpolation;
+void Writer::add_motion(const Keys& keys, const dvec3& rest, std::size_t node) {
+    using enum Keys::Interpolation;
     const bool is_cubic = keys.interpolation == cubic;
     std::vector<vec3> output;
     for (std::size_t i = 0; i < keys.times.size(); ++i) {
@@ -172,7 +172,7 @@ void Writer::add_object(const Object& object) {
     const dmat4& world = object.world_from_object;
     const dvec3 rest(world[3]), scale(world[0][0], world[1][1], world[2][2]);
     const bool is_scale = dmat3(world) == glm::matrixCompMult(dmat3(world), dmat3(1));
-    const std::optional<Keyframes> keys = keyframes(object.motion);
+    const std::optional<Keys> keys = keys_of(object.motion);
     const std::size_t index = nodes.size();
     root["scenes"][0]["nodes"].push_back(index);
     if (keys) add_motion(*keys, rest, index);

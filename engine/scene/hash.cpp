@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
+#include <unordered_map>
 
 namespace catoptric::scene {
 
@@ -11,6 +12,7 @@ namespace {
 /// 64-bit FNV-1a. Lists and texts go in with their length, so that no two scenes run together.
 struct Hasher {
     std::uint64_t state = 14695981039346656037ull;
+    std::unordered_map<const Keys*, std::uint64_t> known;
 
     void bytes(std::span<const std::byte> data) {
         for (const std::byte byte : data)
@@ -45,9 +47,22 @@ struct Hasher {
     }
     void add(const std::monostate&) {}
     void add(const Harmonic& motion) { add(motion.amplitude), add(motion.period); }
-    void add(const Keyframes& keys) {
+    void add(const Keys& keys) {
         add(static_cast<int>(keys.interpolation));
         add(keys.times), add(keys.values), add(keys.in_tangents), add(keys.out_tangents);
+    }
+    void add(const Keyframes& motion) {
+        add(motion.keys ? state_of(motion.keys.get()) : 0);
+        for (int column = 0; column < 3; ++column) add(motion.world_from_keys[column]);
+        add(motion.rest);
+    }
+    /// A hash of their own: many objects may follow the same keys.
+    std::uint64_t state_of(const Keys* keys) {
+        const auto [entry, is_new] = known.try_emplace(keys, 0);
+        if (!is_new) return entry->second;
+        Hasher hasher;
+        hasher.add(*keys);
+        return entry->second = hasher.state;
     }
     void add(const Object& object) {
         add(object.name), add(std::uint64_t(object.mesh)), add(std::uint64_t(object.material));

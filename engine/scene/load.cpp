@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/knob.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -24,7 +25,7 @@ std::string lower_case_extension(const std::filesystem::path& path) {
         names.push_back(scene.name);
         list += (list.empty() ? "" : ", ") + scene.name;
     }
-    fail(Failure::usage, "scene '", word, "': wanted a built-in scene (", list,
+    fail(Failure::usage, "scene ", in_quotes(word), ": wanted a built-in scene (", list,
          ") or a .glb, .gltf or .obj file", did_you_mean(word, names));
 }
 
@@ -40,12 +41,12 @@ const std::vector<BuiltIn>& built_in_scenes() {
     return scenes;
 }
 
-Scene load(const std::string& name_or_path) {
+Scene load(const std::string& name_or_path, const LoadOptions& options) {
     for (const BuiltIn& scene : built_in_scenes())
         if (scene.name == name_or_path) return scene.make();
     const std::string extension = lower_case_extension(name_or_path);
-    if (extension == ".glb" || extension == ".gltf") return load_gltf(name_or_path);
-    if (extension == ".obj") return load_obj(name_or_path);
+    if (extension == ".glb" || extension == ".gltf") return load_gltf(name_or_path, options);
+    if (extension == ".obj") return load_obj(name_or_path, options);
     fail_unknown(name_or_path);
 }
 

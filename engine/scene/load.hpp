@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/budget.hpp"
 #include "scene/scene.hpp"
 
 #include <filesystem>
@@ -16,11 +17,19 @@ struct BuiltIn {
 };
 const std::vector<BuiltIn>& built_in_scenes();
 
+struct LoadOptions {
+    /// The files that a scene names lie below the real folder of the scene, or below this one;
+    /// empty: no other.
+    std::filesystem::path root;
+    Budget budget;
+};
+
 /// A built-in scene by name, or a .glb, .gltf or .obj file.
 /// Throws `Failure::usage` for a word that is neither (with the nearest built-in name),
 /// `missing_input` for a file that is not there, `bad_data` naming file and place for what cannot
-/// be read. What is left out or repaired is in the scene's warnings.
-Scene load(const std::string& name_or_path);
+/// be read, asks for more than the budget or lies elsewhere than it may. What is left out or
+/// repaired is in the scene's warnings, with a count for each kind.
+Scene load(const std::string& name_or_path, const LoadOptions& options = {});
 
 /// Cornell box with four mirror balls (contract: "The built-in scene").
 Scene cornell_mirrors();
@@ -28,8 +37,8 @@ Scene cornell_mirrors();
 Scene cornell_mirrors_closed();
 
 /// Each reads one file; errors as `load`.
-Scene load_gltf(const std::filesystem::path& path);
-Scene load_obj(const std::filesystem::path& path);
+Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options = {});
+Scene load_obj(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// Writes .glb (mirror = metallic 1, roughness 0; light = KHR_materials_emissive_strength; motion
 /// as a CUBICSPLINE translation; the camera; marks in gltf_document.hpp) or .obj with .mtl beside

@@ -1,5 +1,5 @@
-#include "core/error.hpp"
 #include "core/knob.hpp"
+#include "core/text.hpp"
 #include "scene/load.hpp"
 #include "scene/obj_text.hpp"
 #include "scene/repair.hpp"
@@ -7,73 +7,94 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
-
-#include <tiny_obj_loader.h>
 
 namespace catoptric::scene {
 
 namespace {
 
-/// Groups and triangles. tinyobjloader reads only checked statements, with materials as numbers.
-std::vector<tinyobj::shape_t> parse(const obj::Text& text, const std::string& file) {
-    std::string library;
-    for (std::size_t i = 0; i < text.materials.size(); ++i)
-        library += "newmtl " + std::to_string(i) + "\n";
-    const std::string prefix = library.empty() ? "" : "mtllib all\n";
-    tinyobj::ObjReaderConfig config;
-    config.vertex_color = false;
-    tinyobj::ObjReader reader;
-    const bool read = reader.ParseFromString(prefix + text.statements, library, config);
-    check(read, Failure::bad_data, file, ": ", reader.Error());
-    return reader.GetShapes();
-}
-
-/// One vertex for each pair of position and normal, in the order of the file; -1: no normal.
-using Pair = std::pair<int, int>;
-
-Mesh mesh_of(const obj::Text& text, const std::vector<tinyobj::index_t>& corners) {
-    std::map<Pair, std::uint32_t> vertices;
-    for (const tinyobj::index_t& i : corners) vertices[{i.vertex_index, i.normal_index}] = 0;
-    Mesh mesh;
-    for (auto& [pair, vertex] : vertices) {
-        vertex = static_cast<std::uint32_t>(mesh.positions.size());
-        mesh.positions.push_back(text.positions.at(std::size_t(pair.first)));
-        mesh.normals.push_back(
-            pair.second < 0 ? vec3(0)
-                            : vec3(normalized_or_zero(text.normals.at(std::size_t(pair.second)))));
-    }
-    const auto vertex = [&](std::size_t i) {
-        return vertices.at({corners[i].vertex_index, corners[i].normal_index});
+/// One vertex for each pair of position and normal that is used, ascending, those without a normal
+/// first; the corners come three to a triangle.
+Mesh mesh_of(const obj::Text& text, const std::vector<obj::Corner>& corners, std::string name,
+             Total& vertices, const std::string& place) {
+    struct Use {
+        std::uint64_t pair;
+        std::uint32_t corner;
+        auto operator<=>(const Use&) const = default;
     };
-    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
-        mesh.triangles.emplace_back(vertex(i), vertex(i + 1), vertex(i + 2));
+    std::vector<Use> uses;
+    uses.reserve(corners.size());
+    for (const auto& [position, normal] : corners) // kNoNormal + 1 is 0
+        uses.push_back({std::uint64_t(position) << 32 | std::uint32_t(normal + 1),
+                        static_cast<std::uint32_t>(uses.size())});
+    std::ranges::sort(uses);
+    const auto is_first = [&](std::size_t i) { return i == 0 || uses[i].pair != uses[i - 1].pair; };
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < uses.size(); ++i) count += is_first(i);
+    vertices.add(count, place);
+    Mesh mesh{.name = std::move(name)};
+    mesh.positions.reserve(count), mesh.normals.reserve(count);
+    mesh.triangles.resize(corners.size() / 3);
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const std::uint32_t corner = uses[i].corner;
+        const auto& [position, normal] = corners[corner];
+        if (is_first(i)) {
+            mesh.positions.push_back(text.positions[position]);
+            mesh.normals.push_back(normal == obj::kNoNormal
+                                       ? vec3(0)
+                                       : vec3(normalized_or_zero(text.normals[normal])));
+        }
+        mesh.triangles[corner / 3][static_cast<int>(corner % 3)] = static_cast<std::uint32_t>(
+            mesh.positions.size() - 1);
+    }
     return mesh;
 }
 
-/// The shape's corners by material (-1: none), in order of first use.
-using Part = std::pair<int, std::vector<tinyobj::index_t>>;
+struct Builder {
+    const std::string& file;
+    const obj::Text& text;
+    obj::Context& context;
+    Scene scene;
+    std::optional<std::size_t> without_material; ///< known once something needs it
 
-std::vector<Part> by_material(const tinyobj::mesh_t& mesh) {
+    /// A shape's triangles of one material.
+    struct Part {
+        std::uint32_t material;
+        std::vector<obj::Corner> corners;
+    };
+    std::vector<Part> parts_of(std::size_t first_face, std::size_t end_face);
+    void add_shape(const std::string& name, std::size_t first_face, std::size_t end_face);
+    void add_object(const std::string& shape, Part part, bool is_only);
+    std::size_t material_index(std::uint32_t material);
+};
+
+/// In order of first use.
+std::vector<Builder::Part> Builder::parts_of(std::size_t first_face, std::size_t end_face) {
     std::vector<Part> parts;
-    for (std::size_t face = 0; 3 * face + 2 < mesh.indices.size(); ++face) {
-        const int material = mesh.material_ids.at(face);
-        auto part = std::ranges::find(parts, material, &Part::first);
-        if (part == parts.end()) part = parts.insert(parts.end(), {material, {}});
-        const auto corners = mesh.indices.begin() + std::ptrdiff_t(3 * face);
-        part->second.insert(part->second.end(), corners, corners + 3);
+    std::unordered_map<std::uint32_t, std::size_t> part_of;
+    for (std::size_t i = first_face; i < end_face; ++i) {
+        const auto [first, material] = text.faces[i];
+        const std::size_t end = i + 1 < text.faces.size() ? text.faces[i + 1].first
+                                                          : text.corners.size();
+        const auto [entry, is_new] = part_of.try_emplace(material, parts.size());
+        if (is_new) parts.push_back({.material = material});
+        obj::cut(std::span(text.corners).subspan(first, end - first), text.positions,
+                 context.account.cuts, file, parts[entry->second].corners);
     }
     return parts;
 }
 
-std::size_t material_index(Scene& scene, int material) {
-    if (material >= 0) return std::size_t(material);
+/// What has no material gets the first that is called "default", or a grey one.
+std::size_t Builder::material_index(std::uint32_t material) {
+    if (material != obj::kNoMaterial) return material;
+    if (without_material) return *without_material;
     const auto found = std::ranges::find(scene.materials, "default", &Material::name);
-    const auto index = static_cast<std::size_t>(found - scene.materials.begin());
+    without_material = static_cast<std::size_t>(found - scene.materials.begin());
     if (found == scene.materials.end())
         scene.materials.push_back({.name = "default", .albedo = vec3(0.8f)});
-    return index;
+    return *without_material;
 }
 
 void apply_remarks(const obj::Remarks& remarks, const std::string& group, Object& object) {
@@ -84,46 +105,67 @@ void apply_remarks(const obj::Remarks& remarks, const std::string& group, Object
     object.seen_by_camera = !remarks.hidden.contains(group);
 }
 
-void add_shape(Scene& scene, const obj::Text& text, const tinyobj::shape_t& shape,
-               const std::string& file) {
-    const auto parts = by_material(shape.mesh);
-    for (const auto& [material, corners] : parts) {
-        Object object{.name = shape.name, .mesh = scene.meshes.size()};
-        object.material = material_index(scene, material);
-        if (parts.size() > 1) object.name += "/" + scene.materials[object.material].name;
-        apply_remarks(text.remarks, shape.name, object);
+void Builder::add_object(const std::string& shape, Part part, bool is_only) {
+    Account& account = context.account;
+    account.objects.add(1, file, ": object ", in_quotes(shape));
+    Object object{
+        .name = shape, .mesh = scene.meshes.size(), .material = material_index(part.material)};
+    const std::string& material = scene.materials[object.material].name;
+    account.name_bytes.add(2 * (shape.size() + 1 + material.size()), file, ": object ",
+                           in_quotes(shape));
+    if (!is_only) object.name += "/" + material;
+    apply_remarks(text.remarks, shape, object);
 
-        Mesh mesh = mesh_of(text, corners);
-        mesh.name = object.name;
-        if (const std::size_t dropped = repair(mesh); dropped > 0)
-            scene.warnings.push_back(file + ": object '" + object.name + "': " +
-                                     std::to_string(dropped) + " triangles without area left out");
-        scene.meshes.push_back(std::move(mesh));
-        scene.objects.push_back(std::move(object));
-    }
+    Mesh mesh = mesh_of(text, part.corners, object.name, account.mesh_vertices, file);
+    part.corners = {};
+    account.mesh_vertices.add(corners_without_normal(mesh), file, ": object ", in_quotes(shape));
+    const std::size_t dropped = repair(mesh);
+    context.notes.add("triangles without area, left out", "in " + in_quotes(object.name), dropped);
+    scene.meshes.push_back(std::move(mesh));
+    scene.objects.push_back(std::move(object));
 }
 
-void check_names(const obj::Remarks& remarks, const std::vector<tinyobj::shape_t>& shapes) {
+void Builder::add_shape(const std::string& name, std::size_t first_face, std::size_t end_face) {
+    std::vector<Part> parts = parts_of(first_face, end_face);
+    for (Part& part : parts) add_object(name, std::move(part), parts.size() == 1);
+}
+
+void check_names(const obj::Text& text) {
     std::vector<std::string> names;
-    for (const tinyobj::shape_t& shape : shapes) names.push_back(shape.name);
-    for (const auto& [name, where] : remarks.named_at)
-        check(std::ranges::find(names, name) != names.end(), Failure::bad_data, where,
-              ": wanted the name of an object with faces, found '", name, "'",
-              did_you_mean(name, names));
+    for (std::size_t i = 0; i < text.shapes.size(); ++i) {
+        const bool is_last = i + 1 == text.shapes.size();
+        if (text.shapes[i].first < (is_last ? text.faces.size() : text.shapes[i + 1].first))
+            names.push_back(text.shapes[i].name);
+    }
+    const std::unordered_set<std::string> known(names.begin(), names.end());
+    for (const auto& [name, where] : text.remarks.named_at)
+        if (!known.contains(name))
+            fail(Failure::bad_data, where, ": wanted the name of an object with faces, found ",
+                 in_quotes(name), did_you_mean(name, names));
 }
 
 } // namespace
 
-Scene load_obj(const std::filesystem::path& path) {
+Scene load_obj(const std::filesystem::path& path, const LoadOptions& options) {
     const std::string file = path.string();
-    const obj::Text text = obj::read_text(path);
-    const std::vector<tinyobj::shape_t> shapes = parse(text, file);
-    check_names(text.remarks, shapes);
-    Scene scene{
-        .name = path.stem().string(), .materials = text.materials, .cameras = text.remarks.cameras};
-    for (const tinyobj::shape_t& shape : shapes) add_shape(scene, text, shape, file);
-    finish(scene, file);
-    return scene;
+    Account account(options.budget);
+    Files files(path, options.root, account);
+    Notes notes;
+    obj::Context context{files, account, notes};
+    const obj::Text text = obj::read_text(file, context);
+    check_names(text);
+    Builder builder{.file = file, .text = text, .context = context};
+    builder.scene = {.name = path.stem().string(),
+                     .materials = text.materials,
+                     .cameras = text.remarks.cameras,
+                     .files = files.found()};
+    for (std::size_t i = 0; i < text.shapes.size(); ++i) {
+        const bool is_last = i + 1 == text.shapes.size();
+        builder.add_shape(text.shapes[i].name, text.shapes[i].first,
+                          is_last ? text.faces.size() : text.shapes[i + 1].first);
+    }
+    finish(builder.scene, file, notes);
+    return std::move(builder.scene);
 }
 
 } // namespace catoptric::scene

@@ -1,4 +1,4 @@
-#include "core/error.hpp"
+#include "core/text.hpp"
 #include "scene/number.hpp"
 #include "scene/obj_text.hpp"
 
@@ -9,6 +9,7 @@ namespace catoptric::scene::obj {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\v\f";
+constexpr std::size_t kMostWords = 4096; // nothing that is kept as words has more
 
 std::string_view trimmed(std::string_view text) {
     const std::size_t first = text.find_first_not_of(kSpace);
@@ -16,7 +17,26 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kSpace) + 1 - first);
 }
 
-/// Takes the first word off the front of `text`.
+/// Takes one line off the front of `text`. Where it goes on after a backslash, all of it is put
+/// together in `joined`.
+std::string_view take_line(std::string_view& text, std::size_t& number, std::string& joined) {
+    joined.clear();
+    while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        std::string_view part = trimmed(text.substr(0, end));
+        text.remove_prefix(end == text.npos ? text.size() : end + 1);
+        ++number;
+        const bool goes_on = part.ends_with('\\');
+        if (!goes_on && joined.empty()) return part;
+        if (goes_on) part.remove_suffix(1);
+        joined.append(part).append(" ");
+        if (!goes_on) break;
+    }
+    return joined;
+}
+
+} // namespace
+
 std::string_view take_word(std::string_view& text) {
     text = trimmed(text);
     const std::string_view word = text.substr(0, text.find_first_of(kSpace));
@@ -24,57 +44,79 @@ std::string_view take_word(std::string_view& text) {
     return word;
 }
 
-/// Takes one line off the front of `text`, joined with those that follow a backslash.
-std::string take_line(std::string_view& text, std::size_t& number) {
-    std::string line;
-    while (!text.empty()) {
-        const std::size_t end = text.find('\n');
-        const std::string_view part = text.substr(0, end);
-        text.remove_prefix(end == text.npos ? text.size() : end + 1);
-        ++number;
-        line += trimmed(part);
-        if (!line.ends_with('\\')) break;
-        line.back() = ' ';
-    }
-    return line;
-}
-
-} // namespace
-
 void for_each_line(const std::string& file, std::string_view text,
                    const std::function<void(const Line&)>& body) {
+    std::string joined, remark;
     for (std::size_t number = 0; !text.empty();) {
         const std::size_t first = number + 1;
-        const std::string content = take_line(text, number);
-        std::string_view rest = content;
-        std::string keyword(take_word(rest));
-        if (keyword == "#" && take_word(rest) == "catoptric" && !rest.empty())
-            keyword += take_word(rest);
-        else if (keyword.empty() || keyword.front() == '#')
+        std::string_view rest = take_line(text, number, joined);
+        std::string_view keyword = take_word(rest);
+        if (keyword == "#" && take_word(rest) == "catoptric" && !rest.empty()) {
+            remark = "#";
+            remark += take_word(rest);
+            keyword = remark;
+        } else if (keyword.empty() || keyword.front() == '#') {
             continue;
-        body({.where = file + ":" + std::to_string(first), .keyword = keyword, .rest = rest});
+        }
+        body({.file = &file, .number = first, .keyword = keyword, .rest = rest});
     }
 }
 
 std::vector<std::string_view> words(const Line& line) {
     std::vector<std::string_view> list;
     std::string_view rest = line.rest;
-    while (!rest.empty() && rest.front() != '#') list.push_back(take_word(rest));
+    while (!rest.empty() && rest.front() != '#' && list.size() < kMostWords)
+        list.push_back(take_word(rest));
     return list;
+}
+
+std::size_t count_words(std::string_view text) {
+    std::size_t count = 0;
+    for (; !text.empty() && text.front() != '#'; ++count) take_word(text);
+    return count;
+}
+
+double number_of(const Line& line, std::string_view word) {
+    if (const std::optional<double> number = parse_number(word)) return *number;
+    fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants finite numbers, found ",
+         in_quotes(word));
 }
 
 std::vector<double> numbers(const Line& line, const std::vector<std::string_view>& words,
                             std::size_t first, std::size_t count) {
-    check(words.size() >= first + count, Failure::bad_data, line.where, ": '", line.keyword,
-          "' wants ", count, " numbers, found ", words.size() - std::min(first, words.size()));
+    if (words.size() < first + count)
+        fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants ", count,
+             " numbers, found ", words.size() - std::min(first, words.size()));
     std::vector<double> list;
-    for (std::size_t i = first; i < first + count; ++i) {
-        const std::optional<double> number = parse_number(words[i]);
-        check(number.has_value(), Failure::bad_data, line.where, ": '", line.keyword,
-              "' wants finite numbers, found '", words[i], "'");
-        list.push_back(*number);
-    }
+    for (std::size_t i = first; i < first + count; ++i) list.push_back(number_of(line, words[i]));
     return list;
+}
+
+void Unread::add(const Line& line) {
+    auto at = counts_.find(line.keyword);
+    if (at == counts_.end())
+        at = counts_.try_emplace(counts_.size() < 40 ? std::string(line.keyword) : "", Count())
+                 .first;
+    if (at->second.lines++ == 0) at->second.first = line.number;
+}
+
+void Unread::tell(const std::string& file, Notes& notes) const {
+    for (const auto& [keyword, count] : counts_)
+        notes.add(keyword.empty() ? "other statements, not read"
+                                  : "statements " + in_quotes(keyword) + ", not read",
+                  file + ":" + std::to_string(count.first), count.lines);
+}
+
+dvec3 vector_of(const Line& line) {
+    dvec3 vector(0);
+    std::string_view rest = line.rest;
+    for (int i = 0; i < 3; ++i) {
+        if (rest.empty() || rest.front() == '#')
+            fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants 3 numbers, found ",
+                 i);
+        vector[i] = number_of(line, take_word(rest));
+    }
+    return vector;
 }
 
 } // namespace catoptric::scene::obj

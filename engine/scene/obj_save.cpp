@@ -43,8 +43,9 @@ std::string motion_text(const Harmonic& motion) {
     return "harmonic " + text_of(motion.amplitude) + " " + number_text(motion.period);
 }
 
-std::string motion_text(const Keyframes& keys) {
-    using enum Keyframes::Interpolation;
+std::string motion_text(const Keyframes& frames) {
+    using enum Keys::Interpolation;
+    const Keys keys = in_the_world(frames);
     const bool is_cubic = keys.interpolation == cubic;
     std::string text = is_cubic ? "cubic " : keys.interpolation == linear ? "linear " : "step ";
     text += std::to_string(keys.times.size());

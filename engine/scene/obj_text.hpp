@@ -1,10 +1,14 @@
 #pragma once
 
+#include "scene/files.hpp"
+#include "scene/notes.hpp"
 #include "scene/scene.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +17,10 @@ namespace catoptric::scene::obj {
 
 /// A line that says something. The views end with the call that gets it.
 struct Line {
-    std::string where;        ///< "file:number", for messages
+    std::string where() const { return *file + ":" + std::to_string(number); }
+
+    const std::string* file;
+    std::size_t number;
     std::string_view keyword; ///< first word; "#word" for a `# catoptric word` comment
     std::string_view rest;    ///< everything after it, trimmed
 };
@@ -23,15 +30,49 @@ struct Line {
 void for_each_line(const std::string& file, std::string_view text,
                    const std::function<void(const Line&)>& body);
 
-/// The words of `line.rest`, up to a comment.
+/// Takes the first word off the front of `text`.
+std::string_view take_word(std::string_view& text);
+
+/// The words of `line.rest` up to a comment, at most 4096 of them.
 std::vector<std::string_view> words(const Line& line);
+/// How many words there are up to a comment.
+std::size_t count_words(std::string_view text);
+
+/// The finite number that a word is. Throws `bad_data` naming the line.
+double number_of(const Line& line, std::string_view word);
 
 /// Words [first, first + count) as finite numbers. Throws `bad_data` naming the line.
 std::vector<double> numbers(const Line& line, const std::vector<std::string_view>& words,
                             std::size_t first, std::size_t count);
 
-/// The materials of one .mtl file, in file order (mirror = illum 3 with Ks, light = Ke).
-std::vector<Material> read_materials(const std::filesystem::path& path);
+/// The first three words as finite numbers. Throws as `numbers`.
+dvec3 vector_of(const Line& line);
+
+/// Statements that are not read, counted by keyword.
+class Unread {
+public:
+    void add(const Line& line);
+    /// As notes; what comes after 40 keywords together.
+    void tell(const std::string& file, Notes& notes) const;
+
+private:
+    struct Count {
+        std::uint64_t lines = 0;
+        std::size_t first = 0;
+    };
+    std::map<std::string, Count, std::less<>> counts_;
+};
+
+/// What reading needs beside the text.
+struct Context {
+    Files& files;
+    Account& account;
+    Notes& notes;
+};
+
+/// Appends the materials of one .mtl file, in file order (mirror = illum 3 with Ks, light = Ke).
+void read_materials(const std::filesystem::path& real, const std::string& place, Context& context,
+                    std::vector<Material>& materials);
 
 /// What the `# catoptric` comments say about objects, by name:
 ///   # catoptric camera NAME ex ey ez tx ty tz ux uy uz fov
@@ -49,19 +90,49 @@ struct Remarks {
 };
 
 /// Adds one comment line. Throws `bad_data` naming it for one that cannot be understood.
-void add_remark(Remarks& remarks, const Line& line);
+void add_remark(Remarks& remarks, const Line& line, Account& account);
 
-/// What our own scan of an .obj file finds.
+/// The file that a map statement of a material names, after its options.
+std::string map_file(const Line& line);
+
+/// A corner of a face: numbers from 0.
+struct Corner {
+    std::uint32_t position;
+    std::uint32_t normal; ///< `kNoNormal`: none
+};
+inline constexpr std::uint32_t kNoNormal = ~0u;
+
+/// Corners [first, the next face's first).
+struct Face {
+    std::uint32_t first;
+    std::uint32_t material; ///< `kNoMaterial`: none
+};
+inline constexpr std::uint32_t kNoMaterial = ~0u;
+
+/// Faces [first, the next shape's first) of an `o` or `g`; there may be none.
+struct Shape {
+    std::string name;
+    std::size_t first = 0;
+};
+
+/// An .obj file as it stands, every index in range.
 struct Text {
-    /// Nothing but `o`, `g`, `v`, `usemtl INDEX`, and `f` with absolute indices v or v//vn that
-    /// exist: what is left for a parser to do is grouping and cutting polygons.
-    std::string statements;
-    std::vector<dvec3> positions, normals; ///< exact, unlike a parser's floats
-    std::vector<Material> materials;       ///< of all libraries
+    std::vector<dvec3> positions, normals;
+    std::vector<Corner> corners;
+    std::vector<Face> faces;
+    std::vector<Shape> shapes{1};    ///< in file order, beginning with one without a name
+    std::vector<Material> materials; ///< of all libraries
     Remarks remarks;
 };
 
-/// Throws `missing_input` for the file or a material library, `bad_data` with file and line.
-Text read_text(const std::filesystem::path& path);
+/// Throws `missing_input` for a material library, `bad_data` with file and line.
+Text read_text(const std::string& file, Context& context);
+
+/// Cuts a polygon into triangles and appends their corners: a convex quad along its shorter
+/// diagonal, other convex ones into a fan, concave ones by their ears. At most corners - 2.
+/// `comparisons` counts the work, which may grow with the cube of the corners; it throws `bad_data`
+/// naming `place` over the budget.
+void cut(std::span<const Corner> polygon, const std::vector<dvec3>& positions, Total& comparisons,
+         const std::string& place, std::vector<Corner>& triangles);
 
 } // namespace catoptric::scene::obj

@@ -1,6 +1,7 @@
 #include "scene/repair.hpp"
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "scene/core.hpp"
 #include "scene/transform.hpp"
 
@@ -11,11 +12,6 @@
 namespace catoptric::scene {
 
 namespace {
-
-template <typename Vector>
-bool is_finite(const Vector& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// Along the normal, of any length; zero where the triangle has no area. Edges are scaled first, so
 /// that no size of a triangle over- or underflows.
@@ -41,6 +37,9 @@ std::size_t drop_flat_triangles(Mesh& mesh) {
 void complete_normals(Mesh& mesh) {
     mesh.normals.resize(mesh.positions.size(), vec3(0));
     for (vec3& normal : mesh.normals) normal = vec3(normalized_or_zero(dvec3(normal)));
+    const std::size_t missing = corners_without_normal(mesh);
+    mesh.positions.reserve(mesh.positions.size() + missing);
+    mesh.normals.reserve(mesh.normals.size() + missing);
     for (uvec3& triangle : mesh.triangles) {
         const vec3 geometric(normal_of(mesh, triangle));
         for (int corner = 0; corner < 3; ++corner) {
@@ -81,20 +80,12 @@ bool has_area(const Scene& scene, const Object& object) {
 
 } // namespace
 
-void check_mesh(const Mesh& mesh, const std::string& place) {
-    const std::size_t count = mesh.positions.size();
-    check(mesh.normals.empty() || mesh.normals.size() == count, Failure::bad_data, place,
-          ": wanted ", count, " normals, one for each position, found ", mesh.normals.size());
-    for (std::size_t i = 0; i < count; ++i)
-        check(is_finite(mesh.positions[i]), Failure::bad_data, place, ": vertex ", i,
-              ": wanted finite coordinates, found NaN or infinity");
-    for (std::size_t i = 0; i < mesh.normals.size(); ++i)
-        check(is_finite(mesh.normals[i]), Failure::bad_data, place, ": normal ", i,
-              ": wanted finite coordinates, found NaN or infinity");
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+std::size_t corners_without_normal(const Mesh& mesh) {
+    std::size_t count = 0;
+    for (const uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner)
-            check(mesh.triangles[i][corner] < count, Failure::bad_data, place, ": triangle ", i,
-                  ": wanted indices below ", count, ", found ", mesh.triangles[i][corner]);
+            count += normalized_or_zero(dvec3(mesh.normals[triangle[corner]])) == dvec3(0);
+    return count;
 }
 
 std::size_t repair(Mesh& mesh) {
@@ -108,23 +99,26 @@ bool is_radiance(const vec3& emission) {
     return is_finite(emission) && glm::all(glm::greaterThanEqual(emission, vec3(0)));
 }
 
-void finish(Scene& scene, const std::string& file) {
+void finish(Scene& scene, const std::string& file, Notes& notes) {
     for (const Object& object : scene.objects)
         for (const dvec3& position : scene.meshes[object.mesh].positions)
             check(is_finite(transform_point(object.world_from_object, position)), Failure::bad_data,
-                  file, ": object '", object.name,
-                  "': wanted finite world coordinates, found an overflow");
+                  file, ": object ", in_quotes(object.name),
+                  ": wanted finite world coordinates, found an overflow");
     std::erase_if(scene.objects, [&](const Object& object) {
         if (has_area(scene, object)) return false;
-        scene.warnings.push_back(file + ": object '" + object.name +
-                                 "' has no triangle with an area and is left out");
+        notes.add("objects that have no triangle with an area, left out", in_quotes(object.name));
         return true;
     });
     for (const std::string& name : leave_out_unreachable(scene))
-        scene.warnings.push_back(file + ": object '" + name +
-                                 "' is farther away than floats reach and is left out");
+        notes.add("objects farther away than floats reach, left out", in_quotes(name));
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none");
+    scene.warnings = notes.lines(file);
+    const bool is_lit = std::ranges::any_of(scene.objects, [&](const Object& object) {
+        return scene.materials[object.material].emission != vec3(0);
+    });
+    if (!is_lit) scene.warnings.push_back(file + ": no light: ambient only");
 }
 
 } // namespace catoptric::scene

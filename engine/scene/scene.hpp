@@ -2,6 +2,8 @@
 
 #include "core/math.hpp"
 
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -34,13 +36,20 @@ struct Harmonic {
     double period = 1; ///< seconds, > 0
 };
 
-/// World-space translation through keys, cubic Hermite as glTF's CUBICSPLINE (or linear or step),
-/// relative to the object's place at rest; repeats after the last key.
-struct Keyframes {
+/// Places in time, cubic Hermite as glTF's CUBICSPLINE (or linear or step).
+struct Keys {
     enum class Interpolation { step, linear, cubic } interpolation = Interpolation::linear;
     std::vector<double> times; ///< seconds, increasing
     std::vector<dvec3> values;
     std::vector<dvec3> in_tangents, out_tangents; ///< only with `cubic`
+};
+
+/// World-space translation through keys, world_from_keys * (place - rest), relative to the object's
+/// place at rest; repeats after the last key. Objects share the keys that they follow.
+struct Keyframes {
+    std::shared_ptr<const Keys> keys; ///< none, or without a time: stands still
+    dmat3 world_from_keys{1};
+    dvec3 rest{0};
 };
 
 using Motion = std::variant<std::monostate, Harmonic, Keyframes>;
@@ -86,7 +95,13 @@ struct Scene {
     std::vector<Object> objects;
     std::vector<Camera> cameras;
     std::vector<std::string> warnings; ///< what the loader left out or repaired, for the user
+    /// Real paths of the files that it was loaded from, the scene's own first, also of those that
+    /// it names without their being read. Nothing else may be written there.
+    std::vector<std::filesystem::path> files;
 };
+
+/// The keys with their places and tangents as the world has them, relative to the object's rest.
+Keys in_the_world(const Keyframes& motion);
 
 /// The scene as it stands `seconds` after its start: every motion applied to the transforms (and
 /// to the exact spheres), none left. Pure. A time that is not finite is `Failure::usage`.
@@ -116,7 +131,7 @@ std::size_t triangle_count(const Scene& scene);
 Camera default_camera(const Scene& scene);
 
 /// 64-bit FNV-1a over names, geometry, materials, motion and cameras as 16 hex digits. The scene's
-/// own name and its warnings do not count: a copied file has the same hash.
+/// own name, its warnings and its files do not count: a copied file has the same hash.
 std::string hash(const Scene& scene);
 
 } // namespace catoptric::scene

@@ -10,6 +10,11 @@ inline dvec3 transform_point(const dmat4& world_from_object, const dvec3& point)
     return dvec3(world_from_object * dvec4(point, 1));
 }
 
+template <typename Vector>
+bool is_finite(const Vector& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
 /// What normals are multiplied with: the inverse transpose times |determinant|, so it exists for a
 /// singular matrix too. The result is not normalised.
 inline dmat3 normal_matrix(const dmat4& world_from_object) {

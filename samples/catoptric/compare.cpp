@@ -64,7 +64,7 @@ void check_places(const Options& options, const app::Request& request) {
     std::vector<std::filesystem::path> outputs{kStdout};
     for (const std::filesystem::path& file : report::files_of(images))
         outputs.push_back(std::filesystem::path(options.folder) / file);
-    check_apart(outputs, input_files(request.scene, options.common.scene));
+    check_apart(outputs, request.scene.files);
 }
 
 /// Labels of the rows with pixels that are NaN or infinite.

@@ -43,7 +43,7 @@ int run(const Options& options) {
     const app::PlanFormat format = format_of(options);
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
-    check_apart({kStdout}, input_files(request.scene, options.common.scene));
+    check_apart({kStdout}, request.scene.files);
     app::Engine engine(engine_options(options.common));
     std::string plan = engine.plan(request, format);
     if (!plan.ends_with('\n')) plan += '\n';

@@ -11,7 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string written(const Json& document) {
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 Json to_json(const dvec3& v) { return {v.x, v.y, v.z}; }

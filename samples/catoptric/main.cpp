@@ -2,6 +2,7 @@
 #include "app/engine.hpp"
 #include "core/error.hpp"
 #include "core/knob.hpp"
+#include "core/text.hpp"
 #include "output.hpp"
 #include "parse.hpp"
 #include "verbs.hpp"
@@ -27,7 +28,7 @@ Exit codes: 0 ok; 1 over a threshold; 2 usage; 65 bad input; 66 input missing; 6
 76 device lost; 129, 130, 143 stopped by a signal (rows so far are kept, after 75 and 76 too))";
 
 void say(const std::string& message) {
-    if (!message.empty()) std::cerr << "catoptric: " << message << std::endl;
+    if (!message.empty()) std::cerr << "catoptric: " << printable(message, "\n") << std::endl;
 }
 
 /// The first word is a verb, or asks for help or the version.

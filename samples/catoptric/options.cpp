@@ -3,6 +3,7 @@
 #include "app/seeded_camera.hpp"
 #include "core/error.hpp"
 #include "core/knob.hpp"
+#include "core/text.hpp"
 #include "parse.hpp"
 
 #include <algorithm>
@@ -47,6 +48,12 @@ void take_model(const std::string& text) {
 }
 
 void add_choices(CLI::App& verb, Common& common) {
+    add_text(verb, "--root", "DIR",
+             "the files that SCENE names may lie below DIR too (below the scene's own folder)",
+             [&](const std::string& text) {
+                 check(!text.empty(), Failure::usage, "--root: wanted a folder, found ''");
+                 common.root = text;
+             });
     add_text(verb, "--camera", "C",
              "name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV, or seeded: drawn from --seed, a mirror in "
              "view (the file's first)",
@@ -71,9 +78,12 @@ void add_choices(CLI::App& verb, Common& common) {
 }
 
 std::string camera_list(const scene::Scene& scene) {
+    constexpr std::size_t kMostListed = 20;
+    const std::size_t count = scene.cameras.size();
     std::string list;
-    for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-        list += (i ? ", " : "") + std::to_string(i) + " '" + scene.cameras[i].name + "'";
+    for (std::size_t i = 0; i < std::min(count, kMostListed); ++i)
+        list += (i ? ", " : "") + std::to_string(i) + " " + in_quotes(scene.cameras[i].name);
+    if (count > kMostListed) list += " and " + std::to_string(count - kMostListed) + " more";
     return list.empty() ? "none" : list;
 }
 
@@ -182,7 +192,7 @@ app::Request make_request(const Common& common,
                           const std::function<void(const scene::Scene&)>& check) {
     app::Request request;
     request.seed = common.seed;
-    request.scene = scene::load(common.scene);
+    request.scene = scene::load(common.scene, {.root = common.root});
     if (check) check(request.scene);
     for (const std::string& warning : request.scene.warnings) warn(warning);
     request.camera = choose_camera(common, request.scene);

@@ -16,6 +16,7 @@ namespace catoptric::cli {
 struct Common {
     Manners manners;
     std::string scene = "cornell-mirrors";
+    std::string root; ///< files of the scene may lie below it too; empty: none
     uvec2 size{512, 512};
     std::optional<int> frames; ///< 20 unless the user says otherwise
     std::optional<int> warmup; ///< 8

@@ -1,5 +1,8 @@
 #include "output.hpp"
 
+#include "core/error.hpp"
+#include "core/text.hpp"
+
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -15,8 +18,8 @@ namespace fs = std::filesystem;
 namespace {
 
 void line(const std::string& text) {
-    const std::string whole = text + "\n";
-    std::fwrite(whole.data(), 1, whole.size(), stderr); // nobody is left to tell of a failure
+    const std::string whole = printable(text, "\n") + "\n"; // it may quote a file or a name
+    std::fwrite(whole.data(), 1, whole.size(), stderr);     // nobody is left to tell of a failure
 }
 
 void check_writable(const fs::path& folder, const fs::path& path) {

@@ -3,10 +3,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <map>
-#include <sstream>
 #include <utility>
 
 #include <sys/stat.h>
@@ -47,27 +44,6 @@ private:
 };
 
 } // namespace
-
-std::vector<fs::path> input_files(const scene::Scene&, const std::string& name) {
-    const fs::path path = name;
-    if (!path.has_extension()) return {}; // built in
-    std::vector<fs::path> files{path};
-    const auto add = [&](const std::string& beside) {
-        files.push_back(path.parent_path() / beside);
-    };
-    if (path.extension() == ".gltf") {
-        const auto document = nlohmann::json::parse(read_file(path));
-        for (const char* list : {"buffers", "images"})
-            for (const auto& item : document.value(list, nlohmann::json::array()))
-                if (item.contains("uri")) add(item["uri"]);
-    } else if (path.extension() == ".obj") {
-        std::istringstream lines(read_file(path));
-        for (std::string line, file; std::getline(lines, line);)
-            if (std::istringstream words(line); words >> file && file == "mtllib")
-                while (words >> file) add(file);
-    }
-    return files;
-}
 
 void check_apart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
     Files files;

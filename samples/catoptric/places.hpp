@@ -1,17 +1,10 @@
 #pragma once
 
-#include "scene/scene.hpp"
-
 #include <filesystem>
-#include <string>
 #include <vector>
 
 // What a verb reads and what it writes, before anything is rendered.
 namespace catoptric::cli {
-
-/// The files that `scene`, which was called `name` on the command line, was read from. None for a
-/// built-in one.
-std::vector<std::filesystem::path> input_files(const scene::Scene& scene, const std::string& name);
 
 /// Stdout as an output among others: where it leads to a file, that must be no other one.
 inline const std::filesystem::path kStdout = "/dev/stdout";

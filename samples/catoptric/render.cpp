@@ -60,7 +60,7 @@ void check_places(const Options& options, const scene::Scene& scene) {
     if (is_stdout(options) || options.common.manners.json) outputs.push_back(kStdout);
     if (!is_stdout(options)) outputs.push_back(options.output);
     if (!options.trace.empty()) outputs.push_back(options.trace);
-    check_apart(outputs, input_files(scene, options.common.scene));
+    check_apart(outputs, scene.files);
 }
 
 /// A picture, no measurement: nothing asks for times or for a certain number of frames.

@@ -1,5 +1,7 @@
 #include "table.hpp"
 
+#include "core/text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,7 +50,7 @@ std::string compare_table(const report::Comparison& comparison) {
                         milliseconds(row.gpu_ms.median), spread(row.gpu_ms), figure(row.error.rmse),
                         figure(row.error.flip), figure(row.mean_clamped.all)});
     return fmt::format("{} {}x{}, {} frames after {}, {}; errors on mirrors, against {}\n",
-                       comparison.scene.name, comparison.width, comparison.height,
+                       printable(comparison.scene.name), comparison.width, comparison.height,
                        comparison.frames, comparison.warmup, comparison.device.name,
                        comparison.reference_label) +
            aligned(rows);

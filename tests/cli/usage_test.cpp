@@ -26,9 +26,9 @@ TEST_F(Cli, HelpOfEveryVerbHasExamples) {
 TEST_F(Cli, HelpNamesEveryCommonOption) {
     const std::string help = cli({"render", "--help"}).out;
     for (const char* option :
-         {"--size", "--frames", "--warmup", "--time", "--animate", "--camera", "--seed",
-          "--ambient", "--exposure", "--model", "--reference", "--device", "--timing", "--validate",
-          "--json", "--quiet", "-v", "--progress", "--help"})
+         {"--size",     "--frames",  "--warmup",   "--time",  "--animate",   "--root",   "--camera",
+          "--seed",     "--ambient", "--exposure", "--model", "--reference", "--device", "--timing",
+          "--validate", "--json",    "--quiet",    "-v",      "--progress",  "--help"})
         EXPECT_THAT(help, testing::HasSubstr(option));
 }
 

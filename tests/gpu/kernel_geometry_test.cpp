@@ -32,7 +32,6 @@ std::vector<bvh::Triangle> loaded(const std::vector<bvh::Triangle>& triangles,
         mesh.positions.insert(mesh.positions.end(), {dvec3(t.a), dvec3(t.b), dvec3(t.c)});
         mesh.triangles.push_back({first, first + 1, first + 2});
     }
-    scene::check_mesh(mesh, "bits");
     dropped += scene::repair(mesh);
     for (const vec3& normal : mesh.normals) EXPECT_TRUE(f32::is_finite(normal));
     std::vector<bvh::Triangle> result;

@@ -85,7 +85,9 @@ Ended run_process(const Start& start) {
     ended.err = read_all(err[0], start.signal_at, send);
     reader.join();
     int status = 0;
-    ::waitpid(child, &status, 0);
+    rusage usage{};
+    ::wait4(child, &status, 0, &usage);
+    ended.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
     ended.seconds = seconds_since(begin);
     if (signalled != begin) ended.seconds_after_signal = seconds_since(signalled);
     ended.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

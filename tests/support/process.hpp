@@ -14,6 +14,7 @@ struct Ended {
     int exit_code = -1; ///< 128 + n when signal n killed it
     std::string out, err;
     double seconds = 0;              ///< from its start to its end
+    std::uint64_t peak_bytes = 0;    ///< most memory that was resident
     double seconds_after_signal = 0; ///< from the signal that was sent, if one was
 };
 

@@ -118,11 +118,12 @@ TEST(Core, WhatFloatsCannotReachIsNamed) {
         EXPECT_THAT(error.what(), testing::HasSubstr("object 'beyond': wanted every corner within "
                                                      "1e+18 sizes of the scene's core"));
     }
-    scene::finish(scene, "file.obj"); // a file is read without it
+    scene::Notes notes;
+    scene::finish(scene, "file.obj", notes); // a file is read without it
     EXPECT_EQ(scene.objects.size(), objects + 1);
     EXPECT_THAT(scene.warnings,
-                testing::ElementsAre("file.obj: object 'beyond' is farther away than floats reach "
-                                     "and is left out"));
+                testing::ElementsAre("file.obj: objects farther away than floats reach, left out: "
+                                     "1 (first: 'beyond')"));
     render::make_geometry(scene, render::space_of(scene));
 }
 

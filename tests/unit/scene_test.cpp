@@ -172,27 +172,28 @@ TEST(Motion, BallFourGoesUpAndDown) {
 TEST(Motion, PeriodIsTheLongest) {
     Scene scene = cornell_mirrors();
     EXPECT_EQ(period(scene), 4);
-    scene.objects[0].motion = Keyframes{.times = {1, 5.5}, .values = {{0, 0, 0}, {1, 0, 0}}};
+    const Keys keys{.times = {1, 5.5}, .values = {{0, 0, 0}, {1, 0, 0}}};
+    scene.objects[0].motion = Keyframes{std::make_shared<const Keys>(keys)};
     EXPECT_EQ(period(scene), 5.5);
     scene.objects[1].motion = Keyframes{};
     EXPECT_EQ(period(scene), 5.5);
     EXPECT_EQ(period(at(scene, 1)), 0) << "nothing moves any more";
 }
 
-dvec3 moved(const Keyframes& keys, double seconds) {
+dvec3 moved(const Keys& keys, double seconds) {
     Scene scene = glowing(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}));
-    scene.objects[0].motion = keys;
+    scene.objects[0].motion = Keyframes{std::make_shared<const Keys>(keys)};
     return dvec3(at(scene, seconds).objects[0].world_from_object[3]);
 }
 
 TEST(Motion, KeyframesStepLinearAndRepeat) {
-    Keyframes keys{.times = {1, 2, 4}, .values = {{0, 0, 0}, {2, 0, 0}, {6, 1, 0}}};
+    Keys keys{.times = {1, 2, 4}, .values = {{0, 0, 0}, {2, 0, 0}, {6, 1, 0}}};
     EXPECT_EQ(moved(keys, 0.5), dvec3(0)); // before the first key
     EXPECT_EQ(moved(keys, 1.5), dvec3(1, 0, 0));
     EXPECT_EQ(moved(keys, 3), dvec3(4, 0.5, 0));
     EXPECT_EQ(moved(keys, 4), dvec3(6, 1, 0));   // the end itself
     EXPECT_EQ(moved(keys, 5.5), dvec3(1, 0, 0)); // 4 s later, again
-    keys.interpolation = Keyframes::Interpolation::step;
+    keys.interpolation = Keys::Interpolation::step;
     EXPECT_EQ(moved(keys, 1.99), dvec3(0));
     EXPECT_EQ(moved(keys, 2), dvec3(2, 0, 0));
 }
@@ -200,7 +201,7 @@ TEST(Motion, KeyframesStepLinearAndRepeat) {
 TEST(Motion, CubicKeysReproduceACubic) {
     // p(t) = t^3 - 2 t has tangents 3 t^2 - 2; a Hermite spline is exact for it
     const auto p = [](double t) { return dvec3(t * t * t - 2 * t, 0, 0); };
-    Keyframes keys{.interpolation = Keyframes::Interpolation::cubic};
+    Keys keys{.interpolation = Keys::Interpolation::cubic};
     for (const double t : {0.0, 0.5, 2.0}) {
         keys.times.push_back(t);
         keys.values.push_back(p(t));

@@ -1,0 +1,133 @@
+#include "scene/gltf_container.hpp"
+
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <utility>
+
+namespace catoptric::scene::gltf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kExtensions[] = {"KHR_materials_emissive_strength"};
+constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+
+struct Chunks {
+    std::string_view json;
+    std::string_view binary; ///< empty: none
+};
+
+std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
+    std::uint32_t word = 0; // glTF and every machine that we run on are little-endian
+    std::memcpy(&word, bytes.data() + offset, sizeof word);
+    return word;
+}
+
+/// The JSON and the first binary chunk of a GLB; of a .gltf the whole text.
+Chunks chunks_of(const std::string& file, std::string_view bytes) {
+    if (!bytes.starts_with("glTF")) return {bytes, {}};
+    check(bytes.size() >= 20, Failure::bad_data, file, ": header: wanted 20 bytes, found ",
+          bytes.size());
+    check(word_at(bytes, 4) == 2, Failure::bad_data, file, ": header: wanted GLB version 2, found ",
+          word_at(bytes, 4));
+    check(word_at(bytes, 8) == bytes.size(), Failure::bad_data, file, ": header: wanted ",
+          word_at(bytes, 8), " bytes, found ", bytes.size());
+    const std::uint32_t length = word_at(bytes, 12);
+    check(word_at(bytes, 16) == kJsonChunk && length <= bytes.size() - 20, Failure::bad_data, file,
+          ": first chunk: wanted JSON of at most ", bytes.size() - 20, " bytes, found ", length);
+    const std::string_view rest = bytes.substr(20 + length);
+    if (rest.size() < 8 || word_at(rest, 4) != kBinaryChunk) return {bytes.substr(20, length), {}};
+    const std::uint32_t binary = word_at(rest, 0);
+    check(binary <= rest.size() - 8, Failure::bad_data, file, ": second chunk: wanted at most ",
+          rest.size() - 8, " bytes, found ", binary);
+    return {bytes.substr(20, length), rest.substr(8, binary)};
+}
+
+void check_version(const Item& root) {
+    const std::optional<Item> asset = root.object("asset");
+    const Json* version = asset ? asset->find("version") : nullptr;
+    root.require(version && version->is_string() &&
+                     version->get_ref<const std::string&>().starts_with("2."),
+                 "asset.version: wanted \"2.0\", found ", version ? shown(*version) : "null");
+}
+
+void check_extensions(const Item& root) {
+    const Json* required = root.find("extensionsRequired");
+    if (required == nullptr) return;
+    root.require(required->is_array(), "extensionsRequired: wanted an array, found ",
+                 shown(*required));
+    for (const Json& extension : *required) {
+        const bool known = extension.is_string() &&
+                           std::ranges::find(kExtensions,
+                                             extension.get_ref<const std::string&>()) !=
+                               std::end(kExtensions);
+        root.require(known,
+                     "extensionsRequired: wanted none but KHR_materials_emissive_strength, found ",
+                     shown(extension));
+    }
+}
+
+/// Each file is read once, however many buffers lie in it.
+class Buffers {
+public:
+    Buffers(Container& container, Files& files, std::string_view binary)
+        : container_(container), files_(files), binary_(binary) {}
+
+    void add(const Item& buffer) {
+        const std::string_view bytes = bytes_of(buffer);
+        const std::uint64_t length = buffer.whole("byteLength", 0);
+        buffer.require(length >= 1 && length <= bytes.size(), "byteLength: wanted 1 to ",
+                       bytes.size(), ", the bytes that are there, found ", length);
+        container_.buffers.push_back(bytes.substr(0, length));
+    }
+
+private:
+    std::string_view bytes_of(const Item& buffer) {
+        if (!buffer.has("uri")) {
+            buffer.require(
+                buffer.number_in_list() == 0 && !binary_.empty(),
+                "wanted a uri, or a GLB's binary chunk and the first place, found neither");
+            return binary_;
+        }
+        const std::string uri = buffer.text("uri");
+        if (is_data_uri(uri)) return keep(data_of(uri, buffer.place()));
+        const fs::path real = files_.get(file_name_of(uri, buffer.place()), buffer.place());
+        const auto [entry, is_new] = read_.try_emplace(real);
+        if (is_new) entry->second = keep(files_.read(real, buffer.place()));
+        return entry->second;
+    }
+    std::string_view keep(std::string bytes) {
+        container_.owners.push_back(std::make_shared<const std::string>(std::move(bytes)));
+        return *container_.owners.back();
+    }
+
+    Container& container_;
+    Files& files_;
+    std::string_view binary_;
+    std::map<fs::path, std::string_view> read_;
+};
+
+} // namespace
+
+Container read_container(const std::string& file, Files& files, Account& account) {
+    Container container;
+    auto bytes = std::make_shared<const std::string>(files.read_scene());
+    const Chunks chunks = chunks_of(file, *bytes);
+    container.document = parse_json(file, chunks.json, account);
+    const Item root(container.document, file);
+    check(container.document.is_object(), Failure::bad_data, file,
+          ": JSON: wanted an object, found ", shown(container.document));
+    check_version(root);
+    check_extensions(root);
+    if (!chunks.binary.empty()) container.owners.push_back(std::move(bytes));
+    Buffers buffers(container, files, chunks.binary);
+    root.each("buffers", [&](const Item& buffer) { buffers.add(buffer); });
+    return container;
+}
+
+} // namespace catoptric::scene::gltf

@@ -1,0 +1,198 @@
+#include "scene/json.hpp"
+
+#include "core/text.hpp"
+
+#include <cmath>
+
+namespace catoptric::scene::gltf {
+
+namespace {
+
+constexpr int kDeepest = 64;
+
+/// Goes over the text before anything is made of it, and adds up what its values will take in
+/// memory, at most, with what lists and maps keep around them.
+class Counter : public nlohmann::json_sax<Json> {
+public:
+    Counter(const std::string& file, Total& memory) : file_(file), memory_(memory) {}
+
+    bool null() override { return value(); }
+    bool boolean(bool) override { return value(); }
+    bool number_integer(number_integer_t) override { return value(); }
+    bool number_unsigned(number_unsigned_t) override { return value(); }
+    bool number_float(number_float_t, const string_t&) override { return value(); }
+    bool string(string_t& text) override { return value(32 + text.size()); }
+    bool binary(binary_t&) override { return value(); }
+    bool key(string_t& text) override { return value(64 + text.size()); }
+    bool start_object(std::size_t) override { return deeper(); }
+    bool start_array(std::size_t) override { return deeper(); }
+    bool end_object() override { return --depth_ >= 0; }
+    bool end_array() override { return --depth_ >= 0; }
+    bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
+        const std::string_view words = error.what(); // which may quote all of the text
+        fail(Failure::bad_data, file_, ": JSON: ", printable(words.substr(0, 200)),
+             words.size() > 200 ? "..." : "");
+    }
+
+private:
+    bool value(std::uint64_t more = 0) {
+        memory_.add(32 + more, file_);
+        return true;
+    }
+    bool deeper() {
+        check(++depth_ < kDeepest, Failure::bad_data, file_, ": JSON: wanted nesting below ",
+              kDeepest, ", found more");
+        return value(64);
+    }
+
+    const std::string& file_;
+    Total& memory_;
+    int depth_ = 0;
+};
+
+} // namespace
+
+Json parse_json(const std::string& file, std::string_view text, Account& account) {
+    account.json_bytes.add(text.size(), file);
+    Counter counter(file, account.json_memory);
+    Json::sax_parse(text, &counter);
+    return Json::parse(text);
+}
+
+std::string shown(const Json& value) {
+    if (value.is_array()) return "an array";
+    if (value.is_object()) return "an object";
+    if (!value.is_string()) return value.dump();
+    std::string text = in_quotes(value.get_ref<const std::string&>());
+    text[0] = '"';
+    text[text.rfind('\'')] = '"';
+    return text;
+}
+
+std::string Item::label(std::string_view before) const {
+    std::string text;
+    for (std::size_t i = 0; i < steps_; ++i) {
+        const auto& [key, index, json] = way_[i];
+        text += i == 0 ? before : std::string_view(": ");
+        text += key;
+        if (index) text += "[" + std::to_string(*index) + "]";
+        const auto name = json->find("name"); // of what is no object there is none
+        if (name != json->end() && name->is_string() && *name != "")
+            text += " " + in_quotes(name->get_ref<const std::string&>());
+    }
+    return text;
+}
+
+Item Item::to(const Step& step) const {
+    if (steps_ == kMostSteps) fail(Failure::internal, place(), ": ", step.key, ": lies too deep");
+    Item item = *this;
+    item.way_[item.steps_++] = step;
+    item.json_ = step.json;
+    return item;
+}
+
+const Json* Item::find(std::string_view key) const {
+    const auto at = json_->find(key);
+    return at == json_->end() ? nullptr : &*at;
+}
+
+std::optional<Item> Item::object(std::string_view key) const {
+    const Json* value = find(key);
+    if (value == nullptr) return std::nullopt;
+    require(value->is_object(), key, ": wanted an object, found ", shown(*value));
+    return to({key, std::nullopt, value});
+}
+
+const Json* Item::list(std::string_view key) const {
+    const Json* value = find(key);
+    if (value != nullptr)
+        require(value->is_array(), key, ": wanted an array, found ", shown(*value));
+    return value;
+}
+
+std::size_t Item::size(std::string_view key) const {
+    const Json* value = list(key);
+    return value == nullptr ? 0 : value->size();
+}
+
+Item Item::at(std::string_view key, std::size_t index) const {
+    const Json& value = (*list(key))[index];
+    const Item item = to({key, index, &value});
+    if (!value.is_object())
+        fail(Failure::bad_data, item.place(), ": wanted an object, found ", shown(value));
+    return item;
+}
+
+std::uint64_t Item::whole_of(const Json& value, std::string_view key) const {
+    constexpr double kMost = 9007199254740992; // 2^53: of a double, all whole numbers up to it
+    const double number = value.is_number_float() ? value.get<double>() : -1;
+    if (number >= 0 && number <= kMost && number == std::floor(number))
+        return static_cast<std::uint64_t>(number);
+    require(value.is_number_unsigned(), key, ": wanted a whole number of at least 0, found ",
+            shown(value));
+    return value.get<std::uint64_t>();
+}
+
+std::size_t Item::index_of(const Json& value, std::string_view key, std::size_t count) const {
+    const std::uint64_t index = whole_of(value, key);
+    require(index < count, key, ": wanted an index below ", count, ", found ", index);
+    return index;
+}
+
+std::optional<std::size_t> Item::index(std::string_view key, std::size_t count) const {
+    const Json* value = find(key);
+    return value == nullptr ? std::nullopt : std::optional(index_of(*value, key, count));
+}
+
+std::size_t Item::needed_index(std::string_view key, std::size_t count) const {
+    const std::optional<std::size_t> given = index(key, count);
+    require(given.has_value(), key, ": wanted an index, found none");
+    return *given;
+}
+
+std::vector<std::size_t> Item::indices(std::string_view key, std::size_t count) const {
+    std::vector<std::size_t> indices;
+    if (const Json* values = list(key))
+        for (const Json& value : *values) indices.push_back(index_of(value, key, count));
+    return indices;
+}
+
+std::uint64_t Item::whole(std::string_view key, std::uint64_t otherwise) const {
+    const Json* value = find(key);
+    return value == nullptr ? otherwise : whole_of(*value, key);
+}
+
+double Item::number(std::string_view key, double otherwise) const {
+    const Json* value = find(key);
+    if (value == nullptr) return otherwise;
+    require(value->is_number(), key, ": wanted a number, found ", shown(*value));
+    return value->get<double>();
+}
+
+bool Item::flag(std::string_view key, bool otherwise) const {
+    const Json* value = find(key);
+    if (value == nullptr) return otherwise;
+    require(value->is_boolean(), key, ": wanted true or false, found ", shown(*value));
+    return value->get<bool>();
+}
+
+std::string Item::text(std::string_view key, std::string_view otherwise) const {
+    const Json* value = find(key);
+    if (value == nullptr) return std::string(otherwise);
+    require(value->is_string(), key, ": wanted a text, found ", shown(*value));
+    return value->get<std::string>();
+}
+
+std::vector<double> Item::numbers(std::string_view key, std::size_t count) const {
+    std::vector<double> numbers;
+    const Json* values = list(key);
+    if (values == nullptr) return numbers;
+    require(values->size() == count, key, ": wanted ", count, " numbers, found ", values->size());
+    for (const Json& value : *values) {
+        require(value.is_number(), key, ": wanted numbers, found ", shown(value));
+        numbers.push_back(value.get<double>());
+    }
+    return numbers;
+}
+
+} // namespace catoptric::scene::gltf

@@ -1,0 +1,34 @@
+#include "scene/notes.hpp"
+
+namespace catoptric::scene {
+
+namespace {
+
+constexpr std::size_t kMostKinds = 40; // lines that somebody may still read
+
+} // namespace
+
+void Notes::add(std::string_view kind, std::string_view first, std::uint64_t count) {
+    if (count == 0) return;
+    const auto known = index_of_.find(std::string(kind));
+    if (known != index_of_.end()) {
+        kinds_[known->second].count += count;
+    } else if (kinds_.size() < kMostKinds) {
+        index_of_[std::string(kind)] = kinds_.size();
+        kinds_.push_back({.text = std::string(kind), .first = std::string(first), .count = count});
+    } else {
+        others_ += count;
+    }
+}
+
+std::vector<std::string> Notes::lines(const std::string& file) const {
+    std::vector<std::string> lines;
+    for (const auto& [text, first, count] : kinds_)
+        lines.push_back(file + ": " + text + ": " + std::to_string(count) + " (first: " + first +
+                        ")");
+    if (others_ > 0)
+        lines.push_back(file + ": more of other kinds, not read: " + std::to_string(others_));
+    return lines;
+}
+
+} // namespace catoptric::scene

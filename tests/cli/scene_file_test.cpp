@@ -1,0 +1,158 @@
+// Scene files that reach out, ask for too much, or talk to the terminal.
+#include "cli/program.hpp"
+
+#include <algorithm>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A triangle that lies in a file of its own.
+Json triangle(const std::string& uri) {
+    return {{"asset", {{"version", "2.0"}}},
+            {"nodes", {{{"mesh", 0}}}},
+            {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
+            {"accessors",
+             {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}}},
+            {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
+            {"buffers", {{{"byteLength", 36}, {"uri", uri}}}}};
+}
+
+std::string corners() {
+    const float numbers[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    return {reinterpret_cast<const char*>(numbers), sizeof numbers};
+}
+
+bool is_plain(const std::string& text) {
+    return std::ranges::all_of(
+        text, [](unsigned char c) { return c == '\n' || c == '\r' || (c >= 0x20 && c != 0x7f); });
+}
+
+class SceneFile : public Cli {
+protected:
+    static Words render(const std::string& scene, const Words& more = {}) {
+        Words words = {"render", scene, "--technique", "raytrace", "-o", "x.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        return quick(words);
+    }
+    /// Refused for one of the totals, with little memory.
+    void expect_over_budget(const std::string& scene, const std::string& what) const {
+        const test::Ended ended = cli(render(scene));
+        expect_ended(ended, 65,
+                     {scene, "wanted at most ", what, ", the budget of a scene, found "});
+        EXPECT_LE(ended.peak_bytes, 1ull << 30);
+        EXPECT_LE(ended.err.size(), 500u);
+    }
+};
+
+TEST_F(SceneFile, FilesElsewhereNeedRoot) {
+    fs::create_directories(folder / "in");
+    write("secret.bin", corners());
+    fs::create_symlink("../secret.bin", folder / "in/link.bin");
+    for (const std::string uri : {"../secret.bin", "link.bin", "%2e%2e/secret.bin"}) {
+        write("in/x.gltf", triangle(uri).dump());
+        expect_refused(render("in/x.gltf"), 65, {"in/x.gltf: buffers[0]", "--root", "secret.bin'"});
+        expect_refused({"graph", "in/x.gltf", "--technique", "reuse"}, 65, {"--root"});
+        expect_refused({"compare", "in/x.gltf", "-o", "out"}, 65, {"--root"});
+        EXPECT_EQ(cli(render("in/x.gltf", {"--root", "."})).exit_code, 0) << uri;
+    }
+    expect_refused(render("in/x.gltf", {"--root", "in"}), 65, {"--root"});
+    expect_refused(render("in/x.gltf", {"--root", "gone"}), 66, {"--root", "'gone'"});
+    expect_refused(render("in/x.gltf", {"--root", ""}), 2, {"--root"});
+}
+
+TEST_F(SceneFile, APlusIsAPlus) {
+    write("a b.bin", "not this one");
+    write("x.gltf", triangle("a+b.bin").dump());
+    expect_refused(render("x.gltf"), 66, {"'a+b.bin' is not there"});
+    write("a+b.bin", corners());
+    EXPECT_EQ(cli(render("x.gltf")).exit_code, 0);
+}
+
+TEST_F(SceneFile, SmallFilesThatWantMuch) {
+    // 5 KB of the same library of 80,000 materials: read once
+    std::string text = "mtllib m.mtl", materials;
+    for (int i = 0; i < 80'000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
+    for (int i = 0; i < 600; ++i) text += " m.mtl";
+    write("m.mtl", materials);
+    write("library.obj", text + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const test::Ended library = cli(render("library.obj"));
+    EXPECT_EQ(library.exit_code, 0) << library.err;
+    EXPECT_LE(library.peak_bytes, 1ull << 30);
+
+    Json nodes = triangle("a.bin");
+    nodes["accessors"][0]["count"] = 60'000;
+    nodes["bufferViews"][0]["byteLength"] = nodes["buffers"][0]["byteLength"] = 720'000;
+    std::string floats;
+    for (int i = 0; i < 20'000; ++i) floats += corners();
+    write("a.bin", floats);
+    for (int i = 0; i < 20'000; ++i) nodes["nodes"].push_back({{"mesh", 0}});
+    write("nodes.gltf", nodes.dump());
+    expect_over_budget("nodes.gltf", "4000000 vertices shown by objects");
+
+    Json primitives = triangle("a.bin");
+    primitives["accessors"] = nodes["accessors"], primitives["bufferViews"] = nodes["bufferViews"];
+    primitives["buffers"] = nodes["buffers"];
+    for (int i = 0; i < 10'000; ++i)
+        primitives["meshes"][0]["primitives"].push_back(primitives["meshes"][0]["primitives"][0]);
+    write("primitives.gltf", primitives.dump());
+    expect_over_budget("primitives.gltf", "4000000 vertices in meshes");
+
+    std::string empty = "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}";
+    for (int i = 0; i < 330'000; ++i) empty += ",{}";
+    write("empty.gltf", empty + "]}");
+    expect_over_budget("empty.gltf", "125000 materials");
+}
+
+TEST_F(SceneFile, ALongNameIsLookedUpAtOnce) {
+    std::string materials;
+    for (int i = 0; i < 50'000; ++i) materials += "newmtl material" + std::to_string(i) + "\n";
+    write("m.mtl", materials);
+    write("x.obj", "mtllib m.mtl\nusemtl " + std::string(20'000, 'm') + "\n");
+    const test::Ended ended = cli(render("x.obj"));
+    expect_ended(ended, 65, {"x.obj:2", "mmm...' (20000 bytes)"});
+    EXPECT_LE(ended.err.size(), 300u);
+}
+
+TEST_F(SceneFile, WhatIsNotReadIsNamed) {
+    Json scene = triangle("a.bin");
+    scene["extensions"]["KHR_lights_punctual"]["lights"] = {{{"name", "Sun"}}, {{"name", "Moon"}}};
+    write("a.bin", corners());
+    write("x.gltf", scene.dump());
+    const std::string err = cli(render("x.gltf", {"--quiet"})).err;
+    EXPECT_THAT(err,
+                testing::HasSubstr("catoptric: warning: x.gltf: lights of KHR_lights_punctual, "
+                                   "not read: 2 (first: 'Sun')\n"));
+    EXPECT_THAT(err, testing::HasSubstr("catoptric: warning: x.gltf: no light: ambient only\n"));
+}
+
+/// Names that clear a terminal, set its title, begin a line of their own or turn the writing.
+TEST_F(SceneFile, TheTerminalIsNotSpokenTo) {
+    const std::string evil = "\x1b[2J\x1b]0;title\x07\rcatoptric: \xc2\x9b"
+                             "31m\xe2\x80\xae";
+    write(evil + ".obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no " + evil + "\nusemtl " + evil +
+                             "\nf 1 2 3\nf 1 1 2\n" + evil + " 1\n");
+    write("m.mtl", "newmtl " + evil + "\nillum 3\n" + evil + "\n");
+    const test::Ended render_it = cli(render(evil + ".obj"));
+    EXPECT_EQ(render_it.exit_code, 0) << render_it.err;
+    EXPECT_THAT(render_it.err, testing::HasSubstr("\\x1b[2J"));
+    EXPECT_TRUE(is_plain(render_it.err));
+    EXPECT_TRUE(is_plain(cli(render(evil + ".gltf")).err));
+
+    const test::Ended compare = cli(
+        quick({"compare", evil + ".obj", "-o", "out", "--no-causes", "--techniques", "reuse"}));
+    EXPECT_EQ(compare.exit_code, 0) << compare.err;
+    EXPECT_TRUE(is_plain(compare.out)) << compare.out;
+    EXPECT_TRUE(is_plain(compare.err));
+    for (const char* name : {"report.json", "report.md", "report.html", "rows.csv"}) {
+        const std::string text = read(std::string("out/") + name);
+        EXPECT_FALSE(text.empty());
+        EXPECT_TRUE(is_plain(text)) << name;
+        EXPECT_EQ(text.find("\xe2\x80\xae"), text.npos) << name;
+        EXPECT_EQ(text.find("\xc2\x9b"), text.npos) << name;
+    }
+    EXPECT_EQ(Json::parse(read("out/report.json"))["scene"]["name"], evil) << "nothing is lost";
+}
+
+} // namespace

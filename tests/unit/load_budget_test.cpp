@@ -1,0 +1,289 @@
+// Files that ask for more than they are: each total, what is wanted and what was found, before
+// anything of that size is made.
+#include "unit/load_fixture.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace test::loading;
+
+class LoadBudget : public Load {
+protected:
+    std::string over(const std::string& name, const std::string& text, Budget budget = {}) const {
+        const std::string message = refused(name, text, Failure::bad_data, {.budget = budget});
+        EXPECT_THAT(message, HasSubstr(", the budget of a scene, found "));
+        return message;
+    }
+    /// A glTF of `count` copies of an item in a list.
+    static Gltf many(const char* list, std::size_t count, const Json& item) {
+        Gltf gltf = small();
+        gltf.root[list] = Json::array();
+        for (std::size_t i = 0; i < count; ++i) gltf.root[list].push_back(item);
+        return gltf;
+    }
+};
+
+// ---- what a small file makes of itself
+
+TEST_F(LoadBudget, NodesThatShareAMesh) {
+    Gltf gltf = small(20'000);
+    gltf.root["nodes"] = Json::array(), gltf.root["scenes"][0]["nodes"] = Json::array();
+    for (int i = 0; i < 105; ++i) {
+        gltf.root["nodes"].push_back({{"mesh", 0}});
+        gltf.root["scenes"][0]["nodes"].push_back(i);
+    }
+    // 60,000 vertices each: the normals are missing
+    EXPECT_THAT(over("x.glb", gltf.glb()),
+                AllOf(HasSubstr("nodes[66]: wanted at most 4000000 vertices shown by objects"),
+                      HasSubstr("found 4020000")));
+    gltf.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = gltf.add<float>(
+        {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 5126);
+    EXPECT_THAT(over("x.glb", gltf.glb()),
+                AllOf(HasSubstr("nodes[100]: wanted at most 2000000 triangles shown by objects"),
+                      HasSubstr("found 2020000")));
+}
+
+TEST_F(LoadBudget, PrimitivesThatShareTheirNumbers) {
+    Gltf gltf = small(20'000);
+    Json& primitives = gltf.root["meshes"][0]["primitives"];
+    const Json one = primitives[0];
+    for (int i = 1; i < 105; ++i) primitives.push_back(one);
+    EXPECT_THAT(over("x.glb", gltf.glb()),
+                AllOf(HasSubstr("meshes[0] 'm': wanted at most 2000000 triangles in meshes"),
+                      HasSubstr("found 2020000")));
+    // many views of the same bytes
+    Gltf views = small();
+    const std::size_t positions = views.add(std::vector<float>(3 * 99'999), "VEC3", 5126);
+    for (int i = 0; i < 43; ++i) {
+        views.root["accessors"].push_back(views.root["accessors"][positions]);
+        views.root["meshes"].push_back(
+            {{"primitives", {{{"attributes", {{"POSITION", positions + 1 + i}}}}}}});
+    }
+    EXPECT_THAT(over("x.glb", views.glb()), HasSubstr("wanted at most 4000000 positions"));
+}
+
+TEST_F(LoadBudget, PrimitivesMayShareALongListOfPositions) {
+    Gltf gltf = small();
+    const std::size_t positions = gltf.add(std::vector<float>(3 * 100'000, 1.0f), "VEC3", 5126);
+    Json& primitives = gltf.root["meshes"][0]["primitives"];
+    for (int i = 0; i < 100; ++i) // 10 million, were each to take all
+        primitives.push_back({{"attributes", {{"POSITION", positions}}}, {"indices", 1}});
+    EXPECT_EQ(triangle_count(load(write("x.glb", gltf.glb()))), 1u);
+}
+
+TEST_F(LoadBudget, KeysAreSharedAndCountedOnce) {
+    constexpr std::size_t kKeys = 40'000, kNodes = 500;
+    Gltf gltf = small();
+    std::vector<float> times(kKeys);
+    for (std::size_t i = 0; i < kKeys; ++i) times[i] = float(i);
+    const Json sampler = {{"input", gltf.add(times, "SCALAR", 5126)},
+                          {"output", gltf.add(std::vector<float>(3 * kKeys, 1.0f), "VEC3", 5126)}};
+    Json channels = Json::array(), roots = Json::array();
+    gltf.root["nodes"] = Json::array();
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        gltf.root["nodes"].push_back({{"mesh", 0}});
+        roots.push_back(i);
+        channels.push_back({{"sampler", 0}, {"target", {{"node", i}, {"path", "translation"}}}});
+    }
+    gltf.root["scenes"][0]["nodes"] = roots;
+    gltf.root["animations"] = {{{"samplers", {sampler}}, {"channels", channels}}};
+    const Scene scene = load(write("x.glb", gltf.glb()));
+    ASSERT_EQ(scene.objects.size(), kNodes);
+    const auto keys_of = [&](std::size_t i) {
+        return std::get<Keyframes>(scene.objects[i].motion).keys;
+    };
+    EXPECT_EQ(keys_of(0), keys_of(kNodes - 1)) << "one copy";
+    EXPECT_EQ(keys_of(0)->times.size(), kKeys);
+    EXPECT_NE(hash(scene), hash(at(scene, 0)));
+
+    for (std::size_t i = 1; i < kNodes; ++i) {
+        gltf.root["animations"][0]["samplers"].push_back(sampler);
+        gltf.root["animations"][0]["channels"][i]["sampler"] = i;
+    }
+    EXPECT_THAT(over("x.glb", gltf.glb()),
+                AllOf(HasSubstr("animations[0]: samplers[25]: wanted at most 1000000 keys"),
+                      HasSubstr("found 1040000")));
+}
+
+TEST_F(LoadBudget, AMovingParentsKeysAreSharedToo) {
+    Gltf gltf = small();
+    const Json sampler = {{"input", gltf.add<float>({0, 1}, "SCALAR", 5126)},
+                          {"output", gltf.add<float>({0, 0, 0, 0, 0, 8}, "VEC3", 5126)}};
+    gltf.root["nodes"] = {
+        {{"children", {1, 2}}}, {{"mesh", 0}}, {{"mesh", 0}, {"scale", {2, 2, 2}}}};
+    gltf.root["animations"] = {
+        {{"samplers", {sampler}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    const Scene scene = load(write("x.glb", gltf.glb()));
+    EXPECT_EQ(std::get<Keyframes>(scene.objects[0].motion).keys,
+              std::get<Keyframes>(scene.objects[1].motion).keys);
+    EXPECT_EQ(at(scene, .5).objects[1].world_from_object[3], dvec4(0, 0, 4, 1));
+}
+
+TEST_F(LoadBudget, NamesThatAreRepeated) {
+    Gltf gltf = many("nodes", 1000, {{"mesh", 0}});
+    gltf.root["meshes"][0]["name"] = std::string(100'000, 'n');
+    gltf.root.erase("scenes"), gltf.root.erase("scene");
+    const std::string message = over("x.glb", gltf.glb());
+    EXPECT_THAT(message, HasSubstr("wanted at most 67108864 bytes of names"));
+    EXPECT_LT(message.size(), 400u);
+
+    std::string text = "mtllib m.mtl\n" + kTriangle + "o " + std::string(100'000, 'n') + "\n",
+                materials;
+    for (int i = 0; i < 400; ++i) {
+        materials += "newmtl " + std::to_string(i) + "\n";
+        text += "usemtl " + std::to_string(i) + "\nf 1 2 3\n";
+    }
+    write("m.mtl", materials);
+    EXPECT_THAT(over("x.obj", text), HasSubstr("bytes of names"));
+}
+
+TEST_F(LoadBudget, AMaterialLibraryIsReadOnce) {
+    std::string materials;
+    for (int i = 0; i < 1000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
+    write("m.mtl", materials);
+    fs::create_symlink("m.mtl", folder / "n.mtl");
+    std::string text;
+    for (int i = 0; i < 300; ++i) text += "mtllib m.mtl n.mtl ./m.mtl\n";
+    const Scene scene = load(write("x.obj", text + kTriangle + "usemtl 999\nf 1 2 3\n"));
+    EXPECT_EQ(scene.materials.size(), 1000u);
+    EXPECT_EQ(scene.materials[scene.objects[0].material].name, "999");
+    EXPECT_THAT(over("y.obj",
+                     [&] {
+                         for (int i = 0; i < 1000; ++i) text += "mtllib m.mtl n.mtl ./m.mtl\n";
+                         return text;
+                     }()),
+                HasSubstr("wanted at most 4000 names of files"));
+}
+
+TEST_F(LoadBudget, PolygonsThatAreHardToCut) {
+    std::string text, face = "f";
+    for (int i = 0; i < 20'000; ++i) {
+        const double angle = i * 2 * M_PI / 20'000, radius = 1 + i % 2;
+        text += "v " + std::to_string(radius * std::cos(angle)) + " " +
+                std::to_string(radius * std::sin(angle)) + " 0\n";
+        face += " " + std::to_string(i + 1);
+    }
+    EXPECT_THAT(over("x.obj", text + face + "\n"),
+                HasSubstr("wanted at most 100000000 comparisons to cut concave polygons"));
+}
+
+TEST_F(LoadBudget, FilesLongerThanTheirBudget) {
+    write("x.bin", "");
+    fs::resize_file(folder / "x.bin", 200ull << 30); // of holes
+    Gltf gltf = small();
+    gltf.root["buffers"] = {{{"byteLength", 36}, {"uri", "x.bin"}}};
+    EXPECT_THAT(
+        over("x.gltf", gltf.root.dump()),
+        AllOf(HasSubstr("buffers[0]: 'x.bin': wanted at most 268435456 bytes in its files")));
+    for (const char* name : {"y.obj", "y.gltf", "y.glb"}) {
+        write(name, "");
+        fs::resize_file(folder / name, 200ull << 30);
+        EXPECT_THAT([&] { load((folder / name).string()); },
+                    testing::ThrowsMessage<Error>(HasSubstr("268435456 bytes in its files")));
+    }
+}
+
+// ---- each total
+
+TEST_F(LoadBudget, ListsOfGltf) {
+    EXPECT_THAT(
+        over("x.glb", many("nodes", 125'001, Json::object()).glb()),
+        AllOf(HasSubstr("nodes[125000]: wanted at most 125000 nodes"), HasSubstr("found 125001")));
+    const auto of = [&](const char* list, const Json& item) {
+        return over("x.glb", many(list, 101, item).glb(), {.objects = 100});
+    };
+    EXPECT_THAT(of("meshes", Json::object()), HasSubstr("meshes[100]: wanted at most 100 meshes"));
+    EXPECT_THAT(of("materials", Json::object()), HasSubstr("wanted at most 100 materials"));
+    EXPECT_THAT(of("cameras", {{"type", "orthographic"}}), HasSubstr("wanted at most 100 cameras"));
+    EXPECT_THAT(of("animations", {{"samplers", {Json::object()}},
+                                  {"channels", {{{"sampler", 0}, {"target", Json::object()}}}}}),
+                HasSubstr("wanted at most 100 animation channels"));
+    const Json one = small().root["meshes"][0]["primitives"][0];
+    Json primitives = Json::array();
+    for (int i = 0; i < 101; ++i) primitives.push_back(one);
+    EXPECT_THAT(of("meshes", {{"primitives", primitives}}),
+                HasSubstr("wanted at most 100 primitives"));
+}
+
+TEST_F(LoadBudget, EachCanBeSmaller) {
+    const auto with = [](auto member, std::uint64_t value) {
+        Budget budget;
+        budget.*member = value;
+        return budget;
+    };
+    const std::string glb = small(3).glb(),
+                      obj = kTriangle + "vn 0 0 1\nf 1 2 3\nf 1 3 2\no b\nf 1 2 3\n";
+    EXPECT_THAT(over("x.glb", glb, with(&Budget::triangles, 2)),
+                HasSubstr("2 triangles in meshes"));
+    EXPECT_THAT(over("x.glb", glb, with(&Budget::vertices, 3)), HasSubstr("3 positions"));
+    EXPECT_THAT(over("x.glb", glb, with(&Budget::vertices, 12)),
+                HasSubstr("12 vertices in meshes"));
+    EXPECT_THAT(over("x.glb", glb, with(&Budget::json_bytes, 99)), HasSubstr("99 bytes of JSON"));
+    EXPECT_THAT(over("x.glb", glb, with(&Budget::json_memory, 99)),
+                HasSubstr("99 bytes of memory for its JSON"));
+    EXPECT_THAT(over("x.glb", glb, with(&Budget::file_bytes, 99)),
+                HasSubstr("99 bytes in its files"));
+    EXPECT_THAT(over("x.glb", glb, with(&Budget::objects, 0)), HasSubstr("0 meshes"));
+    EXPECT_THAT(over("x.obj", obj, with(&Budget::triangles, 2)),
+                HasSubstr("x.obj:8: wanted at most 2 triangles"));
+    EXPECT_THAT(over("x.obj", obj, with(&Budget::vertices, 2)),
+                HasSubstr("x.obj:3: wanted at most 2 positions"));
+    EXPECT_THAT(over("x.obj", obj, with(&Budget::objects, 1)), HasSubstr("1 objects"));
+    EXPECT_THAT(over("x.obj", kTriangle + "# catoptric motion a step 2 0 0 0 0 1 0 0 0\n",
+                     with(&Budget::keys, 1)),
+                HasSubstr("x.obj:4: wanted at most 1 keys"));
+}
+
+// ---- what is large and right
+
+TEST_F(LoadBudget, AMillionTrianglesFit) {
+    constexpr std::uint32_t kSide = 708;
+    Gltf gltf = small();
+    std::vector<float> positions;
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t y = 0; y <= kSide; ++y)
+        for (std::uint32_t x = 0; x <= kSide; ++x) {
+            positions.insert(positions.end(), {float(x), float(y), float(x * y % 7)});
+            const std::uint32_t a = y * (kSide + 1) + x, b = a + kSide + 1;
+            if (x < kSide && y < kSide)
+                corners.insert(corners.end(), {a, a + 1, b + 1, a, b + 1, b});
+        }
+    Json& primitive = gltf.root["meshes"][0]["primitives"][0];
+    primitive["attributes"]["POSITION"] = gltf.add(positions, "VEC3", 5126);
+    primitive["indices"] = gltf.add(corners, "SCALAR", 5125);
+    const Scene scene = load(write("x.glb", gltf.glb()));
+    EXPECT_EQ(triangle_count(scene), 2 * kSide * kSide);
+    EXPECT_EQ(scene.meshes[0].positions.size(), 6 * kSide * kSide)
+        << "each triangle has its normal";
+}
+
+TEST_F(LoadBudget, AHundredThousandNames) {
+    constexpr std::size_t kCount = 100'000;
+    std::string text = "mtllib m.mtl\n" + kTriangle, materials;
+    for (std::size_t i = 0; i < kCount; ++i) {
+        const std::string name = "a rather long name, as exporters make them " + std::to_string(i);
+        materials += "newmtl " + name + "\n";
+        text += "o " + name + "\nusemtl " + name + "\nf 1 2 3\n";
+    }
+    write("m.mtl", materials);
+    const Scene scene = load(write("x.obj", text));
+    ASSERT_EQ(scene.objects.size(), kCount);
+    EXPECT_EQ(scene.objects.back().material, kCount - 1);
+
+    Gltf gltf = many("nodes", kCount, {{"mesh", 0}});
+    gltf.root.erase("scenes"), gltf.root.erase("scene");
+    Json& primitives = gltf.root["meshes"][0]["primitives"];
+    const Json one = primitives[0];
+    primitives = Json::array();
+    for (std::size_t i = 0; i < kCount; ++i) {
+        gltf.root["materials"].push_back({{"name", std::to_string(i)}});
+        primitives.push_back(one);
+        primitives.back()["material"] = i;
+    }
+    gltf.root["nodes"] = {{{"mesh", 0}}};
+    EXPECT_EQ(load(write("x.glb", gltf.glb())).objects.size(), kCount);
+}
+
+} // namespace

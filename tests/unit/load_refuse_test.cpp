@@ -1,0 +1,324 @@
+// What a .gltf, .glb or .obj must not say, one thing at a time: place, wanted, found.
+#include "unit/load_fixture.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+namespace {
+
+using namespace test::loading;
+
+class LoadRefuses : public Load {
+protected:
+    using Change = std::function<void(Gltf&)>;
+    std::string broken(const Change& change) const {
+        Gltf gltf = small();
+        change(gltf);
+        return refused("x.glb", gltf.glb());
+    }
+    /// With the value at a JSON pointer in place of what is there.
+    std::string broken(const char* pointer, const Json& value) const {
+        return broken([&](Gltf& gltf) { gltf.root[Json::json_pointer(pointer)] = value; });
+    }
+};
+
+TEST_F(LoadRefuses, TheSmallFileItselfLoads) {
+    EXPECT_EQ(triangle_count(load(write("x.glb", small().glb()))), 1u);
+}
+
+TEST_F(LoadRefuses, IndicesOutOfRange) {
+    EXPECT_THAT(broken("/scene", 1), HasSubstr("scene: wanted an index below 1, found 1"));
+    EXPECT_THAT(broken("/scenes/0/nodes/0", 7),
+                HasSubstr("scenes[0]: nodes: wanted an index below 1"));
+    EXPECT_THAT(broken("/nodes/0/mesh", 1),
+                HasSubstr("nodes[0] 'n': mesh: wanted an index below 1"));
+    EXPECT_THAT(broken("/nodes/0/camera", 0),
+                HasSubstr("camera: wanted an index below 0, found 0"));
+    EXPECT_THAT(broken("/nodes/0/children", {3}), HasSubstr("children: wanted an index below 1"));
+    EXPECT_THAT(broken("/nodes/0/skin", 0), HasSubstr("skin: wanted an index below 0"));
+    EXPECT_THAT(broken("/meshes/0/primitives/0/material", 0),
+                HasSubstr("meshes[0] 'm': primitives[0]: material: wanted an index below 0"));
+    EXPECT_THAT(broken("/meshes/0/primitives/0/indices", 2), HasSubstr("wanted an index below 2"));
+    EXPECT_THAT(broken("/meshes/0/primitives/0/attributes/POSITION", 9), HasSubstr("found 9"));
+    EXPECT_THAT(broken("/meshes/0/primitives/0/attributes/TEXCOORD_0", 9), HasSubstr("TEXCOORD_0"));
+    EXPECT_THAT(broken("/accessors/0/bufferView", 9), HasSubstr("accessors[0]: bufferView"));
+    EXPECT_THAT(broken("/bufferViews/0/buffer", 9), HasSubstr("bufferViews[0]: buffer"));
+    EXPECT_THAT(broken("/textures", {{{"source", 0}}}), HasSubstr("textures[0]: source"));
+    EXPECT_THAT(broken("/images", {{{"bufferView", 9}}}), HasSubstr("images[0]: bufferView"));
+    EXPECT_THAT(broken("/skins", {{{"joints", {4}}}}), HasSubstr("skins[0]: joints"));
+    EXPECT_THAT(broken("/materials", {{{"normalTexture", {{"index", 0}}}}}),
+                HasSubstr("materials[0]: normalTexture: index: wanted an index below 0"));
+}
+
+TEST_F(LoadRefuses, ValuesOfTheWrongKind) {
+    EXPECT_THAT(broken("/nodes/0/mesh", "0"),
+                HasSubstr("wanted a whole number of at least 0, found \"0\""));
+    EXPECT_THAT(broken("/nodes/0/mesh", -1), HasSubstr("found -1"));
+    EXPECT_THAT(broken("/nodes/0/mesh", .5), HasSubstr("found 0.5"));
+    EXPECT_THAT(broken("/nodes/0/name", 5), HasSubstr("wanted a text, found 5"));
+    EXPECT_THAT(broken("/nodes/0/scale", {1, 1}), HasSubstr("wanted 3 numbers, found 2"));
+    EXPECT_THAT(broken("/nodes/0/scale", {1, 1, "1"}), HasSubstr("wanted numbers, found \"1\""));
+    EXPECT_THAT(broken("/nodes/0/matrix", {1, 2, 3}), HasSubstr("wanted 16 numbers, found 3"));
+    EXPECT_THAT(broken("/nodes/0", 3), HasSubstr("nodes[0]: wanted an object, found 3"));
+    EXPECT_THAT(broken("/nodes", Json::object()),
+                HasSubstr("nodes: wanted an array, found an object"));
+    EXPECT_THAT(broken("/meshes/0/primitives/0/mode", 7),
+                HasSubstr("mode: wanted 0 to 6, found 7"));
+    EXPECT_THAT(broken("/materials", {{{"alphaMode", "GLOW"}}}), HasSubstr("found \"GLOW\""));
+    EXPECT_THAT(broken("/extensionsRequired", {"KHR_x\x1b"}), HasSubstr("found \"KHR_x\\x1b\""));
+    EXPECT_THAT(broken("/extensionsRequired", 3), HasSubstr("extensionsRequired: wanted an array"));
+    EXPECT_THAT(refused("x.gltf", "[]"), HasSubstr("wanted an object, found an array"));
+    EXPECT_THAT(refused("x.gltf", "{\"asset\":{\"version\":\"2.0\"},\"x\":1e999}"),
+                HasSubstr("number overflow"));
+    const std::string endless = refused("x.gltf", "{\"" + std::string(1 << 20, 'x'));
+    EXPECT_LT(endless.size(), 500u) << "a message, not the file";
+}
+
+TEST_F(LoadRefuses, NodesThatAreNoForest) {
+    const auto nodes = [&](const Json& list, const Json& roots = {0}) {
+        return broken([&](Gltf& gltf) {
+            gltf.root["nodes"] = list, gltf.root["scenes"][0]["nodes"] = roots;
+        });
+    };
+    const Json leaf = {{"mesh", 0}};
+    const auto above = [](const Json& children) { return Json{{"children", children}}; };
+    EXPECT_THAT(nodes({above({2}), above({2}), leaf}),
+                HasSubstr("nodes[2]: wanted one parent at most, found nodes[0] and nodes[1]"));
+    EXPECT_THAT(nodes({above({1, 1}), leaf}), HasSubstr("found nodes[0] and nodes[0]"));
+    EXPECT_THAT(nodes({leaf, above({2}), above({1})}), HasSubstr("nodes[1]: wanted a tree"));
+    EXPECT_THAT(nodes({above({1}), leaf}, {0, 1}), HasSubstr("second way"));
+}
+
+TEST_F(LoadRefuses, NodesTooDeep) {
+    const auto chain = [&](std::size_t depth) {
+        Gltf gltf = small();
+        for (std::size_t i = 0; i + 1 < depth; ++i) gltf.root["nodes"][i] = {{"children", {i + 1}}};
+        gltf.root["nodes"][depth - 1] = {{"mesh", 0}};
+        return gltf.glb();
+    };
+    EXPECT_EQ(load(write("x.glb", chain(4096))).objects.size(), 1u);
+    for (const std::size_t depth : {4097, 20000})
+        EXPECT_THAT(refused("x.glb", chain(depth)),
+                    HasSubstr("nodes[4096]: wanted at most 4096 nodes one in another"));
+}
+
+TEST_F(LoadRefuses, Transforms) {
+    EXPECT_THAT(broken("/nodes/0/rotation", {0, 0, 0, 0}),
+                AllOf(HasSubstr("nodes[0] 'n': rotation: wanted a quaternion with a length"),
+                      HasSubstr("found 0")));
+    EXPECT_THAT(broken("/nodes/0/rotation", {1e308, 1e308, 1e308, 1e308}), HasSubstr("rotation"));
+}
+
+TEST_F(LoadRefuses, AccessorsAndViews) {
+    EXPECT_THAT(broken("/accessors/0/count", 0), HasSubstr("count: wanted at least 1, found 0"));
+    EXPECT_THAT(broken("/accessors/0/count", 5), HasSubstr("wanted 5 elements"));
+    EXPECT_THAT(broken("/accessors/0/count", 1ull << 62), HasSubstr("holds 4"));
+    EXPECT_THAT(broken("/accessors/0/byteOffset", 4), HasSubstr("holds 3"));
+    EXPECT_THAT(broken("/accessors/0/byteOffset", ~0ull), HasSubstr("holds 0"));
+    EXPECT_THAT(broken("/accessors/0/type", "VEC5"), HasSubstr("found \"VEC5\""));
+    EXPECT_THAT(broken("/accessors/0/type", "VEC2"),
+                HasSubstr("POSITION: wanted an accessor of VEC3, found VEC2"));
+    EXPECT_THAT(broken("/accessors/0/componentType", 5127), HasSubstr("found 5127"));
+    EXPECT_THAT(broken("/accessors/0/componentType", 5125),
+                HasSubstr("wanted floats, found component type 5125"));
+    EXPECT_THAT(broken("/accessors/1/componentType", 5122),
+                HasSubstr("wanted component type 5121, 5123 or 5125"));
+    EXPECT_THAT(broken("/bufferViews/0/byteLength", 4096), HasSubstr("wanted 4096 bytes"));
+    EXPECT_THAT(broken("/bufferViews/0/byteOffset", ~0ull), HasSubstr("found a buffer of"));
+    EXPECT_THAT(broken("/bufferViews/0/byteLength", 0), HasSubstr("at least 1"));
+    EXPECT_THAT(broken("/bufferViews/0/byteStride", 8), HasSubstr("wanted 4 elements"));
+    EXPECT_THAT(broken("/bufferViews/0/byteStride", 3),
+                HasSubstr("multiple of 4 from 4 to 252, found 3"));
+    EXPECT_THAT(broken("/bufferViews/0/byteStride", 256), HasSubstr("found 256"));
+    EXPECT_THAT(broken("/buffers", {{{"byteLength", 4096}}}),
+                HasSubstr("buffers[0]: byteLength: wanted 1 to"));
+    EXPECT_THAT(broken("/buffers", {{{"byteLength", 0}}}), HasSubstr("found 0"));
+    EXPECT_THAT(broken([](Gltf& gltf) {
+                    gltf.root["buffers"] = {{{"byteLength", 56}}, {{"byteLength", 4}}};
+                }),
+                HasSubstr("buffers[1]: wanted a uri"));
+    EXPECT_THAT(broken([](Gltf& gltf) {
+                    gltf.add<float>({1}, "SCALAR", 5126), gltf.root["accessors"][2]["count"] = 2;
+                }),
+                HasSubstr("accessors[2]: wanted 2 elements"))
+        << "though nothing uses it";
+}
+
+TEST_F(LoadRefuses, SparseAccessors) {
+    const auto sparse = [&](const Json& is) {
+        return broken([&](Gltf& gltf) { gltf.root["accessors"][0]["sparse"] = is; });
+    };
+    const Json indices = {{"bufferView", 1}, {"componentType", 5123}}, values = {{"bufferView", 0}};
+    EXPECT_THAT(sparse({{"count", 2}, {"indices", indices}, {"values", values}}),
+                HasSubstr("POSITION: wanted an accessor with a buffer view and without sparse"));
+    EXPECT_THAT(sparse({{"count", 0}, {"indices", indices}, {"values", values}}),
+                HasSubstr("wanted 1 to 4"));
+    EXPECT_THAT(sparse({{"count", 5}, {"indices", indices}, {"values", values}}),
+                HasSubstr("wanted 1 to 4"));
+    EXPECT_THAT(sparse({{"count", 4}, {"indices", indices}, {"values", values}}),
+                HasSubstr("holds 3"));
+    EXPECT_THAT(sparse({{"count", 1}}), HasSubstr("wanted indices and values"));
+    EXPECT_THAT(broken([](Gltf& gltf) {
+                    gltf.root["accessors"][0].erase("bufferView");
+                    gltf.root["accessors"][0]["count"] = 4'000'000'000;
+                }),
+                HasSubstr("without sparse, found another"));
+}
+
+TEST_F(LoadRefuses, Attributes) {
+    const auto attribute = [&](const char* name, std::size_t accessor) {
+        return broken(("/meshes/0/primitives/0/attributes/" + std::string(name)).c_str(), accessor);
+    };
+    EXPECT_THAT(attribute("NORMAL", 1),
+                HasSubstr("NORMAL: wanted an accessor of VEC3, found SCALAR"));
+    EXPECT_THAT(attribute("TEXCOORD_0", 0),
+                HasSubstr("TEXCOORD_0: wanted an accessor of VEC2, found VEC3"));
+    EXPECT_THAT(attribute("TANGENT", 1), HasSubstr("TANGENT: wanted an accessor of VEC4"));
+    EXPECT_THAT(attribute("COLOR_0", 1), HasSubstr("COLOR_0"));
+    EXPECT_THAT(broken([](Gltf& gltf) {
+                    const std::size_t normals = gltf.add<float>({0, 0, 1}, "VEC3", 5126);
+                    gltf.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normals;
+                }),
+                HasSubstr("wanted 4 normals, one for each position, found 1"));
+    EXPECT_THAT(broken("/meshes/0/primitives/0/attributes", Json::object()),
+                HasSubstr("wanted POSITION"));
+}
+
+TEST_F(LoadRefuses, IndexValues) {
+    const auto indices = [&](auto values, int component) {
+        return broken([&](Gltf& gltf) {
+            gltf.root["meshes"][0]["primitives"][0]["indices"] = gltf.add(values, "SCALAR",
+                                                                          component);
+        });
+    };
+    EXPECT_THAT(indices(std::vector<std::uint16_t>{0, 1, 4}, 5123),
+                HasSubstr("meshes[0] 'm': indices: wanted indices below 4, found 4"));
+    EXPECT_THAT(indices(std::vector<std::uint32_t>{0, 1, 4294967295u}, 5125),
+                HasSubstr("found 4294967295"));
+    EXPECT_THAT(indices(std::vector<std::uint8_t>{0, 1, 255}, 5121), HasSubstr("found 255"));
+    EXPECT_THAT(indices(std::vector<std::uint16_t>{0, 1}, 5123), HasSubstr("three corners"));
+    // the highest number means "begin anew", also where there is such a vertex
+    Gltf gltf = small();
+    gltf.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = gltf.add(
+        std::vector<float>(3 * 256), "VEC3", 5126);
+    gltf.root["meshes"][0]["primitives"][0]["indices"] = gltf.add(
+        std::vector<std::uint8_t>{0, 1, 255}, "SCALAR", 5121);
+    EXPECT_THAT(
+        refused("x.glb", gltf.glb()),
+        HasSubstr(
+            "meshes[0] 'm': indices: wanted a vertex, found 255, which begins a new primitive"));
+}
+
+TEST_F(LoadRefuses, NumbersThatAreNotFinite) {
+    for (const float number : {std::numeric_limits<float>::quiet_NaN(), HUGE_VALF})
+        for (const char* name : {"POSITION", "NORMAL"})
+            EXPECT_THAT(
+                broken([&](Gltf& gltf) {
+                    gltf.root["meshes"][0]["primitives"][0]["attributes"][name] = gltf.add<float>(
+                        {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, number, 1}, "VEC3", 5126);
+                }),
+                AllOf(HasSubstr(name), HasSubstr("element 3: wanted finite numbers")));
+}
+
+TEST_F(LoadRefuses, WhatNothingShows) {
+    EXPECT_THAT(
+        broken([](Gltf& gltf) {
+            const std::size_t wrong = gltf.add<std::uint16_t>({0, 1, 9}, "SCALAR", 5123);
+            gltf.root["meshes"].push_back(
+                {{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", wrong}}}}});
+        }),
+        HasSubstr("meshes[1]: indices: wanted indices below 4, found 9"));
+}
+
+TEST_F(LoadRefuses, Cameras) {
+    const auto camera = [&](const Json& is) {
+        return broken([&](Gltf& gltf) { gltf.root["cameras"] = {is}; });
+    };
+    const auto angle = [](const Json& yfov) {
+        return Json{{"type", "perspective"}, {"perspective", {{"yfov", yfov}}}};
+    };
+    EXPECT_THAT(
+        camera(angle(0)),
+        HasSubstr("cameras[0]: perspective: yfov: wanted an angle between 0 and pi, found 0"));
+    EXPECT_THAT(camera(angle(3.1416)), HasSubstr("found 3.1416"));
+    EXPECT_THAT(camera(angle(-1)), HasSubstr("found -1"));
+    EXPECT_THAT(camera({{"type", "fisheye"}}), HasSubstr("perspective or orthographic"));
+    EXPECT_THAT(camera({{"type", "perspective"}}), HasSubstr("perspective or orthographic"));
+    EXPECT_THAT(
+        broken([&](Gltf& gltf) {
+            gltf.root["cameras"] = {angle(1)};
+            gltf.root["nodes"].push_back({{"name", "c"}, {"camera", 0}, {"scale", {1, 0, 1}}});
+            gltf.root["scenes"][0]["nodes"].push_back(1);
+        }),
+        HasSubstr("nodes[1] 'c': wanted a camera's node with three axes"));
+}
+
+TEST_F(LoadRefuses, Animations) {
+    const auto animated = [&](const std::vector<float>& times, const std::vector<float>& values,
+                              const Json& sampler = {}, const Json& channel = {}) {
+        return broken([&](Gltf& gltf) {
+            Json its = {{"input", gltf.add(times, "SCALAR", 5126)},
+                        {"output", gltf.add(values, "VEC3", 5126)}};
+            its.update(sampler.is_null() ? Json::object() : sampler);
+            Json to = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}};
+            to.update(channel.is_null() ? Json::object() : channel);
+            gltf.root["animations"] = {{{"samplers", {its}}, {"channels", {to}}}};
+        });
+    };
+    const std::vector<float> times = {0, 1}, values(6);
+    EXPECT_THAT(animated({0, 0}, values),
+                HasSubstr("animations[0]: samplers[0]: input: wanted increasing times"));
+    EXPECT_THAT(animated({-1, 0}, values), HasSubstr("found -1"));
+    EXPECT_THAT(animated({0, NAN}, values), HasSubstr("wanted finite numbers"));
+    EXPECT_THAT(animated(times, {0, 0, 0}),
+                HasSubstr("wanted 1 values for each of 2 keys, found 1"));
+    EXPECT_THAT(animated(times, values, {{"interpolation", "CUBICSPLINE"}}),
+                HasSubstr("wanted 3 values"));
+    EXPECT_THAT(animated(times, values, {{"interpolation", "SMOOTH"}}),
+                HasSubstr("found \"SMOOTH\""));
+    EXPECT_THAT(animated(times, values, {{"output", 1}}),
+                HasSubstr("output: wanted an accessor of VEC3"));
+    EXPECT_THAT(animated(times, values, {{"input", 9}}),
+                HasSubstr("input: wanted an index below 4"));
+    EXPECT_THAT(animated(times, values, {}, {{"sampler", 1}}),
+                HasSubstr("channels[0]: sampler: wanted an index below 1"));
+    EXPECT_THAT(animated(times, values, {}, {{"target", {{"node", 5}, {"path", "translation"}}}}),
+                HasSubstr("target: node: wanted an index below 1"));
+}
+
+TEST_F(LoadRefuses, ContainersThatLie) {
+    const std::string whole = small().glb();
+    const auto with = [&](std::size_t at, std::uint32_t word) {
+        std::string bytes = whole;
+        std::memcpy(bytes.data() + at, &word, 4);
+        return refused("x.glb", bytes);
+    };
+    std::uint32_t length = 0;
+    std::memcpy(&length, whole.data() + 12, 4);
+    EXPECT_THAT(with(4, 1), HasSubstr("wanted GLB version 2, found 1"));
+    EXPECT_THAT(with(8, 12), HasSubstr("header: wanted 12 bytes"));
+    EXPECT_THAT(with(12, ~0u), HasSubstr("first chunk"));
+    EXPECT_THAT(with(16, 7), HasSubstr("first chunk"));
+    EXPECT_THAT(with(20 + length, ~0u), HasSubstr("second chunk"));
+    EXPECT_THAT(with(20 + length + 4, 7), HasSubstr("neither")) << "no binary chunk";
+    EXPECT_THAT(refused("x.glb", whole + "1234"), HasSubstr("header"));
+}
+
+TEST_F(LoadRefuses, ObjNumbersAndFaces) {
+    EXPECT_THAT(refused("a.obj", kTriangle + "f 1 2 4294967295\n"), HasSubstr("found 4294967295"));
+    EXPECT_THAT(refused("b.obj", kTriangle + "f 1 2 4294967296\n"), HasSubstr("found 4294967296"));
+    EXPECT_THAT(refused("c.obj", kTriangle + "f 1 2 9223372036854775807\n"),
+                HasSubstr("found 9223372036854775807"));
+    EXPECT_THAT(refused("d.obj", kTriangle + "f 1 2 -9223372036854775808\n"),
+                HasSubstr("found -9223372036854775808"));
+    EXPECT_THAT(refused("e.obj", kTriangle + "vn 0 0 1\nf 1//1 2//1 3//4294967295\n"),
+                HasSubstr("one of 1 normals"));
+    EXPECT_THAT(refused("f.obj", kTriangle + "f 1 2 3\\\n \\\n 9\n"),
+                HasSubstr("f.obj:4: face wants one of 3 positions, found 9"));
+    EXPECT_THAT(refused("g.obj", "v 1e200 0 0\nv 0 1e200 0\nv 0 0 1e200\nf 1 2 3\n"),
+                HasSubstr("area"));
+}
+
+} // namespace

@@ -1,0 +1,245 @@
+// What a loader does not read it names, with a count; what it repairs too.
+#include "scene/transform.hpp"
+#include "unit/load_fixture.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace test::loading;
+using glm::dvec2;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::EndsWith;
+
+class LoadUnread : public Load {
+protected:
+    /// What is said of the file, without its name.
+    std::vector<std::string> warnings(const std::string& name, const std::string& text) const {
+        const std::string path = write(name, text);
+        std::vector<std::string> list;
+        for (const std::string& warning : load(path).warnings) {
+            EXPECT_THAT(warning, HasSubstr(folder.string()));
+            list.push_back(warning.starts_with(path) ? warning.substr(path.size() + 2) : warning);
+        }
+        return list;
+    }
+};
+
+const std::string kDark = "no light: ambient only";
+
+TEST_F(LoadUnread, NoLight) {
+    EXPECT_THAT(warnings("x.obj", kTriangle + "f 1 2 3\n"), ElementsAre(kDark));
+    EXPECT_THAT(warnings("x.glb", small().glb()), ElementsAre(kDark));
+    write("m.mtl", "newmtl a\nKe 1 0 0\nnewmtl b\n");
+    const std::string lit = "mtllib m.mtl\n" + kTriangle + "usemtl a\n";
+    EXPECT_THAT(warnings("x.obj", lit + "f 1 2 3\n"), testing::IsEmpty());
+    EXPECT_THAT(warnings("x.obj", lit + "o a\nf 1 1 2\nusemtl b\no b\nf 1 2 3\n"), Contains(kDark))
+        << "a light without area";
+}
+
+TEST_F(LoadUnread, LightsOfGltf) {
+    Gltf gltf = small();
+    gltf.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"name", "Sun"}}, {{"type", "spot"}}, {{"type", "directional"}}};
+    gltf.root["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    EXPECT_THAT(warnings("x.glb", gltf.glb()),
+                ElementsAre("lights of KHR_lights_punctual, not read: 3 (first: 'Sun')", kDark));
+}
+
+TEST_F(LoadUnread, Materials) {
+    Gltf gltf = small();
+    gltf.root["materials"] = {
+        {{"name", "wood"},
+         {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorTexture", {{"index", 0}}}}}},
+        {{"name", "gold"}, {"pbrMetallicRoughness", {{"roughnessFactor", .3}}}},
+        {{"name", "glass"},
+         {"alphaMode", "BLEND"},
+         {"normalTexture", {{"index", 0}}},
+         {"pbrMetallicRoughness", {{"roughnessFactor", 0}}},
+         {"extensions",
+          {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+           {"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}}}}};
+    gltf.root["textures"] = {{{"source", 0}}};
+    gltf.root["images"] = {{{"bufferView", 0}, {"mimeType", "image/png"}}};
+    EXPECT_THAT(
+        warnings("x.glb", gltf.glb()),
+        testing::UnorderedElementsAre(
+            "materials with a baseColorTexture, drawn without it: 1 (first: materials[0] 'wood')",
+            "materials with a normalTexture, drawn without it: 1 (first: materials[2] 'glass')",
+            "materials with alphaMode BLEND, drawn opaque: 1 (first: materials[2] 'glass')",
+            "materials neither a perfect mirror (metallic 1, roughness 0) nor diffuse (metallic 0, "
+            "roughness 1), drawn as diffuse: 1 (first: materials[1] 'gold')",
+            "extension 'KHR_materials_transmission', not read: 1 (first: materials[2] 'glass')",
+            "images, not read: 1 (first: images[0])", kDark));
+}
+
+TEST_F(LoadUnread, TheRestOfGltf) {
+    Gltf gltf = small();
+    Json& primitives = gltf.root["meshes"][0]["primitives"];
+    gltf.root["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", "VEC4"}});
+    primitives[0]["attributes"]["COLOR_0"] = 2;
+    primitives[0]["targets"] = {{{"POSITION", 0}}, {{"POSITION", 0}}};
+    primitives.push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 0}});
+    primitives.push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 5}});
+    gltf.root["skins"] = {{{"joints", {0}}}};
+    gltf.root["nodes"][0]["skin"] = 0;
+    gltf.root["cameras"] = {{{"type", "orthographic"}, {"name", "plan"}}};
+    gltf.root["nodes"].push_back({{"camera", 0}});
+    gltf.root["scenes"][0]["nodes"].push_back(1);
+    const Json to = [](const char* path) {
+        return Json{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}};
+    }("rotation");
+    gltf.root["animations"] = {
+        {{"samplers", {{{"input", 0}, {"output", 0}}}}, {"channels", {to, to}}}};
+    gltf.root["extensions"]["EXT_all"] = Json::object();
+    gltf.root["nodes"][1]["extensions"]["EXT_instancing"] = Json::object();
+    gltf.root["nodes"][1]["extras"]["extensions"]["no_extension"] = Json::object();
+    EXPECT_THAT(
+        warnings("x.glb", gltf.glb()),
+        testing::UnorderedElementsAre(
+            "primitives with colours at vertices, not read: 1 (first: meshes[0] 'm': "
+            "primitives[0])",
+            "morph targets, not read: 2 (first: meshes[0] 'm': primitives[0]: targets[0])",
+            "primitives that are not made of triangles, left out: 2 (first: meshes[0] 'm': "
+            "primitives[1])",
+            "nodes with a skin, not posed: 1 (first: nodes[0] 'n')",
+            "orthographic cameras, left out: 1 (first: cameras[0] 'plan')",
+            "animation channels of 'rotation', left out: 2 (first: animations[0]: channels[0])",
+            "extension 'EXT_all', not read: 1 (first: of the whole file)",
+            "extension 'EXT_instancing', not read: 1 (first: nodes[1])", kDark));
+    EXPECT_THAT(load((folder / "x.glb").string()).cameras, testing::IsEmpty());
+}
+
+TEST_F(LoadUnread, ObjAndMtl) {
+    write("m.mtl", "newmtl a\nNs 10\nKa 0 0 0\nmap_Kd wood.png\nillum 2\n"
+                   "newmtl b\nNs 10\nillum 4\nnewmtl c\nillum 2\nd .5\n");
+    const std::string file = fs::canonical(folder).string() + "/m.mtl";
+    EXPECT_THAT(warnings("x.obj", "mtllib m.mtl\n" + kTriangle +
+                                      "vt 0 0\nvt 1 0\ns 1\nusemtl a\nf 1/1 2/1 3/1\nl 1 2\n"),
+                testing::UnorderedElementsAre(
+                    "statements 'Ns', not read: 2 (first: " + file + ":2)",
+                    "statements 'Ka', not read: 1 (first: " + file + ":3)",
+                    "statements 'map_Kd', not read: 1 (first: " + file + ":4)",
+                    "statements 'd', not read: 1 (first: " + file + ":11)",
+                    "materials with illum 2, drawn as diffuse: 2 (first: " + file + ":5)",
+                    "materials with illum 4, drawn as diffuse: 1 (first: " + file + ":8)",
+                    "statements 'vt', not read: 2 (first: " + (folder / "x.obj").string() + ":5)",
+                    "statements 's', not read: 1 (first: " + (folder / "x.obj").string() + ":7)",
+                    "statements 'l', not read: 1 (first: " + (folder / "x.obj").string() + ":10)",
+                    kDark));
+}
+
+TEST_F(LoadUnread, ManyOddThingsAreFewLines) {
+    Gltf gltf = small();
+    for (int i = 0; i < 200; ++i)
+        gltf.root["nodes"].push_back(
+            {{"extensions", {{"EXT_" + std::to_string(i), Json::object()}}}, {"skin", 0}});
+    gltf.root["skins"] = {{{"joints", {0}}}};
+    const std::vector<std::string> lines = warnings("x.glb", gltf.glb());
+    EXPECT_EQ(lines.size(), 42u);
+    EXPECT_EQ(lines[0], "nodes with a skin, not posed: 200 (first: nodes[1])");
+    EXPECT_EQ(lines[40], "more of other kinds, not read: 161");
+    std::string text = kTriangle + "f 1 2 3\n";
+    for (int i = 0; i < 200; ++i) text += "x" + std::to_string(i) + "\n";
+    EXPECT_THAT(warnings("x.obj", text), Contains(HasSubstr("other statements, not read: 160")));
+}
+
+TEST_F(LoadUnread, TextOfAFileIsShownNotObeyed) {
+    Gltf gltf = small();
+    gltf.root["nodes"][0]["name"] = "\x1b[2J";
+    gltf.root["nodes"][0]["skin"] = 0;
+    gltf.root["skins"] = {{{"joints", {0}}}};
+    EXPECT_THAT(warnings("x.glb", gltf.glb()), Contains(EndsWith("(first: nodes[0] '\\x1b[2J')")));
+    gltf.root["nodes"][0]["mesh"] = 5;
+    EXPECT_THAT(refused("x.glb", gltf.glb()), HasSubstr("nodes[0] '\\x1b[2J': mesh"));
+    EXPECT_THAT(refused("x.obj", kTriangle + "usemtl \x1b]0;x\x07\n"),
+                HasSubstr("'\\x1b]0;x\\x07'"));
+    EXPECT_THAT(refused("x.obj", kTriangle + "f \x1b 2 3\n"), HasSubstr("'\\x1b'"));
+    EXPECT_THAT(refused("x.obj", kTriangle + "v \x9b 2 3\n"), HasSubstr("'\\x9b'"));
+    EXPECT_THAT(refused("x.obj", kTriangle + "# catoptric \x1b x\n"), HasSubstr("'\\x1b'"));
+    EXPECT_THAT(refused("x.gltf", "{\"\x1b"), testing::Not(HasSubstr("\x1b")));
+}
+
+// ---- repaired
+
+/// A closed box without normals, as it stands in the world.
+Gltf box(const Json& node) {
+    Gltf gltf = small();
+    gltf.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = gltf.add<float>(
+        {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1}, "VEC3", 5126);
+    gltf.root["meshes"][0]["primitives"][0]["indices"] = gltf.add<std::uint16_t>(
+        {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+         2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5},
+        "SCALAR", 5123);
+    gltf.root["nodes"][0].update(node);
+    return gltf;
+}
+
+TEST_F(LoadUnread, AMirroredNodesFacetNormalsPointOut) {
+    for (const Json& node : {Json{{"scale", {1, 1, 1}}}, Json{{"scale", {-1, 1, 1}}},
+                             Json{{"scale", {-2, -1, -3}}}, Json{{"scale", {1, -1, -1}}},
+                             Json{{"matrix", {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}}}) {
+        const Scene scene = load(write("x.glb", box(node).glb()));
+        const Object& object = scene.objects.at(0);
+        const Mesh& mesh = scene.meshes[object.mesh];
+        const dvec3 centre = bounds(scene).centre();
+        ASSERT_EQ(mesh.triangles.size(), 12u);
+        for (const uvec3& t : mesh.triangles) {
+            const auto at = [&](int i) {
+                return transform_point(object.world_from_object, mesh.positions[t[i]]);
+            };
+            const dvec3 winding = glm::cross(at(1) - at(0), at(2) - at(0));
+            const dvec3 shading = normal_matrix(object.world_from_object) *
+                                  dvec3(mesh.normals[t[0]]);
+            EXPECT_GT(glm::dot(winding, at(0) - centre), 0) << node;
+            EXPECT_GT(glm::dot(shading, at(0) - centre), 0) << node;
+            EXPECT_NEAR(glm::dot(glm::normalize(winding), glm::normalize(shading)), 1, 1e-6)
+                << node;
+        }
+    }
+}
+
+// ---- polygons
+
+double area(const Scene& scene) {
+    double sum = 0;
+    for (const uvec3& t : scene.meshes.at(0).triangles) {
+        const auto at = [&](int i) { return scene.meshes[0].positions[t[i]]; };
+        sum += glm::length(glm::cross(at(1) - at(0), at(2) - at(0))) / 2;
+        EXPECT_GT(glm::cross(at(1) - at(0), at(2) - at(0)).z, 0) << "turned as its polygon";
+    }
+    return sum;
+}
+
+TEST_F(LoadUnread, PolygonsAreCutIntoWhatTheyCover) {
+    const auto cut = [&](const std::vector<dvec2>& corners) {
+        std::string text, face = "f";
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            text += "v " + std::to_string(corners[i].x) + " " + std::to_string(corners[i].y) +
+                    " 3\n";
+            face += " " + std::to_string(i + 1);
+        }
+        return load(write("x.obj", text + face + "\n"));
+    };
+    EXPECT_EQ(area(cut({{0, 0}, {2, 0}, {2, 1}, {0, 1}})), 2);
+    const Scene kite = cut({{0, 0}, {1, -3}, {2, 0}, {1, 3}}); // along the shorter diagonal
+    EXPECT_EQ(area(kite), 6);
+    EXPECT_EQ(kite.meshes[0].triangles[0], uvec3(0, 1, 2));
+    EXPECT_EQ(area(cut({{0, 0}, {4, 0}, {4, 4}, {3, 1}})), 4) << "a notch in a quad";
+    EXPECT_EQ(area(cut({{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}})), 7)
+        << "a U";
+    EXPECT_EQ(area(cut({{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 2}, {0, 2}})), 4) << "corners on edges";
+    std::vector<dvec2> star, round;
+    for (int i = 0; i < 100; ++i) {
+        const double angle = i * M_PI / 50, radius = 1 + i % 2;
+        round.emplace_back(std::cos(angle), std::sin(angle));
+        star.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    EXPECT_NEAR(area(cut(round)), 50 * std::sin(M_PI / 50), 1e-4);
+    EXPECT_NEAR(area(cut(star)), 100 * std::sin(M_PI / 50), 1e-4);
+    cut({{0, 0}, {2, 2}, {2, 0}, {0, 2}, {-3, 1}}); // crosses itself: anything, but an end
+}
+
+} // namespace
