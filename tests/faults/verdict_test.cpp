@@ -26,7 +26,7 @@ TEST_F(Verdict, StressWithAFailedRowExitsWithOne) {
     const Words words{"stress", "--json", "--size", "32x32", "--only", "N4"};
     const Watched sound = watch(words, std::nullopt);
     ASSERT_EQ(sound.ended.exit_code, 0) << sound.ended.err;
-    const Watched broken = watch(words, Fault{"vkCmdDispatch", 1, 1});
+    const Watched broken = watch(words, Fault{"vkCmdDispatch", 5, 1});
     EXPECT_EQ(broken.ended.exit_code, 1) << broken.ended.err;
     const nlohmann::json rows = nlohmann::json::parse(broken.ended.out)["rows"];
     EXPECT_EQ(rows[0]["verdict"], "fail");

@@ -18,9 +18,16 @@ constexpr uvec2 kSize{40, 30};
 constexpr int kFrames = 5, kWarmup = 3;
 constexpr double kStops = -1;
 
+/// The lamp is in view.
+scene::Scene bright_hall() {
+    scene::Scene scene = test::hall();
+    scene.cameras.front().target = {0, .5, 0};
+    return scene;
+}
+
 app::CompareRequest asked(const std::vector<std::string>& rows) {
     app::CompareRequest request;
-    request.base = test::request(test::hall(), rows, kSize);
+    request.base = test::request(bright_hall(), rows, kSize);
     request.base.frames = kFrames, request.base.warmup = kWarmup;
     request.base.exposure = kStops;
     return request;
@@ -31,7 +38,7 @@ json compared(const app::CompareRequest& request) {
 }
 
 app::Part rendered(const std::string& technique) {
-    app::Request request = test::request(test::hall(), {technique}, kSize);
+    app::Request request = test::request(bright_hall(), {technique}, kSize);
     request.frames = kFrames, request.warmup = kWarmup;
     request.exposure = kStops;
     return std::move(test::engine().run(request).parts.front());
@@ -204,9 +211,6 @@ TEST(ReportFigures, TogetherARowCostsItsOwnPasses) {
             EXPECT_NEAR(row["closure"]["samples"][k].get<double>(),
                         all / row["wall_ms"]["samples"][k].get<double>(), 1e-9);
     }
-    EXPECT_EQ(document["rows"][0]["passes"].size() + document["rows"][1]["passes"].size(),
-              document["rows"][0]["passes"].size() + 2U)
-        << "raytrace and its compose";
 }
 
 } // namespace

@@ -300,29 +300,137 @@ TEST(DefaultCamera, ExistsForAnEmptyScene) {
     EXPECT_GT(glm::distance(camera.eye, camera.target), 0);
 }
 
-TEST(Hash, ChangesWithEverythingThatIsSeen) {
-    const Scene scene = cornell_mirrors();
-    const std::string whole = hash(scene);
-    EXPECT_EQ(whole.size(), 16u);
-    EXPECT_EQ(hash(cornell_mirrors()), whole);
-    std::set<std::string> hashes = {whole, hash(cornell_mirrors_closed())};
-    const auto changed = [&](auto&& change) {
-        Scene other = scene;
+/// A scene with something in every field, and every change of one thing in it.
+class HashOf : public testing::Test {
+protected:
+    HashOf() {
+        scene_ = cornell_mirrors();
+        const Keys keys{.interpolation = Keys::Interpolation::cubic,
+                        .times = {0, 1},
+                        .values = {{1, 2, 3}, {4, 5, 6}},
+                        .in_tangents = {{1, 0, 0}, {0, 1, 0}},
+                        .out_tangents = {{2, 0, 0}, {0, 2, 0}}};
+        scene_.objects[7].motion = Keyframes{.keys = std::make_shared<const Keys>(keys)};
+        hashes_ = {hash(scene_)};
+    }
+
+    static Keyframes& motion(Scene& scene) { return std::get<Keyframes>(scene.objects[7].motion); }
+
+    /// No scene before had the hash of this one.
+    template <typename Change>
+    void changed(const char* what, Change&& change) {
+        Scene other = scene_;
         change(other);
-        EXPECT_TRUE(hashes.insert(hash(other)).second);
-    };
-    changed([](Scene& s) { s.meshes[0].positions[0].x = std::nextafter(552.8, 0); });
-    changed([](Scene& s) { s.meshes[0].normals[0].x = 1; });
-    changed([](Scene& s) { std::swap(s.meshes[0].triangles[0], s.meshes[0].triangles[1]); });
-    changed([](Scene& s) { s.materials[0].albedo.x = 0.5f; });
-    changed([](Scene& s) { s.materials[4].mirror = false; });
-    changed([](Scene& s) { s.objects[6].name = "other"; });
-    changed([](Scene& s) { s.objects[6].sphere.reset(); });
-    changed([](Scene& s) { s.objects[9].motion = Harmonic{{0, 50, 0}, 5}; });
-    changed([](Scene& s) { s.cameras[0].vertical_fov_degrees = 38; });
-    Scene renamed = scene;
-    renamed.name = "copy";
-    EXPECT_EQ(hash(renamed), whole);
+        EXPECT_TRUE(hashes_.insert(hash(other)).second) << what;
+    }
+    /// The same of each component.
+    template <typename Get>
+    void changed_vector(const char* what, Get&& get) {
+        for (int i = 0; i < 3; ++i) changed(what, [&](Scene& scene) { get(scene)[i] += .125f; });
+    }
+    template <typename Change>
+    void changed_keys(const char* what, Change&& change) {
+        changed(what, [&](Scene& scene) {
+            Keys keys = *motion(scene).keys;
+            change(keys);
+            motion(scene).keys = std::make_shared<const Keys>(keys);
+        });
+    }
+
+    Scene scene_;
+    std::set<std::string> hashes_;
+};
+
+TEST_F(HashOf, MeshesChangesWithThem) {
+    changed("a bit", [](Scene& s) { s.meshes[0].positions[0].x = std::nextafter(552.8, 0); });
+    changed_vector(
+        "position", [](Scene & s) -> auto& { return s.meshes.back().positions.back(); });
+    changed_vector(
+        "normal", [](Scene & s) -> auto& { return s.meshes[0].normals.back(); });
+    changed("order",
+            [](Scene& s) { std::swap(s.meshes[0].triangles[0], s.meshes[0].triangles[1]); });
+    for (int i = 0; i < 3; ++i)
+        changed("index", [&](Scene& s) { s.meshes.back().triangles.back()[i] ^= 1; });
+    changed("name", [](Scene& s) { s.meshes[1].name += "'"; });
+    changed("count", [](Scene& s) { s.meshes.push_back(s.meshes[0]); });
+    changed("text that runs over", [](Scene& s) {
+        s.meshes[0].name += "a", s.materials[0].name = "b" + s.materials[0].name;
+    });
+}
+
+TEST_F(HashOf, MaterialsChangesWithThem) {
+    changed_vector(
+        "albedo", [](Scene & s) -> auto& { return s.materials.back().albedo; });
+    changed_vector(
+        "emission", [](Scene & s) -> auto& { return s.materials.back().emission; });
+    changed_vector(
+        "reflectance", [](Scene & s) -> auto& { return s.materials.back().reflectance; });
+    changed("mirror", [](Scene& s) { s.materials.back().mirror = !s.materials.back().mirror; });
+    changed("name", [](Scene& s) { s.materials.back().name += "'"; });
+}
+
+TEST_F(HashOf, ObjectsChangesWithThem) {
+    changed("name", [](Scene& s) { s.objects[6].name = "other"; });
+    changed("mesh", [](Scene& s) { s.objects[6].mesh = 0; });
+    changed("material", [](Scene& s) { s.objects[6].material = 0; });
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            changed("place",
+                    [&](Scene& s) { s.objects.back().world_from_object[column][row] += .5; });
+    changed("no sphere", [](Scene& s) { s.objects[6].sphere.reset(); });
+    changed_vector(
+        "centre", [](Scene & s) -> auto& { return s.objects[6].sphere->centre; });
+    changed("radius", [](Scene& s) { s.objects[6].sphere->radius += 1; });
+    changed("seen", [](Scene& s) { s.objects[6].seen_by_camera = false; });
+    EXPECT_TRUE(hashes_.insert(hash(cornell_mirrors_closed())).second);
+}
+
+TEST_F(HashOf, MotionChangesWithIt) {
+    changed("none", [](Scene& s) { s.objects[7].motion = {}; });
+    changed("harmonic", [](Scene& s) { s.objects[7].motion = Harmonic{{0, 50, 0}, 5}; });
+    changed("period", [](Scene& s) { s.objects[7].motion = Harmonic{{0, 50, 0}, 6}; });
+    for (int i = 0; i < 3; ++i)
+        changed("amplitude", [&](Scene& s) {
+            Harmonic motion{{1, 50, 1}, 5};
+            motion.amplitude[i] = 9;
+            s.objects[7].motion = motion;
+        });
+    changed_keys("kind", [](Keys& keys) { keys.interpolation = Keys::Interpolation::linear; });
+    changed_keys("time", [](Keys& keys) { keys.times[1] = 2; });
+    changed_keys("value", [](Keys& keys) { keys.values[1].z = 9; });
+    changed_keys("in", [](Keys& keys) { keys.in_tangents[1].z = 9; });
+    changed_keys("out", [](Keys& keys) { keys.out_tangents[1].z = 9; });
+    changed_vector(
+        "rest", [](Scene & s) -> auto& { return motion(s).rest; });
+    for (int column = 0; column < 3; ++column)
+        changed_vector(
+            "turn", [&](Scene & s) -> auto& { return motion(s).world_from_keys[column]; });
+}
+
+TEST_F(HashOf, CamerasChangesWithThem) {
+    changed_vector(
+        "eye", [](Scene & s) -> auto& { return s.cameras[0].eye; });
+    changed_vector(
+        "target", [](Scene & s) -> auto& { return s.cameras[0].target; });
+    changed_vector(
+        "up", [](Scene & s) -> auto& { return s.cameras[0].up; });
+    changed("angle", [](Scene& s) { s.cameras[0].vertical_fov_degrees = 38; });
+    changed("name", [](Scene& s) { s.cameras[0].name += "'"; });
+    changed("another", [](Scene& s) { s.cameras.push_back(s.cameras[0]); });
+}
+
+/// A copied file has the same hash: keys count by what they say, not by where they lie.
+TEST_F(HashOf, WhatIsNotSeenChangesNothing) {
+    const std::string whole = hash(scene_);
+    EXPECT_EQ(whole.size(), 16u);
+    Scene copy = scene_;
+    copy.name = "copy";
+    copy.warnings = {"a warning"};
+    copy.files = {"/elsewhere/copy.glb"};
+    copy.objects[7].motion = Keyframes{.keys = std::make_shared<const Keys>(*motion(scene_).keys),
+                                       .world_from_keys = motion(scene_).world_from_keys,
+                                       .rest = motion(scene_).rest};
+    EXPECT_EQ(hash(copy), whole);
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 // read whenever an instance is made:
 // - CATOPTRIC_FAULT=vkCreateBuffer:3:-2: the third call of that name returns VkResult -2 instead of
 //   being made.
-//   A dispatch returns nothing: it is left out.
+//   Recorded commands return nothing: that one and all after it of its name are left out.
 // - CATOPTRIC_FAULT_REPORT=FILE: gets a line "NAME CALLS ALIVE" for each call made, then "strays N"
 //   (handles destroyed that were not alive), "untimely N" (destroyed while the device may use
 //   them), "loose_stamps N" (time stamps that no execution barrier follows at once) and
@@ -94,7 +94,8 @@ struct State {
     bool failed = false; ///< the fault has come
     bool lost = false;   ///< the device has been reported lost, and stays so
     int strays = 0, untimely = 0;
-    bool stamped = false; ///< the command recorded last is a time stamp
+    bool leaves_out = false; ///< the fault has come to a recorded command
+    bool stamped = false;    ///< the command recorded last is a time stamp
     int loose_stamps = 0;
     std::map<std::string, Counter, std::less<>> counters;
     std::uint64_t bytes = 0, most_bytes = 0; ///< of memory that is alive
@@ -256,7 +257,9 @@ struct Command<kName, void(VKAPI_PTR*)(VkCommandBuffer, Args...)> {
         }
         state.loose_stamps += state.stamped && !divides;
         state.stamped = kThis == "vkCmdWriteTimestamp2";
-        if (is_fault(kName)) return;
+        const bool is_first = is_fault(kName);
+        state.leaves_out |= is_first;
+        if (state.leaves_out && kThis == state.fault_name) return;
         reinterpret_cast<void(VKAPI_PTR*)(VkCommandBuffer, Args...)>(counter_of(kName).next)(
             buffer, args...);
     }
