@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=build/ci
-git diff --quiet -- engine shaders || { echo "mutate: engine/ or shaders/ has changes that are not committed" >&2; exit 2; }
+git diff --quiet -- engine shaders samples || { echo "mutate: engine/, shaders/ or samples/ has changes that are not committed" >&2; exit 2; }
 names=("$@")
 ((${#names[@]})) || for patch in tests/mutations/*.patch; do names+=("$(basename "$patch" .patch)"); done
 green=()
