@@ -14,7 +14,7 @@ for name in "${names[@]}"; do
     read -r _ program filter < <(grep '^Test: ' "$patch")
     trap 'git apply -R "$patch"' EXIT
     git apply "$patch" || { trap - EXIT; exit 2; }
-    cmake --build $build --target "$program" >/dev/null
+    cmake --build $build --target "$program" >/dev/null || { echo "mutate: $name does not compile" >&2; exit 2; }
     if red=$($build/"$program" --gtest_filter="$filter" 2>&1); then
         grep -q '\[  PASSED  \] 0 tests' <<<"$red" && { echo "mutate: $name: no test $filter" >&2; exit 2; }
         green+=("$name")
