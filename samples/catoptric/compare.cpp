@@ -127,30 +127,26 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_compare(CLI::App& program, Run& chosen, std::vector<std::string> command) {
+void add_compare(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<Options>();
     options->command = std::move(command);
-    CLI::App* verb = program.add_subcommand(
-        "compare", "every technique against the reference: speed and error in one table");
-    verb->footer(kExamples);
-    verb->add_option("-o,--output", options->folder,
-                     "folder for the report; required, made if missing")
-        ->type_name("DIR");
-    verb->add_option("--techniques", options->techniques,
-                     "name[:knob=value,...] each, see 'list techniques' (the default list)")
-        ->type_name("T");
-    verb->add_flag("--together", options->together,
-                   "all rows in one command buffer, on one timeline");
-    verb->add_flag("--no-causes", options->no_causes,
-                   "leave out the split of each row's error by cause");
-    verb->add_flag("--lag", options->lag,
-                   "also how far the rows that read last frame's captures are behind a moving "
-                   "scene: about 2300 frames a row");
-    add_common(*verb, options->common);
-    verb->callback([verb, options, &chosen] {
-        refuse_extras(*verb);
-        chosen = [options] { return run(*options); };
-    });
+    Verb& verb = program.add("compare",
+                             "every technique against the reference: speed and error in one table");
+    verb.examples(kExamples);
+    verb.option("-o,--output", "DIR", "folder for the report; required, made if missing",
+                options->folder);
+    verb.option("--techniques", "T",
+                "name[:knob=value,...] each, see 'list techniques' (the default list)",
+                options->techniques);
+    verb.flag("--together", "all rows in one command buffer, on one timeline", options->together);
+    verb.flag("--no-causes", "leave out the split of each row's error by cause",
+              options->no_causes);
+    verb.flag("--lag",
+              "also how far the rows that read last frame's captures are behind a moving "
+              "scene: about 2300 frames a row",
+              options->lag);
+    add_common(verb, options->common);
+    verb.does([options] { return run(*options); });
 }
 
 } // namespace catoptric::cli

@@ -99,29 +99,25 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_diff(CLI::App& program, Run& chosen) {
+void add_diff(CommandLine& program) {
     const auto options = std::make_shared<Options>();
-    CLI::App* verb = program.add_subcommand("diff", "how far two pictures are apart");
-    verb->footer(kExamples);
-    verb->add_option("A", options->a, "picture, .exr or .png")->type_name("")->required();
-    verb->add_option("B", options->b, "picture of the same size")->type_name("")->required();
-    verb->add_option("--mask", options->mask,
-                     "PNG of the same size: pixels that are not black count")
-        ->type_name("M");
-    add_text(*verb, "--max-flip", "X", "exit 1 when flip is over it",
-             [options](const std::string& text) {
-                 options->most_flip = parse_real("--max-flip", text, 0);
-             });
-    add_text(*verb, "--max-rmse", "X", "exit 1 when rmse is over it",
-             [options](const std::string& text) {
-                 options->most_rmse = parse_real("--max-rmse", text, 0);
-             });
-    add_exposure(*verb, options->exposure);
-    add_manners(*verb, options->manners);
-    verb->callback([verb, options, &chosen] {
-        refuse_extras(*verb);
-        chosen = [options] { return run(*options); };
-    });
+    Verb& verb = program.add("diff", "how far two pictures are apart");
+    verb.examples(kExamples);
+    verb.argument("A", "picture, .exr or .png", options->a, Verb::Need::required);
+    verb.argument("B", "picture of the same size", options->b, Verb::Need::required);
+    verb.option("--mask", "M", "PNG of the same size: pixels that are not black count",
+                options->mask);
+    verb.option("--max-flip", "X", "exit 1 when flip is over it",
+                [options](const std::string& text) {
+                    options->most_flip = parse_real("--max-flip", text, 0);
+                });
+    verb.option("--max-rmse", "X", "exit 1 when rmse is over it",
+                [options](const std::string& text) {
+                    options->most_rmse = parse_real("--max-rmse", text, 0);
+                });
+    add_exposure(verb, options->exposure);
+    add_manners(verb, options->manners);
+    verb.does([options] { return run(*options); });
 }
 
 } // namespace catoptric::cli

@@ -54,24 +54,19 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_graph(CLI::App& program, Run& chosen) {
+void add_graph(CommandLine& program) {
     const auto options = std::make_shared<Options>();
-    CLI::App* verb = program.add_subcommand("graph", "the compiled plan of a technique's frame");
-    verb->footer(kExamples);
-    verb->add_option("--technique", options->technique,
-                     "name[:knob=value,...], see 'list techniques'; required")
-        ->type_name("T");
-    add_text(
-        *verb, "--format", "F", "text, dot or json (text)", [options](const std::string& text) {
-            constexpr app::PlanFormat kFormats[] = {app::PlanFormat::text, app::PlanFormat::dot,
-                                                    app::PlanFormat::json};
-            options->format = kFormats[parse_choice("--format", text, {"text", "dot", "json"})];
-        });
-    add_common(*verb, options->common);
-    verb->callback([verb, options, &chosen] {
-        refuse_extras(*verb);
-        chosen = [options] { return run(*options); };
+    Verb& verb = program.add("graph", "the compiled plan of a technique's frame");
+    verb.examples(kExamples);
+    verb.option("--technique", "T", "name[:knob=value,...], see 'list techniques'; required",
+                options->technique);
+    verb.option("--format", "F", "text, dot or json (text)", [options](const std::string& text) {
+        constexpr app::PlanFormat kFormats[] = {app::PlanFormat::text, app::PlanFormat::dot,
+                                                app::PlanFormat::json};
+        options->format = kFormats[parse_choice("--format", text, {"text", "dot", "json"})];
     });
+    add_common(verb, options->common);
+    verb.does([options] { return run(*options); });
 }
 
 } // namespace catoptric::cli

@@ -54,25 +54,21 @@ std::string text_of(const InfoFacts& facts) {
 
 } // namespace
 
-void add_info(CLI::App& program, Run& chosen) {
+void add_info(CommandLine& program) {
     struct Options {
         Manners manners;
         std::string device;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App* verb = program.add_subcommand("info", "version, device and features");
-    verb->footer("Example:\n  catoptric info --json");
-    verb->add_option("--device", options->device,
-                     "index from 0 or part of a name (the fastest kind)")
-        ->type_name("D");
-    add_manners(*verb, options->manners);
-    verb->callback([verb, options, &chosen] {
-        refuse_extras(*verb);
-        chosen = [options] {
-            const InfoFacts facts = gather(options->device);
-            put(options->manners.json ? info_json(facts) : text_of(facts));
-            return 0;
-        };
+    Verb& verb = program.add("info", "version, device and features");
+    verb.examples("Example:\n  catoptric info --json");
+    verb.option("--device", "D", "index from 0 or part of a name (the fastest kind)",
+                options->device);
+    add_manners(verb, options->manners);
+    verb.does([options] {
+        const InfoFacts facts = gather(options->device);
+        put(options->manners.json ? info_json(facts) : text_of(facts));
+        return 0;
     });
 }
 

@@ -83,22 +83,21 @@ std::string listing(const std::string& kind, bool json) {
 
 } // namespace
 
-void add_list(CLI::App& program, Run& chosen) {
+void add_list(CommandLine& program) {
     struct Options {
         Manners manners;
         std::string kind;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App* verb = program.add_subcommand("list", "techniques, scenes, devices or metrics");
-    verb->footer(kExamples);
-    verb->add_option("WHAT", options->kind, "techniques, scenes, devices or metrics")
-        ->type_name("")
-        ->required();
-    add_manners(*verb, options->manners);
-    verb->callback([verb, options, &chosen] {
-        refuse_extras(*verb);
+    Verb& verb = program.add("list", "techniques, scenes, devices or metrics");
+    verb.examples(kExamples);
+    verb.argument("WHAT", "techniques, scenes, devices or metrics", options->kind,
+                  Verb::Need::required);
+    add_manners(verb, options->manners);
+    verb.does([options] {
         parse_choice("list", options->kind, kKinds);
-        chosen = [options] { return put(listing(options->kind, options->manners.json)), 0; };
+        put(listing(options->kind, options->manners.json));
+        return 0;
     });
 }
 

@@ -1,17 +1,14 @@
 // catoptric VERB ...: one file a verb. Errors become exit codes here and nowhere else.
 #include "app/engine.hpp"
 #include "core/error.hpp"
-#include "core/knob.hpp"
 #include "core/text.hpp"
 #include "output.hpp"
-#include "parse.hpp"
 #include "verbs.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <new>
-#include <sstream>
 
 namespace catoptric::cli {
 
@@ -31,65 +28,19 @@ void say(const std::string& message) {
     if (!message.empty()) std::cerr << "catoptric: " << printable(message, "\n") << std::endl;
 }
 
-/// The first word is a verb, or asks for help or the version.
-void check_verb(const CLI::App& program, const std::string& word) {
-    std::vector<std::string> names;
-    for (const CLI::App* verb : program.get_subcommands(nullptr)) names.push_back(verb->get_name());
-    const std::vector<std::string> flags{"-h", "--help", "--version"};
-    for (const auto& known : {names, flags})
-        if (std::find(known.begin(), known.end(), word) != known.end()) return;
-    fail(Failure::usage, "wanted a verb (", join(names), "), found '", word, "'",
-         did_you_mean(word, word.starts_with('-') ? flags : names));
-}
-
-/// CLI11's own words, in ours.
-void name_parts_of_help(CLI::App& program) {
-    program.get_formatter()->label("SUBCOMMAND", "VERB");
-    program.set_help_flag("-h,--help", "this text");
-    for (CLI::App* verb : program.get_subcommands(nullptr)) {
-        verb->group("Verbs");
-        verb->set_help_flag("-h,--help", "this text");
-    }
-}
-
-/// Help without runs of empty lines.
-std::string tidy(std::string text) {
-    for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
-    return text;
-}
-
 int run(int argc, char** argv) {
-    CLI::App program("Measures what each way of rendering mirrors costs and gets wrong.",
-                     "catoptric");
-    program.require_subcommand(1);
-    program.footer(kExamples);
-    program.set_version_flag("--version",
-                             "catoptric " + app::version() + " (" + app::commit() + ")");
-    Run chosen;
-    add_compare(program, chosen, {argv, argv + argc});
-    add_render(program, chosen);
-    add_stress(program, chosen, {argv, argv + argc});
-    add_diff(program, chosen);
-    add_graph(program, chosen);
-    add_list(program, chosen);
-    add_info(program, chosen);
-    name_parts_of_help(program);
-    if (argc < 2) {
-        std::cerr << tidy(program.help()) << std::flush;
-        return static_cast<int>(Failure::usage);
-    }
-    check_verb(program, argv[1]);
-    try {
-        program.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        std::ostringstream text, ignored;
-        if (program.exit(error, text, ignored) == 0) { // help or version was asked for
-            put(tidy(text.str()));
-            return 0;
-        }
-        fail(Failure::usage, error.what(), " (try 'catoptric ", argv[1], " --help')");
-    }
-    return chosen();
+    const std::vector<std::string> words(argv, argv + argc);
+    CommandLine program("catoptric",
+                        "Measures what each way of rendering mirrors costs and gets wrong.",
+                        "catoptric " + app::version() + " (" + app::commit() + ")", kExamples);
+    add_compare(program, words);
+    add_render(program);
+    add_stress(program, words);
+    add_diff(program);
+    add_graph(program);
+    add_list(program);
+    add_info(program);
+    return program.parse({words.begin() + std::min(argc, 1), words.end()})();
 }
 
 /// Runs, and says on stderr what went wrong.

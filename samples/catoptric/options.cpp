@@ -18,26 +18,26 @@ constexpr double kMostStops = 64; // 2^64 is far beyond every picture, and finit
 const std::string kCommonGroup = "Common options";
 const std::string kMannersGroup = "Output";
 
-void add_numbers(CLI::App& verb, Common& common) {
-    add_text(verb, "--size", "WxH", "picture size (512x512)",
-             [&](const std::string& text) { common.size = parse_size("--size", text); });
-    add_text(verb, "--frames", "N", "measured frames, at least 1 (20)",
-             [&](const std::string& text) {
-                 common.frames = static_cast<int>(parse_whole("--frames", text, 1, kMostFrames));
-             });
-    add_text(verb, "--warmup", "N", "frames before them, not measured (8)",
-             [&](const std::string& text) {
-                 common.warmup = static_cast<int>(parse_whole("--warmup", text, 0, kMostFrames));
-             });
-    add_text(verb, "--time", "SECONDS", "instant of the scene's motion (0)",
-             [&](const std::string& text) { common.time = parse_real("--time", text); });
-    verb.add_flag("--animate", common.animate,
-                  "frame k at --time + (k-1)/60 s; otherwise all frames at --time");
-    add_text(verb, "--seed", "N",
-             "of --camera seeded and of sample patterns that are no regular grid (1)",
-             [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
-    add_text(verb, "--ambient", "A", "ambient light, at least 0 (0.05)",
-             [&](const std::string& text) { common.ambient = parse_real("--ambient", text, 0); });
+void add_numbers(Verb& verb, Common& common) {
+    verb.option("--size", "WxH", "picture size (512x512)",
+                [&](const std::string& text) { common.size = parse_size("--size", text); });
+    verb.option("--frames", "N", "measured frames, at least 1 (20)", [&](const std::string& text) {
+        common.frames = static_cast<int>(parse_whole("--frames", text, 1, kMostFrames));
+    });
+    verb.option("--warmup", "N", "frames before them, not measured (8)",
+                [&](const std::string& text) {
+                    common.warmup = static_cast<int>(parse_whole("--warmup", text, 0, kMostFrames));
+                });
+    verb.option("--time", "SECONDS", "instant of the scene's motion (0)",
+                [&](const std::string& text) { common.time = parse_real("--time", text); });
+    verb.flag("--animate", "frame k at --time + (k-1)/60 s; otherwise all frames at --time",
+              common.animate);
+    verb.option("--seed", "N",
+                "of --camera seeded and of sample patterns that are no regular grid (1)",
+                [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
+    verb.option("--ambient", "A", "ambient light, at least 0 (0.05)", [&](const std::string& text) {
+        common.ambient = parse_real("--ambient", text, 0);
+    });
     add_exposure(verb, common.exposure);
 }
 
@@ -47,34 +47,36 @@ void take_model(const std::string& text) {
           "--model required: is not there yet; this version renders 'everything'");
 }
 
-void add_choices(CLI::App& verb, Common& common) {
-    add_text(verb, "--root", "DIR",
-             "the files that SCENE names may lie below DIR too (below the scene's own folder)",
-             [&](const std::string& text) {
-                 check(!text.empty(), Failure::usage, "--root: wanted a folder, found ''");
-                 common.root = text;
-             });
-    add_text(verb, "--camera", "C",
-             "name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV, or seeded: drawn from --seed, a mirror in "
-             "view (the file's first)",
-             [&](const std::string& text) { common.camera = text; });
-    add_text(verb, "--model", "M",
-             "everything: each mirror, six faces, every frame. required: not there yet",
-             take_model);
-    add_text(verb, "--reference", "T", "technique that compare judges against (raytrace:depth=16)",
-             [&](const std::string& text) { common.reference = app::parse_technique(text).label; });
-    add_text(verb, "--device", "D",
-             "index from 0 or part of a name, see 'list devices' (the fastest kind)",
-             [&](const std::string& text) { common.device = text; });
-    add_text(
-        verb, "--timing", "T",
+void add_choices(Verb& verb, Common& common) {
+    verb.option("--root", "DIR",
+                "the files that SCENE names may lie below DIR too (below the scene's own folder)",
+                [&](const std::string& text) {
+                    check(!text.empty(), Failure::usage, "--root: wanted a folder, found ''");
+                    common.root = text;
+                });
+    verb.option(
+        "--camera", "C",
+        "name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV, or seeded: drawn from --seed, a mirror in "
+        "view (the file's first)",
+        [&](const std::string& text) { common.camera = text; });
+    verb.option("--model", "M",
+                "everything: each mirror, six faces, every frame. required: not there yet",
+                take_model);
+    verb.option(
+        "--reference", "T", "technique that compare judges against (raytrace:depth=16)",
+        [&](const std::string& text) { common.reference = app::parse_technique(text).label; });
+    verb.option("--device", "D",
+                "index from 0 or part of a name, see 'list devices' (the fastest kind)",
+                [&](const std::string& text) { common.device = text; });
+    verb.option(
+        "--timing", "T",
         "isolated: times of passes add up. pipelined: passes may overlap (isolated)",
         [&](const std::string& text) {
             const bool isolated = parse_choice("--timing", text, {"isolated", "pipelined"}) == 0;
             common.timing = isolated ? app::Timing::isolated : app::Timing::pipelined;
         });
-    verb.add_flag("--validate", common.validate,
-                  "watched by the Vulkan validation layer; any message fails the run");
+    verb.flag("--validate", "watched by the Vulkan validation layer; any message fails the run",
+              common.validate);
 }
 
 std::string camera_list(const scene::Scene& scene) {
@@ -132,55 +134,33 @@ scene::Camera choose_camera(const Common& common, const scene::Scene& scene) {
 
 } // namespace
 
-CLI::Option* add_text(CLI::App& verb, const std::string& name, const std::string& type,
-                      const std::string& help, std::function<void(const std::string&)> take) {
-    return verb.add_option_function<std::string>(name, take, help)->type_name(type);
+void add_exposure(Verb& verb, double& exposure) {
+    verb.option("--exposure", "STOPS", "brightness of PNG, HTML and FLIP: times 2^STOPS (0)",
+                [&](const std::string& text) {
+                    exposure = parse_real("--exposure", text, -kMostStops, kMostStops);
+                });
 }
 
-void add_exposure(CLI::App& verb, double& exposure) {
-    add_text(verb, "--exposure", "STOPS", "brightness of PNG, HTML and FLIP: times 2^STOPS (0)",
-             [&](const std::string& text) {
-                 exposure = parse_real("--exposure", text, -kMostStops, kMostStops);
-             });
+void add_manners(Verb& verb, Manners& manners) {
+    verb.heading(kMannersGroup);
+    verb.flag("--json", "one JSON document on stdout instead of text", manners.json);
+    verb.flag("-q,--quiet", "no progress and no information on stderr", manners.quiet);
+    verb.flag("-v,--verbose", "more information on stderr", manners.verbose);
+    verb.option("--progress", "WHEN", "auto: on a terminal; always; never (auto)",
+                [&](const std::string& text) {
+                    manners.progress = static_cast<ProgressMode>(
+                        parse_choice("--progress", text, {"auto", "always", "never"}));
+                });
 }
 
-void add_manners(CLI::App& verb, Manners& manners) {
-    verb.option_defaults()->group(kMannersGroup);
-    verb.add_flag("--json", manners.json, "one JSON document on stdout instead of text");
-    verb.add_flag("-q,--quiet", manners.quiet, "no progress and no information on stderr");
-    verb.add_flag("-v,--verbose", manners.verbose, "more information on stderr");
-    add_text(verb, "--progress", "WHEN", "auto: on a terminal; always; never (auto)",
-             [&](const std::string& text) {
-                 manners.progress = static_cast<ProgressMode>(
-                     parse_choice("--progress", text, {"auto", "always", "never"}));
-             });
-    verb.allow_extras(); // so that refuse_extras can suggest
-}
-
-void add_common(CLI::App& verb, Common& common) {
-    verb.add_option(
-            "SCENE", common.scene,
-            "built-in name (see 'list scenes') or .glb, .gltf or .obj file (cornell-mirrors)")
-        ->type_name("");
-    verb.option_defaults()->group(kCommonGroup);
+void add_common(Verb& verb, Common& common) {
+    verb.argument("SCENE",
+                  "built-in name (see 'list scenes') or .glb, .gltf or .obj file (cornell-mirrors)",
+                  common.scene, Verb::Need::optional);
+    verb.heading(kCommonGroup);
     add_numbers(verb, common);
     add_choices(verb, common);
     add_manners(verb, common.manners);
-}
-
-void refuse_extras(const CLI::App& verb) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : verb.get_options())
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    const std::vector<std::string> extras = verb.remaining();
-    for (const std::string& extra : extras) {
-        if (!extra.starts_with('-') || extra == "--") continue;
-        const std::string name = extra.substr(0, extra.find('='));
-        fail(Failure::usage, "'", verb.get_name(), "' has no option '", name, "'",
-             did_you_mean(name, names));
-    }
-    check(extras.empty(), Failure::usage, "'", verb.get_name(),
-          "' wanted no further argument, found '", extras.empty() ? "" : extras.front(), "'");
 }
 
 void require_given(bool given, const std::string& verb, const std::string& option,

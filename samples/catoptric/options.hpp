@@ -1,14 +1,13 @@
 #pragma once
 
 #include "app/engine.hpp"
+#include "command_line.hpp"
 #include "output.hpp"
 
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
-
-#include <CLI/CLI.hpp>
 
 namespace catoptric::cli {
 
@@ -33,17 +32,11 @@ struct Common {
 };
 
 /// --json --quiet -v --progress.
-void add_manners(CLI::App& verb, Manners& manners);
+void add_manners(Verb& verb, Manners& manners);
 /// SCENE, every common option, and `add_manners`. `common` must outlive the parsing.
-void add_common(CLI::App& verb, Common& common);
-void add_exposure(CLI::App& verb, double& exposure);
+void add_common(Verb& verb, Common& common);
+void add_exposure(Verb& verb, double& exposure);
 
-/// Adds an option whose text goes through `take` while parsing.
-CLI::Option* add_text(CLI::App& verb, const std::string& name, const std::string& type,
-                      const std::string& help, std::function<void(const std::string&)> take);
-
-/// Throws `usage` for an option or argument that the verb does not have, naming the nearest.
-void refuse_extras(const CLI::App& verb);
 /// Throws `usage` saying that `verb` needs `option`, unless it was given.
 void require_given(bool given, const std::string& verb, const std::string& option,
                    const std::string& what);

@@ -148,27 +148,22 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_render(CLI::App& program, Run& chosen) {
+void add_render(CommandLine& program) {
     const auto options = std::make_shared<Options>();
-    CLI::App* verb = program.add_subcommand("render", "one picture by one technique");
-    verb->footer(kExamples);
-    verb->add_option("--technique", options->technique,
-                     "name[:knob=value,...], see 'list techniques'; required")
-        ->type_name("T");
-    verb->add_option("-o,--output", options->output,
-                     "OUT.exr, OUT.png or - for a PNG on stdout; required")
-        ->type_name("OUT");
-    verb->add_option("--trace", options->trace,
-                     "times of the last frame's passes for chrome://tracing or Perfetto")
-        ->type_name("T.json");
-    add_text(*verb, "--profile", "P.json", "not there yet", [](const std::string&) {
+    Verb& verb = program.add("render", "one picture by one technique");
+    verb.examples(kExamples);
+    verb.option("--technique", "T", "name[:knob=value,...], see 'list techniques'; required",
+                options->technique);
+    verb.option("-o,--output", "OUT", "OUT.exr, OUT.png or - for a PNG on stdout; required",
+                options->output);
+    verb.option("--trace", "T.json",
+                "times of the last frame's passes for chrome://tracing or Perfetto",
+                options->trace);
+    verb.option("--profile", "P.json", "not there yet", [](const std::string&) {
         fail(Failure::usage, "--profile: is not there yet; give --technique name:knob=value,...");
     });
-    add_common(*verb, options->common);
-    verb->callback([verb, options, &chosen] {
-        refuse_extras(*verb);
-        chosen = [options] { return run(*options); };
-    });
+    add_common(verb, options->common);
+    verb.does([options] { return run(*options); });
 }
 
 } // namespace catoptric::cli

@@ -87,31 +87,25 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_stress(CLI::App& program, Run& chosen, std::vector<std::string> command) {
+void add_stress(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<Options>();
     options->command = std::move(command);
-    CLI::App* verb = program.add_subcommand(
-        "stress", "rendering at the extremes: measured values beside thresholds");
-    verb->footer(kExamples);
-    verb->add_option("-o,--output", options->folder,
-                     "folder for stress.json, stress.html, stress.md and pictures of what failed")
-        ->type_name("DIR");
-    verb->add_option("--only", options->only, "ids of properties (all)")->type_name("ID");
-    add_text(*verb, "--size", "WxH", "picture size (256x256)",
-             [options = options.get()](const std::string& text) {
-                 options->size = parse_size("--size", text);
-             });
-    verb->add_option("--seed", options->seed, "of the scenes, which are made for the run (1)")
-        ->type_name("N");
-    verb->add_option("--device", options->device, "index or part of a name")
-        ->type_name("INDEX|NAME");
-    verb->add_flag("--validate", options->validate,
-                   "the validation layer watches; any message is an error");
-    add_manners(*verb, options->manners);
-    verb->callback([verb, options, &chosen] {
-        refuse_extras(*verb);
-        chosen = [options] { return run(*options); };
-    });
+    Verb& verb = program.add("stress",
+                             "rendering at the extremes: measured values beside thresholds");
+    verb.examples(kExamples);
+    verb.option("-o,--output", "DIR",
+                "folder for stress.json, stress.html, stress.md and pictures of what failed",
+                options->folder);
+    verb.option("--only", "ID", "ids of properties (all)", options->only);
+    verb.option("--size", "WxH", "picture size (256x256)",
+                [options](const std::string& text) { options->size = parse_size("--size", text); });
+    verb.option("--seed", "N", "of the scenes, which are made for the run (1)",
+                [options](const std::string& text) { options->seed = parse_seed("--seed", text); });
+    verb.option("--device", "INDEX|NAME", "index or part of a name", options->device);
+    verb.flag("--validate", "the validation layer watches; any message is an error",
+              options->validate);
+    add_manners(verb, options->manners);
+    verb.does([options] { return run(*options); });
 }
 
 } // namespace catoptric::cli

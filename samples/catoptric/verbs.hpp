@@ -1,23 +1,20 @@
 #pragma once
 
-#include <functional>
+#include "command_line.hpp"
+
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
-/// Each adds its verb. Parsing leaves in `run` what is to be done; that returns the exit code.
+/// Each adds its verb.
 namespace catoptric::cli {
 
-using Run = std::function<int()>;
-
 /// `command`: the whole command line, for the record.
-void add_compare(CLI::App& program, Run& run, std::vector<std::string> command);
-void add_stress(CLI::App& program, Run& run, std::vector<std::string> command);
-void add_render(CLI::App& program, Run& run);
-void add_diff(CLI::App& program, Run& run);
-void add_graph(CLI::App& program, Run& run);
-void add_list(CLI::App& program, Run& run);
-void add_info(CLI::App& program, Run& run);
+void add_compare(CommandLine& program, std::vector<std::string> command);
+void add_stress(CommandLine& program, std::vector<std::string> command);
+void add_render(CommandLine& program);
+void add_diff(CommandLine& program);
+void add_graph(CommandLine& program);
+void add_list(CommandLine& program);
+void add_info(CommandLine& program);
 
 } // namespace catoptric::cli
