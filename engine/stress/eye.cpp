@@ -55,19 +55,20 @@ int rows_with_edge(const DoubleTracer& tracer, const scene::Camera& camera) {
     return rows;
 }
 
-/// At the ridge of the far wall and a side wall, askew, where it is to be seen: a ball may hide it,
-/// and shadow may lie on both sides. Rays that fell together would show its wrong side.
+/// At a ridge of the far wall, askew, where it is to be seen: a ball may hide it, and the walls may
+/// look the same. Rays that fell together would show its wrong side. `rows`: those of 32 with it.
 scene::Camera narrow_camera(const scene::Scene& scene, double ambient, int& rows) {
     const Bounds<double> walls = scene::bounds(scene);
     const DoubleTracer tracer(scene, ambient);
     scene::Camera camera = scene.cameras.front();
     camera.vertical_fov_degrees = .01;
     camera.up = normalize(dvec3(.5, 1, 0));
-    for (const double height : {.8, .65, .5, .35, .2, .05}) {
-        camera.target = {walls.lo.x, std::lerp(walls.lo.y, walls.hi.y, height), walls.hi.z};
-        rows = rows_with_edge(tracer, camera);
-        if (rows >= 16) break;
-    }
+    for (const double height : {.8, .5, .2})
+        for (const double x : {walls.lo.x, walls.hi.x}) {
+            camera.target = {x, std::lerp(walls.lo.y, walls.hi.y, height), walls.hi.z};
+            rows = rows_with_edge(tracer, camera);
+            if (rows >= 16) return camera;
+        }
     return camera;
 }
 
