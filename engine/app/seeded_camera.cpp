@@ -114,7 +114,7 @@ scene::Camera seeded_camera(const scene::Scene& scene, double seconds, std::uint
     std::mt19937_64 random(seed);
     for (int i = 0; i < kDraws && !aims.empty(); ++i) {
         const scene::Object& aim = now.objects[aims[random() % aims.size()]];
-        const scene::Camera camera = draw(random, scene::bounds(now, aim), everything);
+        scene::Camera camera = draw(random, scene::bounds(now, aim), everything);
         const dvec3 along = camera.target - camera.eye;
         if (!(std::abs(along.y) <= kMostUpright * glm::length(along)) || along == dvec3(0))
             continue;
