@@ -5,6 +5,27 @@
 #define CATOPTRIC_CROSSING_GLSL
 
 #include "reflect/arc.glsl"
+#include "reflect/silhouette.glsl"
+
+// What is captured at a place of the arc.
+struct Sample {
+    vec2 place;
+    float captured; // one over its distance; 0: nothing
+    float depth;    // ... minus one over the ray's; see is_behind
+};
+
+Sample sample_at(uint mirror, Arc arc, vec2 place) {
+    float captured = inverse(captured_distance(mirror, direction_at(arc, place)));
+    return Sample(place, captured, captured - ray_at(arc, place));
+}
+
+// The ray is behind what is captured there. Nothing is never in front of it, not even where it ends.
+bool is_behind(Sample s) { return s.captured > 0.0 && s.depth >= 0.0; }
+
+// Where the depth is 0 if one plane is seen at both, before and behind; between the two whatever is seen.
+vec2 false_position(Sample front, Sample behind) {
+    return normalize(front.place * behind.depth - behind.place * front.depth);
+}
 
 const uint kMaxRefinements = 16u;
 // A distance that near to the captured one, as a share of it, is found.
@@ -24,7 +45,8 @@ Lookup crossing(uint mirror, Arc arc, Sample front, Sample behind) {
         if (!halves && residual <= kOnSurface)
             return Lookup(direction_at(arc, false_position(front, behind)), kHit, residual, 0.0);
     }
-    if (is_silhouette(mirror, arc, front, behind)) {
+    if (what_is_between(mirror, direction_at(arc, front.place), direction_at(arc, behind.place), front.captured,
+                        behind.captured) == kSilhouette) {
         if (front.captured == 0.0) return Lookup(direction_at(arc, arc.end), kUnknown, 1.0, kLeaves);
         return Lookup(direction_at(arc, rotated(front.place, -texel)), kUnknown, 1.0, 0.0);
     }
