@@ -7,7 +7,7 @@
 // A surface steeper than this against the directions from the centre (tangent of the angle at which it is
 // seen) may be two that bilinear lookup joins.
 const float kSteepest = 4.0;
-// ... unless the step is that small a part of the distance: one of unorm8 is.
+// ... unless the step from texel to texel is that small a part of the distance: one of unorm8 is.
 const float kSmallStep = 1.0 / 128.0;
 
 float texel_angle() { return 2.0 / float(textureSize(distance_cubes, 0).x); } // in the middle of a face
@@ -22,7 +22,7 @@ const uint kGoesOn = 0u, kEnds = 1u, kSilhouette = 2u;
 uint what_is_between(uint mirror, vec3 front, vec3 behind, float captured_front, float captured_behind) {
     if (captured_front == 0.0) return kSilhouette;
     float rise = captured_behind - captured_front, angle = length(behind - front);
-    if (abs(rise) <= max(kSteepest * angle, kSmallStep) * captured_front) return kGoesOn;
+    if (abs(rise) <= max(kSteepest, kSmallStep / texel_angle()) * angle * captured_front) return kGoesOn;
     // A plane seen at a grazing angle goes on as steeply on one side at least, beyond the texel that a
     // bilinear lookup mixes in.
     float apart = 1.25 * texel_angle();
