@@ -8,7 +8,7 @@ float light_visible(uint light, vec3 at, vec3 n, vec3 direction, float distance)
 #else
 #include "lib/shadow.glsl"
 float light_visible(uint light, vec3 at, vec3 n, vec3 direction, float distance) {
-    return shadow_map_visible(light, at, n);
+    return shadow_map_visible(light, at, n, surface_error(n));
 }
 #endif
 #include "lib/lighting.glsl"
@@ -17,5 +17,5 @@ void main() {
 #ifdef PEEL
     if (is_peeled()) discard;
 #endif
-    write_surface(shade(draw.surface, position, normalize(normal)));
+    write_surface(shade(draw.surface, surface_position(), normalize(normal)));
 }

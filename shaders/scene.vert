@@ -10,7 +10,7 @@
 layout(push_constant, scalar) uniform Push { Draw draw; };
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 0) out vec3 out_position;
+layout(location = 0) flat out vec3 out_eye;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_from_eye;
 layout(location = 3) flat out uint out_layer;
@@ -24,7 +24,7 @@ void main() {
 #ifdef LAYERED
     gl_Layer = gl_InstanceIndex;
 #endif
-    out_position = position;
+    out_eye = view.eye;
     out_normal = normal;
     out_from_eye = v;
     out_layer = uint(gl_InstanceIndex);

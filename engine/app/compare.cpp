@@ -7,11 +7,13 @@
 #include "measure/difference.hpp"
 #include "measure/flip.hpp"
 #include "measure/masks.hpp"
-#include "measure/pareto.hpp"
+#include "reflect/technique.hpp"
+#include "report/rows.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <new>
 
 namespace catoptric::app {
 
@@ -86,6 +88,22 @@ void fill_times(report::Row& row, const std::vector<Frame>& frames, const std::s
                                   })});
 }
 
+/// Whether a picture shows nothing in its mirrors, but for pixels at their outlines, where the
+/// reference shows something.
+bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture& truth,
+                         const std::vector<std::uint32_t>& hits) {
+    std::size_t pixels = 0, black = 0, wanted_black = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (measure::first_mirror(hits[i]) == 0) continue;
+        ++pixels;
+        black += picture.pixels[i] == vec3(0);
+        wanted_black += truth.pixels[i] == vec3(0);
+    }
+    constexpr double kMost = .99;
+    return pixels > 0 && static_cast<double>(black) >= kMost * static_cast<double>(pixels) &&
+           static_cast<double>(wanted_black) < kMost * static_cast<double>(pixels);
+}
+
 void fill_errors(report::Row& row, const Part& part, const Part& truth,
                  const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
     row.flip_map = measure::flip(part.display, truth.display);
@@ -99,6 +117,7 @@ void fill_errors(report::Row& row, const Part& part, const Part& truth,
     row.error_all = against(measure::all_pixels(hits));
     for (std::uint32_t mirror = 1; mirror <= mirrors; ++mirror)
         row.error_per_mirror.push_back(against(measure::of_mirror(hits, mirror)));
+    row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
     row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
     row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
 }
@@ -129,8 +148,8 @@ class Comparer {
 public:
     Comparer(Engine& engine, const CompareRequest& request) : engine_(engine), request_(request) {
         if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
-        for (const std::string& text : request_.base.techniques)
-            parse_technique(text); // refused before any work
+        check_rows(request_.base.techniques); // before any work
+        check_has_mirror(request_.base.scene);
         mirrors_ = scene::mirrors(request_.base.scene).size();
     }
 
@@ -145,13 +164,14 @@ public:
             if (!clear.empty()) comparison_.clear_ms = measure::summarise(clear);
             request_.together ? run_together() : run_apart();
             if (request_.lag) add_lag();
+            comparison_.complete = true;
         } catch (const Error& error) {
-            const bool stopped = error.failure == Failure::interrupted ||
-                                 error.failure == Failure::terminated;
-            if (!stopped) throw;
-            comparison_.complete = false;
+            if (comparison_.rows.empty() && !is_stop(error.failure)) throw;
+            comparison_.stopped = error;
+        } catch (const std::bad_alloc&) {
+            if (comparison_.rows.empty()) throw;
+            comparison_.stopped = Error(Failure::exhausted, "out of memory");
         }
-        finish();
         return std::move(comparison_);
     }
 
@@ -162,9 +182,12 @@ private:
         comparison_.version = version();
         comparison_.commit = commit();
         comparison_.command = request_.command;
+        comparison_.complete = false;
+        comparison_.asked = base.techniques.size();
         comparison_.device = {device.name, device.driver, device.api, device.type, device.threads};
         comparison_.scene = {base.scene.name, scene::triangle_count(base.scene), mirrors_,
-                             scene::hash(base.scene)};
+                             scene::hash(base.scene),
+                             scene::hash(base.scene) == scene::hash(scene::cornell_mirrors())};
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);
         comparison_.frames = base.frames;
@@ -263,6 +286,12 @@ private:
         row.is_reference = same(parse_technique(text),
                                 parse_technique(reference_at(request_.reference, samples)));
         comparison_.rows.push_back(std::move(row));
+        judge_front();
+        tell();
+    }
+
+    void tell() const {
+        if (request_.on_finished_row) request_.on_finished_row(comparison_);
     }
 
     void run_apart() {
@@ -284,19 +313,18 @@ private:
     }
 
     void add_lag() {
-        comparison_.lag = measure_lag(
-            engine_,
-            {.base = request_.base, .reference = request_.reference, .on_row = request_.on_row});
-        comparison_.complete = comparison_.lag->complete;
+        measure_lag(engine_,
+                    {.base = request_.base,
+                     .reference = request_.reference,
+                     .on_row = request_.on_row,
+                     .on_finished_row = [this] { tell(); }},
+                    comparison_.lag.emplace());
     }
 
-    void finish() {
+    void judge_front() {
         std::vector<measure::Candidate> candidates;
-        constexpr double kNever =
-            std::numeric_limits<double>::quiet_NaN(); // a failed row is on no front
         for (const report::Row& row : comparison_.rows)
-            candidates.push_back(
-                {row.gpu_ms.median, row.error_all.nonfinite ? kNever : row.error.flip});
+            candidates.push_back(report::candidate_of(row));
         comparison_.pareto = measure::pareto_front(candidates);
     }
 
@@ -313,16 +341,30 @@ private:
 } // namespace
 
 std::vector<std::string> default_techniques() {
-    return {"naive:bounces=0",  "naive:bounces=1",
-            "naive:bounces=2",  "naive:bounces=3",
-            "naive:bounces=4",  "reuse",
-            "parallax",         "secant:continue=0",
-            "secant",           "march",
-            "pyramid",          "layered",
-            "hybrid",           "raytrace:depth=0",
-            "raytrace:depth=1", "raytrace:depth=2",
-            "raytrace:depth=3", "raytrace:depth=4",
-            "raytrace:depth=8", "raytrace:sphere=exact"};
+    std::vector<std::string> rows;
+    for (const reflect::Technique* technique : reflect::techniques())
+        rows.insert(rows.end(), technique->compared.begin(), technique->compared.end());
+    return rows;
+}
+
+void check_has_mirror(const scene::Scene& scene) {
+    check(!scene::mirrors(scene).empty(), Failure::bad_data, "scene '", scene.name,
+          "': wanted a mirror, whose reflections are what is compared, found none. To make one, "
+          "give its "
+          "material metallicFactor 1, roughnessFactor 0 and a white base colour in glTF, or illum "
+          "3 and "
+          "Ks 1 1 1 in an .mtl");
+}
+
+void check_rows(const std::vector<std::string>& techniques) {
+    std::vector<TechniqueChoice> choices;
+    for (const std::string& text : techniques) {
+        const TechniqueChoice choice = parse_technique(text);
+        for (const TechniqueChoice& other : choices)
+            check(!same(choice, other), Failure::usage, "technique '", text,
+                  "' is asked for twice");
+        choices.push_back(choice);
+    }
 }
 
 report::Comparison compare(Engine& engine, const CompareRequest& request) {

@@ -16,15 +16,23 @@ struct CompareRequest {
     std::vector<std::string> command; ///< for the record
     /// Called before each row with its label, number from 0 and the count; may be empty.
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
+    /// Called after each row, and each row of the lag, with what there is so far, not `complete`;
+    /// may be empty.
+    std::function<void(const report::Comparison&)> on_finished_row;
 };
 
-/// The seed report's rows and what goes beyond them: naive 0..4, reuse, parallax, every search
-/// there is, ray tracing at depths 0..4 and 8, exact spheres.
+/// The rows that each technique of the table names for itself (reflect::Technique::compared).
 std::vector<std::string> default_techniques();
+/// Throws `bad_data`, saying how to make one, where a scene has no mirror.
+void check_has_mirror(const scene::Scene& scene);
+
+/// Throws `usage` for rows that are unknown or, with the same settings, asked for twice.
+void check_rows(const std::vector<std::string>& techniques);
 
 /// Renders every row and the reference, measures speed and error. A row with `samples` is judged
-/// against the reference at as many samples. After a stop signal the rows so far come back with
-/// `complete` false.
+/// against the reference at as many samples. What ends the run early (a signal, a lost device, no
+/// memory, `on_finished_row`) is in `stopped` of the rows so far, or thrown where there is none and
+/// it was no signal.
 report::Comparison compare(Engine& engine, const CompareRequest& request);
 
 } // namespace catoptric::app

@@ -90,8 +90,11 @@ double instant_of(const Request& request, int k) {
 
 void check_stopped() {
     const int signal = stop_signal.load();
-    check(signal == 0, signal == 15 ? Failure::terminated : Failure::interrupted,
-          "stopped by signal ", signal);
+    if (signal == 0) return;
+    const Failure failure = signal == 1    ? Failure::hangup
+                            : signal == 15 ? Failure::terminated
+                                           : Failure::interrupted;
+    fail(failure, "stopped by signal ", signal);
 }
 
 Frame to_frame(const graph::FrameTimes& times) {
@@ -215,6 +218,27 @@ std::vector<Part> read_parts(graph::Runner& runner, const FrameGraph& frame,
     return parts;
 }
 
+/// Sees frames of a still scene until one more would change nothing.
+class Settling {
+public:
+    /// Whether this frame equals the one before byte for byte: linear pictures, and all that the
+    /// next frame can see. True at once where nothing is remembered.
+    bool is_settled(graph::Runner& runner, const FrameGraph& frame) {
+        std::vector<std::byte> now = runner.read_history();
+        if (now.empty()) return true;
+        for (const Declared& part : frame.parts) {
+            const std::vector<std::byte> picture = runner.read(part.outputs.hdr);
+            now.insert(now.end(), picture.begin(), picture.end());
+        }
+        const bool same = now == last_;
+        last_ = std::move(now);
+        return same;
+    }
+
+private:
+    std::vector<std::byte> last_;
+};
+
 } // namespace
 
 double last_time(const Request& request) {
@@ -234,6 +258,7 @@ Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(opti
 Engine::~Engine() = default;
 
 const DeviceInfo& Engine::device() const { return impl_->info; }
+bool Engine::usable() const { return !impl_->device.abandoned(); }
 void Engine::check_validation() const { impl_->device.check_validation(); }
 
 Result Engine::run(const Request& request) {
@@ -245,6 +270,7 @@ Result Engine::run(const Request& request) {
                                                            : graph::Timing::pipelined;
     const int total = request.warmup + request.frames;
     Result result;
+    Settling settling;
     std::optional<double> shown;
     for (int k = 1; k <= total; ++k) {
         check_stopped();
@@ -263,7 +289,8 @@ Result Engine::run(const Request& request) {
         if (k > request.warmup) result.frames.push_back(to_frame(times));
         const ReadParts read = [&] { return read_parts(runner, frame, plan, scene, request); };
         const bool enough = request.watch && !request.watch(k, read);
-        const bool last = enough || k == total;
+        result.settled = request.until_settled && settling.is_settled(runner, frame);
+        const bool last = enough || result.settled || k == total;
         if (last) result.parts = read();
         for (std::size_t i = 0; i < mended.size(); ++i)
             result.parts[i].mended = std::move(mended[i]);
@@ -326,6 +353,8 @@ std::vector<double> Engine::clear_ms(const Request& request) {
 render::Captured Engine::capture(const scene::Scene& scene, std::uint32_t face, Format distance) {
     return render::capture(impl_->device, impl_->pipelines, scene, face, distance);
 }
+
+bool any_abandoned() { return gpu::any_abandoned(); }
 
 std::vector<DeviceInfo> devices() {
     std::vector<DeviceInfo> list;

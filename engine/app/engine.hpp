@@ -46,8 +46,12 @@ struct Request {
     std::vector<std::string> techniques;
     scene::Camera camera;
     uvec2 size{512, 512};
-    int frames = 20;      ///< measured
-    int warmup = 8;       ///< before them; frames count from 1 at cold history, these included
+    int frames = 20; ///< measured
+    int warmup = 8;  ///< before them; frames count from 1 at cold history, these included
+    /// End with the first frame that cannot change any more: at once where nothing is remembered,
+    /// else when a frame's linear pictures and all captures equal those of the frame before, byte
+    /// for byte.
+    bool until_settled = false;
     double time = 0;      ///< seconds into the scene's motion
     bool animate = false; ///< frame k at time + (k-1)/60 s; otherwise all at `time`
     /// Seconds into the scene's motion of frame k, in place of `time` and `animate`; may be empty.
@@ -125,8 +129,9 @@ struct Part {
 
 struct Result {
     std::vector<Part> parts; ///< one per technique, of the last frame
-    std::vector<Frame>
-        frames; ///< the measured ones; fewer than asked for where `watch` ended the run
+    /// The measured ones; fewer than asked for where `watch` or `until_settled` ended the run.
+    std::vector<Frame> frames;
+    bool settled = false; ///< with `until_settled`: any further frame would show the same
 };
 
 /// How the compiled plan of a request's frame is written.
@@ -167,11 +172,16 @@ struct DeviceInfo {
 std::vector<DeviceInfo> devices();
 
 /// Set to a signal's number to end the frame loop after the current frame:
-/// run() then throws `Failure::interrupted` (2) or `terminated` (15).
+/// run() then throws `Failure::hangup` (1), `interrupted` (2) or `terminated` (15).
 extern std::atomic<int> stop_signal;
 
 std::string version(); ///< "0.1.0"
 std::string commit();  ///< abbreviated, "unknown" outside a checkout
+
+/// Whether an Engine of this process had to give up its device (Engine::usable). Its driver's
+/// threads may still be at work, and to take the program down under them can crash: such a program
+/// ends with std::_Exit.
+bool any_abandoned();
 
 /// A device with what has been compiled for it. One thread at a time.
 class Engine {
@@ -179,7 +189,13 @@ public:
     explicit Engine(const EngineOptions& options);
     ~Engine();
 
-    /// The only frame loop. Throws `usage`, `exhausted`, `device_lost`, `interrupted`.
+    /// False once the device was lost or could not be waited for, which threw `device_lost` or
+    /// `exhausted`. Then all that needs the device throws the same again, and what the driver may
+    /// still use is never freed. Another Engine can be made.
+    bool usable() const;
+
+    /// The only frame loop. Throws `usage`, `exhausted`, `device_lost`, and for a stop signal
+    /// `hangup`, `interrupted` or `terminated`.
     Result run(const Request& request);
     /// The plan of the request's second frame (when history exists), written out.
     std::string plan(const Request& request, PlanFormat format);

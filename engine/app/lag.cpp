@@ -115,30 +115,26 @@ struct Still {
 
 class LagMeter {
 public:
-    LagMeter(Engine& engine, const LagRequest& request)
-        : engine_(engine), request_(request), path_(path_of(request)),
+    LagMeter(Engine& engine, const LagRequest& request, report::Lag& lag)
+        : engine_(engine), request_(request), lag_(lag), path_(path_of(request)),
           mirrors_(static_cast<int>(scene::mirrors(request.base.scene).size())) {
         check(!request_.base.techniques.empty(), Failure::usage, "lag: no technique was asked for");
         for (const std::string& text : request_.base.techniques)
             parse_technique(text); // refused before any work
     }
 
-    report::Lag run() {
+    void run() {
         for (int i = 0; i < path_.count; ++i) lag_.seconds.push_back(path_.instant(i));
         lag_.path = path_.length();
         lag_.jump_from = path_.start + path_.length() / 2;
         lag_.frame_cap = kFrameCap;
-        try {
-            begin("reference " + request_.reference, 0, path_.count * kFrameCap);
-            for (int i = 0; i < path_.count; ++i) add_instant(path_.instant(i));
-            for (std::size_t i = 0; i < request_.base.techniques.size(); ++i) add_technique(i);
-        } catch (const Error& error) {
-            const bool stopped = error.failure == Failure::interrupted ||
-                                 error.failure == Failure::terminated;
-            if (!stopped) throw;
-            lag_.complete = false;
+        begin("reference " + request_.reference, 0, path_.count * kFrameCap);
+        for (int i = 0; i < path_.count; ++i) add_instant(path_.instant(i));
+        for (std::size_t i = 0; i < request_.base.techniques.size(); ++i) {
+            add_technique(i);
+            if (request_.on_finished_row) request_.on_finished_row();
         }
-        return std::move(lag_);
+        lag_.complete = true;
     }
 
 private:
@@ -286,18 +282,19 @@ private:
 
     Engine& engine_;
     LagRequest request_;
+    report::Lag& lag_;
     Path path_;
     int mirrors_ = 0;
     std::vector<Instant> instants_;
-    std::vector<measure::Picture> stills_; ///< of the technique at hand, one an instant
-    report::Lag lag_;
+    std::vector<measure::Picture> stills_;      ///< of the technique at hand, one an instant
     int frames_done_ = 0, frames_expected_ = 0; ///< of the row at hand
 };
 
 } // namespace
 
-report::Lag measure_lag(Engine& engine, const LagRequest& request) {
-    return LagMeter(engine, request).run();
+void measure_lag(Engine& engine, const LagRequest& request, report::Lag& lag) {
+    lag.complete = false;
+    LagMeter(engine, request, lag).run();
 }
 
 } // namespace catoptric::app

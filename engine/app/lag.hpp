@@ -16,13 +16,16 @@ struct LagRequest {
     /// Called before the reference and each technique with its label, number from 0 and the count;
     /// may be empty.
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
+    /// Called after each technique; may be empty.
+    std::function<void()> on_finished_row;
 };
 
 /// Moves the scene along its path (one period, at most ten seconds, from `base.time`) at each
 /// speed, 60 frames a second, and compares the moving picture with the still one of the same
 /// technique and instant. Techniques whose passes read nothing of the frame before are left out:
-/// they have no lag. After a stop signal what there is so far comes back with `complete` false.
-/// Throws `usage`. Costs about 2300 frames a technique for a path of four seconds.
-report::Lag measure_lag(Engine& engine, const LagRequest& request);
+/// they have no lag. What there is goes into `lag`, which is `complete` at the end: what is thrown
+/// in between (`usage`, a signal, whatever the engine throws) leaves it there.
+/// Costs about 2300 frames a technique for a path of four seconds.
+void measure_lag(Engine& engine, const LagRequest& request, report::Lag& lag);
 
 } // namespace catoptric::app

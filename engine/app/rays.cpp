@@ -17,7 +17,7 @@ bvh::Bvh hierarchy_without(const render::Geometry& geometry, std::size_t left_ou
                                  range.seen_by_camera ? 0 : bvh::kHidden});
         }
     }
-    return bvh::build(triangles);
+    return bvh::build(triangles, geometry.core);
 }
 
 f32::Ray camera_ray(const shared::View& view, uvec2 size, std::size_t pixel) {

@@ -223,6 +223,17 @@ private:
     Bvh& bvh_;
 };
 
+/// What the walk's slack lacks for a triangle that reaches out of the core: its distance from the
+/// middle, of which box_ray (shaders/lib/math.glsl) takes the same part for rays that start in the
+/// core.
+float pad_of(const Box& box, const Box& core) {
+    const bool inside = all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
+    if (inside) return 0;
+    const vec3 middle = core.lo * 0.5f + core.hi * 0.5f;
+    return 2 * f32::gamma_bound(16) *
+           f32::largest(max(abs(box.lo - middle), abs(box.hi - middle))); // twice: roundings here
+}
+
 std::vector<Reference> references(std::span<const Triangle> triangles) {
     std::vector<Reference> result;
     result.reserve(triangles.size());
@@ -239,19 +250,24 @@ std::vector<Reference> references(std::span<const Triangle> triangles) {
 
 } // namespace
 
-Bvh build(std::span<const Triangle> triangles) {
+Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core) {
     check(triangles.size() <= kMaxTriangles, Failure::exhausted, "bounding volume hierarchy wants ",
           triangles.size(), " triangles, its words hold ", kMaxTriangles);
     std::vector<Reference> kept = references(triangles);
     Bvh bvh;
     bvh.dropped = triangles.size() - kept.size();
     bvh.triangles.reserve(3 * kept.size());
-    const Box everything = bounds(kept);
+    Box slack = core;
+    if (slack.empty()) slack = bounds(kept);
+    for (Reference& r : kept) {
+        const float pad = pad_of(r.box, slack);
+        r.box.lo -= pad, r.box.hi += pad;
+    }
     bvh.nodes.resize(4, vec4(0));
     Builder(triangles, bvh).add_root(kept);
     bvh.copies = kept.size() - triangle_count(bvh);
-    bvh.nodes[0] = vec4(everything.lo, id_word(triangle_count(bvh)));
-    bvh.nodes[1] = vec4(everything.hi, id_word(node_count(bvh)));
+    bvh.nodes[0] = vec4(slack.lo, id_word(triangle_count(bvh)));
+    bvh.nodes[1] = vec4(slack.hi, id_word(node_count(bvh)));
     return bvh;
 }
 

@@ -24,8 +24,8 @@ inline constexpr std::uint32_t kMaxLeaf = 4; ///< triangles in a leaf
 /// The two arrays that the device reads as they stand.
 ///
 /// `nodes`, four vec4 each; w is a word's bits (see below):
-///   node 0, the header:  lo.xyz of everything, number of kept triangles
-///                        hi.xyz of everything, number of nodes with the header
+///   node 0, the header:  lo.xyz of the core, number of kept triangles
+///                        hi.xyz of the core, number of nodes with the header
 ///                        two times zero
 ///   node 1, the root, and all others hold their two children's boxes:
 ///                        lo.xyz of child 0, word of child 0
@@ -55,8 +55,10 @@ struct Bvh {
 /// Of more than kMaxLeaf triangles around one centre, those with the same corners, object and flags
 /// count as one, the lowest number: walks past thousands of copies would not end in time.
 /// Same input, same output. O(n log^2 n) whatever the input, about 1 s for a million triangles.
-/// Throws `Failure::exhausted` above 2^27 - 1 triangles.
-Bvh build(std::span<const Triangle> triangles);
+/// `core`: where most of it is; the walk widens all boxes by roundings of that size. Boxes of
+/// triangles that lie farther out are wider themselves, so that one of them does not cost every
+/// ray. Empty: all is. Throws `Failure::exhausted` above 2^27 - 1 triangles.
+Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core = {});
 
 std::size_t node_count(const Bvh& bvh);     ///< with the header
 std::size_t triangle_count(const Bvh& bvh); ///< kept ones

@@ -18,6 +18,7 @@ enum class Failure {
     io = 74,            ///< reading or writing failed half-way
     exhausted = 75,     ///< out of memory or over a device limit
     device_lost = 76,
+    hangup = 129,      ///< SIGHUP
     interrupted = 130, ///< SIGINT
     terminated = 143,  ///< SIGTERM
 };
@@ -28,6 +29,12 @@ public:
     Error(Failure why, const std::string& message) : std::runtime_error(message), failure(why) {}
     Failure failure;
 };
+
+/// Whether a signal asked for it.
+constexpr bool is_stop(Failure failure) {
+    return failure == Failure::hangup || failure == Failure::interrupted ||
+           failure == Failure::terminated;
+}
 
 /// Throws `Error` with the parts streamed one after the other.
 template <typename... Parts>

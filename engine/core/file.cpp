@@ -52,13 +52,20 @@ File open_new(const fs::path& temporary, const fs::path& path) {
     return file;
 }
 
-void replace(const fs::path& target, std::string_view content, const fs::path& path) {
+/// `old`: what lies at `target`, if anything.
+void replace(const fs::path& target, fs::file_status old, std::string_view content,
+             const fs::path& path) {
     fs::path temporary = target;
     temporary += ".partial-" + std::to_string(::getpid());
     std::error_code error;
     fs::remove(temporary, error); // left by a dead process that had our number
     File file = open_new(temporary, path);
     try {
+        if (fs::exists(old)) {
+            fs::permissions(temporary, old.permissions(), error);
+            check(!error, Failure::io, path.string(),
+                  ": cannot be given the mode of the file in its place: ", error.message());
+        }
         write_all(std::move(file), content, path);
         fs::rename(temporary, target, error);
         check(!error, Failure::io, path.string(), ": cannot be replaced: ", error.message());
@@ -70,13 +77,21 @@ void replace(const fs::path& target, std::string_view content, const fs::path& p
 
 } // namespace
 
+fs::path real_path(const fs::path& path) {
+    std::error_code error;
+    const fs::path target = fs::absolute(destination(path), error);
+    const fs::path real = fs::weakly_canonical(target, error);
+    return error ? target.lexically_normal() : real; // such as a folder that may not be read
+}
+
 void write_file(const fs::path& path, std::string_view content) {
     std::error_code error;
     const fs::path target = destination(path);
     const fs::file_status status = fs::status(target, error);
     check(!fs::is_directory(status) && target.has_filename(), Failure::cannot_create, path.string(),
           ": wanted a file name, found a folder");
-    if (!fs::exists(status) || fs::is_regular_file(status)) return replace(target, content, path);
+    if (!fs::exists(status) || fs::is_regular_file(status))
+        return replace(target, status, content, path);
 
     File file(std::fopen(target.c_str(), "wb")); // a device or a pipe
     const int open_error = errno;

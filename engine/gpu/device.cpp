@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <charconv>
 
 namespace catoptric::gpu {
 
 namespace {
+
+std::atomic<bool> some_device_abandoned{false};
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                           VkDebugUtilsMessageTypeFlagsEXT,
@@ -48,20 +51,23 @@ std::size_t find_wanted(const std::vector<DeviceInfo>& devices, const std::strin
          ", counted from 0; `catoptric list devices` names them", did_you_mean(wanted, names));
 }
 
-std::vector<DeviceInfo> describe_all(VkInstance instance) {
+std::vector<DeviceInfo> describe_all(const std::vector<VkPhysicalDevice>& devices) {
     std::vector<DeviceInfo> list;
-    for (VkPhysicalDevice device : physical_devices(instance)) list.push_back(describe(device));
+    list.reserve(devices.size());
+    for (VkPhysicalDevice device : devices) list.push_back(describe(device));
     return list;
 }
 
 } // namespace
+
+bool any_abandoned() { return some_device_abandoned; }
 
 std::vector<DeviceInfo> list_devices() {
     bool has_debug_utils = false;
     const VkInstance instance = make_instance(false, has_debug_utils);
     std::vector<DeviceInfo> list;
     try {
-        list = describe_all(instance);
+        list = describe_all(physical_devices(instance));
     } catch (...) {
         vkDestroyInstance(instance, nullptr);
         throw;
@@ -85,13 +91,40 @@ Device::Device(const DeviceOptions& options)
 Device::~Device() { close(); }
 
 void Device::close() {
-    if (device_) vkDeviceWaitIdle(device_);
+    if (abandoned_) { // the messenger writes there as long as the instance lives
+        static_cast<void>(messages_.release());
+        return;
+    }
     one_shot_pool_ = {};
     if (device_) vkDestroyDevice(device_, nullptr);
     if (messenger_)
         reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
             instance_, "vkDestroyDebugUtilsMessengerEXT"))(instance_, messenger_, nullptr);
     if (instance_) vkDestroyInstance(instance_, nullptr);
+}
+
+void Device::abandon(const Error& why) {
+    abandoned_ = some_device_abandoned = true;
+    if (!why_abandoned_) why_abandoned_ = why;
+}
+
+void Device::check_alive(VkResult result, const std::string& doing) try {
+    check_vk(result, doing);
+} catch (const Error& error) {
+    if (error.failure == Failure::device_lost) abandon(error);
+    throw;
+}
+
+void Device::check_waited(VkResult result, const std::string& doing) try {
+    check_vk(result, doing);
+} catch (const Error& error) {
+    abandon(error);
+    throw;
+}
+
+void Device::check_usable() const {
+    if (abandoned_)
+        fail(why_abandoned_->failure, "the device was given up: ", why_abandoned_->what());
 }
 
 void Device::create_instance(bool validate) {
@@ -101,7 +134,7 @@ void Device::create_instance(bool validate) {
 
 void Device::choose(const DeviceOptions& options) {
     const std::vector<VkPhysicalDevice> devices = physical_devices(instance_);
-    const std::vector<DeviceInfo> infos = describe_all(instance_);
+    const std::vector<DeviceInfo> infos = describe_all(devices);
     std::size_t index = 0;
     if (!options.wanted.empty())
         index = find_wanted(infos, options.wanted);
@@ -155,8 +188,8 @@ void Device::create_device() {
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
-    check_vk(vkCreateDevice(physical_, &create, nullptr, &device_),
-             "open device '" + info_.name + "'");
+    check_begun(vkCreateDevice(physical_, &create, nullptr, &device_),
+                "open device '" + info_.name + "'", "no usable Vulkan device");
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
     if (has_debug_utils_)
         set_object_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
@@ -167,7 +200,7 @@ void Device::create_device() {
     pool.queueFamilyIndex = queue_family_;
     VkCommandPool handle = VK_NULL_HANDLE;
     check_vk(vkCreateCommandPool(device_, &pool, nullptr, &handle), "create a command pool");
-    one_shot_pool_ = {device_, handle};
+    one_shot_pool_ = {this->handle(), handle};
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = handle;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
@@ -203,7 +236,7 @@ UniqueMemory Device::allocate(std::uint64_t bytes, std::uint32_t type,
     check_vk(vkAllocateMemory(device_, &allocate, nullptr, &memory),
              "allocate " + std::to_string(bytes) + " bytes for " + what + " (the device has " +
                  std::to_string(memory_budget()) + ")");
-    UniqueMemory owned(device_, memory);
+    UniqueMemory owned(handle(), memory);
     set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(memory), what);
     return owned;
 }
@@ -218,6 +251,7 @@ void Device::set_name(VkObjectType type, std::uint64_t handle, const std::string
 }
 
 void Device::begin_one_shot(const std::string& doing) {
+    check_usable();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check_vk(vkBeginCommandBuffer(one_shot_, &begin), doing + " (begin a command buffer)");
@@ -240,8 +274,8 @@ void Device::end_one_shot(const std::string& doing) {
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
-    check_vk(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), doing);
-    check_vk(vkQueueWaitIdle(queue_), doing);
+    check_alive(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), doing);
+    check_waited(vkQueueWaitIdle(queue_), doing);
 }
 
 void Device::check_validation() const {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,21 @@ struct DeviceOptions {
     bool staged = false;   ///< true: pretend that device memory cannot be mapped
 };
 
+/// Whether a device of this process was abandoned: its driver's threads may still be at work, and a
+/// program that takes itself down under them can crash. Such a program ends with std::_Exit.
+bool any_abandoned();
+
 /// Instance, device and its one queue (graphics, compute, copies). Not copyable; everything made
 /// from it must go before it. One thread at a time.
+///
+/// A device that is lost, or that cannot be waited for, may still use what it was given. It is
+/// *abandoned*: from then on nothing made from it is destroyed, itself and its instance neither,
+/// and it takes no more work. The memory is gone for the rest of the process; another Device may be
+/// made.
 class Device {
 public:
-    /// Throws `no_device` (nothing there, or lacks a required feature), `usage` (no such device).
+    /// Throws `no_device` (nothing there, cannot be opened, lacks a required feature), `usage` (no
+    /// such device), `exhausted`.
     explicit Device(const DeviceOptions& options);
     ~Device();
     Device(const Device&) = delete;
@@ -42,7 +53,7 @@ public:
 
     const DeviceInfo& info() const { return info_; }
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
-    VkDevice handle() const { return device_; }
+    DeviceHandle handle() const { return {device_, &abandoned_}; }
     VkPhysicalDevice physical() const { return physical_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
@@ -66,6 +77,14 @@ public:
     }
     /// Throws `exhausted` naming the bytes, and the device's limit when it is that.
     UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
+    /// `check_vk` for a call that gives the device work or asks what became of it; the device is
+    /// abandoned where it is lost.
+    void check_alive(VkResult result, const std::string& doing);
+    /// `check_vk` for a call that waits for the device, which is abandoned where that fails.
+    void check_waited(VkResult result, const std::string& doing);
+    bool abandoned() const { return abandoned_; }
+    /// Throws what made the device be abandoned, if it was. Before it is given work.
+    void check_usable() const;
     /// Gives the object a name for validation messages and debuggers; nothing without that
     /// extension.
     void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
@@ -91,6 +110,7 @@ private:
     void create_instance(bool validate);
     void choose(const DeviceOptions& options);
     void create_device();
+    void abandon(const Error& why);
     void begin_one_shot(const std::string& doing);
     void end_one_shot(const std::string& doing);
 
@@ -109,6 +129,8 @@ private:
     bool doubles_ = false;
     bool staged_ = false;
     bool has_debug_utils_ = false;
+    bool abandoned_ = false;
+    std::optional<Error> why_abandoned_;
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name_ = nullptr;
     std::unique_ptr<std::vector<std::string>> messages_;
     UniqueCommandPool one_shot_pool_;

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <thread>
 
+#include <sys/mman.h>
+
 namespace catoptric::gpu {
 
 namespace {
@@ -15,23 +17,52 @@ constexpr const char* kNoDriver =
     "no Vulkan device: no driver is installed; install one for the graphics card, or the software "
     "driver: apt-get install mesa-vulkan-drivers";
 
+/// Under a limit of address space the loader says of a driver that it could not map what it says
+/// where there is none, and drivers crash. Throws `exhausted` where there is no room for one.
+void check_room_for_driver() {
+    constexpr std::size_t kRoom = std::size_t{256} << 20; // a software driver and its compiler
+    void* room = ::mmap(nullptr, kRoom, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    check(room != MAP_FAILED, Failure::exhausted, "no memory for a Vulkan driver: wanted ", kRoom,
+          " bytes of address space; is it limited (ulimit -v)?");
+    ::munmap(room, kRoom);
+}
+
+/// What `call(count, items)` lists: counted first, then fetched; both again where something came in
+/// between. What has gone in between is not there. `failed` is told of a result that is an error.
+template <typename Item, typename Call, typename Failed>
+std::vector<Item> list_of(Call&& call, Failed&& failed) {
+    constexpr int kTries = 8; // then what was fetched will do
+    std::vector<Item> items;
+    VkResult result = VK_INCOMPLETE;
+    for (int i = 0; i < kTries && result == VK_INCOMPLETE; ++i) {
+        std::uint32_t count = 0;
+        if (result = call(&count, nullptr); result < 0) failed(result);
+        items.resize(count);
+        if (items.empty()) break; // without a place to put them it would count again
+        if (result = call(&count, items.data()); result < 0) failed(result);
+        items.resize(count);
+    }
+    return items;
+}
+
 bool has_layer(const char* name) {
-    std::uint32_t count = 0;
-    vkEnumerateInstanceLayerProperties(&count, nullptr);
-    std::vector<VkLayerProperties> layers(count);
-    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    const auto layers = list_of<VkLayerProperties>(
+        vkEnumerateInstanceLayerProperties,
+        [](VkResult result) { check_vk(result, "enumerate layers"); });
     return std::ranges::any_of(layers, [&](const auto& l) { return !strcmp(l.layerName, name); });
 }
 
-/// Throws `no_device` when the loader cannot read the files that say where drivers are.
 bool has_instance_extension(const char* layer, const char* name) {
-    std::uint32_t count = 0;
-    const VkResult result = vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
-    check(result == VK_SUCCESS, Failure::no_device, kNoDriver,
-          " (the Vulkan loader cannot read its driver files: ", name_of(result),
-          "; is VK_DRIVER_FILES or VK_ICD_FILENAMES set?)");
-    std::vector<VkExtensionProperties> list(count);
-    vkEnumerateInstanceExtensionProperties(layer, &count, list.data());
+    const auto list = list_of<VkExtensionProperties>(
+        [&](std::uint32_t* count, VkExtensionProperties* items) {
+            return vkEnumerateInstanceExtensionProperties(layer, count, items);
+        },
+        [](VkResult result) {
+            // The loader calls a file that is not there VK_ERROR_OUT_OF_HOST_MEMORY.
+            fail(Failure::no_device, kNoDriver,
+                 " (the Vulkan loader cannot read its driver files: ", name_of(result),
+                 "; is VK_DRIVER_FILES or VK_ICD_FILENAMES set?)");
+        });
     return std::ranges::any_of(list, [&](const auto& e) { return !strcmp(e.extensionName, name); });
 }
 
@@ -86,7 +117,19 @@ std::uint32_t largest_work_group(VkPhysicalDevice device) {
 
 } // namespace
 
+void check_begun(VkResult result, const std::string& doing, const char* or_else) {
+    const bool begun = result != VK_ERROR_INITIALIZATION_FAILED &&
+                       result != VK_ERROR_INCOMPATIBLE_DRIVER;
+    check(begun, Failure::no_device, or_else, " (cannot ", doing, ": ", name_of(result), ")");
+    check_vk(result, doing);
+}
+
 VkInstance make_instance(bool validate, bool& has_debug_utils) {
+    // Mesa's layer that puts devices in order crashes where one goes between two of its calls.
+    // Unless somebody tells it which one to take, the order that is made here is enough.
+    if (!std::getenv("MESA_VK_DEVICE_SELECT") && !std::getenv("DRI_PRIME"))
+        setenv("NODEVICE_SELECT", "1", 0);
+    check_room_for_driver();
     std::vector<const char*> layers, extensions;
     if (validate) {
         check(has_layer(kValidationLayer), Failure::usage, "--validate needs the layer ",
@@ -113,20 +156,17 @@ VkInstance make_instance(bool validate, bool& has_debug_utils) {
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
     VkInstance instance = VK_NULL_HANDLE;
-    const VkResult result = vkCreateInstance(&create, nullptr, &instance);
-    check(result != VK_ERROR_INCOMPATIBLE_DRIVER, Failure::no_device, kNoDriver);
-    check_vk(result, "create an instance");
+    check_begun(vkCreateInstance(&create, nullptr, &instance), "create an instance", kNoDriver);
     return instance;
 }
 
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
-    std::uint32_t count = 0;
-    const VkResult result = vkEnumeratePhysicalDevices(instance, &count, nullptr);
-    check(result != VK_ERROR_INITIALIZATION_FAILED, Failure::no_device, kNoDriver);
-    check_vk(result, "enumerate devices");
-    check(count > 0, Failure::no_device, kNoDriver);
-    std::vector<VkPhysicalDevice> devices(count);
-    check_vk(vkEnumeratePhysicalDevices(instance, &count, devices.data()), "enumerate devices");
+    auto devices = list_of<VkPhysicalDevice>(
+        [&](std::uint32_t* count, VkPhysicalDevice* items) {
+            return vkEnumeratePhysicalDevices(instance, count, items);
+        },
+        [](VkResult result) { check_begun(result, "enumerate devices", kNoDriver); });
+    check(!devices.empty(), Failure::no_device, kNoDriver);
     std::ranges::stable_sort(devices, {}, [](VkPhysicalDevice device) {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(device, &properties);

@@ -4,12 +4,16 @@
 
 namespace catoptric::gpu {
 
+/// `check_vk`, but a driver that is not there or cannot begin is `no_device`: `or_else` says what
+/// that means and what to do.
+void check_begun(VkResult result, const std::string& doing, const char* or_else);
+
 /// Creates an instance, with the validation layer on request and VK_EXT_debug_utils where it
-/// exists. Throws `no_device` when no driver is installed, `usage` when validation is asked for and
-/// absent.
+/// exists. Throws `no_device` when no driver is installed, `exhausted` when there is no memory for
+/// one, `usage` when validation is asked for and absent.
 VkInstance make_instance(bool validate, bool& has_debug_utils);
 
-/// Physical devices in order of preference.
+/// Physical devices in order of preference, at least one; errors as above.
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
 
 DeviceInfo describe(VkPhysicalDevice device);

@@ -17,12 +17,20 @@ const char* name_of(VkResult result);
 
 VkFormat vk_format(Format format);
 
-/// A Vulkan object that a device owns, destroyed with this value.
+/// A device as what is made from it knows it.
+struct DeviceHandle {
+    VkDevice device = VK_NULL_HANDLE;
+    const bool* abandoned = nullptr; ///< Device::abandoned(); null: never
+    operator VkDevice() const { return device; }
+};
+
+/// A Vulkan object that a device owns, destroyed with this value; left alone where the device has
+/// been abandoned, since its driver may still use it.
 template <typename Handle, auto Destroy>
 class Unique {
 public:
     Unique() = default;
-    Unique(VkDevice device, Handle handle) : device_(device), handle_(handle) {}
+    Unique(DeviceHandle device, Handle handle) : device_(device), handle_(handle) {}
     Unique(Unique&& other) noexcept
         : device_(other.device_), handle_(std::exchange(other.handle_, Handle{})) {}
     Unique& operator=(Unique&& other) noexcept {
@@ -30,12 +38,13 @@ public:
         return *this;
     }
     ~Unique() {
-        if (handle_) Destroy(device_, handle_, nullptr);
+        const bool abandoned = device_.abandoned && *device_.abandoned;
+        if (handle_ && !abandoned) Destroy(device_, handle_, nullptr);
     }
     operator Handle() const { return handle_; }
 
 private:
-    VkDevice device_ = VK_NULL_HANDLE;
+    DeviceHandle device_;
     Handle handle_{};
 };
 

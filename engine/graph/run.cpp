@@ -80,9 +80,8 @@ Runner::Runner(gpu::Device& device, gpu::Pipelines& pipelines)
         vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
 }
 
-Runner::~Runner() { vkDeviceWaitIdle(device_.handle()); }
-
 FrameTimes Runner::run(const Graph& graph, const Plan& plan, Timing timing, bool stays) {
+    device_.check_usable();
     prepare(graph, plan);
     const auto start = Clock::now();
     record(graph, plan, timing);
@@ -266,22 +265,22 @@ double Runner::submit_and_wait(const Graph& graph, const Plan& plan) {
     const std::string doing = "run " + name_of_frame(graph, plan);
 
     const auto start = Clock::now();
-    gpu::check_vk(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE), doing);
+    device_.check_alive(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE), doing);
     const VkSemaphore semaphore = timeline_;
     VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &frame_;
-    gpu::check_vk(vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0}), doing);
+    device_.check_waited(vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0}), doing);
     return milliseconds(Clock::now() - start);
 }
 
 FrameTimes Runner::read_times(const Graph& graph, const Plan& plan, Timing timing) const {
     std::vector<std::uint64_t> stamps(next_query_);
-    gpu::check_vk(vkGetQueryPoolResults(device_.handle(), queries_, 0, next_query_,
-                                        stamps.size() * 8, stamps.data(), 8,
-                                        VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-                  "read the time stamps of " + name_of_frame(graph, plan));
+    device_.check_alive(vkGetQueryPoolResults(device_.handle(), queries_, 0, next_query_,
+                                              stamps.size() * 8, stamps.data(), 8,
+                                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                        "read the time stamps of " + name_of_frame(graph, plan));
     const std::vector<double> at = milliseconds_since_first(
         stamps, device_.timestamp_bits(), static_cast<double>(device_.limits().timestampPeriod));
     FrameTimes times;

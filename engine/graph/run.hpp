@@ -37,7 +37,6 @@ struct FrameTimes {
 class Runner {
 public:
     Runner(gpu::Device& device, gpu::Pipelines& pipelines);
-    ~Runner();
     Runner(const Runner&) = delete;
     Runner& operator=(const Runner&) = delete;
 
@@ -55,6 +54,9 @@ public:
     /// other.
     std::vector<std::byte> read(Image image);
     std::vector<std::byte> read(Buffer buffer);
+    /// Everything that the next frame can see of the last one: texels of the images that have a
+    /// `previous`, one after the other. Empty where nothing is remembered.
+    std::vector<std::byte> read_history();
 
     // For Commands only.
     gpu::Device& device() { return device_; }

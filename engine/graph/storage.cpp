@@ -259,6 +259,15 @@ std::vector<std::byte> Runner::read(Image image) {
     return data;
 }
 
+std::vector<std::byte> Runner::read_history() {
+    std::vector<std::byte> history;
+    for (const std::uint32_t id : kept_ids_) {
+        const std::vector<std::byte> image = read(Image{id, 0, image_descs_[id].layers});
+        history.insert(history.end(), image.begin(), image.end());
+    }
+    return history;
+}
+
 std::vector<std::byte> Runner::read(Buffer buffer) {
     const auto& [name, bytes] = buffer_descs_[buffer.id];
     gpu::Buffer target(device_, "read-back of " + name, bytes, gpu::BufferUse::read_back);

@@ -2,30 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace catoptric::measure {
 
+namespace {
+
+bool is_judged(const Candidate& candidate) {
+    return !std::isnan(candidate.cost) && !std::isnan(candidate.cost_low) &&
+           !std::isnan(candidate.cost_high) && !std::isnan(candidate.error);
+}
+
+bool is_cheaper(const Candidate& a, const Candidate& b) { return a.cost_high < b.cost_low; }
+
+} // namespace
+
+bool beats(const Candidate& a, const Candidate& b) {
+    if (!is_judged(a) || !is_judged(b)) return false;
+    return (is_cheaper(a, b) && a.error <= b.error) || (a.error < b.error && !is_cheaper(b, a));
+}
+
 std::vector<std::size_t> pareto_front(std::span<const Candidate> candidates) {
-    std::vector<std::size_t> order;
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-        if (!std::isnan(candidates[i].cost) && !std::isnan(candidates[i].error)) order.push_back(i);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::tie(candidates[a].cost, candidates[a].error, a) <
-               std::tie(candidates[b].cost, candidates[b].error, b);
-    });
-    // Everything before a candidate costs less or as much: it must err less than all of them, or be
-    // the same as the last one on the front.
     std::vector<std::size_t> front;
-    for (const std::size_t i : order) {
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
         const Candidate& candidate = candidates[i];
-        if (!front.empty()) {
-            const Candidate& best = candidates[front.back()];
-            const bool same = candidate.cost == best.cost && candidate.error == best.error;
-            if (!same && candidate.error >= best.error) continue;
-        }
-        front.push_back(i);
+        const bool beaten = std::ranges::any_of(
+            candidates, [&](const Candidate& other) { return beats(other, candidate); });
+        if (is_judged(candidate) && !beaten) front.push_back(i);
     }
+    std::ranges::stable_sort(front, {}, [&](std::size_t i) { return candidates[i].cost; });
     return front;
 }
 

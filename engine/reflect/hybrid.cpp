@@ -98,11 +98,14 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
             half_colour(*captured.cubes, captured.options)};
 }
 
+constexpr std::string_view kCompared[] = {"hybrid"};
+
 constexpr Technique kHybrid{
     .name = "hybrid",
     .summary = "Searches first and traces only the pixels for which the search found no answer.",
     .order = 15,
     .knobs = kKnobs,
+    .compared = kCompared,
     .scene_passes = feedback_passes,
     .add = add};
 const Row kRow{kHybrid};

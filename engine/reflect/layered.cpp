@@ -25,11 +25,14 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     return add_view_of(graph, inputs, captured, look);
 }
 
+constexpr std::string_view kCompared[] = {"layered"};
+
 constexpr Technique kLayered{.name = "layered",
                              .summary = "Marches through captures that also hold the next surface "
                                         "behind the nearest, and tells silhouettes from surfaces.",
                              .order = 14,
                              .knobs = kKnobs,
+                             .compared = kCompared,
                              // R = 2 N + 2
                              .scene_passes =
                                  [](int mirrors, int lights, const Settings& settings) {

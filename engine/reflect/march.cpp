@@ -20,12 +20,15 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     return add_view_of(graph, inputs, captured, look);
 }
 
+constexpr std::string_view kCompared[] = {"march"};
+
 constexpr Technique kMarch{
     .name = "march",
     .summary =
         "Marches along the reflected ray in steps of equal angle and refines the first crossing.",
     .order = 12,
     .knobs = kKnobs,
+    .compared = kCompared,
     .scene_passes = feedback_passes,
     .add = add};
 const Row kRow{kMarch};

@@ -33,11 +33,15 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     return {view.hdr, {}, {}, view.lookup, last ? half_colour(*last, options) : std::nullopt};
 }
 
+constexpr std::string_view kCompared[] = {"naive:bounces=0", "naive:bounces=1", "naive:bounces=2",
+                                          "naive:bounces=3", "naive:bounces=4"};
+
 constexpr Technique kNaive{.name = "naive",
                            .summary = "Renders every bounce again in each frame, from black; looks "
                                       "up the reflected direction as it is.",
                            .order = 1,
                            .knobs = kKnobs,
+                           .compared = kCompared,
                            .scene_passes =
                                [](int mirrors, int lights, const Settings& settings) {
                                    return mirrors * settings.integer("bounces") +

@@ -21,12 +21,15 @@ constexpr Knob kKnobs[] = {
      .high = 2,
      .choices = kRules}};
 
+constexpr std::string_view kCompared[] = {"parallax"};
+
 constexpr Technique kParallax{
     .name = "parallax",
     .summary =
         "As reuse, with the reflected direction corrected by one step from the captured distance.",
     .order = 3,
     .knobs = kKnobs,
+    .compared = kCompared,
     .scene_passes = feedback_passes,
     .add = [](graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
         const Captured captured = add_feedback(graph, inputs, settings, kFragment);

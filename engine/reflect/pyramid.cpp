@@ -54,12 +54,15 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     return add_view_of(graph, inputs, captured, look);
 }
 
+constexpr std::string_view kCompared[] = {"pyramid"};
+
 constexpr Technique kPyramid{
     .name = "pyramid",
     .summary =
         "Follows the reflected ray through bounds of the captured distance, exact to the texel.",
     .order = 13,
     .knobs = kKnobs,
+    .compared = kCompared,
     .scene_passes = feedback_passes,
     .add = add};
 const Row kRow{kPyramid};

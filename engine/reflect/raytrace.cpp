@@ -118,11 +118,16 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     return {hdr, hits, counters, {}, {}};
 }
 
+constexpr std::string_view kCompared[] = {
+    "raytrace:depth=0", "raytrace:depth=1", "raytrace:depth=2",     "raytrace:depth=3",
+    "raytrace:depth=4", "raytrace:depth=8", "raytrace:sphere=exact"};
+
 constexpr Technique kRaytrace{
     .name = "raytrace",
     .summary = "Whitted ray tracing in compute: what the others are measured against.",
     .order = 100,
     .knobs = kKnobs,
+    .compared = kCompared,
     .scene_passes = [](int, int lights,
                        const Settings& settings) { return shadow_passes(lights, settings); },
     .add = add};

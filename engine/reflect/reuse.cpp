@@ -9,11 +9,14 @@ namespace {
 constexpr const char* kFragment = "reflect/naive.frag";
 constexpr Knob kKnobs[] = {kFace, kColour, kShadow, kShadowMapEdge};
 
+constexpr std::string_view kCompared[] = {"reuse"};
+
 constexpr Technique kReuse{
     .name = "reuse",
     .summary = "One capture per mirror and frame; deeper bounces arrive from the frame before.",
     .order = 2,
     .knobs = kKnobs,
+    .compared = kCompared,
     .scene_passes = feedback_passes,
     .add = [](graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
         const Captured captured = add_feedback(graph, inputs, settings, kFragment);

@@ -23,11 +23,14 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     return add_view_of(graph, inputs, captured, look);
 }
 
+constexpr std::string_view kCompared[] = {"secant:continue=0", "secant"};
+
 constexpr Technique kSecant{.name = "secant",
                             .summary = "Searches the captured distance for the point that the "
                                        "reflected ray meets, by secant steps.",
                             .order = 11,
                             .knobs = kKnobs,
+                            .compared = kCompared,
                             .scene_passes = feedback_passes,
                             .add = add};
 const Row kRow{kSecant};

@@ -28,6 +28,8 @@ struct Technique {
     std::string_view summary; ///< one sentence for `list` and the report
     int order = 0;            ///< place in lists and tables
     std::span<const Knob> knobs;
+    /// Its rows where compare is not told which: "name[:knob=value,...]" each.
+    std::span<const std::string_view> compared = {};
     /// Scene renders a frame as the report counts its R; a cube counts once.
     int (*scene_passes)(int mirrors, int lights, const Settings& settings) = nullptr;
     /// Declares the passes of one frame.

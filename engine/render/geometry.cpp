@@ -5,7 +5,7 @@
 namespace catoptric::render {
 
 Geometry make_geometry(const scene::Scene& now, const Space& space) {
-    Geometry geometry;
+    Geometry geometry{.core = space.core};
     for (const scene::Object& object : now.objects) {
         const scene::Mesh& mesh = now.meshes[object.mesh];
         const scene::Material& material = now.materials[object.material];
@@ -25,6 +25,7 @@ Geometry make_geometry(const scene::Scene& now, const Space& space) {
             geometry.vertices.push_back(
                 {position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))});
         }
+        check_reach(range.bounds, object.name);
         for (const uvec3& triangle : mesh.triangles)
             for (int i = 0; i < 3; ++i) geometry.indices.push_back(first_vertex + triangle[i]);
         geometry.ranges.push_back(range);

@@ -26,6 +26,7 @@ struct Geometry {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<DrawRange> ranges;
+    Bounds<float> core; ///< where most of it is (Space::core)
 };
 Geometry make_geometry(const scene::Scene& now, const Space& space);
 

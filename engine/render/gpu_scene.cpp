@@ -165,7 +165,7 @@ void GpuScene::fill_tracing() {
             for (std::uint32_t j = 0; j < 3; ++j) normals.emplace_back(vertex(j).normal, 0.0f);
         }
     }
-    const bvh::Bvh tree = bvh::build(triangles);
+    const bvh::Bvh tree = bvh::build(triangles, geometry_.core);
     upload(device_, bvh_nodes_, "bvh_nodes", tree.nodes, gpu::BufferUse::texels);
     upload(device_, bvh_triangles_, "bvh_triangles", tree.triangles, gpu::BufferUse::texels);
     upload(device_, normals_, "normals", normals, gpu::BufferUse::texels);

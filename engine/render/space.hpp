@@ -4,18 +4,26 @@
 
 namespace catoptric::render {
 
-/// Scene units: world positions minus the scene's centre, times a power of two that makes its
-/// largest extent about 1. Done in double before anything becomes a float, so that neither the
-/// scale of a scene nor its distance from the origin reaches the device.
+/// Scene units: world positions minus an origin, times a power of two that makes the largest extent
+/// of the scene's core (scene/core.hpp) about 1. Done in double before anything becomes a float, so
+/// that neither the scale of a scene nor its distance from the world's origin reaches the device,
+/// and nothing far outside costs what is looked at its precision.
 struct Space {
-    dvec3 centre_world{0};
-    double scale = 1; ///< scene units per world unit, a power of two
+    dvec3 origin_world{0};
+    double scale = 1;   ///< scene units per world unit, a power of two
+    Bounds<float> core; ///< scene units; things may lie outside
 
-    vec3 point(const dvec3& world) const { return vec3((world - centre_world) * scale); }
+    vec3 point(const dvec3& world) const { return vec3((world - origin_world) * scale); }
     float length(double world) const { return static_cast<float>(world * scale); }
 };
 
-/// Of the scene at rest; the same for all its frames, so that motion does not move the units.
+/// Of the scene at rest; the same for all its frames, so that motion does not move the units. The
+/// origin is the core's centre or, where mirrors are smaller than 2^-12 of their distance from
+/// there (a float has 2^-24 of it), the centre of these mirrors.
 Space space_of(const scene::Scene& scene);
+
+/// Throws `exhausted` naming the object where a corner of `box` (scene units) is farther away than
+/// scene::kFarthestReach.
+void check_reach(const Bounds<float>& box, const std::string& object);
 
 } // namespace catoptric::render

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/shader_math.hpp"
+#include "scene/core.hpp"
 
 #include <array>
 #include <cmath>
@@ -13,8 +14,6 @@ namespace {
 // Depth is a float with reversed range: its relative precision does not depend on the near plane,
 // so near only has to be above 0 and below everything. 2^-24: the rounding of a coordinate about 1.
 constexpr float kSmallestNear = 0x1p-24f;
-// In scene sizes: the square of a distance must stay a float.
-constexpr float kFarthestEye = 1e18f;
 
 } // namespace
 
@@ -33,9 +32,10 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
     view.forward = vec3(forward);
     view.near = std::max(kSmallestNear, 0.5f * gap * static_cast<float>(along));
     // Written so that a NaN is refused too.
-    check(length(view.eye) <= kFarthestEye && length(view.forward) > .5f &&
+    check(length(view.eye) <= scene::kFarthestReach && length(view.forward) > .5f &&
               length(view.right) > 0 && length(view.down) > 0,
-          Failure::usage, "camera '", camera.name, "': wanted an eye within ", kFarthestEye,
+          Failure::usage, "camera '", camera.name, "': wanted an eye within ",
+          scene::kFarthestReach,
           " sizes of the scene, a target away from it and an up that is not along, found eye ",
           camera.eye.x, ",", camera.eye.y, ",", camera.eye.z);
     return view;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/error.hpp"
 #include "measure/difference.hpp"
 #include "measure/lookup.hpp"
 #include "measure/picture.hpp"
@@ -26,6 +27,7 @@ struct SceneFacts {
     std::size_t triangles = 0;
     std::size_t mirrors = 0;
     std::string hash;
+    bool is_seed = false; ///< the scene of the seed report, beside whose figures its own may stand
 };
 
 /// A knob and its value; `number` when it is one, else `text`.
@@ -84,12 +86,15 @@ struct Row {
     std::vector<float> flip_map; ///< against the reference, row-major
     std::string image;           ///< file name without folder and ending: "naive-bounces1"
     bool is_reference = false;   ///< same technique and settings as the reference
+    bool mirrors_black = false;  ///< it draws nothing in them: a floor for time, no technique
 };
 
 struct Comparison {
     std::string version, commit;
     std::vector<std::string> command;
-    bool complete = true; ///< false: interrupted, rows so far
+    bool complete = true;         ///< false: the rows so far, of a run that goes on or was stopped
+    std::size_t asked = 0;        ///< rows that it is to have
+    std::optional<Error> stopped; ///< what ended it early
     DeviceFacts device;
     SceneFacts scene;
     int width = 0, height = 0;

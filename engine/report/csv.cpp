@@ -102,6 +102,7 @@ Line line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) 
     line.add("on_front", int{on_front(comparison, row)});
     line.add("failed", int{failed(row)});
     line.add("is_reference", int{row.is_reference});
+    line.add("incomplete", incomplete_text(comparison));
     return line;
 }
 
@@ -113,6 +114,11 @@ std::string to_csv(const Comparison& comparison) {
     std::string csv = joined(line_of(comparison, Row{}, mirrors).names, ",") + "\r\n";
     for (const Row& row : comparison.rows)
         csv += joined(line_of(comparison, row, mirrors).fields, ",") + "\r\n";
+    if (!comparison.complete && comparison.rows.empty()) { // a line that says nothing else
+        Line line = line_of(comparison, Row{}, mirrors);
+        std::fill(line.fields.begin(), line.fields.end() - 1, "");
+        csv += joined(line.fields, ",") + "\r\n";
+    }
     return csv;
 }
 

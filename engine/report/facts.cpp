@@ -43,8 +43,7 @@ std::vector<Fact> facts(const Comparison& comparison) {
 
 std::vector<std::string> cautions(const Comparison& comparison) {
     std::vector<std::string> list;
-    if (!comparison.complete)
-        list.push_back("The run was stopped before its end: these are the rows so far.");
+    if (!comparison.complete) list.push_back("Incomplete, " + incomplete_text(comparison) + ".");
     if (comparison.device.type == "cpu")
         list.push_back(
             "This device is a processor: \"GPU time\" here is processor time of its "

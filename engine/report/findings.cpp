@@ -23,18 +23,25 @@ double ms_of(const Row& row) { return row.gpu_ms.median; }
 
 std::string percent(double share) { return fixed(100 * share, share < 0.1 ? 1 : 0) + " %"; }
 
+/// "1.2 against 3.4 ms", and that no more can be said where the bands of the times overlap.
+std::string both_times(const Row& a, const Row& b) {
+    return ms_text(ms_of(a)) + " against " + ms_text(ms_of(b)) + " ms";
+}
+bool is_tie(const Row& a, const Row& b) { return !is_faster(a, b) && !is_faster(b, a); }
+constexpr const char* kTie = ": their bands overlap, they are not told apart";
+
 /// What a clear would do to our part one, which renders and clears no cube without
 /// inter-reflections.
-std::string clear_verdict(double clear, double one, double two) {
-    const double gap = (one + clear - two) / two;
-    if (one > two)
+std::string clear_verdict(double clear, const Row& one, const Row& two) {
+    if (is_faster(two, one))
         return "part one is slower without any clear, so clearing alone does not explain the order "
                "on "
                "this device";
-    if (gap <= 0)
+    if (!(one.gpu_ms.p05 + clear > two.gpu_ms.p95))
         return "added to part one that still leaves it no slower than part two, so clearing alone "
                "does "
                "not explain the report's order on this device";
+    const double gap = (ms_of(one) + clear - ms_of(two)) / ms_of(two);
     const double seed_gap = (kSeedPartOne.ms - kSeedPartTwo.ms) / kSeedPartTwo.ms;
     return fmt::format(
         "added to part one that would put it {} behind part two (the report: {}), so "
@@ -46,19 +53,18 @@ Sentence clears(const Comparison& comparison) {
     const Row* one = find_naive(comparison, 0);
     const Row* two = find_row(comparison, "reuse");
     if (one == nullptr || two == nullptr) return {};
-    const bool slower = ms_of(*one) > ms_of(*two);
-    std::string text = fmt::format(
-        "Clears: the report's part one without inter-reflections took {:.1f} ms more "
-        "than its part two "
-        "({:.1f} against {:.1f} ms), which it puts down to clearing the cube maps. "
-        "Here part one, {}, "
-        "is {} than part two ({} against {} ms)",
-        kSeedPartOne.ms - kSeedPartTwo.ms, kSeedPartOne.ms, kSeedPartTwo.ms, one->label,
-        slower ? "slower" : "not slower", ms_text(ms_of(*one)), ms_text(ms_of(*two)));
+    const char* order = is_faster(*two, *one) ? "slower than" : "not slower than";
+    std::string text = fmt::format("Clears: the report's part one without inter-reflections took "
+                                   "{:.1f} ms more than its part two "
+                                   "({:.1f} against {:.1f} ms), which it puts down to clearing the "
+                                   "cube maps. Here part one, {}, "
+                                   "is {} part two ({})",
+                                   kSeedPartOne.ms - kSeedPartTwo.ms, kSeedPartOne.ms,
+                                   kSeedPartTwo.ms, one->label, order, both_times(*one, *two));
     if (!comparison.clear_ms) return text + "; what a clear costs was not measured.";
     const double clear = comparison.clear_ms->median;
     return text + ". Clearing the cubes of all mirrors costs " + ms_text(clear) +
-           " ms: " + clear_verdict(clear, ms_of(*one), ms_of(*two)) + ".";
+           " ms: " + clear_verdict(clear, *one, *two) + ".";
 }
 
 Sentence stored_distance(const Comparison& comparison) {
@@ -120,8 +126,13 @@ Sentence price_of_correction(const Comparison& comparison) {
     const double more = ms_of(*three) / ms_of(*two) - 1;
     std::string text = fmt::format(
         "Price of the correction: the report calls the code's complexity its only drawback ({:.1f} "
-        "against {:.1f} ms). Here part three takes {} {} time than part two",
-        kSeedPartThree.ms, kSeedPartTwo.ms, percent(std::abs(more)), more < 0 ? "less" : "more");
+        "against {:.1f} ms). Here part three takes ",
+        kSeedPartThree.ms, kSeedPartTwo.ms);
+    if (is_tie(*two, *three))
+        text += "as long as part two (" + both_times(*three, *two) + kTie + ")";
+    else
+        text += percent(std::abs(more)) + (more < 0 ? " less" : " more") + " time than part two (" +
+                both_times(*three, *two) + ")";
     if (three->memory_bytes > two->memory_bytes)
         text += fmt::format(" and {} MiB more memory for the distances",
                             mebibytes(three->memory_bytes - two->memory_bytes));
@@ -132,21 +143,40 @@ Sentence ray_tracing(const Comparison& comparison) {
     const Row* three = find_parallax(comparison);
     const Row* traced = find_ray_traced(comparison);
     if (three == nullptr || traced == nullptr || !(ms_of(*three) > 0)) return {};
-    return fmt::format("Ray tracing: in the report it takes {:.1f} times as long as part three "
-                       "({:.1f} against {:.1f} "
-                       "ms); here {} takes {} times as long as {} ({} against {} ms).",
-                       kSeedRayTrace.ms / kSeedPartThree.ms, kSeedRayTrace.ms, kSeedPartThree.ms,
-                       traced->label, ms_text(ms_of(*traced) / ms_of(*three)), three->label,
-                       ms_text(ms_of(*traced)), ms_text(ms_of(*three)));
+    std::string text = fmt::format("Ray tracing: in the report it takes {:.1f} times as long as "
+                                   "part three ({:.1f} against {:.1f} "
+                                   "ms); here {} takes ",
+                                   kSeedRayTrace.ms / kSeedPartThree.ms, kSeedRayTrace.ms,
+                                   kSeedPartThree.ms, traced->label);
+    if (is_tie(*three, *traced))
+        text += "as long as " + three->label + " (" + both_times(*traced, *three) + kTie + ")";
+    else
+        text += ms_text(ms_of(*traced) / ms_of(*three)) + " times as long as " + three->label +
+                " (" + both_times(*traced, *three) + ")";
+    return text + ".";
 }
 
 } // namespace
 
+std::string findings_title(const Comparison& comparison) {
+    return comparison.scene.is_seed ? "What this says of the seed report" : "What this says";
+}
+
 std::vector<std::string> findings(const Comparison& comparison) {
+    struct Finding {
+        Sentence (*say)(const Comparison&);
+        bool beside_the_report; ///< compares with its figures, so with its scene only
+    };
     std::vector<std::string> list;
-    for (const auto finding : {clears, inter_reflections, stored_distance, price_of_correction,
-                               ray_tracing, lag_in_words})
-        if (const Sentence sentence = finding(comparison)) list.push_back(*sentence);
+    for (const auto& [say, beside_the_report] : {Finding{clears, true},
+                                                 {inter_reflections, false},
+                                                 {stored_distance, true},
+                                                 {price_of_correction, true},
+                                                 {ray_tracing, true},
+                                                 {lag_in_words, false}}) {
+        if (beside_the_report && !comparison.scene.is_seed) continue;
+        if (const Sentence sentence = say(comparison)) list.push_back(*sentence);
+    }
     return list;
 }
 

@@ -8,8 +8,10 @@
 // Sentences drawn from the figures; plain text. Each is there only when the rows it speaks of are.
 namespace catoptric::report {
 
-/// What the run says of the seed report's statements about its Table 1 and figures 5 and 7.
+/// What the run says; of the seed report's statements about its Table 1 and figures 5 and 7 where
+/// it is of that report's scene.
 std::vector<std::string> findings(const Comparison& comparison);
+std::string findings_title(const Comparison& comparison);
 
 /// The Pareto front in words: the rows on it, who beats each of the others, and whether ray tracing
 /// or the captures win.

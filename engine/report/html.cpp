@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace catoptric::report {
@@ -60,18 +61,32 @@ std::string headline(const std::string& name, const std::string& figure, const s
                        html_escaped(of));
 }
 
+/// Rows that are in no other's shadow by time, mirrors drawn: one, or several that are not told
+/// apart.
+std::vector<const Row*> fastest_rows(const Comparison& comparison) {
+    const auto counts = [](const Row& row) { return judged(&row) && !row.mirrors_black; };
+    std::vector<const Row*> fastest;
+    for (const Row& row : comparison.rows)
+        if (counts(row) && std::ranges::none_of(comparison.rows, [&](const Row& other) {
+                return counts(other) && is_faster(other, row);
+            }))
+            fastest.push_back(&row);
+    return fastest;
+}
+
 /// Fastest, closest but for the reference itself, the front, the reference.
 std::string headlines(const Comparison& comparison) {
-    const Row* fastest = nullptr;
     const Row* closest = nullptr;
     for (const Row& row : comparison.rows) {
-        if (fastest == nullptr || row.gpu_ms.median < fastest->gpu_ms.median) fastest = &row;
         if (row.is_reference || !judged(&row)) continue;
         if (closest == nullptr || row.error.flip < closest->error.flip) closest = &row;
     }
     std::string html = "<dl class=\"headline\">";
-    if (fastest != nullptr)
-        html += headline("Fastest", ms_text(fastest->gpu_ms.median) + " ms", fastest->label);
+    if (const std::vector<const Row*> fastest = fastest_rows(comparison); fastest.size() == 1)
+        html += headline("Fastest", ms_text(fastest.front()->gpu_ms.median) + " ms",
+                         fastest.front()->label);
+    else if (!fastest.empty())
+        html += headline("Fastest", std::to_string(fastest.size()) + " rows", "not told apart");
     if (closest != nullptr)
         html += headline("Closest", "FLIP " + error_text(closest->error.flip), closest->label);
     html += headline("On the front", std::to_string(comparison.pareto.size()),
@@ -81,12 +96,12 @@ std::string headlines(const Comparison& comparison) {
     return html + "</dl>";
 }
 
-std::string figure(const measure::Picture& display, const std::string& alt,
+std::string figure(const measure::Picture& size, const std::string& png, const std::string& alt,
                    const std::string& caption) {
-    if (display.pixels.empty()) return "";
+    if (png.empty()) return "";
     return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">"
                        "<figcaption>{}</figcaption></figure>",
-                       display.width, display.height, html_escaped(alt), data_uri(display),
+                       size.width, size.height, html_escaped(alt), data_uri(png),
                        html_escaped(caption));
 }
 
@@ -121,7 +136,8 @@ std::string details(const Row& row) {
     return html + "</tbody></table></details>";
 }
 
-std::string article(const Comparison& comparison, std::size_t index) {
+std::string article(const Comparison& comparison, const EncodedPictures& encoded,
+                    std::size_t index) {
     const Row& row = comparison.rows[index];
     std::string html = fmt::format("<article id=\"row-{}\"><div class=\"title\"><h3>{}</h3>", index,
                                    html_escaped(row.label));
@@ -130,12 +146,11 @@ std::string article(const Comparison& comparison, std::size_t index) {
           std::pair(row.is_reference, "the reference"), std::pair(failed(row), "failed")})
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
     html += "</div><div class=\"pair\">" +
-            figure(row.display, "Picture by " + row.label, "Picture");
-    if (!row.flip_map.empty())
-        html += figure(measure::heat(row.flip_map, row.display.width, row.display.height),
-                       "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
-                           error_text(row.error.flip),
-                       "FLIP error");
+            figure(row.display, encoded.rows[index].picture, "Picture by " + row.label, "Picture") +
+            figure(row.display, encoded.rows[index].error,
+                   "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
+                       error_text(row.error.flip),
+                   "FLIP error");
     return html + "</div>" + numbers(row) + details(row) + "</article>\n";
 }
 
@@ -150,14 +165,16 @@ std::string heat_scale() {
            ")\"></div><div class=\"ends\"><span>FLIP 0: no difference</span><span>1</span></div>";
 }
 
-std::string pictures(const Comparison& comparison) {
+std::string pictures(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html =
         "<section><h2>Pictures</h2><div class=\"reference\">" +
-        figure(comparison.reference_display, "Reference picture by " + comparison.reference_label,
+        figure(comparison.reference_display, encoded.reference,
+               "Reference picture by " + comparison.reference_label,
                "Reference: " + comparison.reference_label) +
         "<div><p>Each row: its last frame, and where it differs from the reference.</p>" +
         heat_scale() + "</div></div><div class=\"rows\">";
-    for (std::size_t i = 0; i < comparison.rows.size(); ++i) html += article(comparison, i);
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i)
+        html += article(comparison, encoded, i);
     return html + "</div></section>\n";
 }
 
@@ -187,6 +204,12 @@ std::string circumstances(const Comparison& comparison) {
 } // namespace
 
 std::string to_html(const Comparison& comparison) {
+    EncodedPictures pictures;
+    encode_new(pictures, comparison);
+    return to_html(comparison, pictures);
+}
+
+std::string to_html(const Comparison& comparison, const EncodedPictures& encoded) {
     const std::string scene = html_escaped(comparison.scene.name);
     std::string html =
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
@@ -199,17 +222,17 @@ std::string to_html(const Comparison& comparison) {
     const std::vector<std::string> notes = cautions(comparison);
     if (!notes.empty()) html += "<aside class=\"caution\">" + list_of(notes) + "</aside>";
     html += headlines(comparison) + "</header>\n<main>" + front(comparison) +
-            to_html(seed_table(comparison), "seed", false);
+            (comparison.scene.is_seed ? to_html(seed_table(comparison), "seed", false) : "");
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty())
-        html += "<section><h2>What this says of the seed report</h2>" + list_of(sentences) +
+        html += "<section><h2>" + findings_title(comparison) + "</h2>" + list_of(sentences) +
                 "</section>\n";
     html += to_html(rows_table(comparison), "all", true) +
             to_html(mirror_table(comparison), "mirrors", true) +
             to_html(lookup_table(comparison), "lookups", true) +
             to_html(cause_table(comparison), "causes", false) + lag_plots(comparison) +
             to_html(lag_table(comparison), "lag", false) +
-            to_html(settling_table(comparison), "lag", false) + pictures(comparison) +
+            to_html(settling_table(comparison), "lag", false) + pictures(comparison, encoded) +
             circumstances(comparison);
     return html + "</main></body></html>\n";
 }

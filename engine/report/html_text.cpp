@@ -1,7 +1,5 @@
 #include "report/html_text.hpp"
 
-#include "measure/picture_file.hpp"
-
 #include <cstdint>
 
 namespace catoptric::report {
@@ -40,8 +38,6 @@ std::string html_escaped(std::string_view text) {
     return result;
 }
 
-std::string data_uri(const measure::Picture& display) {
-    return "data:image/png;base64," + base64(measure::png_bytes(display));
-}
+std::string data_uri(std::string_view png) { return "data:image/png;base64," + base64(png); }
 
 } // namespace catoptric::report

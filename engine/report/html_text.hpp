@@ -1,7 +1,5 @@
 #pragma once
 
-#include "measure/picture.hpp"
-
 #include <string>
 #include <string_view>
 
@@ -10,8 +8,8 @@ namespace catoptric::report {
 
 /// Text for between tags and inside quoted attributes.
 std::string html_escaped(std::string_view text);
-/// The picture as a PNG inside a data: URI.
-std::string data_uri(const measure::Picture& display);
+/// A picture for `src`.
+std::string data_uri(std::string_view png);
 
 /// The page's style sheet.
 extern const char* const kStyle;

@@ -2,6 +2,7 @@
 #include "report/json.hpp"
 #include "report/report.hpp"
 #include "report/rows.hpp"
+#include "report/text.hpp"
 
 #include <cmath>
 
@@ -197,6 +198,10 @@ std::string to_json(const Comparison& comparison) {
               {"commit", comparison.commit},
               {"command", comparison.command},
               {"complete", comparison.complete}};
+    if (!comparison.complete) {
+        json["incomplete"] = incomplete_text(comparison);
+        json["rows_asked"] = comparison.asked;
+    }
     add_circumstances(json, comparison);
     json["reference"] = {{"technique", comparison.reference_technique},
                          {"settings", to_json(comparison.reference_settings)},

@@ -37,6 +37,10 @@ std::string to_json(const Stress& stress) {
               {"commit", stress.commit},
               {"command", stress.command},
               {"complete", stress.complete}};
+    if (!stress.complete) {
+        json["incomplete"] = incomplete_text(stress);
+        json["rows_asked"] = stress.asked;
+    }
     json["device"] = {{"name", stress.device.name},
                       {"driver", stress.device.driver},
                       {"api", stress.device.api},

@@ -78,13 +78,14 @@ std::string to_markdown(const Comparison& comparison) {
     text += "\n";
     for (const std::string& caution : cautions(comparison))
         text += "> " + escaped(caution) + "\n>\n";
-    text += "\n" + to_markdown(seed_table(comparison)) + to_markdown(rows_table(comparison)) +
-            to_markdown(mirror_table(comparison)) + to_markdown(lookup_table(comparison)) +
-            to_markdown(cause_table(comparison)) + to_markdown(lag_table(comparison)) +
-            to_markdown(settling_table(comparison));
+    text += "\n" + (comparison.scene.is_seed ? to_markdown(seed_table(comparison)) : "") +
+            to_markdown(rows_table(comparison)) + to_markdown(mirror_table(comparison)) +
+            to_markdown(lookup_table(comparison)) + to_markdown(cause_table(comparison)) +
+            to_markdown(lag_table(comparison)) + to_markdown(settling_table(comparison));
     text += "## The Pareto front: time against FLIP\n\n" + list_of(front_in_words(comparison));
     const std::vector<std::string> sentences = findings(comparison);
-    if (!sentences.empty()) text += "## What this says of the seed report\n\n" + list_of(sentences);
+    if (!sentences.empty())
+        text += "## " + findings_title(comparison) + "\n\n" + list_of(sentences);
     return text;
 }
 

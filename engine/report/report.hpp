@@ -1,15 +1,18 @@
 #pragma once
 
 #include "report/comparison.hpp"
+#include "report/encoded.hpp"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace catoptric::report {
 
 /// report.json: schema "catoptric/compare/1".
 std::string to_json(const Comparison& comparison);
-/// rows.csv: one line a row, header first (RFC 4180).
+/// rows.csv: one line a row, header first (RFC 4180). The last field of each says what an
+/// incomplete run lacks; without a row one line holds nothing else.
 std::string to_csv(const Comparison& comparison);
 /// report.md: the seed report's Table 1 beside ours, errors, what is dominated, and what to make of
 /// its guesses.
@@ -17,13 +20,32 @@ std::string to_markdown(const Comparison& comparison);
 /// report.html: one self-contained page, table and pictures (data: URIs) side by side, no script.
 std::string to_html(const Comparison& comparison);
 
-/// Makes `folder` (its parent must exist) and `images` in it; folders that are there are taken. For
-/// before long work, whose results would have no place. Throws `cannot_create`.
+/// Makes `folder` with its parents; folders that are there are taken. For before long work, whose
+/// results would have no place. Throws `cannot_create`.
 void create_folder(const std::filesystem::path& folder);
 
-/// Makes the folder as above and writes report.json, report.md, report.html, rows.csv,
-/// images/<row>.png and .exr, images/<row>-error.png and images/reference.png. Every file is put
-/// into place whole. Throws `cannot_create`, `io`.
+/// Puts what there is into a folder, made as above: report.json, report.md, report.html, rows.csv,
+/// images/<row>.png and .exr, images/<row>-error.png and images/reference.png. Written again and
+/// again as rows are added: pictures once, all else anew, every file put into place whole.
+class Writer {
+public:
+    explicit Writer(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// Rows that were there the last time are the same now. Throws `cannot_create`, `io`.
+    void write(const Comparison& comparison);
+
+private:
+    void write_pictures(const Comparison& comparison);
+
+    std::filesystem::path folder_;
+    EncodedPictures pictures_;
+    bool has_reference_ = false; ///< its picture is there
+    std::size_t rows_ = 0;       ///< whose pictures are there
+};
+
+/// The files that a writer of rows with these `Row::image`s puts into its folder, relative to it.
+std::vector<std::filesystem::path> files_of(const std::vector<std::string>& images);
+
+/// All of it once.
 void write(const Comparison& comparison, const std::filesystem::path& folder);
 
 } // namespace catoptric::report

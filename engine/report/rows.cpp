@@ -63,10 +63,13 @@ bool on_front(const Comparison& comparison, const Row& row) {
     });
 }
 
-bool beats(const Row& a, const Row& b) {
-    if (failed(a)) return false;
-    const bool no_worse = a.gpu_ms.median <= b.gpu_ms.median && a.error.flip <= b.error.flip;
-    return no_worse && (a.gpu_ms.median < b.gpu_ms.median || a.error.flip < b.error.flip);
+measure::Candidate candidate_of(const Row& row) {
+    if (failed(row)) return {NAN, NAN, NAN, NAN};
+    return {row.gpu_ms.median, row.gpu_ms.p05, row.gpu_ms.p95, row.error.flip};
 }
+
+bool beats(const Row& a, const Row& b) { return measure::beats(candidate_of(a), candidate_of(b)); }
+
+bool is_faster(const Row& a, const Row& b) { return a.gpu_ms.p95 < b.gpu_ms.p05; }
 
 } // namespace catoptric::report

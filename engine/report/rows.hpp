@@ -1,5 +1,6 @@
 #pragma once
 
+#include "measure/pareto.hpp"
 #include "report/comparison.hpp"
 
 #include <span>
@@ -29,7 +30,12 @@ bool failed(const Row& row);
 bool judged(const Row* row);
 bool is_ray_traced(const Row& row);
 bool on_front(const Comparison& comparison, const Row& row);
-/// `a` is as fast and as close as `b`, and faster or closer. A failed row beats nobody.
+/// What the row is judged by: its median time with the band from the 5th to the 95th percentile,
+/// and its FLIP over the mirrors. All NaN where it failed.
+measure::Candidate candidate_of(const Row& row);
+/// See measure::beats: no row beats another where their bands of time overlap and it is not closer.
 bool beats(const Row& a, const Row& b);
+/// Whether the bands of two rows' times do not overlap.
+bool is_faster(const Row& a, const Row& b);
 
 } // namespace catoptric::report

@@ -1,10 +1,10 @@
 #include "report/stress.hpp"
 
 #include "core/file.hpp"
-#include "measure/picture_file.hpp"
 #include "report/html_text.hpp"
 #include "report/report.hpp"
 #include "report/tables.hpp"
+#include "report/text.hpp"
 
 #include <fmt/format.h>
 
@@ -49,6 +49,10 @@ Table table_of(const Stress& stress) {
     return table;
 }
 
+std::string caution_of(const Stress& stress) {
+    return stress.complete ? "" : "Incomplete, " + incomplete_text(stress) + ".";
+}
+
 std::string lead_of(const Stress& stress) {
     return fmt::format("{}, {}x{}, seed {}. Each row: its worst case beside the threshold.",
                        stress.device.name, stress.width, stress.height, stress.seed);
@@ -74,6 +78,10 @@ const StressCase* StressRow::worst() const {
     return found == cases.end() ? nullptr : &*found;
 }
 
+std::string incomplete_text(const Stress& stress) {
+    return stress.complete ? "" : incomplete_text(stress.rows.size(), stress.asked, stress.stopped);
+}
+
 bool Stress::failed() const {
     return std::ranges::any_of(rows,
                                [](const StressRow& row) { return row.verdict == Verdict::fail; });
@@ -87,8 +95,11 @@ std::string to_html(const Stress& stress) {
         std::string(kStyle) +
         "</style></head>\n<body><header><p class=\"kicker\">Rendering at the "
         "extremes</p><h1>Stress</h1>" +
-        "<p class=\"lede\">" + html_escaped(lead_of(stress)) +
-        "</p></header><main><section><div class=\"scroll\"><table class=\"words\"><thead><tr>";
+        "<p class=\"lede\">" + html_escaped(lead_of(stress)) + "</p>" +
+        (stress.complete ? ""
+                         : "<aside class=\"caution\"><ul><li>" + html_escaped(caution_of(stress)) +
+                               "</li></ul></aside>") +
+        "</header><main><section><div class=\"scroll\"><table class=\"words\"><thead><tr>";
     const Table table = table_of(stress);
     for (const Column& column : table.columns)
         html += fmt::format("<th{} scope=\"col\">{}</th>",
@@ -107,25 +118,25 @@ std::string to_html(const Stress& stress) {
         for (const StressPicture& picture : row.pictures)
             html += fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" "
                                 "src=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                                picture.display.width, picture.display.height,
-                                html_escaped(picture.name), data_uri(picture.display),
-                                html_escaped(picture.name));
+                                picture.width, picture.height, html_escaped(picture.name),
+                                data_uri(picture.png), html_escaped(picture.name));
     return html + "</main></body></html>\n";
 }
 
 std::string to_markdown(const Stress& stress) {
     return "# Rendering at the extremes\n\n" + lead_of(stress) + "\n\n" +
+           (stress.complete ? "" : "> " + caution_of(stress) + "\n\n") +
            to_markdown(table_of(stress));
 }
 
-void write(const Stress& stress, const std::filesystem::path& folder) {
-    create_folder(folder);
-    for (const StressRow& row : stress.rows)
-        for (const StressPicture& picture : row.pictures)
-            measure::write_png(picture.display, folder / "images" / (picture.name + ".png"));
-    write_file(folder / "stress.html", to_html(stress));
-    write_file(folder / "stress.md", to_markdown(stress));
-    write_file(folder / "stress.json", to_json(stress));
+void StressWriter::write(const Stress& stress) {
+    create_folder(folder_ / "images");
+    for (; rows_ < stress.rows.size(); ++rows_)
+        for (const StressPicture& picture : stress.rows[rows_].pictures)
+            write_file(folder_ / "images" / (picture.name + ".png"), picture.png);
+    write_file(folder_ / "stress.html", to_html(stress));
+    write_file(folder_ / "stress.md", to_markdown(stress));
+    write_file(folder_ / "stress.json", to_json(stress));
 }
 
 } // namespace catoptric::report

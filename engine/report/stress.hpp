@@ -1,6 +1,5 @@
 #pragma once
 
-#include "measure/picture.hpp"
 #include "report/comparison.hpp"
 
 #include <filesystem>
@@ -23,8 +22,9 @@ struct StressCase {
 };
 
 struct StressPicture {
-    std::string name;         ///< fit for a file
-    measure::Picture display; ///< as shown
+    std::string name; ///< fit for a file
+    int width = 0, height = 0;
+    std::string png; ///< the picture as shown, encoded once
 };
 
 struct StressRow {
@@ -42,7 +42,9 @@ struct StressRow {
 struct Stress {
     std::string version, commit;
     std::vector<std::string> command;
-    bool complete = true; ///< false: interrupted, rows so far
+    bool complete = true;         ///< false: the rows so far, of a run that goes on or was stopped
+    std::size_t asked = 0;        ///< rows that it is to have
+    std::optional<Error> stopped; ///< what ended it early
     DeviceFacts device;
     int width = 0, height = 0;
     std::uint64_t seed = 1;
@@ -56,8 +58,20 @@ std::string to_json(const Stress& stress);
 std::string to_html(const Stress& stress);
 /// The same table as Markdown.
 std::string to_markdown(const Stress& stress);
-/// stress.json, stress.html, stress.md and images/ID-*.png in `folder`, made as for a comparison.
-/// Throws `cannot_create`, `io`.
-void write(const Stress& stress, const std::filesystem::path& folder);
+/// "2 of 27 rows: ..." for a run that goes on or was stopped; empty when it is complete.
+std::string incomplete_text(const Stress& stress);
+
+/// Puts what there is into a folder, made as for a comparison: stress.json, stress.html, stress.md
+/// and images/ID-*.png. Written again and again as rows are added, each picture once.
+class StressWriter {
+public:
+    explicit StressWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// Throws `cannot_create`, `io`.
+    void write(const Stress& stress);
+
+private:
+    std::filesystem::path folder_;
+    std::size_t rows_ = 0; ///< whose pictures are there
+};
 
 } // namespace catoptric::report

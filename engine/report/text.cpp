@@ -54,6 +54,19 @@ std::string settings_text(const Row& row) {
     return joined(parts, ", ");
 }
 
+std::string incomplete_text(std::size_t rows, std::size_t asked,
+                            const std::optional<Error>& stopped) {
+    return fmt::format("{} of {} rows: {}", rows, asked,
+                       stopped ? stopped->what() : "the run had not ended when this was written");
+}
+
+std::string incomplete_text(const Comparison& comparison) {
+    if (comparison.complete) return "";
+    const bool in_lag = comparison.lag && !comparison.lag->complete;
+    return incomplete_text(comparison.rows.size(), comparison.asked, comparison.stopped) +
+           (in_lag ? "; their lag was not measured to its end" : "");
+}
+
 std::string joined(const std::vector<std::string>& parts, std::string_view between) {
     return fmt::format("{}", fmt::join(parts, between));
 }

@@ -25,6 +25,11 @@ std::string fps_text(double ms);
 std::string mebibytes(std::uint64_t bytes);
 /// "bounces=3, face=256".
 std::string settings_text(const Row& row);
+/// What a run has of what it was asked for and why no more: "4 of 8 rows: ...".
+std::string incomplete_text(std::size_t rows, std::size_t asked,
+                            const std::optional<Error>& stopped);
+/// The same, and of the lag; empty when it is complete.
+std::string incomplete_text(const Comparison& comparison);
 std::string joined(const std::vector<std::string>& parts, std::string_view between);
 
 } // namespace catoptric::report

@@ -1,6 +1,5 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "measure/heat.hpp"
 #include "measure/picture_file.hpp"
 #include "report/report.hpp"
 
@@ -10,48 +9,50 @@ namespace catoptric::report {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-void make(const fs::path& folder) {
+void create_folder(const fs::path& folder) {
     std::error_code error;
-    fs::create_directory(folder, error); // a folder that is there is no error
+    fs::create_directories(folder, error); // what is there already is no error
     check(!error, Failure::cannot_create, folder.string(),
           ": the folder cannot be created: ", error.message());
 }
 
-void write_pictures(const Comparison& comparison, const fs::path& images) {
-    if (!comparison.reference_display.pixels.empty())
-        measure::write_png(comparison.reference_display, images / "reference.png");
-    for (const Row& row : comparison.rows) {
+void Writer::write_pictures(const Comparison& comparison) {
+    const fs::path images = folder_ / "images";
+    if (!has_reference_ && !pictures_.reference.empty()) {
+        write_file(images / "reference.png", pictures_.reference);
+        has_reference_ = true;
+    }
+    for (; rows_ < comparison.rows.size(); ++rows_) {
+        const Row& row = comparison.rows[rows_];
         if (row.hdr.pixels.empty()) continue;
         measure::write_exr(row.hdr, images / (row.image + ".exr"));
-        measure::write_png(row.display, images / (row.image + ".png"));
-        measure::write_png(measure::heat(row.flip_map, row.display.width, row.display.height),
-                           images / (row.image + "-error.png"));
+        write_file(images / (row.image + ".png"), pictures_.rows[rows_].picture);
+        write_file(images / (row.image + "-error.png"), pictures_.rows[rows_].error);
     }
 }
 
-} // namespace
+void Writer::write(const Comparison& comparison) {
+    create_folder(folder_ / "images");
+    encode_new(pictures_, comparison);
+    write_pictures(comparison);
+    write_file(folder_ / "rows.csv", to_csv(comparison));
+    write_file(folder_ / "report.md", to_markdown(comparison));
+    write_file(folder_ / "report.html", to_html(comparison, pictures_));
+    // Last: who sees it sees the files that it names.
+    write_file(folder_ / "report.json", to_json(comparison));
+}
 
-void create_folder(const fs::path& folder) {
-    const fs::path named = folder.has_filename() ? folder : folder.parent_path(); // "out/" is "out"
-    const fs::path parent = named.has_parent_path() ? named.parent_path() : fs::path(".");
-    std::error_code error;
-    check(fs::is_directory(parent, error), Failure::cannot_create, named.string(),
-          ": wanted its parent '", parent.string(), "' to be a folder, found ",
-          fs::exists(parent, error) ? "something else" : "nothing");
-    make(named);
-    make(named / "images");
+std::vector<fs::path> files_of(const std::vector<std::string>& images) {
+    std::vector<fs::path> files{"report.json", "report.html", "report.md", "rows.csv",
+                                "images/reference.png"};
+    for (const std::string& image : images)
+        for (const char* ending : {".exr", ".png", "-error.png"})
+            files.push_back(fs::path("images") / (image + ending));
+    return files;
 }
 
 void write(const Comparison& comparison, const fs::path& folder) {
-    create_folder(folder);
-    write_pictures(comparison, folder / "images");
-    write_file(folder / "rows.csv", to_csv(comparison));
-    write_file(folder / "report.md", to_markdown(comparison));
-    write_file(folder / "report.html", to_html(comparison));
-    // Last: who sees it sees the files that it names.
-    write_file(folder / "report.json", to_json(comparison));
+    Writer(folder).write(comparison);
 }
 
 } // namespace catoptric::report

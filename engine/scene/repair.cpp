@@ -1,6 +1,7 @@
 #include "scene/repair.hpp"
 
 #include "core/error.hpp"
+#include "scene/core.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
@@ -16,8 +17,14 @@ bool is_finite(const Vector& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// Along the normal, of any length; zero where the triangle has no area. Edges are scaled first, so
+/// that no size of a triangle over- or underflows.
 dvec3 edge_cross(const dvec3& a, const dvec3& b, const dvec3& c) {
-    return glm::cross(b - a, c - a);
+    const auto scaled = [](const dvec3& edge) {
+        const double size = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
+        return size > 0 ? edge / size : edge;
+    };
+    return glm::cross(scaled(b - a), scaled(c - a));
 }
 
 dvec3 normal_of(const Mesh& mesh, const uvec3& t) {
@@ -113,6 +120,9 @@ void finish(Scene& scene, const std::string& file) {
                                  "' has no triangle with an area and is left out");
         return true;
     });
+    for (const std::string& name : leave_out_unreachable(scene))
+        scene.warnings.push_back(file + ": object '" + name +
+                                 "' is farther away than floats reach and is left out");
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none");
 }

@@ -1,6 +1,7 @@
 #include "stress/bench.hpp"
 
 #include "measure/flip.hpp"
+#include "measure/picture_file.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -46,13 +47,14 @@ app::Part Bench::render(const app::Request& request) {
 }
 
 void Bench::add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,
-                     double limit) {
+                     double limit, bool is_quality) {
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
-    add(what, nonfinite(found.hdr) > 0 ? std::nan("") : flip, limit);
+    row_.cases.push_back({what, nonfinite(found.hdr) > 0 ? std::nan("") : flip, limit, is_quality});
     if (row_.cases.back().holds()) return;
     const std::string name = row_.id + "-" + as_file_name(what);
-    row_.pictures.push_back({name + "-found", found.display});
-    row_.pictures.push_back({name + "-wanted", wanted.display});
+    for (const auto& [part, which] : {std::pair(&found, "-found"), std::pair(&wanted, "-wanted")})
+        row_.pictures.push_back({name + which, part->display.width, part->display.height,
+                                 measure::png_bytes(part->display)});
 }
 
 void Bench::add_nonfinite(const std::string& what, const app::Part& part) {
@@ -65,6 +67,7 @@ bool Bench::add_done_or_refused(const std::string& what, const std::function<voi
         add(what + ": done", 0, 0);
         return true;
     } catch (const Error& error) {
+        if (ends_run(error)) throw;
         add(what + (error.failure == Failure::exhausted ? ": refused: " : ": fails: ") +
                 error.what(),
             error.failure == Failure::exhausted && names_limit(error.what()) ? 0 : 1, 0);
@@ -78,6 +81,7 @@ void Bench::add_refused(const std::string& what, Failure failure, const std::str
     try {
         work();
     } catch (const Error& error) {
+        if (ends_run(error)) throw;
         text = error.what();
         if (error.failure == failure && text.find(limit) != text.npos)
             return add(what + ": refused: " + text, 0, 0);

@@ -34,7 +34,7 @@ public:
     }
     /// Mean FLIP of two pictures; both are kept where it is above the limit.
     void add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,
-                  double limit);
+                  double limit, bool is_quality = false);
     /// Pixels that are no numbers; limit 0.
     void add_nonfinite(const std::string& what, const app::Part& part);
     /// That `work` is done, or ends in an error that says what the device allows; limit 0.
@@ -43,6 +43,9 @@ public:
     /// That `work` ends in an error of this kind whose text names `limit`; limit 0.
     void add_refused(const std::string& what, Failure failure, const std::string& limit,
                      const std::function<void()>& work);
+
+    /// Whether an error is nothing that a property found: a signal came, or the device is gone.
+    bool ends_run(const Error& error) const { return is_stop(error.failure) || !engine_.usable(); }
 
     app::Engine& engine() { return engine_; }
     uvec2 size() const { return size_; }

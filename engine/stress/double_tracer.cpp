@@ -40,12 +40,13 @@ dvec3 DoubleTracer::pixel(const scene::Camera& camera, uvec2 size, std::uint32_t
 /// One flat lamp: mean of its corners, its normal, its area.
 void DoubleTracer::add_lamp(const scene::Object& object, const scene::Mesh& mesh) {
     Lamp lamp{dvec3(0), dvec3(0), dvec3(0)};
+    std::vector<dvec3> corners;
     for (const dvec3& p : mesh.positions)
-        lamp.position += p / static_cast<double>(mesh.positions.size());
+        corners.emplace_back(object.world_from_object * dvec4(p, 1));
+    for (const dvec3& p : corners) lamp.position += p / static_cast<double>(corners.size());
     double area = 0;
     for (const uvec3& t : mesh.triangles) {
-        const dvec3 twice = glm::cross(mesh.positions[t.y] - mesh.positions[t.x],
-                                       mesh.positions[t.z] - mesh.positions[t.x]);
+        const dvec3 twice = glm::cross(corners[t.y] - corners[t.x], corners[t.z] - corners[t.x]);
         area += glm::length(twice) / 2;
         lamp.normal = glm::normalize(twice);
     }

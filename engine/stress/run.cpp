@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 
 namespace catoptric::stress {
 
@@ -36,9 +37,7 @@ report::StressRow judged(app::Engine& engine, const StressRequest& request,
         property.judge(bench);
         row.verdict = verdict_of(row);
     } catch (const Error& error) {
-        if (error.failure == Failure::interrupted || error.failure == Failure::terminated ||
-            error.failure == Failure::device_lost)
-            throw;
+        if (bench.ends_run(error)) throw;
         row.verdict = report::Verdict::fail;
         row.remark = error.what();
     }
@@ -56,22 +55,27 @@ report::Stress run(app::Engine& engine, const StressRequest& request) {
     report::Stress stress{app::version(),
                           app::commit(),
                           request.command,
-                          true,
+                          false,
+                          chosen.size(),
+                          {},
                           {device.name, device.driver, device.api, device.type, device.threads},
                           static_cast<int>(request.size.x),
                           static_cast<int>(request.size.y),
                           request.seed,
                           {}};
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-        if (request.on_row) request.on_row(std::string(chosen[i]->id), i, chosen.size());
-        try {
+    try {
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            if (request.on_row) request.on_row(std::string(chosen[i]->id), i, chosen.size());
             stress.rows.push_back(judged(engine, request, *chosen[i]));
-        } catch (const Error& error) {
-            if (error.failure != Failure::interrupted && error.failure != Failure::terminated)
-                throw;
-            stress.complete = false;
-            break;
+            if (request.on_finished_row) request.on_finished_row(stress);
         }
+        stress.complete = true;
+    } catch (const Error& error) {
+        if (stress.rows.empty() && !is_stop(error.failure)) throw;
+        stress.stopped = error;
+    } catch (const std::bad_alloc&) {
+        if (stress.rows.empty()) throw;
+        stress.stopped = Error(Failure::exhausted, "out of memory");
     }
     return stress;
 }

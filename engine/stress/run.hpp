@@ -12,11 +12,14 @@ struct StressRequest {
     std::vector<std::string> command;
     /// Called before each property with its id, number from 0 and the count; may be empty.
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
+    /// Called after each with what there is so far, not `complete`; may be empty.
+    std::function<void(const report::Stress&)> on_finished_row;
 };
 
 /// Judges every property, in minutes at 256x256. An error that a property did not ask for makes its
-/// row fail, with the error's text. After a stop signal the rows so far come back with `complete`
-/// false. Throws `usage` for an unknown id.
+/// row fail, with the error's text. What ends the run itself (a signal, the device is gone, no
+/// memory, `on_finished_row`) is in `stopped` of the rows so far, or thrown where there is none and
+/// it was no signal. Throws `usage` for an unknown id.
 report::Stress run(app::Engine& engine, const StressRequest& request);
 
 } // namespace catoptric::stress

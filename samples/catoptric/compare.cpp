@@ -3,13 +3,13 @@
 
 #include "core/error.hpp"
 #include "options.hpp"
+#include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
 #include "signals.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
 
-#include <csignal>
 #include <memory>
 
 namespace catoptric::cli {
@@ -44,11 +44,9 @@ void check_no_scene(const std::string& text) {
 
 app::CompareRequest make_compare_request(const Options& options) {
     app::CompareRequest request;
-    for (const std::string& text : options.techniques) { // before any work
-        check_no_scene(text);
-        app::parse_technique(text);
-    }
-    request.base = make_request(options.common);
+    for (const std::string& text : options.techniques) check_no_scene(text); // before any work
+    app::check_rows(options.techniques);
+    request.base = make_request(options.common, app::check_has_mirror);
     request.base.techniques = options.techniques;
     request.reference = options.common.reference;
     request.together = options.together;
@@ -56,6 +54,17 @@ app::CompareRequest make_compare_request(const Options& options) {
     request.lag = options.lag;
     request.command = options.command;
     return request;
+}
+
+void check_places(const Options& options, const app::Request& request) {
+    std::vector<std::string> images;
+    for (const std::string& text :
+         options.techniques.empty() ? app::default_techniques() : options.techniques)
+        images.push_back(app::parse_technique(text).file_name);
+    std::vector<std::filesystem::path> outputs{kStdout};
+    for (const std::filesystem::path& file : report::files_of(images))
+        outputs.push_back(std::filesystem::path(options.folder) / file);
+    check_apart(outputs, input_files(request.scene, options.common.scene));
 }
 
 /// Labels of the rows with pixels that are NaN or infinite.
@@ -72,15 +81,13 @@ void show(const Options& options, const report::Comparison& comparison) {
     const Manners& manners = options.common.manners;
     for (const std::string& warning : comparison.warnings) detail(manners, "warning: " + warning);
     put(manners.json ? report::to_json(comparison) : compare_table(comparison));
-    note(manners, "written: " + options.folder);
+    if (!comparison.stopped) note(manners, "written: " + options.folder);
 }
 
-int exit_code(const report::Comparison& comparison, std::size_t row_count) {
-    if (!comparison.complete)
-        fail(app::stop_signal == SIGTERM ? Failure::terminated : Failure::interrupted,
-             "stopped after ", comparison.rows.size(), " of ", row_count, " rows",
-             comparison.lag ? ", while their lag was measured" : "",
-             "; what there is has been written");
+int exit_code(const Options& options, const report::Comparison& comparison) {
+    if (comparison.stopped)
+        fail_incomplete(*comparison.stopped, comparison.rows.size(), comparison.asked,
+                        comparison.lag ? ", while their lag was measured" : "", options.folder);
     const std::vector<std::string> broken = broken_rows(comparison);
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
@@ -92,10 +99,12 @@ int run(const Options& options) {
     require_given(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
     check_folder_can_be_made(options.folder);
     app::CompareRequest request = make_compare_request(options);
+    check_places(options, request.base);
     const std::size_t row_count = options.techniques.empty() ? app::default_techniques().size()
                                                              : options.techniques.size();
     app::Engine engine(engine_options(options.common));
     detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
+    report::create_folder(options.folder);
 
     stop_on_signals();
     Progress progress(manners);
@@ -103,13 +112,15 @@ int run(const Options& options) {
     request.on_row = [&](const std::string& label, std::size_t index, std::size_t count) {
         progress.row(label, index, count);
     };
+    report::Writer writer(options.folder);
+    request.on_finished_row = [&](const report::Comparison& so_far) { writer.write(so_far); };
     request.base.progress = [&](int number, int total) { progress.frame(number, total); };
     const report::Comparison comparison = app::compare(engine, request);
     progress.clear();
 
-    report::write(comparison, options.folder);
+    writer.write(comparison);
     show(options, comparison);
-    const int code = exit_code(comparison, row_count);
+    const int code = exit_code(options, comparison);
     if (options.common.validate) engine.check_validation();
     return code;
 }

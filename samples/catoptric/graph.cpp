@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "options.hpp"
 #include "parse.hpp"
+#include "places.hpp"
 #include "verbs.hpp"
 
 #include <memory>
@@ -42,6 +43,7 @@ int run(const Options& options) {
     const app::PlanFormat format = format_of(options);
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
+    check_apart({kStdout}, input_files(request.scene, options.common.scene));
     app::Engine engine(engine_options(options.common));
     std::string plan = engine.plan(request, format);
     if (!plan.ends_with('\n')) plan += '\n';

@@ -94,8 +94,9 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["scene"] = request.scene.name;
     document["camera"] = request.camera.name;
     document["size"] = {request.size.x, request.size.y};
-    document["frames"] = request.frames;
+    document["frames"] = result.frames.size();
     document["warmup"] = request.warmup;
+    document["settled"] = request.until_settled ? Json(result.settled) : Json();
     document["time"] = request.time;
     document["exposure"] = request.exposure;
     document["timing"] = request.timing == app::Timing::isolated ? "isolated" : "pipelined";
@@ -104,11 +105,13 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["settings"] = settings_json(choice);
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
-    document["gpu_ms"] = over_frames(result.frames, [](const auto& f) { return f.gpu_ms; });
-    document["cpu_record_ms"] = over_frames(result.frames,
-                                            [](const auto& f) { return f.record_ms; });
-    document["wall_ms"] = over_frames(result.frames, [](const auto& f) { return f.wall_ms; });
-    document["passes"] = passes_json(result.frames);
+    // The frames of a still compile what they use first: their times say nothing.
+    const bool timed = !request.until_settled;
+    const auto times = [&](auto get) { return timed ? over_frames(result.frames, get) : Json(); };
+    document["gpu_ms"] = times([](const auto& f) { return f.gpu_ms; });
+    document["cpu_record_ms"] = times([](const auto& f) { return f.record_ms; });
+    document["wall_ms"] = times([](const auto& f) { return f.wall_ms; });
+    document["passes"] = timed ? passes_json(result.frames) : Json();
     document["memory_bytes"] = part.memory_bytes;
     if (part.rays)
         document["rays"] = {{"primary", part.rays->primary},

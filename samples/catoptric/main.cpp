@@ -7,6 +7,7 @@
 #include "verbs.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -23,7 +24,7 @@ constexpr const char* kExamples = R"(Examples:
 
 Exit codes: 0 ok; 1 over a threshold; 2 usage; 65 bad input; 66 input missing; 69 no Vulkan device;
 70 internal; 73 cannot create output; 74 I/O error; 75 out of memory or over a device limit;
-76 device lost; 130, 143 interrupted (results so far are kept))";
+76 device lost; 129, 130, 143 stopped by a signal (rows so far are kept, after 75 and 76 too))";
 
 void say(const std::string& message) {
     if (!message.empty()) std::cerr << "catoptric: " << message << std::endl;
@@ -90,6 +91,22 @@ int run(int argc, char** argv) {
     return chosen();
 }
 
+/// Runs, and says on stderr what went wrong.
+int exit_code(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const Error& error) {
+        say(error.what());
+        return static_cast<int>(error.failure);
+    } catch (const std::bad_alloc&) {
+        say("out of memory");
+        return static_cast<int>(Failure::exhausted);
+    } catch (const std::exception& error) {
+        say(std::string("internal error: ") + error.what());
+        return static_cast<int>(Failure::internal);
+    }
+}
+
 } // namespace
 
 } // namespace catoptric::cli
@@ -97,16 +114,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     using namespace catoptric;
     cli::prepare_streams();
-    try {
-        return cli::run(argc, argv);
-    } catch (const Error& error) {
-        cli::say(error.what());
-        return static_cast<int>(error.failure);
-    } catch (const std::bad_alloc&) {
-        cli::say("out of memory");
-        return static_cast<int>(Failure::exhausted);
-    } catch (const std::exception& error) {
-        cli::say(std::string("internal error: ") + error.what());
-        return static_cast<int>(Failure::internal);
-    }
+    const int code = cli::exit_code(argc, argv);
+    if (app::any_abandoned()) std::_Exit(code); // nothing is taken down under a driver at work
+    return code;
 }

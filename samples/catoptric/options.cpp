@@ -178,15 +178,17 @@ void require_given(bool given, const std::string& verb, const std::string& optio
     check(given, Failure::usage, "'", verb, "' needs ", option, ": ", what);
 }
 
-app::Request make_request(const Common& common) {
+app::Request make_request(const Common& common,
+                          const std::function<void(const scene::Scene&)>& check) {
     app::Request request;
     request.seed = common.seed;
     request.scene = scene::load(common.scene);
+    if (check) check(request.scene);
     for (const std::string& warning : request.scene.warnings) warn(warning);
     request.camera = choose_camera(common, request.scene);
     request.size = common.size;
-    request.frames = common.frames;
-    request.warmup = common.warmup;
+    request.frames = common.frames.value_or(request.frames);
+    request.warmup = common.warmup.value_or(request.warmup);
     request.time = common.time;
     request.animate = common.animate;
     request.ambient = common.ambient;

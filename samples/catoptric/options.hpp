@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -16,8 +17,8 @@ struct Common {
     Manners manners;
     std::string scene = "cornell-mirrors";
     uvec2 size{512, 512};
-    int frames = 20;
-    int warmup = 8;
+    std::optional<int> frames; ///< 20 unless the user says otherwise
+    std::optional<int> warmup; ///< 8
     double time = 0;
     bool animate = false;
     std::string camera; ///< resolved when the scene is there; empty = its first
@@ -48,7 +49,9 @@ void require_given(bool given, const std::string& verb, const std::string& optio
 
 /// Scene, camera and numbers as the engine takes them, without techniques. What the loader had to
 /// say and which camera stands in for a missing one goes to stderr.
-app::Request make_request(const Common& common);
+/// `check`, where given, refuses the scene before anything else is said of it.
+app::Request make_request(const Common& common,
+                          const std::function<void(const scene::Scene&)>& check = {});
 app::EngineOptions engine_options(const Common& common);
 
 /// The camera that the user named: a name, an index from 0, or "EX,EY,EZ:TX,TY,TZ:FOV".

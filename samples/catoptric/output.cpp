@@ -1,7 +1,5 @@
 #include "output.hpp"
 
-#include "core/error.hpp"
-
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -75,6 +73,13 @@ void detail(const Manners& manners, const std::string& text) {
 
 void warn(const std::string& text) { line("catoptric: warning: " + text); }
 
+void fail_incomplete(const Error& stopped, std::size_t rows, std::size_t asked,
+                     const std::string& where, const fs::path& folder) {
+    fail(stopped.failure, stopped.what(), ", after ", rows, " of ", asked, " rows", where,
+         folder.empty() ? ""
+                        : "; what there is lies in " + folder.string() + ", marked incomplete");
+}
+
 void check_file_can_be_made(const fs::path& path) {
     std::error_code error;
     check(!path.empty() && path.has_filename() && !fs::is_directory(path, error),
@@ -83,11 +88,14 @@ void check_file_can_be_made(const fs::path& path) {
 }
 
 void check_folder_can_be_made(const fs::path& path) {
+    check(!path.empty(), Failure::cannot_create, "wanted the name of a folder, found none");
     std::error_code error;
-    if (fs::is_directory(path, error)) return check_writable(path, path);
-    check(!path.empty() && !fs::exists(path, error), Failure::cannot_create, path.string(),
-          ": wanted a folder, found a file");
-    check_parent(path);
+    fs::path there = path; // it, or the nearest above it
+    while (!fs::exists(fs::symlink_status(there, error))) there = parent_of(there);
+    check(fs::is_directory(there, error), Failure::cannot_create, path.string(),
+          ": cannot be created: wanted ", there == path ? "" : there.string() + " to be ",
+          "a folder, found a file");
+    check_writable(there, path);
 }
 
 } // namespace catoptric::cli

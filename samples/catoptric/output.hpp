@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/error.hpp"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -28,10 +30,16 @@ void note(const Manners& manners, const std::string& text);
 void detail(const Manners& manners, const std::string& text);
 void warn(const std::string& text);
 
+/// Throws what ended a run early, with how many rows it has and where they lie: nowhere if `folder`
+/// is empty. `where` is said after the rows.
+[[noreturn]] void fail_incomplete(const Error& stopped, std::size_t rows, std::size_t asked,
+                                  const std::string& where, const std::filesystem::path& folder);
+
 /// Throws `cannot_create` where a file cannot be made at `path`, before work is spent on it: its
 /// folder is missing, or the name is a folder's.
 void check_file_can_be_made(const std::filesystem::path& path);
-/// The same for a folder: it is there, or its parent is.
+/// The same for a folder, which is made with its parents: the nearest of them that is there is a
+/// folder and takes entries.
 void check_folder_can_be_made(const std::filesystem::path& path);
 
 } // namespace catoptric::cli

@@ -7,6 +7,7 @@
 #include "measure/picture_file.hpp"
 #include "measure/statistics.hpp"
 #include "options.hpp"
+#include "places.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 #include "verbs.hpp"
@@ -27,7 +28,9 @@ constexpr const char* kExamples = R"(Examples:
   catoptric render --technique reuse --animate --frames 60 --trace frame.json -o last.png
   catoptric render --technique naive:bounces=2 -o - | display
 
-The picture is the last frame. EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
+A still takes the frames that it needs: one, or with last frame's captures as many as change anything, at most
+28. With --animate, --frames, --warmup or --trace frames are counted and timed as in compare; the picture is the
+last one. EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
 
 struct Options {
     Common common;
@@ -52,22 +55,57 @@ void check_output(const Options& options) {
     if (!options.trace.empty()) check_file_can_be_made(options.trace);
 }
 
+void check_places(const Options& options, const scene::Scene& scene) {
+    std::vector<std::filesystem::path> outputs;
+    if (is_stdout(options) || options.common.manners.json) outputs.push_back(kStdout);
+    if (!is_stdout(options)) outputs.push_back(options.output);
+    if (!options.trace.empty()) outputs.push_back(options.trace);
+    check_apart(outputs, input_files(scene, options.common.scene));
+}
+
+/// A picture, no measurement: nothing asks for times or for a certain number of frames.
+bool is_still(const Options& options) {
+    const Common& common = options.common;
+    return !common.animate && !common.frames && !common.warmup && options.trace.empty();
+}
+
+app::Request make_render_request(const Options& options) {
+    app::Request request = make_request(options.common);
+    request.techniques = {options.technique};
+    if (!is_still(options)) return request;
+    request.frames += request.warmup; // as many as compare renders
+    request.warmup = 0;
+    request.until_settled = true;
+    return request;
+}
+
 void write_picture(const Options& options, const app::Part& part) {
     if (is_stdout(options)) return put(measure::png_bytes(part.display));
     if (is_exr(options)) return measure::write_exr(part.hdr, options.output);
     measure::write_png(part.display, options.output);
 }
 
-void describe(const Manners& manners, const app::Result& result, const std::string& output) {
-    std::vector<double> gpu_ms;
-    for (const app::Frame& frame : result.frames) gpu_ms.push_back(frame.gpu_ms);
-    const measure::Summary summary = measure::summarise(gpu_ms);
+std::vector<double> gpu_times(const app::Result& result) {
+    std::vector<double> ms;
+    for (const app::Frame& frame : result.frames) ms.push_back(frame.gpu_ms);
+    return ms;
+}
+
+void describe(const Options& options, const app::Request& request, const app::Result& result) {
+    const Manners& manners = options.common.manners;
     const app::Part& part = result.parts.front();
     const measure::Mean mean = measure::mean_of(part.hdr, measure::Range::clamped);
-    note(manners,
-         fmt::format("{}: {} scene passes, {:.4g} ms [{:.4g} - {:.4g}], mean {:.5f}, written: {}",
-                     part.label, part.scene_passes, summary.median, summary.p05, summary.p95,
-                     mean.all, output));
+    const std::string output = is_stdout(options) ? "stdout" : options.output;
+    std::string frames = fmt::format("{} frame{}", result.frames.size(),
+                                     result.frames.size() == 1 ? "" : "s");
+    if (request.until_settled && !result.settled) frames += " (the next would still differ)";
+    if (!request.until_settled) {
+        const measure::Summary ms = measure::summarise(gpu_times(result));
+        frames = fmt::format("{:.4g} ms [{:.4g} - {:.4g}]", ms.median, ms.p05, ms.p95);
+    }
+    note(manners, fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}", part.label,
+                              part.scene_passes, frames, mean.all, output));
+    if (request.until_settled) return;
     for (const app::PassTime& pass : result.frames.back().passes)
         detail(manners, fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
 }
@@ -85,8 +123,8 @@ int run(const Options& options) {
                   "see 'catoptric list techniques'");
     const app::TechniqueChoice choice = app::parse_technique(options.technique);
     check_output(options);
-    app::Request request = make_request(options.common);
-    request.techniques = {options.technique};
+    app::Request request = make_render_request(options);
+    check_places(options, request.scene);
     app::Engine engine(engine_options(options.common));
     detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
 
@@ -103,7 +141,7 @@ int run(const Options& options) {
         write_file(options.trace,
                    trace_json(result.frames.back(), choice.label + " on " + engine.device().name));
     if (manners.json) put(render_json(request, engine.device(), result, options.output));
-    describe(manners, result, is_stdout(options) ? "stdout" : options.output);
+    describe(options, request, result);
     if (options.common.validate) engine.check_validation();
     return 0;
 }

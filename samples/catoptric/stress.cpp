@@ -5,7 +5,9 @@
 #include "core/error.hpp"
 #include "options.hpp"
 #include "parse.hpp"
+#include "places.hpp"
 #include "progress.hpp"
+#include "report/report.hpp"
 #include "signals.hpp"
 #include "stress/property.hpp"
 #include "table.hpp"
@@ -13,7 +15,6 @@
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <memory>
 
 namespace catoptric::cli {
@@ -52,25 +53,34 @@ std::string table_of(const report::Stress& stress) {
 
 int run(const Options& options) {
     for (const std::string& id : options.only) stress::find_property(id); // before any work
-    if (!options.folder.empty()) check_folder_can_be_made(options.folder);
+    if (!options.folder.empty()) {
+        check_folder_can_be_made(options.folder);
+        const std::filesystem::path folder = options.folder;
+        check_apart({kStdout, folder / "stress.json", folder / "stress.html", folder / "stress.md"},
+                    {});
+    }
     app::Engine engine({.device = options.device, .validate = options.validate});
+    if (!options.folder.empty()) report::create_folder(options.folder);
     stop_on_signals();
     Progress progress(options.manners);
+    report::StressWriter writer(options.folder);
+    const auto write = [&](const report::Stress& so_far) {
+        if (!options.folder.empty()) writer.write(so_far);
+    };
     const report::Stress found = stress::run(
         engine, {.only = options.only,
                  .size = options.size,
                  .seed = options.seed,
                  .command = options.command,
-                 .on_row = [&](const std::string& id, std::size_t index, std::size_t count) {
-                     progress.row(id, index, count);
-                 }});
+                 .on_row = [&](const std::string& id, std::size_t index,
+                               std::size_t count) { progress.row(id, index, count); },
+                 .on_finished_row = write});
     progress.clear();
-    if (!options.folder.empty()) report::write(found, options.folder);
+    write(found);
     put(options.manners.json ? report::to_json(found) : table_of(found));
+    if (found.stopped)
+        fail_incomplete(*found.stopped, found.rows.size(), found.asked, "", options.folder);
     if (!options.folder.empty()) note(options.manners, "written: " + options.folder);
-    if (!found.complete)
-        fail(app::stop_signal == SIGTERM ? Failure::terminated : Failure::interrupted,
-             "stopped after ", found.rows.size(), " properties");
     if (options.validate) engine.check_validation();
     return found.failed() ? static_cast<int>(Failure::threshold) : 0;
 }

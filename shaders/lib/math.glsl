@@ -206,7 +206,7 @@ struct BoxRay {
     vec3 inverse;     // 1 / direction, infinite where that is 0
 };
 
-// `lo`, `hi`: bounds of everything the ray may meet.
+// `lo`, `hi`: bounds of what the ray may meet; boxes of anything outside are wider by themselves (engine/bvh/bvh.cpp).
 INLINE BoxRay box_ray(Ray ray, vec3 lo, vec3 hi) {
     real reach = largest(max(abs(lo - ray.origin), abs(hi - ray.origin)));
     real slack = gamma_bound(16) * reach;

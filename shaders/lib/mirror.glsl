@@ -137,7 +137,7 @@ void main() {
 #ifdef PEEL
     if (is_peeled()) discard; // not before the derivatives
 #endif
-    Path path = Path(draw.surface.mirror - 1u, position, mirror_direction(normalize(from_eye), normalize(normal), facet),
+    Path path = Path(draw.surface.mirror - 1u, surface_position(), mirror_direction(normalize(from_eye), normalize(normal), facet),
                      draw.probe_centre, draw.surface.reflectance, 0u);
     Lookup lookup = follow(path);
 #ifdef MEND

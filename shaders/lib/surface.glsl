@@ -5,7 +5,7 @@
 #include "lib/bindings.glsl"
 
 layout(push_constant, scalar) uniform Push { Draw draw; };
-layout(location = 0) in vec3 position;
+layout(location = 0) flat in vec3 eye;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 from_eye; // position - eye
 
@@ -14,6 +14,16 @@ layout(location = 1) out float out_distance; // only captures that hold distance
 // Views keep where a mirror looked: direction; 1 + state + 4 layer + 8 mirror + residual, as a number; else 0.
 // Some captures keep the surface: mirror n as n, from 1, any other object as a negative number; its normal.
 layout(location = 2) out vec4 out_more;
+
+// Where the surface is. A perspective interpolation errs along the ray from the eye, by a part of its length: the floor
+// that a low eye sees stays a floor. Interpolated itself, the position would err towards the origin instead.
+vec3 surface_position() { return eye + from_eye; }
+
+// How far that may be off along a unit normal. No specification bounds what a rasteriser's interpolation may do:
+// 2^-16 of the way along the ray and 2^-20 across it are some ten times what was seen (docs/extremes.md).
+float surface_error(vec3 n) {
+    return (abs(dot(n, from_eye)) + length(from_eye) / 16.0) / 65536.0 + dot(abs(n), gamma_bound(2) * abs(eye + from_eye));
+}
 
 // 1 stores scene units; unorm8 stores distance / range.
 layout(constant_id = 0) const float distance_scale = 1.0;

@@ -120,7 +120,7 @@ vec3 leaving(Point p, vec3 direction) {
 float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
     if (SHADOW_BY == kShadowNone) return 1.0;
 #ifdef SHADOW_MAP
-    if (SHADOW_BY == kShadowMap) return shadow_map_visible(light, position, normal);
+    if (SHADOW_BY == kShadowMap) return shadow_map_visible(light, position, normal, dot(abs(normal), point.error));
 #endif
     ++shadow_rays;
     vec3 origin = leaving(point, direction);

@@ -21,6 +21,18 @@ TEST_F(Cli, GarbageScenes) {
                    {"garbage.gltf"});
 }
 
+/// The first thing said is what is missing and how to make it; what the loader has to say comes
+/// after.
+TEST_F(Cli, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
+    write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const test::Ended ended = cli({"compare", "plain.obj", "-o", "out"});
+    expect_ended(ended, 65, {"wanted a mirror", "roughnessFactor 0", "illum 3"});
+    EXPECT_THAT(ended.err, testing::StartsWith("catoptric: scene 'plain"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    EXPECT_EQ(cli(quick({"render", "plain.obj", "--technique", "reuse", "-o", "x.png"})).exit_code,
+              0);
+}
+
 TEST_F(Cli, TruncatedGlb) {
     // Says that it is 4096 bytes long, and ends after its header and a piece of JSON.
     std::string bytes = "glTF";

@@ -14,7 +14,38 @@ TEST_F(Cli, IntoAMissingFolder) {
                    {"none/x.png", "no folder none"});
     expect_refused({"render", "--technique", "reuse", "-o", "x.png", "--trace", "none/t.json"}, 73,
                    {"none/t.json"});
-    expect_refused({"compare", "-o", "none/out"}, 73, {"none/out", "no folder none"});
+    EXPECT_FALSE(fs::exists(folder / "none"));
+}
+
+/// A folder for many files is made with its parents, whichever way it is spelt.
+TEST_F(Cli, FolderIsMadeWithItsParents) {
+    for (const std::string name : {"./a/../b/out/", "b/out/again"}) {
+        const test::Ended ended = cli(
+            quick({"compare", "--techniques", "raytrace:depth=1", "-o", name}));
+        EXPECT_EQ(ended.exit_code, 0) << name << ": " << ended.err;
+        EXPECT_TRUE(fs::exists(folder / name / "images/raytrace-depth1.png")) << name;
+        EXPECT_TRUE(fs::exists(folder / name / "report.json")) << name;
+    }
+    const test::Ended ended = cli({"stress", "--size", "16x16", "--only", "N10", "-o", "c/d"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_TRUE(fs::exists(folder / "c/d/stress.json"));
+}
+
+TEST_F(Cli, FolderThatCannotBeMadeIsNamedBeforeAnyWork) {
+    write("file", "old");
+    fs::create_symlink("nowhere", folder / "dangling");
+    for (const Words& verb : {Words{"compare"}, Words{"stress"}}) {
+        const auto into = [&](const std::string& name) {
+            Words words = verb;
+            words.insert(words.end(), {"-o", name});
+            return words;
+        };
+        expect_refused(into("file/a/out"), 73, {"file/a/out", "wanted file to be a folder"});
+        expect_refused(into("dangling/out"), 73, {"dangling/out", "dangling to be a folder"});
+        expect_refused(into("/proc/a/out"), 73, {"/proc/a/out"});
+    }
+    EXPECT_EQ(read("file"), "old");
+    EXPECT_FALSE(fs::exists(folder / "nowhere"));
 }
 
 TEST_F(Cli, NameOfAFolderOrFile) {

@@ -99,6 +99,32 @@ TEST_F(Cli, RenderJsonAndTrace) {
     EXPECT_EQ(passes, document["passes"].size());
 }
 
+/// A still takes no more frames than change anything, and shows what compare's 28 show.
+TEST_F(Cli, RenderOfAStillStopsWhereNothingChanges) {
+    const auto render = [&](const std::string& technique, Words more) {
+        Words words{"render", "--technique", technique, "--size", "48x48", "--time", "1.3"};
+        words.insert(words.end(), {"--camera", "300,300,545:300,90,200:75", "--json"});
+        words.insert(words.end(), more.begin(), more.end());
+        const test::Ended ended = cli(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return json::parse(ended.out);
+    };
+    const json still = render("reuse:face=32", {"-o", "still.exr"}),
+               counted = render("reuse:face=32", {"-o", "counted.exr", "--frames", "20"});
+    EXPECT_TRUE(still["settled"].get<bool>());
+    EXPECT_GT(still["frames"], 3) << "mirrors in mirrors take frames";
+    EXPECT_LT(still["frames"], 28);
+    EXPECT_EQ(read("still.exr"), read("counted.exr"));
+    EXPECT_TRUE(still["gpu_ms"].is_null()) << "its frames compile what they use first";
+    EXPECT_EQ(counted["gpu_ms"]["n"], 20);
+    EXPECT_TRUE(counted["settled"].is_null());
+
+    for (const std::string technique : {"naive:face=32", "raytrace"})
+        EXPECT_EQ(render(technique, {"-o", "x.exr"})["frames"], 1)
+            << technique << " remembers nothing";
+    EXPECT_EQ(render("reuse:face=32", {"-o", "x.exr", "--animate"})["gpu_ms"]["n"], 20);
+}
+
 TEST_F(Cli, PixelsThatAreNotFiniteAreTold) {
     const Words too_bright{"--ambient", "1e300", "--quiet"};
     Words render = quick({"render", "--technique", "raytrace", "-o", "x.exr"});

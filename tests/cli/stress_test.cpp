@@ -6,7 +6,7 @@ namespace {
 using nlohmann::json;
 
 TEST_F(Cli, StressMeasuresBesideThresholds) {
-    const std::vector<std::string> ids{"N1", "N4", "N9", "N10", "C8"};
+    const std::vector<std::string> ids{"N4", "N10", "C8"};
     Words words{"stress", "-o", "out", "--json", "--size", "64x64", "--only"};
     words.insert(words.end(), ids.begin(), ids.end());
     const test::Ended ended = cli(words);
@@ -28,20 +28,11 @@ TEST_F(Cli, StressMeasuresBesideThresholds) {
 TEST_F(Cli, StressTakesItsScenesFromTheSeed) {
     const auto measured = [&](const std::string& seed) {
         return json::parse(
-            cli({"stress", "--json", "--size", "64x64", "--only", "N3", "--seed", seed})
+            cli({"stress", "--json", "--size", "32x32", "--only", "N3", "--seed", seed})
                 .out)["rows"][0]["cases"];
     };
     EXPECT_EQ(measured("3"), measured("3"));
     EXPECT_NE(measured("3"), measured("4"));
-}
-
-TEST_F(Cli, StressJudgesWhatCapturesHold) {
-    const test::Ended ended = cli(
-        {"stress", "--json", "--size", "64x64", "--only", "C3", "C11", "C12", "N11", "N24", "C5"});
-    ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
-    const json report = json::parse(ended.out);
-    for (const json& row : report["rows"])
-        EXPECT_THAT(row["verdict"], testing::AnyOf("pass", "quality-warning")) << row;
 }
 
 TEST_F(Cli, StressTellsWhatLooksWorseWithoutFailing) {

@@ -176,6 +176,8 @@ TEST_F(Cli, TwoResultsForStdout) {
 TEST_F(Cli, SameTechniqueTwice) {
     expect_refused(quick({"compare", "-o", "x", "--techniques", "reuse", "reuse", "--together"}), 2,
                    {"'reuse'", "twice"});
+    expect_refused(quick({"compare", "-o", "x", "--techniques", "reuse", "reuse:face=256"}), 2,
+                   {"'reuse:face=256' is asked for twice"});
 }
 
 } // namespace

@@ -116,7 +116,7 @@ void RayQueryDevice::make_commands(std::uint32_t queue_family) {
     pool.queueFamilyIndex = queue_family;
     VkCommandPool handle = VK_NULL_HANDLE;
     check_vk(vkCreateCommandPool(device_, &pool, nullptr, &handle), "create a command pool");
-    command_pool_ = {device_, handle};
+    command_pool_ = {{device_}, handle};
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = handle;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
@@ -132,7 +132,7 @@ Memory RayQueryDevice::make_memory(std::uint64_t bytes, VkBufferUsageFlags usage
     VkBuffer buffer = VK_NULL_HANDLE;
     check_vk(vkCreateBuffer(device_, &create, nullptr, &buffer), "create a buffer");
     Memory result;
-    result.buffer = {device_, buffer};
+    result.buffer = {{device_}, buffer};
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device_, buffer, &needs);
     VkPhysicalDeviceMemoryProperties kinds;
@@ -149,7 +149,7 @@ Memory RayQueryDevice::make_memory(std::uint64_t bytes, VkBufferUsageFlags usage
               "no memory that both sides see");
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check_vk(vkAllocateMemory(device_, &allocate, nullptr, &memory), "allocate memory");
-    result.memory = {device_, memory};
+    result.memory = {{device_}, memory};
     check_vk(vkBindBufferMemory(device_, buffer, memory, 0), "bind memory");
     check_vk(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &result.mapped), "map memory");
     if (contents) std::memcpy(result.mapped, contents, bytes);

@@ -30,7 +30,7 @@ public:
 
     const std::string& name() const { return name_; }
     VkPhysicalDevice physical() const { return physical_; }
-    VkDevice handle() const { return device_; }
+    gpu::DeviceHandle handle() const { return {device_}; }
     /// Messages of the validation layer so far.
     const std::vector<std::string>& messages() const { return messages_; }
 

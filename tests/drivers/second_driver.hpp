@@ -1,4 +1,5 @@
 #pragma once
+#include "places.hpp"
 
 #include <cstdlib>
 #include <filesystem>

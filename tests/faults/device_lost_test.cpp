@@ -1,5 +1,7 @@
-// R2: the device is lost: exit code 76, the passes or the copy that it was lost in, within 5 s; and
-// R3: what was rendered cannot be read back: a message and no picture.
+// R2: the device is lost, or cannot be waited for: exit code 76 or 75, the passes or the copy that
+// it was in, within 5 s; nothing that the driver may still use is destroyed, and the library stays
+// usable. R3: what was rendered cannot be read back: a message and no picture.
+#include "core/error.hpp"
 #include "faults/faults.hpp"
 
 #include <vulkan/vulkan_core.h>
@@ -7,6 +9,8 @@
 #include <set>
 
 namespace {
+
+using catoptric::Failure;
 
 constexpr double kLongest = 5; // seconds
 
@@ -22,17 +26,24 @@ protected:
         if (IsSkipped() || HasFatalFailure()) return;
         write("x.exr", "old");
     }
-    void expect_lost(const Fault& fault, const Words& any_of) const {
-        const Watched watched = watch(words, fault);
+    void expect_given_up(const Fault& fault, const Words& any_of) const {
+        const std::string place = fault.call + std::to_string(fault.at) +
+                                  std::to_string(fault.result); // of several at a time
+        std::filesystem::create_directory(folder / place);
+        write(place + "/x.exr", "old");
+        const Watched watched = watch(words, fault, place);
         const std::string where = fault.call + " " + std::to_string(fault.at) + ": " +
                                   watched.ended.err;
-        expect_ended(watched.ended, 76, {"VK_ERROR_DEVICE_LOST"});
+        if (fault.result == VK_ERROR_DEVICE_LOST)
+            expect_ended(watched.ended, 76, {"VK_ERROR_DEVICE_LOST"});
+        else
+            expect_ended(watched.ended, 75, {"VK_ERROR_OUT_OF_HOST_MEMORY"});
         EXPECT_TRUE(std::ranges::any_of(any_of, [&](const std::string& part) {
             return watched.ended.err.find(part) != std::string::npos;
         })) << where;
         EXPECT_LT(watched.ended.seconds, kLongest) << where;
-        EXPECT_EQ(watched.leaks(), "") << where;
-        EXPECT_EQ(read("x.exr"), "old") << where;
+        EXPECT_EQ(watched.unfit(), "") << where;
+        EXPECT_EQ(read(place + "/x.exr"), "old") << where;
         std::printf("  %s in %.2f s: %s", fault.call.c_str(), watched.ended.seconds,
                     watched.ended.err.c_str());
     }
@@ -47,17 +58,77 @@ protected:
 TEST_F(DeviceLost, AtTheFirstAMiddleAndTheLastSubmit) {
     const int last = calls("vkQueueSubmit2");
     ASSERT_GE(last, 3);
-    for (const int at : std::set{1, 2, last / 2, last - 1, last})
-        expect_lost({"vkQueueSubmit2", at, VK_ERROR_DEVICE_LOST},
-                    {"'view'", "read back image '", "clear image '"});
+    const std::set chosen{1, 2, last / 2, last - 1, last};
+    const std::vector<int> at(chosen.begin(), chosen.end());
+    two_at_a_time(at.size(), [&](std::size_t i) {
+        expect_given_up({"vkQueueSubmit2", at[i], VK_ERROR_DEVICE_LOST},
+                        {"'view'", "read back image '", "clear image '"});
+    });
 }
 
+/// Every wait of the run in its turn; two of what is asked once it is over.
 TEST_F(DeviceLost, WhileAFrameOrACopyIsAwaited) {
-    for (const char* call : {"vkWaitSemaphores", "vkQueueWaitIdle", "vkGetQueryPoolResults"}) {
-        const int last = calls(call);
-        for (const int at : std::set{1, last})
-            expect_lost({call, at, VK_ERROR_DEVICE_LOST},
-                        {"'view'", "read back image '", "clear image '"});
+    const Watched whole = watch(words, std::nullopt);
+    ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
+    std::vector<Fault> faults;
+    for (const char* call : {"vkWaitSemaphores", "vkQueueWaitIdle"})
+        for (int at = 1; at <= whole.counts.at(call).calls; ++at)
+            for (const int result : {VK_ERROR_DEVICE_LOST, VK_ERROR_OUT_OF_HOST_MEMORY})
+                faults.push_back({call, at, result});
+    ASSERT_GE(faults.size(), 2 * (3 + 5u));
+    for (const int at : {1, whole.counts.at("vkGetQueryPoolResults").calls})
+        faults.push_back({"vkGetQueryPoolResults", at, VK_ERROR_DEVICE_LOST});
+    two_at_a_time(faults.size(), [&](std::size_t i) {
+        expect_given_up(faults[i],
+                        {"passes '", "'view'", "read back ", "clear image 'capture/cubes."});
+    });
+}
+
+/// The engine that was given up says so again; the next one of the same process renders as ever.
+TEST_F(DeviceLost, AnotherEngineCanBeMade) {
+    for (const auto& [result, failure] :
+         {std::pair{VK_ERROR_DEVICE_LOST, Failure::device_lost},
+          std::pair{VK_ERROR_OUT_OF_DEVICE_MEMORY, Failure::exhausted}}) {
+        const std::string said = test::in_child([&] {
+            WatchedHere here(folder / "calls");
+            catoptric::app::Request request;
+            request.scene = catoptric::scene::load("cornell-mirrors");
+            request.camera = request.scene.cameras.front();
+            request.techniques = {"reuse:face=16,shadow_map=16"};
+            request.size = {16, 16};
+            request.frames = 1, request.warmup = 1;
+            std::string wrong;
+            const auto failure_of = [&](catoptric::app::Engine& engine) {
+                try {
+                    engine.run(request);
+                } catch (const catoptric::Error& error) {
+                    if (error.failure != failure) wrong += "another failure; ";
+                    return std::string(error.what());
+                }
+                return std::string("nothing was thrown");
+            };
+            const Watched lost = here.run(
+                Fault{"vkWaitSemaphores", 2, result}, [&](catoptric::app::Engine& engine) {
+                    if (!engine.usable()) wrong += "unusable from the start; ";
+                    const std::string first = failure_of(engine), again = failure_of(engine);
+                    if (first.find("passes 'shadow' ") == std::string::npos) wrong += first;
+                    if (again != "the device was given up: " + first) wrong += again;
+                    if (engine.usable()) wrong += "usable though it is lost; ";
+                });
+            wrong += lost.unfit();
+            if (!catoptric::app::any_abandoned()) wrong += "no device was abandoned; ";
+            std::vector<catoptric::measure::Picture> pictures;
+            for (int i = 0; i < 2; ++i) {
+                const Watched next = here.run(std::nullopt, [&](catoptric::app::Engine& engine) {
+                    pictures.push_back(engine.run(request).parts.front().hdr);
+                });
+                wrong += next.ended.err + next.leaks();
+            }
+            if (pictures.size() != 2 || pictures[0].pixels != pictures[1].pixels)
+                wrong += "two engines, two pictures";
+            return wrong;
+        });
+        EXPECT_EQ(said, "");
     }
 }
 
@@ -83,7 +154,7 @@ TEST_F(DeviceLost, InAComparisonLeavesTheOldReport) {
                            "parallax:face=16,shadow_map=16"};
     const Watched watched = watch(compare, Fault{"vkWaitSemaphores", 6, VK_ERROR_DEVICE_LOST});
     expect_ended(watched.ended, 76, {"VK_ERROR_DEVICE_LOST", "passes '"});
-    EXPECT_EQ(watched.leaks(), "");
+    EXPECT_EQ(watched.unfit(), "");
     EXPECT_EQ(read("out/report.json"), "old");
     EXPECT_FALSE(std::filesystem::exists(folder / "out/images"));
 }
@@ -107,7 +178,7 @@ TEST_F(ReadBack, AnUnknownFailureIsInternal) {
     const int last = calls("vkQueueWaitIdle");
     const Watched watched = watch(words, Fault{"vkQueueWaitIdle", last, VK_ERROR_UNKNOWN});
     expect_ended(watched.ended, 70, {"read back image '", "-13"});
-    EXPECT_EQ(watched.leaks(), "");
+    EXPECT_EQ(watched.unfit(), "");
     EXPECT_EQ(read("x.exr"), "old");
 }
 

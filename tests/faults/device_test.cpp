@@ -1,5 +1,5 @@
 // R4: drivers that are not there, cannot be loaded or have no device: exit code 69 with what to
-// install, within 2 s. (tests/cli/input_test.cpp asks every verb.)
+// install, within 2 s. (tests/cli/input_test.cpp asks every verb.) No memory for one is 75.
 #include "faults/faults.hpp"
 
 #include <vulkan/vulkan_core.h>
@@ -7,6 +7,7 @@
 namespace {
 
 constexpr double kLongest = 2; // seconds
+constexpr int kFindsNone = VK_SUCCESS;
 
 class NoDevice : public Faults {
 protected:
@@ -33,12 +34,45 @@ TEST_F(NoDevice, WhereverTheDriverFilesPoint) {
 TEST_F(NoDevice, WhereTheDriverRefuses) {
     for (const Fault& fault :
          {Fault{"vkCreateInstance", 1, VK_ERROR_INCOMPATIBLE_DRIVER},
-          Fault{"vkEnumeratePhysicalDevices", 1, VK_ERROR_INITIALIZATION_FAILED}}) {
+          Fault{"vkCreateInstance", 1, VK_ERROR_INITIALIZATION_FAILED},
+          Fault{"vkEnumeratePhysicalDevices", 1, VK_ERROR_INITIALIZATION_FAILED},
+          Fault{"vkEnumeratePhysicalDevices", 2, VK_ERROR_INITIALIZATION_FAILED},
+          Fault{"vkEnumeratePhysicalDevices", 1, kFindsNone},
+          Fault{"vkEnumeratePhysicalDevices", 2, kFindsNone}}) {
         const Watched watched = watch(words, fault);
         expect_ended(watched.ended, 69, {"apt-get install mesa-vulkan-drivers"});
         EXPECT_EQ(watched.leaks(), "");
         EXPECT_LT(watched.ended.seconds, kLongest);
     }
+}
+
+TEST_F(NoDevice, WhereItCannotBeOpened) {
+    const Watched watched = watch(words,
+                                  Fault{"vkCreateDevice", 1, VK_ERROR_INITIALIZATION_FAILED});
+    expect_ended(watched.ended, 69,
+                 {"no usable Vulkan device", "open device '", "VK_ERROR_INITIALIZATION_FAILED"});
+    EXPECT_EQ(watched.leaks(), "");
+}
+
+/// One came or went between counting and fetching: what there is will do.
+TEST_F(NoDevice, DevicesThatComeAndGo) {
+    for (const int at : {1, 2}) {
+        const Watched watched = watch({"list", "devices"},
+                                      Fault{"vkEnumeratePhysicalDevices", at, VK_INCOMPLETE});
+        EXPECT_EQ(watched.ended.exit_code, 0) << watched.ended.err;
+        EXPECT_EQ(watched.ended.out, cli({"list", "devices"}).out);
+        EXPECT_EQ(watched.leaks(), "");
+    }
+}
+
+/// Out of memory before there is a device is not "no driver".
+TEST_F(NoDevice, NoMemoryForADriver) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer itself takes address space without end";
+#endif
+    test::Start process = start(words);
+    process.memory_limit = 600 << 20; // the program's libraries take 450 MiB of address space
+    expect_ended(test::run_process(process), 75, {"no memory for a Vulkan driver", "ulimit -v"});
 }
 
 } // namespace

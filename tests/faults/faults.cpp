@@ -1,7 +1,10 @@
 #include "faults/faults.hpp"
+#include "places.hpp"
+
+#include "core/error.hpp"
 
 #include <atomic>
-#include <functional>
+#include <cstdlib>
 #include <sstream>
 #include <thread>
 
@@ -28,6 +31,36 @@ const fs::path& shader_cache() {
     return folder.path;
 }
 
+std::map<std::string, std::string> layer_over_driver(const fs::path& report) {
+    return {{"VK_ADD_LAYER_PATH", CATOPTRIC_FAULTS_LAYER},
+            {"VK_INSTANCE_LAYERS", "VK_LAYER_CATOPTRIC_faults"},
+            {"CATOPTRIC_FAULT_REPORT", report.string()},
+            {"MESA_SHADER_CACHE_DIR", shader_cache().string()}};
+}
+
+std::string text_of(const Fault& fault) {
+    return fault.call + ":" + std::to_string(fault.at) + ":" + std::to_string(fault.result);
+}
+
+void read_report(const std::string& report, Watched& watched) {
+    std::istringstream lines(report);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string call;
+        words >> call;
+        if (call == "strays") {
+            words >> watched.strays;
+        } else if (call == "untimely") {
+            words >> watched.untimely;
+        } else if (call == "most_bytes") {
+            words >> watched.most_bytes;
+        } else {
+            Count& count = watched.counts[call];
+            words >> count.calls >> count.alive;
+        }
+    }
+}
+
 } // namespace
 
 std::string Watched::leaks() const {
@@ -36,6 +69,17 @@ std::string Watched::leaks() const {
     for (const auto& [call, count] : counts)
         if (count.alive != 0)
             text += std::to_string(count.alive) + " of " + call + " never destroyed; ";
+    if (strays != 0) text += std::to_string(strays) + " handles destroyed that were not alive";
+    if (untimely != 0) text += std::to_string(untimely) + " handles destroyed that may be in use";
+    return text;
+}
+
+std::string Watched::unfit() const {
+    if (counts.empty()) return "no report of the layer";
+    std::string text;
+    for (const char* call : {"vkCreateInstance", "vkCreateDevice"})
+        if (counts.at(call).alive != 1) text += std::string(call) + "'s was destroyed; ";
+    if (untimely != 0) text += std::to_string(untimely) + " handles destroyed that may be in use; ";
     if (strays != 0) text += std::to_string(strays) + " handles destroyed that were not alive";
     return text;
 }
@@ -53,29 +97,36 @@ Watched Faults::watch(const Words& words, const std::optional<Fault>& fault,
     process.folder = folder / place;
     const fs::path report = folder / (place == "." ? "calls.txt" : place + ".calls.txt");
     fs::remove(report);
-    process.environment = {{"VK_ADD_LAYER_PATH", CATOPTRIC_FAULTS_LAYER},
-                           {"VK_INSTANCE_LAYERS", "VK_LAYER_CATOPTRIC_faults"},
-                           {"CATOPTRIC_FAULT_REPORT", report.string()},
-                           {"MESA_SHADER_CACHE_DIR", shader_cache().string()}};
-    if (fault)
-        process.environment["CATOPTRIC_FAULT"] = fault->call + ":" + std::to_string(fault->at) +
-                                                 ":" + std::to_string(fault->result);
+    process.environment = layer_over_driver(report);
+    if (fault) process.environment["CATOPTRIC_FAULT"] = text_of(*fault);
     Watched watched{.ended = test::run_process(process)};
-    std::istringstream lines(read_path(report));
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words_of(line);
-        std::string call;
-        words_of >> call;
-        if (call == "strays") {
-            words_of >> watched.strays;
-        } else if (call == "most_bytes") {
-            words_of >> watched.most_bytes;
-        } else {
-            Count& count = watched.counts[call];
-            words_of >> count.calls >> count.alive;
-        }
-    }
+    read_report(read_path(report), watched);
     fs::remove(report);
+    return watched;
+}
+
+WatchedHere::WatchedHere(fs::path report) : report_(std::move(report)) {
+    for (const auto& [name, value] : layer_over_driver(report_))
+        ::setenv(name.c_str(), value.c_str(), 1);
+}
+
+Watched WatchedHere::run(const std::optional<Fault>& fault,
+                         const std::function<void(catoptric::app::Engine&)>& work) {
+    fs::remove(report_);
+    if (fault)
+        ::setenv("CATOPTRIC_FAULT", text_of(*fault).c_str(), 1);
+    else
+        ::unsetenv("CATOPTRIC_FAULT");
+    Watched watched{.ended = {.exit_code = 0}};
+    try {
+        catoptric::app::Engine engine({});
+        work(engine);
+    } catch (const catoptric::Error& error) {
+        watched.ended.exit_code = static_cast<int>(error.failure);
+        watched.ended.err = error.what();
+    }
+    std::ifstream file(report_);
+    read_report({std::istreambuf_iterator<char>(file), {}}, watched);
     return watched;
 }
 

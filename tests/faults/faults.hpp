@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/engine.hpp"
 #include "cli/program.hpp"
 
 #include <functional>
@@ -23,10 +24,14 @@ struct Watched {
     std::map<std::string, Count>
         counts;                   ///< empty when the program crashed or the layer was not there
     int strays = 0;               ///< handles destroyed that were not alive
+    int untimely = 0;             ///< handles destroyed that the device may still use
     std::uint64_t most_bytes = 0; ///< of device memory at one time
 
     /// What is wrong with what it left on the device; empty = nothing.
     std::string leaks() const;
+    /// What is wrong with what it did after the device was lost or not waited for; empty = nothing:
+    /// it destroyed nothing, device and instance neither.
+    std::string unfit() const;
 };
 
 /// The command with that layer over its driver. Its shader cache is kept for the whole program.
@@ -38,6 +43,21 @@ protected:
     /// Runs in `place`, a folder below the test's own that must be there.
     Watched watch(const Words& words, const std::optional<Fault>& fault,
                   const std::string& place = ".") const;
+};
+
+/// The layer over the driver of this process, for those that are to end (test::in_child): what is
+/// made from now on is watched, each instance anew. Keeps the driver loaded.
+class WatchedHere {
+public:
+    explicit WatchedHere(std::filesystem::path report);
+    /// Makes an engine and gives it to `work`; `ended` has the message and exit code of the error
+    /// that came out of it, or 0.
+    Watched run(const std::optional<Fault>& fault,
+                const std::function<void(catoptric::app::Engine&)>& work);
+
+private:
+    std::filesystem::path report_;
+    catoptric::app::Engine keeps_driver_{{}};
 };
 
 /// Calls `run(i)` for each i below `count`, two at a time: most of a program's run is one thread's.

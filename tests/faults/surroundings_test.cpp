@@ -51,10 +51,10 @@ TEST_F(Surroundings, SignalKeepsTheRowsAndIsHeardSoon) {
     for (const auto& [signal, exit_code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}})
         for (const std::string at : {"[1/4]", "[3/4]"}) {
             fs::remove_all(folder / "out");
-            test::Start process = start({"compare", "-o", "out", "--size", "32x32", "--frames",
-                                         "10", "--warmup", "1", "--progress", "always",
-                                         "--techniques", "reuse:face=16", "hybrid:face=16",
-                                         "parallax:face=16", "secant:face=16"});
+            test::Start process = start({"compare", "-o", "out", "--size", "32x32", "--frames", "5",
+                                         "--warmup", "1", "--progress", "always", "--techniques",
+                                         "reuse:face=16", "raytrace:depth=1", "parallax:face=16",
+                                         "raytrace:depth=0"});
             process.signal = signal;
             process.signal_at = at;
             const test::Ended ended = test::run_process(process);
@@ -75,7 +75,7 @@ TEST_F(Surroundings, SignalKeepsTheRowsAndIsHeardSoon) {
 /// A frame is one submit, which ends; what it showed is not written.
 TEST_F(Surroundings, SignalInTheLastFrameStopsToo) {
     test::Start process = start({"render", "--technique", "raytrace:samples=128", "--size",
-                                 "512x512", "--frames", "1", "--warmup", "0", "--progress",
+                                 "256x256", "--frames", "1", "--warmup", "0", "--progress",
                                  "always", "-o", "x.png"});
     process.signal = SIGINT;
     process.signal_at = "[1/1]";

@@ -1,4 +1,5 @@
 // Where no mirror is seen, raster and ray tracing are the same picture.
+#include "support/numbers.hpp"
 #include "support/rendering.hpp"
 
 #include <iostream>
@@ -31,6 +32,64 @@ TEST_P(Agreement, OfRasterAndRayTracing) {
                   << " on non-mirror pixels\n";
         EXPECT_LE(error, most) << scene.name;
     }
+}
+
+/// An eye a few units above the floor, anywhere in the room, behind everything, wide, beside a
+/// ball.
+scene::Camera drawn_camera(test::Numbers& random, int kind) {
+    const auto within = [&](vec3 lo, vec3 hi) {
+        const float x = random.between(lo.x, hi.x), y = random.between(lo.y, hi.y);
+        return dvec3(x, y, random.between(lo.z, hi.z));
+    };
+    scene::Camera camera{.eye = within({20, 20, 20}, {530, 520, 540}),
+                         .target = within({100, 20, 150}, {450, 300, 550}),
+                         .vertical_fov_degrees = random.between(35, 80)};
+    if (kind == 0) camera.eye = within({20, 1.5f, -300}, {530, 20, 200});
+    if (kind == 1) camera.eye = within({20, 20, 500}, {530, 520, 555}), camera.target.z = 0;
+    if (kind == 2) camera.vertical_fov_degrees = 130;
+    if (kind == 3) camera.eye = dvec3(90, 100, 110) + 80.0 * dvec3(random.direction());
+    return camera;
+}
+
+/// Share of the pixels beside mirrors where two pictures differ by more than .02.
+double share_off(const app::Part& raster, const app::Part& traced) {
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < traced.hits.size(); ++i) {
+        if (traced.hits[i] != 0) continue;
+        const vec3 apart = abs(clamp(raster.hdr.pixels[i], 0.0f, 1.0f) -
+                               clamp(traced.hdr.pixels[i], 0.0f, 1.0f));
+        off += !(std::max({apart.x, apart.y, apart.z}) <= .02f);
+    }
+    return static_cast<double>(off) / static_cast<double>(traced.hits.size());
+}
+
+/// Both look into the same shadow map, so only where they take the receiver to be can differ. A
+/// rasteriser that errs by more than the map's slack draws slabs of shadow on a floor seen from
+/// low.
+TEST(ShadowMap, ReceiversOfRasterAndRaysAreTheSameFromAnyCamera) {
+    constexpr int kCameras = 30;
+    test::Numbers random(20);
+    double worst = 0, sum = 0;
+    for (int i = 0; i < kCameras; ++i) {
+        app::Request request = test::request(scene::cornell_mirrors(),
+                                             {"naive:bounces=0", "raytrace:depth=0,shadow=map"},
+                                             {256, 256});
+        request.camera = i == 0   ? scene::Camera{.eye = {540, 12, -60},
+                                                  .target = {300, 60, 400},
+                                                  .vertical_fov_degrees = 55}
+                         : i == 1 ? scene::Camera{.eye = {100, 5, -100},
+                                                  .target = {300, 40, 400},
+                                                  .vertical_fov_degrees = 50}
+                                  : drawn_camera(random, i % 5);
+        request.time = i == 0 ? 1.9 : i == 1 ? 0 : .7 * (i % 6);
+        const app::Result result = test::engine().run(request);
+        const double off = share_off(result.parts[0], result.parts[1]);
+        EXPECT_LE(off, 1e-4) << "eye " << request.camera.eye.x << "," << request.camera.eye.y << ","
+                             << request.camera.eye.z;
+        worst = std::max(worst, off), sum += off;
+    }
+    std::cout << "[ MEASURED ] " << kCameras << " cameras: share off worst " << worst << ", mean "
+              << sum / kCameras << "\n";
 }
 
 // What is lifted off its surface so that it does not shade itself is lifted no further: coarse maps

@@ -8,7 +8,7 @@ namespace {
 using namespace catoptric;
 
 constexpr uvec2 kSize{192, 144};
-constexpr int kFrames = 8;
+constexpr int kFrames = 4;
 
 /// Linear rmse against ray tracing, by what the reflected ray meets.
 struct ColourError {
@@ -16,7 +16,10 @@ struct ColourError {
 };
 
 ColourError error_of(const scene::Scene& scene, const std::string& technique) {
-    const app::Part truth = test::render(scene, app::kReference, kSize);
+    static std::map<std::string, app::Part> truths; // by scene
+    if (!truths.contains(scene.name))
+        truths.emplace(scene.name, test::render(scene, app::kReference, kSize));
+    const app::Part& truth = truths.at(scene.name);
     const measure::Picture picture = test::render(scene, technique, kSize, kFrames).hdr;
     const auto of = [&](const measure::Mask& mask) { return test::rmse(picture, truth.hdr, mask); };
     const ColourError error{of(measure::mirrors(truth.hits)), of(measure::first_order(truth.hits)),

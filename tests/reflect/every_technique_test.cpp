@@ -1,5 +1,6 @@
 // The promises of every row of the table. A new technique is tested by being there.
 #include "core/knob.hpp"
+#include "places.hpp"
 #include "reflect/technique.hpp"
 #include "support/rendering.hpp"
 

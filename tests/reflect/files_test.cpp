@@ -1,5 +1,6 @@
 // The shipped files are the built-in scene.
 #include "measure/flip.hpp"
+#include "places.hpp"
 #include "support/folder.hpp"
 #include "support/rendering.hpp"
 

@@ -115,29 +115,4 @@ TEST(Hybrid, AnEmptyListTracesNothing) {
     EXPECT_FALSE(none.traced_fraction.has_value()) << "of no mirror pixels at all";
 }
 
-TEST(Hybrid, IsWorthWhatItTraces) {
-    for (const test::Look& look : test::looks()) {
-        SCOPED_TRACE(look.camera.name);
-        const auto judged = test::judge(scene::cornell_mirrors(), look,
-                                        {"parallax:face=512", "hybrid:face=512",
-                                         "hybrid:face=512,continue=0", "hybrid:face=256"});
-        const test::Judged &parallax = judged[0], &followed = judged[1], &alone = judged[2],
-                           &coarse = judged[3];
-        EXPECT_LE(followed.all, .39 * parallax.all);
-        EXPECT_LE(coarse.all, .46 * parallax.all);
-        EXPECT_LE(followed.mirror_in_mirror, .25 * alone.mirror_in_mirror);
-        EXPECT_LE(followed.traced_fraction, .06);
-    }
-}
-
-TEST(Hybrid, TracesLittleInAClosedRoom) {
-    for (const test::Look& look : test::looks()) {
-        SCOPED_TRACE(look.camera.name);
-        const auto judged = test::judge(scene::cornell_mirrors_closed(), look,
-                                        {"parallax:face=512", "hybrid:face=512"});
-        EXPECT_LE(judged[1].all, .39 * judged[0].all);
-        EXPECT_LE(judged[1].traced_fraction, .02);
-    }
-}
-
 } // namespace

@@ -189,13 +189,4 @@ TEST(Layered, RendersTheSceneTwiceAMirror) {
     EXPECT_EQ(part.scene_passes, 2 * 4 + 2);
 }
 
-TEST(Layered, IsWorthItsSecondLayer) {
-    test::expect_worth("layered", {.first_order = .55,
-                                   .all = .46,
-                                   .coarse = .55,
-                                   .mirror_in_mirror = .34,
-                                   .angle = .01,
-                                   .wrong_object = .005});
-}
-
 } // namespace

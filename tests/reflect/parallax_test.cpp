@@ -9,7 +9,7 @@ namespace {
 using namespace catoptric;
 
 constexpr uvec2 kSize{512, 512};
-constexpr int kFrames = 8; // deeper bounces have arrived
+constexpr int kFrames = 4; // deeper bounces have arrived
 
 TEST(Parallax, HalvesTheErrorOfTheUncorrectedDirection) {
     const scene::Scene scene = scene::cornell_mirrors();

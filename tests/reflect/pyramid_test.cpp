@@ -238,10 +238,4 @@ TEST(Pyramid, HitsAreExactAndMissesTrue) {
     EXPECT_LT(wrong[2], count[2] / 200);
 }
 
-TEST(Pyramid, IsWorthItsCells) {
-    test::expect_worth(
-        "pyramid",
-        {.first_order = .55, .all = .39, .coarse = .47, .mirror_in_mirror = .24, .angle = .02});
-}
-
 } // namespace

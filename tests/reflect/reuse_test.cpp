@@ -12,18 +12,27 @@ constexpr uvec2 kSize{512, 512};
 
 TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
     const scene::Scene scene = scene::cornell_mirrors();
-    measure::Picture last;
-    for (int k = 1; k <= 8; ++k) {
-        const app::Part reuse = test::render(scene, "reuse", kSize, k);
-        const app::Part naive = test::render(scene, "naive:bounces=" + std::to_string(k), kSize);
+    app::Request request = test::request(scene, {"reuse:face=128"}, {256, 256});
+    request.frames = 8;
+    std::vector<app::Part> reused;
+    request.watch = [&](int, const app::ReadParts& read) {
+        reused.push_back(std::move(read().front()));
+        return true;
+    };
+    test::engine().run(request);
+    ASSERT_EQ(reused.size(), 8u);
+    for (std::size_t k = 1; k <= reused.size(); ++k) {
+        const app::Part& reuse = reused[k - 1];
+        const app::Part naive = test::render(scene, "naive:face=128,bounces=" + std::to_string(k),
+                                             request.size);
         EXPECT_TRUE(test::same_bytes(reuse.hdr, naive.hdr)) << "frame " << k;
         EXPECT_TRUE(test::same_bytes(reuse.display, naive.display)) << "frame " << k;
         EXPECT_EQ(reuse.scene_passes, 6);
-        EXPECT_EQ(naive.scene_passes, 4 * k + 2);
-        if (k <= 5) {
-            EXPECT_FALSE(test::same_bytes(reuse.hdr, last)) << "bounce " << k << " must show";
+        EXPECT_EQ(naive.scene_passes, 4 * static_cast<int>(k) + 2);
+        if (k > 1 && k <= 5) {
+            EXPECT_FALSE(test::same_bytes(reuse.hdr, reused[k - 2].hdr))
+                << "bounce " << k << " must show";
         }
-        last = reuse.hdr;
     }
 }
 

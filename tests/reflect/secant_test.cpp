@@ -18,21 +18,4 @@ TEST(Secant, WithoutStepsIsParallax) {
     }
 }
 
-TEST(Secant, IsWorthItsSteps) {
-    test::expect_worth(
-        "secant",
-        {.first_order = .57, .all = .42, .coarse = .49, .mirror_in_mirror = .25, .angle = .04});
-}
-
-TEST(Secant, NeedsSmallerCapturesThanParallax) {
-    for (const test::Look& look : test::looks()) {
-        SCOPED_TRACE(look.camera.name);
-        const auto judged = test::judge(
-            scene::cornell_mirrors(), look,
-            {"parallax:face=512", "secant:face=256,continue=0", "secant:face=64,continue=0"});
-        EXPECT_LE(judged[1].first_order, judged[0].first_order);
-        EXPECT_LE(judged[2].lookup.mean_degrees, .05 * judged[0].lookup.mean_degrees);
-    }
-}
-
 } // namespace

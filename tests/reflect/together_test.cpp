@@ -10,8 +10,8 @@ using namespace catoptric;
 TEST(Together, PicturesEqualThoseOfSeparateRuns) {
     std::vector<std::string> techniques;
     for (const app::TechniqueInfo& technique : app::techniques())
-        techniques.push_back(technique.name);
-    techniques.push_back("naive:bounces=1,face=64"); // the same technique twice
+        techniques.push_back(test::with(technique, {{"face", "64"}, {"shadow_map", "256"}}));
+    techniques.push_back("naive:bounces=1,face=32"); // the same technique twice
     app::Request request = test::request(scene::cornell_mirrors(), techniques, {96, 80});
     request.warmup = 1, request.frames = 2;
     request.animate = true;

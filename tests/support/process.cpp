@@ -35,10 +35,11 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
 
 /// In the child, between fork and exec.
 [[noreturn]] void become(const Start& start, int out, int err) {
-    for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
-    if (start.file_limit > 0) {
-        const rlimit limit{start.file_limit, start.file_limit};
-        ::setrlimit(RLIMIT_FSIZE, &limit);
+    for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
+    for (const auto& [resource, most] :
+         {std::pair{RLIMIT_FSIZE, start.file_limit}, std::pair{RLIMIT_AS, start.memory_limit}}) {
+        const rlimit limit{most, most};
+        if (most > 0) ::setrlimit(resource, &limit);
     }
     if (!start.out_path.empty())
         out = ::open(start.out_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -77,6 +78,9 @@ Ended run_process(const Start& start) {
             std::this_thread::sleep_for(start.signal_after);
             signalled = Clock::now();
             ::kill(child, start.signal);
+            if (start.again_after.count() == 0) return;
+            std::this_thread::sleep_for(start.again_after);
+            ::kill(child, start.signal);
         };
     ended.err = read_all(err[0], start.signal_at, send);
     reader.join();
@@ -86,6 +90,32 @@ Ended run_process(const Start& start) {
     if (signalled != begin) ended.seconds_after_signal = seconds_since(signalled);
     ended.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return ended;
+}
+
+std::string in_child(const std::function<std::string()>& work) {
+    int out[2];
+    if (::pipe2(out, O_CLOEXEC) != 0) return "no pipe";
+    const pid_t child = ::fork();
+    if (child == 0) {
+        std::string said;
+        try {
+            said = work();
+        } catch (const std::exception& error) {
+            said = std::string("ended by an exception: ") + error.what();
+        }
+        for (std::size_t at = 0; at < said.size();) {
+            const ssize_t written = ::write(out[1], said.data() + at, said.size() - at);
+            if (written <= 0) break;
+            at += static_cast<std::size_t>(written);
+        }
+        ::_exit(0);
+    }
+    ::close(out[1]);
+    std::string said = read_all(out[0]);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    if (WIFSIGNALED(status)) said += "ended by signal " + std::to_string(WTERMSIG(status));
+    return said;
 }
 
 } // namespace test

@@ -4,13 +4,14 @@
 #include "support/rendering.hpp"
 
 #include <iostream>
+#include <map>
 
 /// How techniques that look into captures do in the built-in scene, 512x512, seen from three
 /// places.
 namespace test {
 
 inline constexpr uvec2 kContractSize{512, 512};
-inline constexpr int kConvergedFrames = 8; ///< deeper bounces have arrived
+inline constexpr int kConvergedFrames = 4; ///< deeper bounces have arrived
 
 /// A camera and the instant at which it looks.
 struct Look {
@@ -40,33 +41,63 @@ struct Judged {
     double traced_fraction = 0; ///< of mirror pixels, where a search leaves some to tracing
 };
 
-/// Techniques that search, rendered in one frame.
+namespace detail {
+
+/// The reference from one place, and where rays really go from there.
+struct Truth {
+    app::Part part;
+    app::Oracle oracle;
+};
+
+inline app::Request request_from(const scene::Scene& scene, const Look& look,
+                                 const std::string& technique) {
+    app::Request asked = request(scene, {technique}, kContractSize);
+    asked.camera = look.camera;
+    asked.time = look.time;
+    return asked;
+}
+
+inline Judged judge(const scene::Scene& scene, const Look& look, const std::string& technique,
+                    const Truth& truth) {
+    app::Request asked = request_from(scene, look, technique);
+    asked.warmup = kConvergedFrames - 1;
+    asked.with_lookup = true;
+    const app::Part part = std::move(engine().run(asked).parts.front());
+    const Judged error{rmse(part.hdr, truth.part.hdr, measure::mirrors(truth.part.hits)),
+                       rmse(part.hdr, truth.part.hdr, measure::first_order(truth.part.hits)),
+                       rmse(part.hdr, truth.part.hdr, measure::mirror_in_mirror(truth.part.hits)),
+                       measure::lookup_error(truth.oracle.judge(part.lookup)),
+                       part.traced_fraction.value_or(0)};
+    std::cout << "[ MEASURED ] " << look.camera.name << ", " << part.label << ": rmse " << error.all
+              << ", first order " << error.first_order << ", mirror in mirror "
+              << error.mirror_in_mirror << "; mean angle " << error.lookup.mean_degrees
+              << " degrees, p95 " << error.lookup.p95_degrees << ", wrong object "
+              << error.lookup.wrong_object << ", unknown " << error.lookup.unknown << ", traced "
+              << error.traced_fraction << "\n";
+    return error;
+}
+
+} // namespace detail
+
+/// What techniques get wrong from one place. Each is rendered once a program, the reference too:
+/// tests of several searches share what they are measured by. A look is known by its name.
 inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look,
                                  const std::vector<std::string>& techniques,
                                  const std::string& reference = "raytrace:depth=16") {
-    app::Request asked = request(scene, {reference}, kContractSize);
-    asked.camera = look.camera;
-    asked.time = look.time;
-    const app::Part truth = std::move(engine().run(asked).parts.front());
-    asked.techniques = techniques;
-    asked.warmup = kConvergedFrames - 1;
-    asked.with_lookup = true;
-    const app::Oracle oracle(asked);
+    static std::map<std::string, detail::Truth> truths;
+    static std::map<std::string, Judged> known;
+    const std::string place = scene.name + ", " + look.camera.name + ", " + reference;
+    if (!truths.contains(place)) {
+        const app::Request asked = detail::request_from(scene, look, reference);
+        truths.emplace(
+            place, detail::Truth{std::move(engine().run(asked).parts.front()), app::Oracle(asked)});
+    }
     std::vector<Judged> judged;
-    const app::Result result = engine().run(asked);
-    for (const app::Part& part : result.parts) {
-        judged.push_back({rmse(part.hdr, truth.hdr, measure::mirrors(truth.hits)),
-                          rmse(part.hdr, truth.hdr, measure::first_order(truth.hits)),
-                          rmse(part.hdr, truth.hdr, measure::mirror_in_mirror(truth.hits)),
-                          measure::lookup_error(oracle.judge(part.lookup)),
-                          part.traced_fraction.value_or(0)});
-        const Judged& error = judged.back();
-        std::cout << "[ MEASURED ] " << look.camera.name << ", " << part.label << ": rmse "
-                  << error.all << ", first order " << error.first_order << ", mirror in mirror "
-                  << error.mirror_in_mirror << "; mean angle " << error.lookup.mean_degrees
-                  << " degrees, p95 " << error.lookup.p95_degrees << ", wrong object "
-                  << error.lookup.wrong_object << ", unknown " << error.lookup.unknown
-                  << ", traced " << error.traced_fraction << "\n";
+    for (const std::string& technique : techniques) {
+        const std::string key = place + ", " + technique;
+        if (!known.contains(key))
+            known.emplace(key, detail::judge(scene, look, technique, truths.at(place)));
+        judged.push_back(known.at(key));
     }
     return judged;
 }

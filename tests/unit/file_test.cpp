@@ -40,6 +40,36 @@ TEST_F(File, ComesBackByteForByteAndReplaces) {
     EXPECT_EQ(entries(), 1);
 }
 
+/// Neither wider, where it was private, nor narrower; and the mode is there before the bytes are.
+TEST_F(File, ReplacedFileKeepsItsMode) {
+    for (const fs::perms mode : {fs::perms(0600), fs::perms(0444), fs::perms(0775)}) {
+        catoptric::write_file(folder / "x", "old");
+        fs::permissions(folder / "x", mode);
+        catoptric::write_file(folder / "x", "new");
+        EXPECT_EQ(fs::status(folder / "x").permissions(), mode);
+        EXPECT_EQ(catoptric::read_file(folder / "x"), "new");
+    }
+    fs::create_symlink("x", folder / "link");
+    catoptric::write_file(folder / "link", "through a link");
+    EXPECT_EQ(fs::status(folder / "x").permissions(), fs::perms(0775));
+}
+
+TEST_F(File, RealPathIsTheEndOfAllLinks) {
+    using catoptric::real_path;
+    const fs::path real = fs::canonical(folder);
+    fs::create_directories(folder / "a/b");
+    fs::create_directory_symlink("a/b", folder / "short");
+    fs::create_symlink("a/missing.txt", folder / "dangling");
+    fs::create_symlink("../dangling", folder / "a/twice");
+    EXPECT_EQ(real_path(folder / "short/../b/./x"), real / "a/b/x");
+    EXPECT_EQ(real_path(folder / "dangling"), real / "a/missing.txt");
+    EXPECT_EQ(real_path(folder / "a/twice"), real / "a/missing.txt");
+    EXPECT_EQ(real_path(folder / "no/../such/folder/x"), real / "such/folder/x");
+    EXPECT_EQ(real_path("x"), fs::canonical(".") / "x");
+    fs::create_symlink("loop", folder / "loop"); // ends somewhere
+    EXPECT_EQ(real_path(folder / "loop"), folder / "loop");
+}
+
 TEST_F(File, LinkIsFollowed) {
     fs::create_symlink("real", folder / "link");
     catoptric::write_file(folder / "link", "text");

@@ -1,3 +1,4 @@
+#include "places.hpp"
 #include "scene/load.hpp"
 
 #include "core/error.hpp"

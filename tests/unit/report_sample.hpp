@@ -77,7 +77,7 @@ inline Comparison comparison(std::vector<Row> rows) {
     made.commit = "abc1234";
     made.command = {"catoptric", "compare", "-o", "out"};
     made.device = {"Card", "Driver 1", "Vulkan 1.3", "discrete", 0};
-    made.scene = {"cornell-mirrors", 16394, 4, "deadbeef"};
+    made.scene = {"cornell-mirrors", 16394, 4, "deadbeef", true};
     made.width = 4, made.height = 3;
     made.frames = 20, made.warmup = 8;
     made.reference_technique = "raytrace";

@@ -49,11 +49,9 @@ TEST(ReportMarkdown, SaysWhatAProcessorsTimesAre) {
     EXPECT_THAT(said(made), Not(HasSubstr("processor time")));
     made.device.type = "cpu";
     made.device.threads = 2;
-    made.complete = false;
     made.warnings = {"no light: ambient only"};
     EXPECT_THAT(said(made), HasSubstr("processor time of its software driver"));
     EXPECT_THAT(said(made), HasSubstr("2 threads"));
-    EXPECT_THAT(said(made), HasSubstr("the rows so far"));
     EXPECT_THAT(said(made), HasSubstr("no light: ambient only"));
 }
 
@@ -70,14 +68,80 @@ TEST(ReportMarkdown, SaysSoWhereRayTracingWins) {
     Comparison made = usual();
     made.rows[3].gpu_ms = times(5);
     made.pareto = {0, 3};
-    EXPECT_THAT(said(made), HasSubstr("Ray tracing beats 2 of the 3 other rows in speed and error "
-                                      "together on this device: all but naive:bounces=0."));
+    EXPECT_THAT(said(made),
+                HasSubstr("Ray tracing beats 2 of the 3 other rows on this device: all but "
+                          "naive:bounces=0."));
     made.rows[3].gpu_ms = times(1);
     made.pareto = {3};
     EXPECT_THAT(said(made), HasSubstr("Ray tracing wins on this device: each of the 3 other rows"));
     made.rows[3].error.nonfinite = 1; // what failed beats nobody
     EXPECT_THAT(said(made), HasSubstr("No ray-traced row beats"));
     EXPECT_THAT(said(made), HasSubstr("raytrace:depth=16 failed"));
+}
+
+/// Times whose bands overlap put no row before another, in any sentence.
+TEST(ReportMarkdown, CallsATieWhereBandsOverlap) {
+    Comparison made = usual(); // bands of a tenth to either side
+    made.rows[1].gpu_ms = times(6.5);
+    made.rows[1].error.flip = made.rows[2].error.flip; // reuse as close as parallax, slower by 8 %
+    made.pareto = {0, 2, 1, 3};
+    std::string text = said(made);
+    EXPECT_THAT(text, Not(HasSubstr("beats reuse")));
+    EXPECT_THAT(text,
+                HasSubstr("takes as long as part two (6.00 against 6.50 ms: their bands overlap"));
+    made.rows[1].gpu_ms = times(7.5); // 6.75 and more against at most 6.6
+    made.pareto = {0, 2, 3};
+    text = said(made);
+    EXPECT_THAT(text, HasSubstr("parallax beats reuse"));
+    EXPECT_THAT(text, HasSubstr("takes 20 % less time than part two (6.00 against 7.50 ms)"));
+
+    made.rows.push_back(
+        row("raytrace:depth=8", 6.3, 0.001, 0.001, {number("depth", 8), choice("sphere", "mesh")}));
+    EXPECT_THAT(said(made),
+                HasSubstr("here raytrace:depth=8 takes as long as parallax (6.30 against "
+                          "6.00 ms: their bands overlap"));
+    made.rows.back().gpu_ms = times(9);
+    EXPECT_THAT(said(made),
+                HasSubstr("here raytrace:depth=8 takes 1.50 times as long as parallax"));
+}
+
+TEST(ReportMarkdown, NamesRowsThatOnlyBeatenRowsBeat) {
+    // b is closer than c and not told apart from it, a closer than b likewise; but a is slower than
+    // c.
+    Comparison made = comparison(
+        {row("reuse", 10, .1, .3), row("parallax", 12, .1, .2), row("secant", 14, .1, .1)});
+    made.pareto = {2};
+    EXPECT_THAT(said(made), HasSubstr("secant beats parallax (12.0 ms, FLIP 0.2000)."));
+    EXPECT_THAT(said(made),
+                HasSubstr("Beaten only by rows that are beaten themselves: reuse (10.0 ms"));
+}
+
+/// A row that draws nothing in its mirrors is no technique, however fast.
+TEST(ReportHtml, NeverCallsBlackMirrorsFastest) {
+    using catoptric::report::to_html;
+    Comparison made = usual();
+    EXPECT_THAT(to_html(made), HasSubstr("Fastest</dt><dd>2.00 ms <small>naive:bounces=0"));
+    made.rows[0].mirrors_black = true;
+    EXPECT_THAT(to_html(made), HasSubstr("<dt>Fastest</dt><dd>2 rows <small>not told apart"));
+    made.rows[1].gpu_ms = times(8);
+    EXPECT_THAT(to_html(made), HasSubstr("Fastest</dt><dd>6.00 ms <small>parallax"));
+    EXPECT_THAT(said(made), HasSubstr("naive:bounces=0 (2.00 ms, FLIP 0.5000, its mirrors black)"));
+}
+
+TEST(ReportMarkdown, SpeaksOfTheSeedReportBesideItsOwnSceneOnly) {
+    using catoptric::report::to_html;
+    Comparison made = usual();
+    made.rows.push_back(naive(1, 7, 0.0880, 0.2));
+    made.rows.push_back(naive(2, 9, 0.0871, 0.2));
+    for (const char* words : {"seed report's Table 1", "What this says of the seed report",
+                              "GTX 770", "the report calls"})
+        EXPECT_THAT(said(made) + to_html(made), HasSubstr(words));
+    made.scene.is_seed = false;
+    for (const char* words : {"seed report", "GTX 770", "the report "}) {
+        EXPECT_THAT(said(made), Not(HasSubstr(words)));
+        EXPECT_THAT(to_html(made), Not(HasSubstr(words)));
+    }
+    EXPECT_THAT(said(made), HasSubstr("Inter-reflections: with i = 1 to 2"));
 }
 
 TEST(ReportMarkdown, JudgesTheGuessAboutClears) {

@@ -1,10 +1,17 @@
-// VK_LAYER_CATOPTRIC_faults: makes one Vulkan call fail and counts all of them. By environment:
-//   CATOPTRIC_FAULT=vkCreateBuffer:3:-2   the third call of that name returns VkResult -2 instead
-//   of being made CATOPTRIC_FAULT_REPORT=FILE           at exit gets a line "NAME CALLS ALIVE" for
-//   each call made, then
-//                                         "strays N": handles destroyed that were not alive, and
-//                                         "most_bytes N": of memory that was alive at one time
-// For one instance, one device and one thread at a time, as the engine has them.
+// VK_LAYER_CATOPTRIC_faults: makes one Vulkan call fail and counts all of them. By environment,
+// read whenever an instance is made:
+// - CATOPTRIC_FAULT=vkCreateBuffer:3:-2: the third call of that name returns VkResult -2 instead of
+//   being made.
+// - CATOPTRIC_FAULT_REPORT=FILE: gets a line "NAME CALLS ALIVE" for each call made, then "strays N"
+//   (handles destroyed that were not alive), "untimely N" (destroyed while the device may use
+//   them) and "most_bytes N" (of memory that was alive at one time).
+//
+// Faults come as the world makes them. A wait that fails has not waited. A submit that says "lost"
+// has submitted, and a lost device stays lost. Of the physical devices result 0 finds none; 5
+// (VK_INCOMPLETE) counts one more than there are, or fetches one fewer.
+//
+// For one instance, one device and one thread at a time, as the engine has them; those that it
+// abandoned may go on beside them.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -15,6 +22,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -68,45 +76,51 @@ struct Alive {
     std::uint64_t bytes = 0; ///< of memory
 };
 
-/// Everything the layer knows. The report is written when the program ends, and so is missing when
-/// it crashed; the library is linked to stay loaded until then.
-struct State {
-    State() {
-        if (const char* text = std::getenv("CATOPTRIC_FAULT")) {
-            char name[64] = {};
-            if (std::sscanf(text, "%63[^:]:%d:%d", name, &fault_at, &fault_result) != 3) {
-                std::fprintf(stderr, "CATOPTRIC_FAULT: wanted NAME:CALL:RESULT, found '%s'\n",
-                             text);
-                std::abort();
-            }
-            fault_name = name;
-        }
-    }
-    ~State() {
-        const char* path = std::getenv("CATOPTRIC_FAULT_REPORT");
-        std::FILE* file = path ? std::fopen(path, "w") : nullptr;
-        if (!file) return;
-        for (const auto& [name, counter] : counters)
-            if (counter.calls > 0)
-                std::fprintf(file, "%s %d %d\n", name.c_str(), counter.calls, counter.alive);
-        std::fprintf(file, "strays %d\nmost_bytes %llu\n", strays,
-                     static_cast<unsigned long long>(most_bytes));
-        std::fclose(file);
-    }
+/// The call that destroys it, since handles of two types may be the same number, and the handle.
+using Key = std::pair<std::string_view, std::uint64_t>;
 
+/// Everything the layer knows of an instance. The report is written when that is destroyed, and
+/// from the fault on after every call, since a program may then end without destroying it.
+struct State {
     std::string fault_name;
     int fault_at = 0, fault_result = 0;
-    bool lost = false; ///< the device has been reported lost, and stays so
-    int strays = 0;
+    bool failed = false; ///< the fault has come
+    bool lost = false;   ///< the device has been reported lost, and stays so
+    int strays = 0, untimely = 0;
     std::map<std::string, Counter, std::less<>> counters;
     std::uint64_t bytes = 0, most_bytes = 0; ///< of memory that is alive
-    /// By the call that destroys it, since handles of two types may be the same number.
-    std::map<std::pair<std::string_view, std::uint64_t>, Alive> alive;
+    std::map<Key, Alive> alive;
+    std::set<Key> in_use; ///< what devices may still use, those of former instances too
 
     PFN_vkGetInstanceProcAddr next_instance_proc = nullptr;
     PFN_vkGetDeviceProcAddr next_device_proc = nullptr;
-    VkDevice device = VK_NULL_HANDLE;
 } state;
+
+/// For a new instance; what former ones abandoned stays in use.
+void begin() {
+    const std::set<Key> in_use = std::move(state.in_use);
+    state = State{.in_use = in_use};
+    const char* text = std::getenv("CATOPTRIC_FAULT");
+    if (!text) return;
+    char name[64] = {};
+    if (std::sscanf(text, "%63[^:]:%d:%d", name, &state.fault_at, &state.fault_result) != 3) {
+        std::fprintf(stderr, "CATOPTRIC_FAULT: wanted NAME:CALL:RESULT, found '%s'\n", text);
+        std::abort();
+    }
+    state.fault_name = name;
+}
+
+void report() {
+    const char* path = std::getenv("CATOPTRIC_FAULT_REPORT");
+    std::FILE* file = path ? std::fopen(path, "w") : nullptr;
+    if (!file) return;
+    for (const auto& [name, counter] : state.counters)
+        if (counter.calls > 0)
+            std::fprintf(file, "%s %d %d\n", name.c_str(), counter.calls, counter.alive);
+    std::fprintf(file, "strays %d\nuntimely %d\nmost_bytes %llu\n", state.strays, state.untimely,
+                 static_cast<unsigned long long>(state.most_bytes));
+    std::fclose(file);
+}
 
 Counter& counter_of(std::string_view name) {
     const auto found = state.counters.find(name);
@@ -132,44 +146,46 @@ void born(Counter& counter, std::string_view destroyer, Handle handle, std::uint
 template <typename Handle>
 void died(std::string_view destroyer, Handle handle) {
     if (handle == VK_NULL_HANDLE) return;
-    const auto found = state.alive.find({destroyer, number_of(handle)});
-    if (found == state.alive.end()) {
+    const Key key{destroyer, number_of(handle)};
+    const auto found = state.alive.find(key);
+    if (state.in_use.contains(key)) {
+        ++state.untimely;
+    } else if (found == state.alive.end()) {
         ++state.strays;
-        return;
+    } else {
+        --found->second.maker->alive;
+        state.bytes -= found->second.bytes;
+        state.alive.erase(found);
     }
-    --found->second.maker->alive;
-    state.bytes -= found->second.bytes;
-    state.alive.erase(found);
+    if (state.failed) report();
 }
 
 /// Counts a call; true when it is the one that must fail.
 bool is_fault(std::string_view name) {
     const bool fault = ++counter_of(name).calls == state.fault_at && name == state.fault_name;
-    if (fault && state.fault_result == VK_ERROR_DEVICE_LOST) state.lost = true;
+    state.failed |= fault;
+    if (state.failed) report();
     return fault;
 }
 
-/// A lost device runs nothing, so the driver's threads must be done before anybody is told.
-void let_work_finish() {
-    if (!state.device) return;
-    const auto wait = state.next_device_proc(state.device, "vkDeviceWaitIdle");
-    reinterpret_cast<PFN_vkDeviceWaitIdle>(wait)(state.device);
+bool waits(std::string_view name) {
+    return name == "vkWaitSemaphores" || name == "vkQueueWaitIdle" || name == "vkDeviceWaitIdle";
 }
 
 bool may_say_lost(std::string_view name) {
-    for (const char* one : {"vkQueueSubmit2", "vkWaitSemaphores", "vkQueueWaitIdle",
-                            "vkDeviceWaitIdle", "vkGetQueryPoolResults"})
-        if (name == one) return true;
-    return false;
+    return waits(name) || name == "vkQueueSubmit2" || name == "vkGetQueryPoolResults";
 }
 
 /// What the call must return instead of being made; VK_SUCCESS = make it.
 VkResult refusal(std::string_view name) {
     const bool fault = is_fault(name);
-    const bool lost = state.lost && may_say_lost(name);
-    if (!fault && !lost) return VK_SUCCESS;
-    if (name != "vkQueueSubmit2" && may_say_lost(name)) let_work_finish();
-    return fault ? static_cast<VkResult>(state.fault_result) : VK_ERROR_DEVICE_LOST;
+    if (!fault && !(state.lost && may_say_lost(name))) return VK_SUCCESS;
+    const VkResult result = fault ? static_cast<VkResult>(state.fault_result)
+                                  : VK_ERROR_DEVICE_LOST;
+    if (result == VK_ERROR_DEVICE_LOST && may_say_lost(name)) state.lost = true;
+    if (state.lost || waits(name))
+        for (const auto& [key, object] : state.alive) state.in_use.insert(key);
+    return result;
 }
 
 /// How many handles a creator's arguments ask for: pipelines come in arrays.
@@ -193,8 +209,12 @@ struct Call;
 template <const auto& kName, typename... Args>
 struct Call<kName, VkResult(VKAPI_PTR*)(Args...)> {
     static VkResult hook(Args... args) {
-        if (const VkResult result = refusal(kName); result != VK_SUCCESS) return result;
-        return reinterpret_cast<VkResult(VKAPI_PTR*)(Args...)>(counter_of(kName).next)(args...);
+        const auto next = reinterpret_cast<VkResult(VKAPI_PTR*)(Args...)>(counter_of(kName).next);
+        const bool was_lost = state.lost;
+        const VkResult result = refusal(kName);
+        if (result == VK_SUCCESS) return next(args...);
+        if (kName == std::string_view("vkQueueSubmit2") && state.lost && !was_lost) next(args...);
+        return result;
     }
 };
 
@@ -264,6 +284,7 @@ Link* find_link(const Info* create, VkStructureType type) {
 
 VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationCallbacks* callbacks,
                          VkInstance* instance) {
+    begin();
     if (const VkResult result = refusal("vkCreateInstance"); result != VK_SUCCESS) return result;
     auto* link = find_link<VkLayerInstanceCreateInfo>(
         create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
@@ -285,6 +306,22 @@ void destroy_instance(VkInstance instance, const VkAllocationCallbacks* callback
     died("vkDestroyInstance", instance);
     reinterpret_cast<PFN_vkDestroyInstance>(counter_of("vkDestroyInstance").next)(instance,
                                                                                   callbacks);
+    report();
+}
+
+VkResult enumerate_devices(VkInstance instance, std::uint32_t* count, VkPhysicalDevice* devices) {
+    constexpr char kName[] = "vkEnumeratePhysicalDevices";
+    const bool fault = is_fault(kName);
+    if (fault && state.fault_result < 0) return static_cast<VkResult>(state.fault_result);
+    if (fault && state.fault_result == VK_SUCCESS) {
+        *count = 0;
+        return VK_SUCCESS;
+    }
+    if (fault && devices && *count > 0) --*count;
+    const auto next = reinterpret_cast<PFN_vkEnumeratePhysicalDevices>(counter_of(kName).next);
+    const VkResult result = next(instance, count, devices);
+    if (fault && !devices) ++*count;
+    return result;
 }
 
 VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* create,
@@ -298,7 +335,6 @@ VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* crea
     const auto next = reinterpret_cast<PFN_vkCreateDevice>(counter_of("vkCreateDevice").next);
     const VkResult result = next(physical, create, callbacks, device);
     if (result != VK_SUCCESS) return result;
-    state.device = *device;
     born(counter_of("vkCreateDevice"), "vkDestroyDevice", *device);
     for (const Hook& hook : kDeviceHooks)
         counter_of(hook.name).next = state.next_device_proc(*device, hook.name.data());
@@ -308,11 +344,8 @@ VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* crea
 void destroy_device(VkDevice device, const VkAllocationCallbacks* callbacks) {
     died("vkDestroyDevice", device);
     const auto next = state.next_device_proc(device, "vkDestroyDevice");
-    state.device = VK_NULL_HANDLE;
     reinterpret_cast<PFN_vkDestroyDevice>(next)(device, callbacks);
 }
-
-constexpr char kEnumerate[] = "vkEnumeratePhysicalDevices";
 
 PFN_vkVoidFunction device_proc(VkDevice device, const char* name) {
     if (!std::strcmp(name, "vkGetDeviceProcAddr"))
@@ -332,8 +365,7 @@ PFN_vkVoidFunction instance_proc(VkInstance instance, const char* name) {
         {"vkDestroyInstance", reinterpret_cast<PFN_vkVoidFunction>(destroy_instance)},
         {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(create_device)},
         {"vkDestroyDevice", reinterpret_cast<PFN_vkVoidFunction>(destroy_device)},
-        {kEnumerate, reinterpret_cast<PFN_vkVoidFunction>(
-                         &Call<kEnumerate, PFN_vkEnumeratePhysicalDevices>::hook)}};
+        {"vkEnumeratePhysicalDevices", reinterpret_cast<PFN_vkVoidFunction>(enumerate_devices)}};
     for (const Hook& hook : hooks)
         if (hook.name == name) return hook.function;
     for (const Hook& hook : kDeviceHooks)

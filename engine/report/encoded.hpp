@@ -1,0 +1,26 @@
+#pragma once
+
+#include "report/comparison.hpp"
+
+#include <string>
+#include <vector>
+
+namespace catoptric::report {
+
+/// The pictures of a comparison as PNG, each encoded once however often the page is written.
+struct EncodedPictures {
+    struct Row {
+        std::string picture; ///< as shown
+        std::string error;   ///< heat map of its FLIP error; empty: it has none
+    };
+    std::string reference; ///< empty: it was not rendered
+    std::vector<Row> rows;
+};
+
+/// Encodes what has come since the last time: rows are only ever added.
+void encode_new(EncodedPictures& pictures, const Comparison& comparison);
+
+/// report.html with these pictures.
+std::string to_html(const Comparison& comparison, const EncodedPictures& pictures);
+
+} // namespace catoptric::report

@@ -1,0 +1,117 @@
+#include "scene/core.hpp"
+
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace catoptric::scene {
+
+namespace {
+
+constexpr double kGap = 8; // between the core and what is far outside of it
+constexpr std::size_t kMostTriangles = 20'000, kMostOfAnObject = 64;
+
+struct Corner {
+    dvec3 place{0};
+    double weight = 0;
+    std::size_t object = 0;
+};
+
+/// Corners of some triangles of every object, spread over its list; the weights of an object add up
+/// to 1.
+std::vector<Corner> sample(const Scene& scene) {
+    std::vector<Corner> corners;
+    const std::size_t share = std::clamp(kMostTriangles /
+                                             std::max<std::size_t>(scene.objects.size(), 1),
+                                         std::size_t{1}, kMostOfAnObject);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        const Mesh& mesh = scene.meshes[object.mesh];
+        const std::size_t count = std::min(mesh.triangles.size(), share);
+        for (std::size_t k = 0; k < count; ++k) {
+            const uvec3& triangle = mesh.triangles[k * mesh.triangles.size() / count];
+            for (int corner = 0; corner < 3; ++corner)
+                corners.push_back(
+                    {transform_point(object.world_from_object, mesh.positions[triangle[corner]]),
+                     1.0 / (3.0 * static_cast<double>(count)), i});
+        }
+    }
+    return corners;
+}
+
+/// Sorts by a number of each corner; returns the first index at which half of the weight is
+/// reached.
+template <typename Number>
+std::size_t sort_to_half(std::vector<Corner>& corners, Number&& number) {
+    std::ranges::sort(corners, {}, number);
+    const double whole = std::accumulate(
+        corners.begin(), corners.end(), 0.0,
+        [](double sum, const Corner& corner) { return sum + corner.weight; });
+    double sum = 0;
+    std::size_t i = 0;
+    // Weights are rounded: a half within a millionth is a half.
+    while ((sum += corners[i].weight) < whole * (.5 - 1e-6)) ++i;
+    return i;
+}
+
+dvec3 median_of(std::vector<Corner>& corners) {
+    dvec3 median;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t half = sort_to_half(corners,
+                                              [axis](const Corner& c) { return c.place[axis]; });
+        median[axis] = corners[half].place[axis];
+    }
+    return median;
+}
+
+double reach(const dvec3& from, const dvec3& to) {
+    const dvec3 apart = glm::abs(to - from);
+    return std::max({apart.x, apart.y, apart.z});
+}
+
+double reach(const dvec3& from, const Bounds<double>& box) {
+    return std::max(reach(from, box.lo), reach(from, box.hi));
+}
+
+} // namespace
+
+Bounds<double> core_bounds(const Scene& scene) {
+    const Bounds<double> everything = bounds(scene);
+    std::vector<Corner> corners = sample(scene);
+    if (corners.empty()) return everything;
+    const dvec3 middle = median_of(corners);
+    const auto far = [&](const Corner& corner) { return reach(middle, corner.place); };
+    std::size_t last = sort_to_half(corners, far);
+    while (last + 1 < corners.size() && far(corners[last + 1]) <= kGap * far(corners[last])) ++last;
+    const double limit = kGap * far(corners[last]);
+    if (!(limit > 0) || reach(middle, everything) <= limit) return everything;
+
+    Bounds<double> core;
+    std::vector<bool> whole(scene.objects.size());
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Bounds<double> box = bounds(scene, scene.objects[i]);
+        whole[i] = box.empty() || reach(middle, box) <= limit;
+        if (whole[i]) core.add(box);
+    }
+    for (std::size_t i = 0; i <= last; ++i)
+        if (!whole[corners[i].object]) core.add(corners[i].place);
+    return core;
+}
+
+std::vector<std::string> leave_out_unreachable(Scene& scene) {
+    const Bounds<double> core = core_bounds(scene);
+    const dvec3 extent = core.empty() ? dvec3(0) : core.extent();
+    const double most = kFarthestReach * std::max({extent.x, extent.y, extent.z});
+    std::vector<std::string> names;
+    if (!(most > 0)) return names;
+    std::erase_if(scene.objects, [&](const Object& object) {
+        const Bounds<double> box = bounds(scene, object);
+        if (box.empty() || reach(core.centre(), box) <= most) return false;
+        names.push_back(object.name);
+        return true;
+    });
+    return names;
+}
+
+} // namespace catoptric::scene

@@ -1,0 +1,111 @@
+// Things of very different size in one scene: what is looked at keeps its precision.
+#include "scene/shapes.hpp"
+#include "stress/double_tracer.hpp"
+#include "stress/property.hpp"
+#include "stress/scenes.hpp"
+
+#include <fmt/format.h>
+
+namespace catoptric::stress {
+
+namespace {
+
+constexpr const char* kTechniques[] = {"raytrace", "parallax", "pyramid"};
+constexpr double kSame = .001; // FLIP
+
+/// A triangle of edge 1 far outside the room changes nothing that is seen.
+void judge_strays(Bench& bench) {
+    const scene::Scene scene = room(bench, 3);
+    for (const char* technique : kTechniques) {
+        const app::Part plain = bench.render(scene, technique);
+        for (const double distance : {1e2, 1e4, 1e6, 1e9}) {
+            scene::Scene with = scene;
+            const dvec3 at(distance, 0, distance);
+            add_mesh(with,
+                     {.name = "stray",
+                      .positions = {at, at + dvec3(1, 0, 0), at + dvec3(0, 1, 0)},
+                      .normals = std::vector<vec3>(3, vec3(0, 0, 1)),
+                      .triangles = {{0, 1, 2}}},
+                     0);
+            bench.add_flip(fmt::format("{}, a triangle {} away", technique, distance),
+                           bench.render(with, technique), plain, kSame);
+        }
+    }
+}
+
+/// A grey sky is as grey at any distance: 100 or a million.
+void judge_sky(Bench& bench) {
+    const scene::Scene scene = room(bench, 3);
+    const auto under = [&](double radius) {
+        scene::Scene with = scene;
+        const std::size_t grey = add_material(with, {.name = "sky", .albedo = {.5f, .5f, .5f}});
+        scene::Mesh sky = scene::ball("sky", 4);
+        for (dvec3& position : sky.positions) position *= radius;
+        add_mesh(with, sky, grey);
+        return with;
+    };
+    const scene::Scene near = under(1e2), far = under(1e6);
+    for (const char* technique : kTechniques)
+        bench.add_flip(fmt::format("{}, sky 1e6 away", technique), bench.render(far, technique),
+                       bench.render(near, technique), kSame);
+}
+
+/// The room on a ground to the horizon: 1e6 wide as 1e3. A ray that leaves so large a triangle is
+/// lifted by roundings of its size, over what throws a shadow from near by: that is told, not
+/// judged.
+void judge_ground(Bench& bench) {
+    const scene::Scene scene = room(bench, 3);
+    const double y = scene::bounds(scene).lo.y - .01;
+    const auto on = [&](double half) {
+        scene::Scene with = scene;
+        add_quad(with, 0, {-half, y, -half}, {-half, y, half}, {half, y, half}, {half, y, -half});
+        return with;
+    };
+    const scene::Scene narrow = on(5e2), wide = on(5e5);
+    for (const char* technique : kTechniques)
+        bench.add_flip(fmt::format("{}, ground 1e6 wide", technique), bench.render(wide, technique),
+                       bench.render(narrow, technique), kSame,
+                       technique == std::string_view("raytrace"));
+}
+
+/// A ball of 1e-3 in a room of 1e3, beside its middle, from near by.
+void judge_tiny(Bench& bench) {
+    scene::Scene scene = through(room(bench, 0), scaled(250));
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+    const dvec3 centre(bench.random(-300, 300), bench.random(-300, 300), bench.random(-300, 300));
+    add_ball(scene, mirror, {centre, 1e-3});
+    scene.cameras = {
+        {.eye = centre + dvec3(1e-3, 2e-3, -6e-3), .target = centre, .vertical_fov_degrees = 30}};
+    const app::Request request = bench.asked(scene, "raytrace:sphere=exact");
+    const DoubleTracer tracer(scene, request.ambient);
+    app::Part wanted;
+    wanted.hdr = measure::Picture(static_cast<int>(request.size.x),
+                                  static_cast<int>(request.size.y));
+    for (std::uint32_t y = 0; y < request.size.y; ++y)
+        for (std::uint32_t x = 0; x < request.size.x; ++x)
+            wanted.hdr.at(static_cast<int>(x), static_cast<int>(y)) = vec3(
+                tracer.pixel(request.camera, request.size, x, y, 8));
+    wanted.display = measure::to_display(wanted.hdr, request.exposure);
+    bench.add_flip("a ball of 1e-3 in a room of 1e3, raytrace:sphere=exact against doubles",
+                   bench.render(request), wanted, kSame);
+    const scene::Scene shifted = through(scene, moved(-centre));
+    for (const char* technique : kTechniques)
+        bench.add_flip(
+            fmt::format("{}, a ball of 1e-3 in a room of 1e3, against the same about 0", technique),
+            bench.render(scene, technique), bench.render(shifted, technique), kSame);
+}
+
+void judge_extents(Bench& bench) {
+    judge_strays(bench);
+    judge_sky(bench);
+    judge_ground(bench);
+    judge_tiny(bench);
+}
+
+const Row kExtents{
+    {"N5", "a stray triangle to 1e9 away, a sky and a ground of 1e6, a ball of 1e-3 in 1e3",
+     "what is looked at keeps its precision (FLIP)", judge_extents}};
+
+} // namespace
+
+} // namespace catoptric::stress

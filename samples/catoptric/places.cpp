@@ -1,0 +1,87 @@
+#include "places.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include <sys/stat.h>
+
+namespace catoptric::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Files by where they really lie and, those that are there, by number.
+class Files {
+public:
+    struct File {
+        fs::path path; ///< as it was named
+        bool is_input = false;
+    };
+    /// What names the same file, or null. Devices and pipes are none.
+    const File* find(const fs::path& path) const {
+        struct stat status {};
+        const bool is_there = ::stat(path.c_str(), &status) == 0;
+        if (is_there && !S_ISREG(status.st_mode)) return nullptr;
+        if (const auto found = paths_.find(real_path(path)); found != paths_.end())
+            return &found->second;
+        const auto found = numbers_.find({status.st_dev, status.st_ino});
+        return is_there && found != numbers_.end() ? &found->second : nullptr;
+    }
+    void add(const File& file) {
+        paths_.emplace(real_path(file.path), file);
+        struct stat status {};
+        if (::stat(file.path.c_str(), &status) == 0)
+            numbers_.emplace(std::pair(status.st_dev, status.st_ino), file);
+    }
+
+private:
+    std::map<fs::path, File> paths_;
+    std::map<std::pair<dev_t, ino_t>, File> numbers_;
+};
+
+} // namespace
+
+std::vector<fs::path> input_files(const scene::Scene&, const std::string& name) {
+    const fs::path path = name;
+    if (!path.has_extension()) return {}; // built in
+    std::vector<fs::path> files{path};
+    const auto add = [&](const std::string& beside) {
+        files.push_back(path.parent_path() / beside);
+    };
+    if (path.extension() == ".gltf") {
+        const auto document = nlohmann::json::parse(read_file(path));
+        for (const char* list : {"buffers", "images"})
+            for (const auto& item : document.value(list, nlohmann::json::array()))
+                if (item.contains("uri")) add(item["uri"]);
+    } else if (path.extension() == ".obj") {
+        std::istringstream lines(read_file(path));
+        for (std::string line, file; std::getline(lines, line);)
+            if (std::istringstream words(line); words >> file && file == "mtllib")
+                while (words >> file) add(file);
+    }
+    return files;
+}
+
+void check_apart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+    Files files;
+    for (const fs::path& input : inputs) files.add({input, true});
+    for (const fs::path& output : outputs) {
+        if (const Files::File* same = files.find(output)) {
+            check(same->path != output, Failure::usage, output.string(),
+                  ": wanted one output in a place, found two");
+            fail(Failure::usage, output.string(), ": cannot be written: it is the same file as ",
+                 same->path.string(),
+                 same->is_input ? ", which the scene is read from" : ", which is written too");
+        }
+        files.add({output, false});
+    }
+}
+
+} // namespace catoptric::cli

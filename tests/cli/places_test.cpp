@@ -1,0 +1,129 @@
+// No output is an input or another output, by any path: 2, naming both, before anything is
+// rendered.
+#include "cli/program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Places : public Cli {
+protected:
+    static constexpr const char* kMirror =
+        "mtllib room.mtl\nusemtl mirror\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    static constexpr const char* kMaterials = "newmtl mirror\nKd 0 0 0\nKs 1 1 1\nillum 3\n";
+
+    void SetUp() override {
+        write("room.obj", kMirror);
+        write("room.mtl", kMaterials);
+    }
+    static Words render(const std::string& scene, const Words& outputs) {
+        Words words{"render", scene, "--technique", "raytrace:depth=1"};
+        words.insert(words.end(), outputs.begin(), outputs.end());
+        words.push_back("--quiet");
+        return quick(words);
+    }
+    static Words compare(const std::string& scene) {
+        return quick({"compare", scene, "--quiet", "-o", "out", "--techniques", "raytrace:depth=1",
+                      "reuse"});
+    }
+    void expect_unharmed() const {
+        EXPECT_EQ(read("room.obj"), kMirror);
+        EXPECT_EQ(read("room.mtl"), kMaterials);
+    }
+};
+
+TEST_F(Places, TheSceneAndItsFilesAreNotWritten) {
+    fs::create_directory(folder / "sub");
+    fs::create_symlink("../room.obj", folder / "sub/link.png");
+    fs::create_directory_symlink("sub", folder / "also");
+    fs::create_hard_link(folder / "room.mtl", folder / "hard.png");
+    fs::create_symlink("room.obj", folder / "scene.obj");
+    for (const auto& [scene, output, input] :
+         {std::tuple{"room.obj", "sub/link.png", "room.obj"},
+          std::tuple{"room.obj", "also/../sub/link.png", "room.obj"},
+          std::tuple{"scene.obj", "sub/link.png", ".obj"},
+          std::tuple{"./sub/../room.obj", "hard.png", "room.mtl"}})
+        for (const Words& outputs : {Words{"-o", output}, Words{"-o", "x.png", "--trace", output}})
+            expect_refused(render(scene, outputs), 2,
+                           {std::string(output) + ": cannot be written: it is the same file as ",
+                            std::string(input) + ", which the scene is read from"});
+    EXPECT_FALSE(fs::exists(folder / "x.png"));
+    expect_unharmed();
+}
+
+TEST_F(Places, EveryFileOfAComparisonIsAskedAbout) {
+    fs::create_directories(folder / "out/images");
+    for (const std::string name :
+         {"report.json", "report.html", "report.md", "rows.csv", "images/reference.png",
+          "images/raytrace-depth1.exr", "images/raytrace-depth1.png",
+          "images/raytrace-depth1-error.png", "images/reuse.exr"}) {
+        const fs::path file = folder / "out" / name;
+        fs::create_hard_link(folder / "room.obj", file);
+        expect_refused(compare("room.obj"), 2,
+                       {"out/" + name + ": cannot be written: it is the same file as ",
+                        "room.obj, which the scene is read from"});
+        fs::remove(file);
+        fs::create_symlink(folder / "room.mtl", file);
+        expect_refused(compare("room.obj"), 2,
+                       {"out/" + name + ": cannot be written: it is the same file as ",
+                        "room.mtl, which the scene is read from"});
+        fs::remove(file);
+    }
+    expect_unharmed();
+}
+
+TEST_F(Places, TheBuffersOfAScene) {
+    write("room.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
+                       R"("nodes":[{"mesh":0}],)"
+                       R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                       R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,)"
+                       R"("type":"VEC3","min":[0,0,0],"max":[1,1,0]}],)"
+                       R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+                       R"("buffers":[{"uri":"room.bin","byteLength":36}]})");
+    const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::string bytes(reinterpret_cast<const char*>(triangle), sizeof triangle);
+    write("room.bin", bytes);
+    fs::create_symlink("room.bin", folder / "x.png");
+    expect_refused(render("room.gltf", {"-o", "x.png"}), 2,
+                   {"x.png: cannot be written: it is the same file as ", "room.bin"});
+    EXPECT_EQ(read("room.bin"), bytes);
+}
+
+TEST_F(Places, OutputsAreApart) {
+    expect_refused(render("room.obj", {"-o", "x.png", "--trace", "./x.png"}), 2,
+                   {"./x.png: cannot be written: it is the same file as x.png, which is written "
+                    "too"});
+    expect_refused(render("room.obj", {"-o", "x.png", "--trace", "x.png"}), 2,
+                   {"x.png: wanted one output in a place, found two"});
+    fs::create_symlink("t.json", folder / "later.png"); // neither is there yet
+    expect_refused(render("room.obj", {"-o", "later.png", "--trace", "t.json"}), 2,
+                   {"t.json", "the same file as later.png, which is written too"});
+    fs::create_directory(folder / "out");
+    fs::create_symlink("report.md", folder / "out/rows.csv");
+    expect_refused(compare("room.obj"), 2, {"out/rows.csv", "the same file as out/report.md"});
+    write("out/stress.md", "old");
+    fs::create_hard_link(folder / "out/stress.md", folder / "out/stress.html");
+    expect_refused({"stress", "-o", "out", "--only", "N10"}, 2,
+                   {"out/stress.md", "the same file as out/stress.html"});
+    EXPECT_EQ(read("out/stress.md"), "old");
+    EXPECT_FALSE(fs::exists(folder / "x.png"));
+}
+
+/// What the shell opened for the result is an output too; what it does not write is none.
+TEST_F(Places, StdoutIsAnOutput) {
+    test::Start process = start(render("room.obj", {"-o", "x.png", "--trace", "t.json", "--json"}));
+    process.out_path = (folder / "t.json").string();
+    expect_ended(test::run_process(process), 2, {"t.json", "the same file as /dev/stdout"});
+    process = start(render("room.obj", {"-o", "x.png", "--trace", "t.json"}));
+    process.out_path = (folder / "t.json").string();
+    EXPECT_EQ(test::run_process(process).exit_code, 0);
+}
+
+/// What is thrown away may be so twice.
+TEST_F(Places, DevicesMayBeNamedTwice) {
+    fs::create_symlink("/dev/null", folder / "null.png");
+    const test::Ended ended = cli(render("room.obj", {"-o", "null.png", "--trace", "/dev/null"}));
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+}
+
+} // namespace

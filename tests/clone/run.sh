@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# What a newcomer does: clones this checkout, with changes that are not committed, into an empty folder
+# (WORK) and types the README's first command there, small.
+# Called by CTest: run.sh SOURCE WORK.
+set -euo pipefail
+source=$1 work=$2
+rm -rf "$work"
+git clone --quiet --no-hardlinks "$source" "$work"
+git -C "$source" diff --binary HEAD | git -C "$work" apply --allow-empty
+(cd "$source" && git ls-files -z --others --exclude-standard | xargs -0r cp --parents -t "$work")
+cd "$work"
+./dev demo --size 64x64 --frames 1
+report=$work/out/demo/report.html
+[[ -s $report ]] || { echo "clone: wanted a report in $report, found none" >&2; exit 1; }
+for word in parallax raytrace '</html>'; do
+    grep -qF "$word" "$report" || { echo "clone: $report does not hold '$word'" >&2; exit 1; }
+done
+diff <(git -C "$source" status --porcelain) <(git status --porcelain) >&2 ||
+    { echo "clone: wanted the demo to leave nothing that git does not ignore, found the above" >&2; exit 1; }

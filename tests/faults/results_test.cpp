@@ -1,0 +1,161 @@
+// R8: results survive. What ends a comparison or the properties early leaves the rows that there
+// are on disk, marked incomplete in every file with why and how many of how many.
+#include "faults/faults.hpp"
+
+#include <vulkan/vulkan_core.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+/// How often `part` is in `text`.
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; at += part.size()) ++count;
+    return count;
+}
+
+class Results : public Faults {
+protected:
+    /// `rows` rows, the fifth of which takes as long as `samples` make it.
+    static Words comparison(int rows, int samples = 2) {
+        Words words{"compare",  "-o", "out",         "--size",     "64x64",  "--frames",    "1",
+                    "--warmup", "0",  "--no-causes", "--progress", "always", "--techniques"};
+        for (int i = 0; i < rows; ++i)
+            words.push_back("raytrace:depth=" + std::to_string(i) +
+                            (i == 4 ? ",samples=" + std::to_string(samples) : ""));
+        return words;
+    }
+
+    /// Without what Markdown escapes.
+    std::string read_plain(const std::string& file) const {
+        std::string text = read(file);
+        std::erase(text, '\\');
+        return text;
+    }
+
+    /// Four of eight rows lie in out/, and every file says so and `why`.
+    void expect_four_rows(const std::string& why) const {
+        const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
+        EXPECT_EQ(document["complete"], false);
+        EXPECT_EQ(document["rows_asked"], 8);
+        EXPECT_THAT(document["incomplete"].get<std::string>(),
+                    testing::StartsWith("4 of 8 rows: "));
+        EXPECT_THAT(document["incomplete"].get<std::string>(), HasSubstr(why));
+        ASSERT_EQ(document["rows"].size(), 4U);
+        for (int i = 0; i < 4; ++i)
+            EXPECT_EQ(document["rows"][i]["label"], "raytrace:depth=" + std::to_string(i));
+        for (const char* file : {"out/report.html", "out/report.md", "out/rows.csv"}) {
+            EXPECT_THAT(read_plain(file), HasSubstr("4 of 8 rows: ")) << file;
+            EXPECT_THAT(read_plain(file), HasSubstr(why)) << file;
+        }
+        EXPECT_EQ(count_of(read("out/report.html"), "<article id=\"row-"), 4U);
+        EXPECT_EQ(count_of(read("out/rows.csv"), "\r\n"), 5U);
+        const auto pictures = fs::directory_iterator(folder / "out/images");
+        EXPECT_EQ(std::distance(begin(pictures), end(pictures)), 1 + 3 * 4);
+    }
+
+    /// A signal and the same again, in the fifth row's frame.
+    test::Ended signalled(int signal, int samples, std::chrono::milliseconds after,
+                          std::chrono::milliseconds again_after) const {
+        test::Start process = start(comparison(8, samples));
+        process.environment["LP_NUM_THREADS"] = "1";
+        process.signal = signal;
+        process.signal_at = "[5/8]";
+        process.signal_after = after;
+        process.again_after = again_after;
+        return test::run_process(process);
+    }
+};
+
+TEST_F(Results, DeviceGoneInTheFifthOfEightRows) {
+    const Watched four = watch(comparison(4), std::nullopt);
+    ASSERT_EQ(four.ended.exit_code, 0) << four.ended.err;
+    for (const auto& [call, result, exit_code, why] :
+         {std::tuple{"vkWaitSemaphores", VK_ERROR_DEVICE_LOST, 76, "VK_ERROR_DEVICE_LOST"},
+          std::tuple{"vkQueueWaitIdle", VK_ERROR_OUT_OF_HOST_MEMORY, 75,
+                     "VK_ERROR_OUT_OF_HOST_MEMORY"},
+          std::tuple{"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY, 75,
+                     "VK_ERROR_OUT_OF_DEVICE_MEMORY"}}) {
+        fs::remove_all(folder / "out");
+        const Watched watched = watch(comparison(8),
+                                      Fault{call, four.counts.at(call).calls + 1, result});
+        EXPECT_EQ(watched.ended.exit_code, exit_code) << watched.ended.err;
+        for (const std::string part :
+             {why, ", after 4 of 8 rows; what there is lies in out, marked incomplete\n"})
+            EXPECT_THAT(watched.ended.err, HasSubstr(part));
+        EXPECT_THAT(watched.ended.out, HasSubstr("raytrace:depth=3")) << "the table so far";
+        expect_four_rows(why);
+    }
+}
+
+/// `timeout` sends SIGTERM to its child and then to its group; a closed terminal sends SIGHUP.
+TEST_F(Results, SignalThatComesTwice) {
+    for (const auto& [signal, exit_code] : {std::pair{SIGTERM, 143}, std::pair{SIGHUP, 129}}) {
+        fs::remove_all(folder / "out");
+        const test::Ended ended = signalled(signal, 400, 300ms, 50ms);
+        EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
+        const std::string why = "stopped by signal " + std::to_string(signal);
+        EXPECT_THAT(ended.err, HasSubstr(why + ", after 4 of 8 rows; what there is lies in out"));
+        expect_four_rows(why);
+    }
+}
+
+/// The frame would take minutes; what was finished before is there, and says that it is not all.
+TEST_F(Results, SignalThatComesAgainLaterEndsAtOnce) {
+    const test::Ended ended = signalled(SIGTERM, 65536, 2000ms, 1200ms);
+    EXPECT_EQ(ended.exit_code, 143);
+    EXPECT_THAT(ended.err, testing::Not(HasSubstr("stopped by signal")));
+    expect_four_rows("the run had not ended when this was written");
+}
+
+TEST_F(Results, IgnoredSignalStaysIgnored) {
+    test::Start process = start(comparison(2));
+    process.command.insert(process.command.begin(),
+                           {"/bin/sh", "-c", "trap '' HUP; exec \"$0\" \"$@\""});
+    process.signal = SIGHUP;
+    process.signal_at = "[1/2]";
+    const test::Ended ended = test::run_process(process);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(nlohmann::json::parse(read("out/report.json"))["complete"], true);
+}
+
+TEST_F(Results, OfPropertiesAreKeptToo) {
+    const auto words = [](Words ids) {
+        Words all{"stress", "-o", "out", "--size", "16x16", "--progress", "always", "--only"};
+        all.insert(all.end(), ids.begin(), ids.end());
+        return all;
+    };
+    const auto expect_one_row = [&](const test::Ended& ended, int exit_code,
+                                    const std::string& why) {
+        EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(", after 1 of 3 rows; what there is lies in out"));
+        const nlohmann::json document = nlohmann::json::parse(read("out/stress.json"));
+        EXPECT_EQ(document["complete"], false);
+        EXPECT_EQ(document["rows"].size(), 1U);
+        for (const char* file : {"out/stress.json", "out/stress.html", "out/stress.md"}) {
+            EXPECT_THAT(read_plain(file), HasSubstr("1 of 3 rows: ")) << file;
+            EXPECT_THAT(read_plain(file), HasSubstr(why)) << file;
+        }
+    };
+    test::Start process = start(words({"N10", "N1", "N9"}));
+    process.signal = SIGHUP;
+    process.signal_at = "[2/3]";
+    expect_one_row(test::run_process(process), 129, "stopped by signal 1");
+
+    const Watched one = watch(words({"N10"}), std::nullopt);
+    ASSERT_EQ(one.ended.exit_code, 0) << one.ended.err;
+    for (const auto& [result, exit_code, why] :
+         {std::tuple{VK_ERROR_DEVICE_LOST, 76, "VK_ERROR_DEVICE_LOST"},
+          std::tuple{VK_ERROR_OUT_OF_HOST_MEMORY, 75, "VK_ERROR_OUT_OF_HOST_MEMORY"}}) {
+        fs::remove_all(folder / "out");
+        const int waits = one.counts.at("vkWaitSemaphores").calls;
+        expect_one_row(
+            watch(words({"N10", "N1", "N9"}), Fault{"vkWaitSemaphores", waits + 1, result}).ended,
+            exit_code, why);
+    }
+}
+
+} // namespace

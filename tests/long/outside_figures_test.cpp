@@ -1,0 +1,60 @@
+// Ray tracing of the built-in scene against figures of two independent renderers: ambient 0,
+// 512x512, balls as meshes.
+#include "support/rendering.hpp"
+
+#include <iomanip>
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+app::Part trace(int depth, int samples) {
+    app::Request request = test::request(
+        scene::cornell_mirrors(),
+        {"raytrace:depth=" + std::to_string(depth) + ",samples=" + std::to_string(samples)},
+        {512, 512});
+    request.ambient = 0;
+    return std::move(test::engine().run(request).parts.front());
+}
+
+/// Expects `found` within a share of `wanted`, and prints both.
+void expect_share(const std::string& what, double found, double wanted, double share) {
+    std::cout << "[ MEASURED ] " << what << ": " << std::setprecision(8) << found << ", outside "
+              << wanted << ", " << std::setprecision(3) << std::showpos
+              << 100 * (found / wanted - 1) << std::noshowpos << " %\n";
+    EXPECT_NEAR(found, wanted, share * wanted) << what;
+}
+
+/// Minutes: 400 samples at six depths.
+TEST(OutsideFigures, MeansAndErrorsOfDepths) {
+    struct Figures {
+        int depth;
+        double mean, clamped, rmse; ///< 0: not known
+        double rmse_share;
+    };
+    const std::vector<Figures> figures{{0, .108822, .044025, .1031, .05},
+                                       {1, .119884, .048826, .0369, .05},
+                                       {2, .120575, .049228, .0129, .05},
+                                       {3, 0, 0, .0044, .05},
+                                       {4, .120648, .049291, .0007, .30}};
+    const app::Part deep = trace(8, 400);
+    const measure::Mask mirrors = measure::mirrors(trace(0, 1).hits);
+    const auto mean = [](const app::Part& part, measure::Range range) {
+        return measure::mean_of(part.hdr, range).all;
+    };
+    expect_share("mean at depth 8", mean(deep, measure::Range::unclamped), .120650, .003);
+    expect_share("clamped mean at depth 8", mean(deep, measure::Range::clamped), .049292, .003);
+    for (const auto& [depth, wanted, clamped, rmse, rmse_share] : figures) {
+        const app::Part part = trace(depth, 400);
+        const std::string at = " at depth " + std::to_string(depth);
+        if (wanted > 0)
+            expect_share("mean" + at, mean(part, measure::Range::unclamped), wanted, .003);
+        if (clamped > 0)
+            expect_share("clamped mean" + at, mean(part, measure::Range::clamped), clamped, .003);
+        expect_share("rmse against depth 8" + at, test::rmse(part.hdr, deep.hdr, mirrors), rmse,
+                     rmse_share);
+    }
+}
+
+} // namespace

@@ -1,0 +1,72 @@
+// What each search is worth: its error from three places beside that of parallax. One file, so that
+// the searches share the pictures they are measured by.
+#include "support/searches.hpp"
+
+namespace {
+
+using namespace catoptric;
+
+TEST(Secant, IsWorthItsSteps) {
+    test::expect_worth(
+        "secant",
+        {.first_order = .57, .all = .42, .coarse = .49, .mirror_in_mirror = .25, .angle = .04});
+}
+
+TEST(Secant, NeedsSmallerCapturesThanParallax) {
+    for (const test::Look& look : test::looks()) {
+        SCOPED_TRACE(look.camera.name);
+        const auto judged = test::judge(
+            scene::cornell_mirrors(), look,
+            {"parallax:face=512", "secant:face=256,continue=0", "secant:face=64,continue=0"});
+        EXPECT_LE(judged[1].first_order, judged[0].first_order);
+        EXPECT_LE(judged[2].lookup.mean_degrees, .05 * judged[0].lookup.mean_degrees);
+    }
+}
+
+TEST(March, IsWorthItsSteps) {
+    test::expect_worth(
+        "march",
+        {.first_order = .58, .all = .43, .coarse = .49, .mirror_in_mirror = .25, .angle = .06});
+}
+
+TEST(Pyramid, IsWorthItsCells) {
+    test::expect_worth(
+        "pyramid",
+        {.first_order = .55, .all = .39, .coarse = .47, .mirror_in_mirror = .24, .angle = .02});
+}
+
+TEST(Layered, IsWorthItsSecondLayer) {
+    test::expect_worth("layered", {.first_order = .55,
+                                   .all = .46,
+                                   .coarse = .55,
+                                   .mirror_in_mirror = .34,
+                                   .angle = .01,
+                                   .wrong_object = .005});
+}
+
+TEST(Hybrid, IsWorthWhatItTraces) {
+    for (const test::Look& look : test::looks()) {
+        SCOPED_TRACE(look.camera.name);
+        const auto judged = test::judge(scene::cornell_mirrors(), look,
+                                        {"parallax:face=512", "hybrid:face=512",
+                                         "hybrid:face=512,continue=0", "hybrid:face=256"});
+        const test::Judged &parallax = judged[0], &followed = judged[1], &alone = judged[2],
+                           &coarse = judged[3];
+        EXPECT_LE(followed.all, .39 * parallax.all);
+        EXPECT_LE(coarse.all, .46 * parallax.all);
+        EXPECT_LE(followed.mirror_in_mirror, .25 * alone.mirror_in_mirror);
+        EXPECT_LE(followed.traced_fraction, .06);
+    }
+}
+
+TEST(Hybrid, TracesLittleInAClosedRoom) {
+    for (const test::Look& look : test::looks()) {
+        SCOPED_TRACE(look.camera.name);
+        const auto judged = test::judge(scene::cornell_mirrors_closed(), look,
+                                        {"parallax:face=512", "hybrid:face=512"});
+        EXPECT_LE(judged[1].all, .39 * judged[0].all);
+        EXPECT_LE(judged[1].traced_fraction, .02);
+    }
+}
+
+} // namespace

@@ -1,0 +1,79 @@
+// main of every test program. `--from FILE`: only the tests of that source file, in one process, so
+// that they share devices, compiled shaders and rendered pictures. Where CATOPTRIC_TEST_SECONDS
+// names a folder, the processor seconds of each test are written there; ./dev test prints the
+// dearest.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace {
+
+/// Of this process with its driver's threads, and of the processes that it has waited for.
+double processor_seconds() {
+    double seconds = 0;
+    for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+        rusage usage{};
+        getrusage(who, &usage);
+        for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+            seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    }
+    return seconds;
+}
+
+class WriteSeconds : public testing::EmptyTestEventListener {
+public:
+    explicit WriteSeconds(const std::filesystem::path& folder) {
+        std::filesystem::create_directories(folder);
+        file_.open(folder / (std::to_string(getpid()) + ".tsv"));
+    }
+
+private:
+    void OnTestStart(const testing::TestInfo&) override { start_ = processor_seconds(); }
+    void OnTestEnd(const testing::TestInfo& info) override {
+        file_ << processor_seconds() - start_ << '\t' << info.test_suite_name() << '.'
+              << info.name() << '\t' << std::filesystem::path(info.file()).filename().string()
+              << std::endl;
+    }
+
+    std::ofstream file_;
+    double start_ = 0;
+};
+
+/// Names of all tests that stand in the file, as a filter; empty without one.
+std::string filter_of(const std::string& file) {
+    std::string filter;
+    const testing::UnitTest& all = *testing::UnitTest::GetInstance();
+    for (int s = 0; s < all.total_test_suite_count(); ++s) {
+        const testing::TestSuite& suite = *all.GetTestSuite(s);
+        for (int t = 0; t < suite.total_test_count(); ++t) {
+            const testing::TestInfo& test = *suite.GetTestInfo(t);
+            if (std::filesystem::path(test.file()).filename() == file)
+                filter += std::string(suite.name()) + "." + test.name() + ":";
+        }
+    }
+    return filter;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    if (argc > 2 && std::string(argv[1]) == "--from") {
+        const std::string filter = filter_of(argv[2]);
+        if (filter.empty()) {
+            std::cerr << "wanted tests from " << argv[2] << ", found none\n";
+            return 1;
+        }
+        GTEST_FLAG_SET(filter, filter);
+    }
+    if (const char* folder = std::getenv("CATOPTRIC_TEST_SECONDS"))
+        testing::UnitTest::GetInstance()->listeners().Append(new WriteSeconds(folder));
+    return RUN_ALL_TESTS();
+}

@@ -1,0 +1,176 @@
+// Units are made for where a scene is, not for what lies far outside of it.
+#include "bvh/closest_hit.hpp"
+#include "core/error.hpp"
+#include "render/geometry.hpp"
+#include "scene/core.hpp"
+#include "scene/repair.hpp"
+#include "scene/transform.hpp"
+#include "support/numbers.hpp"
+#include "support/scenes.hpp"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace catoptric;
+using scene::core_bounds;
+
+scene::Mesh triangle(const std::string& name, const dvec3& at, double size = 1) {
+    return {.name = name,
+            .positions = {at, at + dvec3(size, 0, 0), at + dvec3(0, size, 0)},
+            .normals = std::vector<vec3>(3, vec3(0, 0, 1)),
+            .triangles = {{0, 1, 2}}};
+}
+
+scene::Scene with_stray(double distance) {
+    scene::Scene scene = scene::cornell_mirrors();
+    test::add_mesh(scene, triangle("stray", {distance, 0, distance}), 0);
+    return scene;
+}
+
+void expect_same(const Bounds<double>& found, const Bounds<double>& wanted) {
+    EXPECT_EQ(found.lo, wanted.lo);
+    EXPECT_EQ(found.hi, wanted.hi);
+}
+
+TEST(Core, IsEverythingWhereNothingIsFarOutside) {
+    for (const scene::Scene& scene :
+         {scene::cornell_mirrors(), test::room(3, 2), test::furnace(1), with_stray(1500)})
+        expect_same(core_bounds(scene), scene::bounds(scene));
+    EXPECT_TRUE(core_bounds({}).empty());
+}
+
+TEST(Core, LeavesOutStrayObjects) {
+    const Bounds<double> room = scene::bounds(scene::cornell_mirrors());
+    for (const double distance : {1e4, 1e6, 1e9, 1e30})
+        expect_same(core_bounds(with_stray(distance)), room);
+    scene::Scene many = with_stray(1e5);
+    for (int i = 0; i < 3; ++i)
+        test::add_mesh(many, triangle("more", dvec3(0, 1e7 * (i + 1), 0), 1e5), 0);
+    expect_same(core_bounds(many), room);
+}
+
+TEST(Core, LeavesOutAStrayTriangleOfAMeshThatHoldsEverything) {
+    scene::Scene one{.name = "one mesh"};
+    test::add_material(one, {.name = "grey"});
+    scene::Mesh mesh = scene::ball("everything", 3);
+    const Bounds<double> core = [&] {
+        scene::Scene alone = one;
+        test::add_mesh(alone, mesh, 0);
+        return scene::bounds(alone);
+    }();
+    for (const auto& corner : triangle("", {1e6, 0, 0}).positions) mesh.positions.push_back(corner);
+    mesh.normals.resize(mesh.positions.size(), vec3(0, 0, 1));
+    const auto last = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.triangles.push_back({last - 3, last - 2, last - 1});
+    test::add_mesh(one, mesh, 0);
+    const Bounds<double> found = core_bounds(one);
+    for (int axis = 0; axis < 3; ++axis) { // of a sample of its corners
+        EXPECT_NEAR(found.lo[axis], core.lo[axis], .1);
+        EXPECT_NEAR(found.hi[axis], core.hi[axis], .1);
+    }
+}
+
+TEST(Core, LeavesOutASkyWithMoreTrianglesThanTheScene) {
+    scene::Scene scene = test::room(3, 1);
+    const Bounds<double> room = scene::bounds(scene);
+    scene::Mesh sky = scene::ball("sky", 6);
+    for (dvec3& position : sky.positions) position = 1e6 * position + dvec3(3e5, 0, 0);
+    test::add_mesh(scene, sky, 0);
+    expect_same(core_bounds(scene), room);
+}
+
+TEST(Core, UnitsOfTheRoomStayWhateverStrays) {
+    const render::Space plain = render::space_of(scene::cornell_mirrors());
+    for (const double distance : {1e4, 1e9}) {
+        const render::Space with = render::space_of(with_stray(distance));
+        EXPECT_EQ(with.origin_world, plain.origin_world);
+        EXPECT_EQ(with.scale, plain.scale);
+        EXPECT_EQ(with.core.lo, plain.core.lo);
+        EXPECT_EQ(with.core.hi, plain.core.hi);
+    }
+}
+
+/// A float keeps 24 bits: a mirror that is small beside its distance from the origin becomes it.
+TEST(Core, SmallMirrorsAreTheOrigin) {
+    const auto origin = [](double radius) {
+        scene::Scene scene = test::room(0, 1); // about 5 long
+        const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
+        test::add_ball(scene, "ball", mirror, {1.5, -1, 1}, radius);
+        return render::space_of(scene).origin_world;
+    };
+    const dvec3 middle = scene::bounds(test::room(0, 1)).centre();
+    EXPECT_EQ(origin(.1), middle);
+    EXPECT_EQ(origin(.001), middle) << "2^-11 of the distance";
+    EXPECT_LT(glm::length(origin(1e-4) - dvec3(1.5, -1, 1)), 1e-5);
+}
+
+TEST(Core, WhatFloatsCannotReachIsNamed) {
+    scene::Scene scene = scene::cornell_mirrors();
+    const std::size_t objects = scene.objects.size();
+    test::add_mesh(scene, triangle("reachable", dvec3(1e20, 0, 0), 1e19), 0);
+    test::add_mesh(scene, triangle("beyond", dvec3(1e22, 0, 0), 1e21), 0);
+    try {
+        render::make_geometry(scene, render::space_of(scene));
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::exhausted);
+        EXPECT_THAT(error.what(), testing::HasSubstr("object 'beyond': wanted every corner within "
+                                                     "1e+18 sizes of the scene's core"));
+    }
+    scene::finish(scene, "file.obj"); // a file is read without it
+    EXPECT_EQ(scene.objects.size(), objects + 1);
+    EXPECT_THAT(scene.warnings,
+                testing::ElementsAre("file.obj: object 'beyond' is farther away than floats reach "
+                                     "and is left out"));
+    render::make_geometry(scene, render::space_of(scene));
+}
+
+std::vector<bvh::Triangle> triangles_of(const render::Geometry& geometry) {
+    std::vector<bvh::Triangle> triangles;
+    for (std::size_t k = 0; k < geometry.indices.size(); k += 3) {
+        const auto corner = [&](std::size_t j) {
+            return geometry.vertices[geometry.indices[k + j]].position;
+        };
+        triangles.push_back({corner(0), corner(1), corner(2)});
+    }
+    return triangles;
+}
+
+/// Boxes are widened by roundings that are relative to a distance; one stray triangle must not
+/// widen all of them, and is found itself.
+TEST(Core, AStrayTriangleCostsNoRayItsWalk) {
+    const scene::Scene room = scene::cornell_mirrors(), scene = with_stray(1e9);
+    const render::Geometry plain = render::make_geometry(room, render::space_of(room)),
+                           geometry = render::make_geometry(scene, render::space_of(scene));
+    const bvh::Bvh alone = bvh::build(triangles_of(plain), plain.core),
+                   with = bvh::build(triangles_of(geometry), geometry.core);
+    test::Numbers random(3);
+    bvh::Steps steps_alone, steps_with;
+    for (int i = 0; i < 2000; ++i) {
+        const f32::Ray ray{.4f * random.in_cube(), random.direction(), 0};
+        const auto wanted = bvh::closest_hit<float>(alone, ray, 1e30f, 0, &steps_alone),
+                   found = bvh::closest_hit<float>(with, ray, 1e30f, 0, &steps_with);
+        ASSERT_EQ(found.has_value(), wanted.has_value());
+        ASSERT_EQ(found ? found->triangle : 0, wanted ? wanted->triangle : 0);
+    }
+    EXPECT_LE(steps_with.total(), steps_alone.total() * 11 / 10);
+
+    const std::vector<bvh::Triangle> all = triangles_of(geometry);
+    const bvh::Triangle& stray = all.back();
+    std::size_t missed = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const vec3 w = random.weights(), from = .4f * random.in_cube();
+        const vec3 at = w.x * stray.a + w.y * stray.b + w.z * stray.c;
+        const f32::Ray ray{from, at - from, 0};
+        float t;
+        vec3 weights;
+        const bool meets = f32::triangle_test(stray.a, stray.b, stray.c, ray.origin,
+                                              f32::ray_shear(ray.direction), t, weights);
+        const auto hit = bvh::closest_hit<float>(with, ray, 1e30f);
+        missed += meets && !(hit && (hit->triangle + 1 == all.size() || hit->t <= t));
+    }
+    EXPECT_EQ(missed, 0u);
+}
+
+} // namespace

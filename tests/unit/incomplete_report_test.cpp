@@ -1,0 +1,158 @@
+// A run that goes on or was stopped says so in every file, and its pictures are written once.
+#include "core/file.hpp"
+#include "report/report.hpp"
+#include "report/stress.hpp"
+#include "report_sample.hpp"
+#include "support/folder.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace catoptric::report::sample;
+using catoptric::Error;
+using catoptric::Failure;
+using catoptric::report::Comparison;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+const Error kLost(Failure::device_lost, "Vulkan: cannot run frame 7: \"lost\"");
+const std::string kWhy = "4 of 8 rows: Vulkan: cannot run frame 7: \"lost\"";
+
+Comparison stopped() {
+    Comparison made = usual();
+    made.complete = false;
+    made.asked = 8;
+    made.stopped = kLost;
+    return made;
+}
+
+TEST(IncompleteReport, SaysWhyAndHowManyRowsInEveryFile) {
+    const json document = json::parse(catoptric::report::to_json(stopped()));
+    EXPECT_EQ(document["complete"], false);
+    EXPECT_EQ(document["incomplete"], kWhy);
+    EXPECT_EQ(document["rows_asked"], 8);
+    EXPECT_EQ(document["rows"].size(), 4U);
+    EXPECT_THAT(catoptric::report::to_markdown(stopped()), HasSubstr("> Incomplete, " + kWhy));
+    EXPECT_THAT(catoptric::report::to_html(stopped()),
+                HasSubstr("Incomplete, 4 of 8 rows: Vulkan: cannot run frame 7: &quot;lost&quot;"));
+    const std::string csv = catoptric::report::to_csv(stopped());
+    EXPECT_THAT(csv.substr(0, csv.find("\r\n")), testing::EndsWith(",incomplete"));
+    EXPECT_THAT(
+        csv, testing::EndsWith(",\"4 of 8 rows: Vulkan: cannot run frame 7: \"\"lost\"\"\"\r\n"));
+}
+
+TEST(IncompleteReport, SaysThatTheRunGoesOn) {
+    Comparison made = stopped();
+    made.stopped.reset();
+    const std::string why = "4 of 8 rows: the run had not ended when this was written";
+    EXPECT_EQ(json::parse(catoptric::report::to_json(made))["incomplete"], why);
+    made.lag.emplace().complete = false;
+    EXPECT_EQ(json::parse(catoptric::report::to_json(made))["incomplete"],
+              why + "; their lag was not measured to its end");
+}
+
+TEST(IncompleteReport, CompleteOnesSayNothing) {
+    const Comparison made = usual();
+    EXPECT_FALSE(json::parse(catoptric::report::to_json(made)).contains("incomplete"));
+    EXPECT_THAT(catoptric::report::to_markdown(made), Not(HasSubstr("ncomplete")));
+    EXPECT_THAT(catoptric::report::to_html(made), Not(HasSubstr("ncomplete")));
+    EXPECT_THAT(catoptric::report::to_csv(made), testing::EndsWith(",\r\n"));
+}
+
+TEST(IncompleteReport, WithoutARowSaysItToo) {
+    Comparison made = stopped();
+    made.rows.clear(), made.pareto.clear();
+    const std::string csv = catoptric::report::to_csv(made);
+    const std::string only = csv.substr(csv.find("\r\n") + 2);
+    EXPECT_THAT(only, testing::MatchesRegex(",+\"0 of 8 rows: .*\"\r\n"));
+    const auto fields = [](const std::string& line) {
+        return std::count(line.begin(), line.end(), ',');
+    };
+    EXPECT_EQ(fields(only), fields(csv.substr(0, csv.find("\r\n"))));
+    EXPECT_THAT(catoptric::report::to_html(made), HasSubstr("Incomplete, 0 of 8 rows"));
+}
+
+class GrowingReport : public test::InFolder {
+protected:
+    std::vector<std::string> images() const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder / "out/images"))
+            names.push_back(entry.path().filename());
+        std::ranges::sort(names);
+        return names;
+    }
+};
+
+/// Row by row: all of the text each time, pictures only when their row comes.
+TEST_F(GrowingReport, WritesPicturesOnce) {
+    const Comparison whole = usual();
+    Comparison made = whole;
+    made.complete = false;
+    made.asked = 4;
+    made.rows.resize(1);
+    catoptric::report::Writer writer(folder / "out");
+    writer.write(made);
+    EXPECT_EQ(images(), (std::vector<std::string>{"naive0-error.png", "naive0.exr", "naive0.png",
+                                                  "reference.png"}));
+    for (const fs::path& file : catoptric::report::files_of({"naive0"}))
+        EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
+    EXPECT_EQ(catoptric::report::files_of({"naive0"}).size(), 4 + images().size());
+    fs::remove_all(folder / "out/images");
+    made.rows.push_back(whole.rows[1]);
+    writer.write(made);
+    const std::string second = whole.rows[1].image;
+    EXPECT_EQ(images(),
+              (std::vector<std::string>{second + "-error.png", second + ".exr", second + ".png"}));
+    EXPECT_EQ(json::parse(catoptric::read_file(folder / "out/report.json"))["rows"].size(), 2U);
+    writer.write(whole);
+    for (const auto& [file, text] : {std::pair("report.json", catoptric::report::to_json(whole)),
+                                     std::pair("report.html", catoptric::report::to_html(whole)),
+                                     std::pair("report.md", catoptric::report::to_markdown(whole)),
+                                     std::pair("rows.csv", catoptric::report::to_csv(whole))})
+        EXPECT_TRUE(catoptric::read_file(folder / "out" / file) == text) << file;
+}
+
+/// What could not be written is tried again with the next row.
+TEST_F(GrowingReport, TriesAgain) {
+    catoptric::report::Writer writer(folder / "out");
+    fs::create_directories(folder / "out/images/naive0.exr"); // where a file is to be
+    Comparison made = usual();
+    made.rows.resize(1);
+    EXPECT_THROW(writer.write(made), Error);
+    EXPECT_FALSE(fs::exists(folder / "out/report.json"));
+    fs::remove(folder / "out/images/naive0.exr");
+    writer.write(made);
+    EXPECT_TRUE(fs::exists(folder / "out/images/naive0.exr"));
+    EXPECT_TRUE(fs::exists(folder / "out/report.json"));
+}
+
+TEST_F(GrowingReport, OfPropertiesSaysItInEveryFileToo) {
+    using namespace catoptric::report;
+    Stress stress;
+    stress.complete = false;
+    stress.asked = 27;
+    stress.stopped = kLost;
+    stress.rows = {{.id = "N1", .pictures = {{"N1-found", 4, 3, "a PNG"}}}};
+    StressWriter writer(folder / "out");
+    writer.write(stress);
+    EXPECT_EQ(catoptric::read_file(folder / "out/images/N1-found.png"), "a PNG");
+    const std::string why = "1 of 27 rows: Vulkan: cannot run frame 7: ";
+    const json document = json::parse(catoptric::read_file(folder / "out/stress.json"));
+    EXPECT_EQ(document["complete"], false);
+    EXPECT_EQ(document["incomplete"], why + "\"lost\"");
+    EXPECT_EQ(document["rows_asked"], 27);
+    for (const char* file : {"stress.html", "stress.md"})
+        EXPECT_THAT(catoptric::read_file(folder / "out" / file), HasSubstr("Incomplete, " + why));
+    fs::remove_all(folder / "out/images");
+    stress.complete = true;
+    writer.write(stress);
+    EXPECT_EQ(images(), std::vector<std::string>{}) << "pictures are written once";
+    for (const char* file : {"stress.html", "stress.md", "stress.json"})
+        EXPECT_THAT(catoptric::read_file(folder / "out" / file), Not(HasSubstr("ncomplete,")));
+}
+
+} // namespace
