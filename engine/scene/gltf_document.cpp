@@ -112,6 +112,7 @@ void Reader::read_materials() {
         const dvec3 base = glm::clamp(colour(pbr.baseColorFactor, 1), 0.0, 1.0);
         (material.mirror ? material.reflectance : material.albedo) = vec3(base);
         material.emission = vec3(emissive_strength(from) * colour(from.emissiveFactor, 0));
+        material.two_sided = from.doubleSided && material.emission != vec3(0);
         require(is_radiance(material.emission), "material '", from.name,
                 "': wanted an emission of at least 0 that fits a float, found another");
         document.materials.push_back(material);

@@ -2,6 +2,9 @@
 // the searches share the pictures they are measured by.
 #include "support/searches.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace {
 
 using namespace catoptric;
@@ -42,6 +45,29 @@ TEST(Layered, IsWorthItsSecondLayer) {
                                    .mirror_in_mirror = .34,
                                    .angle = .01,
                                    .wrong_object = .005});
+}
+
+/// Of the searches the dearer is the better one, from places that none was made for too, and none
+/// draws lines where there are none.
+TEST(Searches, KeepTheirOrderFromAnyPlace) {
+    std::vector<test::Look> looks = test::looks();
+    std::ranges::copy(test::unforeseen_looks(), std::back_inserter(looks));
+    for (const test::Look& look : looks) {
+        SCOPED_TRACE(look.camera.name);
+        const auto judged = test::judge(scene::cornell_mirrors(), look,
+                                        {"secant:face=256,continue=4", "march:face=256,continue=4",
+                                         "pyramid:face=256,continue=4",
+                                         "layered:face=256,continue=4"});
+        const test::Judged &secant = judged[0], &march = judged[1], &pyramid = judged[2],
+                           &layered = judged[3];
+        EXPECT_LE(march.flip, secant.flip);
+        EXPECT_LE(layered.flip, 1.02 * pyramid.flip);
+        EXPECT_LE(secant.off, 1.5 * pyramid.off);
+        for (const test::Judged* search : {&secant, &march})
+            EXPECT_LE(search->longest_line, 1.1 * pyramid.longest_line);
+        if (look.camera.name != looks.front().camera.name) continue;
+        for (const test::Judged& search : judged) EXPECT_LE(search.longest_line, 24);
+    }
 }
 
 TEST(Hybrid, IsWorthWhatItTraces) {

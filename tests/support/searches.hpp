@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/oracle.hpp"
+#include "measure/flip.hpp"
 #include "support/rendering.hpp"
 
 #include <iostream>
@@ -34,11 +35,33 @@ inline std::vector<Look> looks() {
              2.6}};
 }
 
-/// Against ray tracing: linear rmse by what the reflected ray meets, and where mirrors looked.
+/// Where searches were not looked at while they were made: low in the room's mouth, along its
+/// floor, and down from under the ceiling.
+inline std::vector<Look> unforeseen_looks() {
+    return {{{.name = "low",
+              .eye = {540, 12, -60},
+              .target = {300, 60, 400},
+              .vertical_fov_degrees = 55},
+             1.9},
+            {{.name = "floor",
+              .eye = {100, 5, -100},
+              .target = {300, 40, 400},
+              .vertical_fov_degrees = 50},
+             0},
+            {{.name = "ceiling",
+              .eye = {300, 300, 545},
+              .target = {300, 90, 200},
+              .vertical_fov_degrees = 75},
+             0}};
+}
+
+/// Against ray tracing: linear rmse by what the reflected ray meets, what the eye finds in mirrors,
+/// and where mirrors looked.
 struct Judged {
     double all = 0, first_order = 0, mirror_in_mirror = 0;
     measure::LookupError lookup;
     double traced_fraction = 0; ///< of mirror pixels, where a search leaves some to tracing
+    double flip = 0, off = 0, longest_line = 0; ///< of mirrors; see measure::Difference
 };
 
 namespace detail {
@@ -63,17 +86,24 @@ inline Judged judge(const scene::Scene& scene, const Look& look, const std::stri
     asked.warmup = kConvergedFrames - 1;
     asked.with_lookup = true;
     const app::Part part = std::move(engine().run(asked).parts.front());
+    const measure::Difference seen = measure::difference(
+        part.hdr, truth.part.hdr, measure::mirrors(truth.part.hits),
+        measure::flip(part.display, truth.part.display));
     const Judged error{rmse(part.hdr, truth.part.hdr, measure::mirrors(truth.part.hits)),
                        rmse(part.hdr, truth.part.hdr, measure::first_order(truth.part.hits)),
                        rmse(part.hdr, truth.part.hdr, measure::mirror_in_mirror(truth.part.hits)),
                        measure::lookup_error(truth.oracle.judge(part.lookup)),
-                       part.traced_fraction.value_or(0)};
+                       part.traced_fraction.value_or(0),
+                       seen.flip,
+                       seen.off,
+                       seen.longest_line};
     std::cout << "[ MEASURED ] " << look.camera.name << ", " << part.label << ": rmse " << error.all
               << ", first order " << error.first_order << ", mirror in mirror "
               << error.mirror_in_mirror << "; mean angle " << error.lookup.mean_degrees
               << " degrees, p95 " << error.lookup.p95_degrees << ", wrong object "
               << error.lookup.wrong_object << ", unknown " << error.lookup.unknown << ", traced "
-              << error.traced_fraction << "\n";
+              << error.traced_fraction << "; FLIP " << error.flip << ", off " << error.off
+              << ", longest line " << error.longest_line << "\n";
     return error;
 }
 
