@@ -130,7 +130,8 @@ TEST(Layered, IsAsBrightAsRaysBetweenParallelMirrors) {
         const double found = measure::mean_of(part.hdr, measure::Range::unclamped, seen).all;
         std::cout << "[ MEASURED ] " << technique << ": " << found << " where rays say " << wanted
                   << "\n";
-        EXPECT_NEAR(found, wanted, .02 * wanted);
+        EXPECT_LE(found, (technique == "layered" ? 1.01 : 1.03) * wanted);
+        EXPECT_GE(found, wanted);
         for (const vec3& pixel : part.hdr.pixels) EXPECT_LE(pixel.x, 1.001f);
         return test::rmse(part.hdr, truth.hdr, seen);
     };
