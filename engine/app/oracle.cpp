@@ -58,7 +58,8 @@ void Oracle::trace(const Request& request) {
     };
     for (std::size_t pixel = 0; pixel < std::size_t{request.size.x} * request.size.y; ++pixel) {
         const f32::Ray ray = camera_ray(view, request.size, pixel);
-        const auto hit = bvh::closest_hit<float>(everything_, ray, kFar, bvh::kHidden);
+        const auto hit = bvh::closest_hit<float>(everything_, ray, kFar,
+                                                 bvh::kHidden | bvh::kOneSided);
         if (!hit || mirror_of(hit->object) == mirror_objects_.size()) continue;
         const f32::Ray onward = reflected(geometry_, ray, *hit);
         const auto met = bvh::closest_hit<float>(everything_, onward, kFar);

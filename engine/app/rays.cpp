@@ -14,7 +14,8 @@ bvh::Bvh hierarchy_without(const render::Geometry& geometry, std::size_t left_ou
             };
             triangles.push_back({corner(0), corner(1), corner(2),
                                  static_cast<std::uint32_t>(object),
-                                 range.seen_by_camera ? 0 : bvh::kHidden});
+                                 (range.seen_by_camera ? 0 : bvh::kHidden) |
+                                     (range.one_sided ? bvh::kOneSided : 0)});
         }
     }
     return bvh::build(triangles, geometry.core);

@@ -92,7 +92,7 @@ std::size_t count_seen(const render::Geometry& geometry, const bvh::Bvh& hierarc
     for (std::size_t pixel = 0; pixel < std::size_t{kGrid.x} * kGrid.y; ++pixel) {
         const f32::Ray ray = camera_ray(view, kGrid, pixel);
         const auto hit = bvh::closest_hit<float>(hierarchy, ray, std::numeric_limits<float>::max(),
-                                                 bvh::kHidden);
+                                                 bvh::kHidden | bvh::kOneSided);
         if (!hit || !std::ranges::binary_search(aims, std::size_t{hit->object})) continue;
         const auto normal = [&](std::uint32_t j) {
             return geometry.vertices[geometry.indices[3 * hit->triangle + j]].normal;

@@ -36,6 +36,7 @@ struct Steps {
 namespace detail {
 
 using f32::box_ray, f64::box_ray;
+using f32::is_from_behind, f64::is_from_behind;
 using f32::ray_shear, f64::ray_shear;
 using f32::triangle_test, f64::triangle_test;
 
@@ -60,7 +61,11 @@ struct Search {
     void test(std::uint32_t place) {
         const vec4* texel = &bvh.triangles[3 * std::size_t{place}];
         const std::uint32_t triangle = number(texel[1].w);
-        if ((number(texel[2].w) & skipped_flags) != 0 || triangle + 1 == ray.leaves) return;
+        const std::uint32_t skips = number(texel[2].w) & skipped_flags;
+        if ((skips & ~f32::kBvhOneSided) != 0 || triangle + 1 == ray.leaves) return;
+        if (skips != 0 && is_from_behind(corner<Real>(texel[0]), corner<Real>(texel[1]),
+                                         corner<Real>(texel[2]), ray.direction))
+            return;
         Real t;
         Vec<Real> weights;
         if (!triangle_test(corner<Real>(texel[0]), corner<Real>(texel[1]), corner<Real>(texel[2]),
@@ -127,7 +132,8 @@ std::optional<Hit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
 } // namespace detail
 
 /// The first triangle that the ray meets at a t in (0, t_max); a ray that is not finite misses.
-/// Triangles with a flag of `skipped` are passed by; no ray sees the triangle it leaves.
+/// Triangles with a flag of `skipped` are passed by (kOneSided: from behind alone); no ray sees the
+/// triangle it leaves.
 template <typename Real>
 std::optional<Hit<Real>> closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
                                      std::uint32_t skipped = 0, Steps* steps = nullptr) {

@@ -125,7 +125,7 @@ void lay_out(const Device& device, const std::string& name, std::span<Stage> sta
 /// The fixed-function part that every raster pipeline of the engine shares.
 VkPipeline make_raster(const Device& device,
                        std::span<const VkPipelineShaderStageCreateInfo> stages,
-                       const Attachments& attachments, VkPipelineLayout layout,
+                       const Attachments& attachments, Winding hidden, VkPipelineLayout layout,
                        const std::string& name) {
     const VkVertexInputBindingDescription vertex_binding{0, sizeof(shared::Vertex),
                                                          VK_VERTEX_INPUT_RATE_VERTEX};
@@ -147,7 +147,9 @@ VkPipeline make_raster(const Device& device,
     VkPipelineRasterizationStateCreateInfo raster{
         VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
     raster.polygonMode = VK_POLYGON_MODE_FILL;
-    raster.cullMode = VK_CULL_MODE_NONE;
+    raster.cullMode = hidden == Winding::none ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
+    raster.frontFace = hidden == Winding::counterclockwise ? VK_FRONT_FACE_CLOCKWISE
+                                                           : VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;
     VkPipelineMultisampleStateCreateInfo samples{
         VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
@@ -205,6 +207,8 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
     std::string key = state.vertex + "+" + state.fragment + key_of(state.constants);
     for (Format format : attachments.colour) key += "/" + std::string(catoptric::name_of(format));
     if (attachments.depth) key += "/depth";
+    if (state.hidden != Winding::none)
+        key += state.hidden == Winding::clockwise ? "/no clockwise" : "/no counterclockwise";
     if (const auto found = made_.find(key); found != made_.end()) return found->second;
 
     Pipeline pipeline;
@@ -217,8 +221,8 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
     lay_out(device_, key, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
     for (Stage& stage : stages) infos.push_back(stage.info());
-    pipeline.pipeline = {device_.handle(),
-                         make_raster(device_, infos, attachments, pipeline.layout, key)};
+    pipeline.pipeline = {device_.handle(), make_raster(device_, infos, attachments, state.hidden,
+                                                       pipeline.layout, key)};
     device_.set_name(VK_OBJECT_TYPE_PIPELINE,
                      reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), key);
     return made_.emplace(key, std::move(pipeline)).first->second;

@@ -13,12 +13,16 @@ namespace catoptric::gpu {
 /// Values of specialisation constants, by the name they have in the shader.
 using Constants = std::vector<std::pair<std::string, std::variant<std::uint32_t, float>>>;
 
-/// A raster pipeline as a pass body asks for it; attachments come from the pass. Nothing is culled
-/// by winding (both worlds shade both sides); depth is reversed: greater is nearer.
+/// How a triangle's corners run around it in the picture.
+enum class Winding { none, clockwise, counterclockwise };
+
+/// A raster pipeline as a pass body asks for it; attachments come from the pass. Depth is reversed:
+/// greater is nearer.
 struct RasterState {
     std::string vertex;
     std::string fragment; ///< empty: depth only
     Constants constants;
+    Winding hidden = Winding::none; ///< triangles that run so are left out
 };
 
 struct ComputeState {

@@ -1,6 +1,7 @@
 #include "measure/difference.hpp"
 
 #include "core/error.hpp"
+#include "measure/lines.hpp"
 #include "measure/statistics.hpp"
 
 #include <algorithm>
@@ -40,6 +41,8 @@ Difference difference(const Picture& a, const Picture& b, const Mask& mask,
     check_sizes(a, b, mask, flip_map.size());
     Difference result;
     std::vector<double> largest; // of each judged pixel
+    Mask off(a.pixels.size());
+    std::size_t off_count = 0;
     double squares = 0;
     double absolutes = 0;
     double flips = 0;
@@ -55,6 +58,8 @@ Difference difference(const Picture& a, const Picture& b, const Mask& mask,
         absolutes += apart.x + apart.y + apart.z;
         flips += static_cast<double>(flip_map[i]);
         largest.push_back(std::max({apart.x, apart.y, apart.z}));
+        off[i] = largest.back() > kOff;
+        off_count += off[i];
         if (largest.size() == 1 || largest.back() > result.max) {
             result.max = largest.back();
             result.max_x = static_cast<int>(i % static_cast<std::size_t>(a.width));
@@ -68,6 +73,8 @@ Difference difference(const Picture& a, const Picture& b, const Mask& mask,
     result.mae = absolutes / (3 * judged);
     result.flip = flips / judged;
     if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
+    result.off = static_cast<double>(off_count) / judged;
+    result.longest_line = longest_line(off, a.width);
     result.p99 = percentile(std::move(largest), 0.99);
     return result;
 }

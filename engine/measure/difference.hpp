@@ -27,6 +27,9 @@ struct Difference {
     double max = kNone;         ///< the largest channel difference of all, 0..1
     int max_x = -1;             ///< where; the first in reading order of several
     int max_y = -1;
+    double off = kNone; ///< share of the judged pixels that are off (kOff), 0..1
+    double longest_line =
+        kNone; ///< of these pixels, in pixels: `longest_line` of measure/lines.hpp
 };
 
 /// `flip_map` is `flip` of the two whole pictures as displayed: computed once, averaged over each

@@ -39,8 +39,33 @@ std::array<double, 2> principal_curvatures(const Facet& facet) {
     return {mean - half, mean + half};
 }
 
-double facet_need(double pixel_angle, const dvec3& eye, const Facet& facet) {
-    const dvec3 to_eye = eye - facet.middle();
+/// The planes that bound what is in the picture: inwards, through the eye.
+std::array<dvec3, 5> inward_planes(const shared::View& view) {
+    const dvec3 forward(view.forward), right(view.right), down(view.down);
+    return {forward, forward + right, forward - right, forward + down, forward - down};
+}
+
+bool is_in_picture(const Pixels& pixels, const Facet& facet) {
+    return std::ranges::none_of(inward_planes(pixels.view), [&](const dvec3& inward) {
+        return std::ranges::all_of(facet.position, [&](const dvec3& corner) {
+            return dot(inward, corner - dvec3(pixels.view.eye)) <= 0;
+        });
+    });
+}
+
+/// Cosine of the angle between the axis and a place; 0 where the eye is.
+double cosine_to_axis(const shared::View& view, const dvec3& place) {
+    const dvec3 seen = place - dvec3(view.eye);
+    const double distance = glm::length(seen);
+    return distance > 0 ? dot(seen, dvec3(view.forward)) / distance : 0;
+}
+
+double facet_need(const Pixels& pixels, const Facet& facet) {
+    double to_axis = 1;
+    for (const dvec3& corner : facet.position)
+        to_axis = std::min(to_axis, cosine_to_axis(pixels.view, corner));
+    const double pixel_angle = pixels.angle(to_axis);
+    const dvec3 to_eye = dvec3(pixels.view.eye) - facet.middle();
     const double distance = glm::length(to_eye);
     const double cosine = distance > 0 ? dot(to_eye, facet.middle_normal()) / distance : 1;
     double need = 0;
@@ -54,8 +79,15 @@ double facet_need(double pixel_angle, const dvec3& eye, const Facet& facet) {
 
 } // namespace
 
-double pixel_angle(double vertical_fov_degrees, std::uint32_t height) {
-    return glm::radians(vertical_fov_degrees) / height;
+double Pixels::corner() const {
+    const double across = 1 / glm::length(dvec3(view.right)),
+                 up = 1 / glm::length(dvec3(view.down));
+    return 1 / std::sqrt(1 + across * across + up * up);
+}
+
+double Pixels::angle(double cosine) const {
+    const double at_most = std::max(cosine, corner());
+    return 2 / (glm::length(dvec3(view.down)) * height) * at_most * at_most;
 }
 
 double reflected_footprint(double pixel_angle, double distance, double curvature, double cosine) {
@@ -65,12 +97,27 @@ double reflected_footprint(double pixel_angle, double distance, double curvature
 
 double face_need(double footprint) { return kRightAngle / footprint; }
 
-double sphere_need(double pixel_angle, double distance, double radius) {
-    return face_need(
-        reflected_footprint(pixel_angle, std::max(distance - radius, 0.0), 1 / radius, 1));
+double sphere_need(const Pixels& pixels, const vec3& centre, double radius) {
+    const dvec3 seen = dvec3(centre) - dvec3(pixels.view.eye);
+    for (const dvec3& inward : inward_planes(pixels.view))
+        if (dot(inward, seen) <= -radius * glm::length(inward)) return 0;
+    const double distance = glm::length(seen);
+    if (distance <= radius) return face_need(pixels.angle(0));
+    // In the plane of the axis and the centre, outwards from the centre: there pixels shrink.
+    const double axis = std::acos(glm::clamp(cosine_to_axis(pixels.view, dvec3(centre)), -1., 1.));
+    constexpr int kPlaces = 64;
+    double need = 0;
+    for (int k = 0; k < kPlaces; ++k) {
+        const double across = k * radius / kPlaces; // of the ray past the centre
+        const double cosine = std::sqrt(1 - across * across / (radius * radius));
+        const double along = std::sqrt(distance * distance - across * across) - radius * cosine;
+        const double pixel = pixels.angle(std::cos(axis + std::asin(across / distance)));
+        need = std::max(need, face_need(reflected_footprint(pixel, along, 1 / radius, cosine)));
+    }
+    return need;
 }
 
-double mesh_need(double pixel_angle, const vec3& eye, std::span<const shared::Vertex> vertices,
+double mesh_need(const Pixels& pixels, std::span<const shared::Vertex> vertices,
                  std::span<const std::uint32_t> indices) {
     double need = 0;
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
@@ -81,8 +128,8 @@ double mesh_need(double pixel_angle, const vec3& eye, std::span<const shared::Ve
         }
         const dvec3 area = glm::cross(facet.position[1] - facet.position[0],
                                       facet.position[2] - facet.position[0]);
-        if (glm::length(area) > 0)
-            need = std::max(need, facet_need(pixel_angle, dvec3(eye), facet));
+        if (glm::length(area) > 0 && is_in_picture(pixels, facet))
+            need = std::max(need, facet_need(pixels, facet));
     }
     return need;
 }

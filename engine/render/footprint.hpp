@@ -12,8 +12,18 @@
 /// holds all that they can tell from each other. Lengths in any one unit, angles in radians.
 namespace catoptric::render {
 
-/// Mean angle between neighbouring pixels along the picture's height.
-double pixel_angle(double vertical_fov_degrees, std::uint32_t height);
+/// A picture's pixels as its eye sees them: squares of a plane, which turn away from it and lie
+/// further off the further they are from the axis.
+struct Pixels {
+    shared::View view;
+    std::uint32_t height = 1; ///< of the picture, in pixels
+
+    /// The smallest angle between neighbours, in a direction whose angle to the axis has this
+    /// cosine, above 0; as in the picture's corner beyond that.
+    double angle(double cosine) const;
+    /// Cosine of the angle between the axis and the picture's corner.
+    double corner() const;
+};
 
 /// Angle between the directions in which two neighbouring pixels look on from a mirror at
 /// `distance` from the eye. Between the two the normal turns by pixel_angle * distance * curvature
@@ -26,15 +36,16 @@ double reflected_footprint(double pixel_angle, double distance, double curvature
 /// with texels of that angle in the mean. Not rounded.
 double face_need(double footprint);
 
-/// face_need where it is largest on a ball: at the point next to the eye. `distance`: of its
-/// centre.
-double sphere_need(double pixel_angle, double distance, double radius);
+/// face_need where it is largest on a ball: about at the point next to the eye, a little further
+/// from the axis. 0 for a ball that is not in the picture.
+double sphere_need(const Pixels& pixels, const vec3& centre, double radius);
 
 /// face_need where it is largest on a mesh: the largest of its triangles', each with the two
-/// principal curvatures that its corners' normals give it (Rusinkiewicz 2004). Facets without
-/// smooth normals are flat. Both sides reflect; what hides a triangle is not asked. 0 without a
-/// triangle that has an area.
-double mesh_need(double pixel_angle, const vec3& eye, std::span<const shared::Vertex> vertices,
+/// principal curvatures that its corners' normals give it (Rusinkiewicz 2004), and with the pixels
+/// of the corner that is furthest from the axis. Facets without smooth normals are flat. Both sides
+/// reflect; what hides a triangle is not asked. 0 without a triangle in the picture that has an
+/// area.
+double mesh_need(const Pixels& pixels, std::span<const shared::Vertex> vertices,
                  std::span<const std::uint32_t> indices);
 
 /// The edge of captures that are one cube array: the largest need rounded up to a multiple of 16

@@ -2,7 +2,21 @@
 
 #include "scene/transform.hpp"
 
+#include <utility>
+
 namespace catoptric::render {
+
+namespace {
+
+/// Seen from where its normals point; what a mirrored object or a careless file gives.
+bool runs_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& triangle) {
+    const shared::Vertex &a = vertices[triangle.x], &b = vertices[triangle.y],
+                         &c = vertices[triangle.z];
+    return dot(glm::cross(b.position - a.position, c.position - a.position),
+               a.normal + b.normal + c.normal) < 0;
+}
+
+} // namespace
 
 Geometry make_geometry(const scene::Scene& now, const Space& space) {
     Geometry geometry{.core = space.core};
@@ -17,6 +31,7 @@ Geometry make_geometry(const scene::Scene& now, const Space& space) {
         range.casts_shadow = material.emission == vec3(0);
         range.seen_by_camera = object.seen_by_camera;
         range.exact_sphere = object.sphere.has_value();
+        range.one_sided = scene::is_one_sided(material);
         const auto first_vertex = static_cast<std::uint32_t>(geometry.vertices.size());
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             const dvec3 world(object.world_from_object * dvec4(mesh.positions[i], 1));
@@ -26,8 +41,12 @@ Geometry make_geometry(const scene::Scene& now, const Space& space) {
                 {position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))});
         }
         check_reach(range.bounds, object.name);
-        for (const uvec3& triangle : mesh.triangles)
-            for (int i = 0; i < 3; ++i) geometry.indices.push_back(first_vertex + triangle[i]);
+        for (uvec3 triangle : mesh.triangles) {
+            triangle += first_vertex;
+            if (range.one_sided && runs_clockwise(geometry.vertices, triangle))
+                std::swap(triangle.y, triangle.z);
+            for (int i = 0; i < 3; ++i) geometry.indices.push_back(triangle[i]);
+        }
         geometry.ranges.push_back(range);
     }
     return geometry;

@@ -19,6 +19,7 @@ struct DrawRange {
     bool casts_shadow = true; ///< a light's own mesh does not: it would hide the light
     bool seen_by_camera = true;
     bool exact_sphere = false; ///< the mesh stands for one
+    bool one_sided = false;    ///< not there from behind, where triangles run clockwise
 };
 
 /// All triangles of a frame in scene units; one range for each object, in the scene's order.

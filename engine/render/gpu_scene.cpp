@@ -45,7 +45,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     }
     fill_lights(now);
     fill_views(now, camera, size);
-    if (face_needs_.empty()) find_face_needs(camera, size);
+    if (face_needs_.empty()) find_face_needs(size);
     const std::vector<shared::Frame> frame{
         {static_cast<float>(ambient), light_count_, mirror_count_,
          static_cast<std::uint32_t>(now.objects.size()), shadow_faces_}};
@@ -125,20 +125,18 @@ void GpuScene::fill_views(const scene::Scene& now, const scene::Camera& camera, 
     }
 }
 
-void GpuScene::find_face_needs(const scene::Camera& camera, uvec2 size) {
-    const shared::View& view = views_[kCameraView];
-    const double angle = pixel_angle(camera.vertical_fov_degrees, size.y);
+void GpuScene::find_face_needs(uvec2 size) {
+    const Pixels pixels{views_[kCameraView], size.y};
     for (std::uint32_t mirror = 0; mirror < mirror_count_; ++mirror) {
         const DrawRange& range = geometry_.ranges[mirror_objects_[mirror]];
         const shared::Probe& probe = probes_[mirror];
-        if (!range.seen_by_camera || !may_meet(view, range.bounds))
+        if (!range.seen_by_camera || !may_meet(pixels.view, range.bounds))
             face_needs_.push_back(0);
         else if (probe.radius > 0)
-            face_needs_.push_back(sphere_need(
-                angle, glm::distance(dvec3(view.eye), dvec3(probe.sphere)), double{probe.radius}));
+            face_needs_.push_back(sphere_need(pixels, probe.sphere, double{probe.radius}));
         else
             face_needs_.push_back(mesh_need(
-                angle, view.eye, geometry_.vertices,
+                pixels, geometry_.vertices,
                 std::span(geometry_.indices).subspan(range.first_index, range.index_count)));
     }
 }
@@ -154,7 +152,8 @@ void GpuScene::fill_tracing() {
         const DrawRange& range = geometry_.ranges[object];
         const std::uint32_t flags = (range.seen_by_camera ? 0 : bvh::kHidden) |
                                     (range.casts_shadow ? 0 : bvh::kShadowless) |
-                                    (range.exact_sphere ? bvh::kSphere : 0);
+                                    (range.exact_sphere ? bvh::kSphere : 0) |
+                                    (range.one_sided ? bvh::kOneSided : 0);
         for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count;
              k += 3) {
             const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& {

@@ -53,7 +53,7 @@ private:
     void fill_lights(const scene::Scene& now);
     void fill_views(const scene::Scene& now, const scene::Camera& camera, uvec2 size);
     void fill_tracing();
-    void find_face_needs(const scene::Camera& camera, uvec2 size);
+    void find_face_needs(uvec2 size);
 
     gpu::Device& device_;
     Space space_;

@@ -3,6 +3,7 @@
 #include "core/half.hpp"
 #include "render/views.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,13 @@ using graph::Use;
 
 constexpr Clear kBlack{0, 0, 0, 1};
 constexpr Clear kFarthest{0, 0, 0, 0}; // reversed depth
+
+/// How triangles that are seen from behind run in a view's picture: cube faces show it mirrored.
+gpu::Winding turns_away(const shared::View& view) {
+    return dot(glm::cross(view.right, view.down), view.forward) > 0
+               ? gpu::Winding::clockwise
+               : gpu::Winding::counterclockwise;
+}
 
 /// One object in the layers whose view it may meet; neighbouring layers in one draw.
 void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
@@ -50,10 +58,17 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
         diffuse += lighting.shadow_map ? "#peel" : "_peel", black += "#peel";
         commands.bind("first_layer", *peeled);
     }
-    commands.use(gpu::RasterState{"scene.vert", diffuse, store});
-    for (std::size_t i = 0; i < scene.ranges().size(); ++i)
-        if (!scene.ranges()[i].mirror && !skip(i))
-            draw_object(commands, scene, i, first_view, layers);
+    const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {
+        commands.use(gpu::RasterState{"scene.vert", diffuse, store, hidden});
+        for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+            const DrawRange& range = scene.ranges()[i];
+            if (!range.mirror && range.one_sided == one_sided && !skip(i))
+                draw_object(commands, scene, i, first_view, layers);
+        }
+    };
+    draw_diffuse(false, gpu::Winding::none);
+    if (std::ranges::any_of(scene.ranges(), &DrawRange::one_sided))
+        draw_diffuse(true, turns_away(scene.views()[first_view]));
     gpu::RasterState mirrors{"scene.vert", black, store};
     const auto is_black = [&](std::size_t object) {
         return first_view == GpuScene::kCameraView && scene.hides_all_from_camera(object);

@@ -56,6 +56,8 @@ void add(Line& line, const std::string& mask, const measure::Difference& error) 
     line.add(mask + "_psnr", error.psnr.value_or(NAN));
     line.add(mask + "_p99", error.p99);
     line.add(mask + "_max", error.max);
+    line.add(mask + "_off", error.off);
+    line.add(mask + "_longest_line", error.longest_line);
 }
 
 void add(Line& line, const std::string& name, const measure::Mean& mean) {

@@ -46,6 +46,8 @@ void add(Json& json, const measure::Difference& error) {
     json["nonfinite"] = error.nonfinite;
     json["max"] = number(error.max);
     json["max_at"] = error.max_x < 0 ? Json(nullptr) : Json({error.max_x, error.max_y});
+    json["off"] = number(error.off);
+    json["longest_line"] = number(error.longest_line);
 }
 
 Json to_json(const measure::Difference& error, const char* mask) {

@@ -35,6 +35,7 @@ Material material_of(const Item& from, Notes& notes) {
     (material.mirror ? material.reflectance : material.albedo) = vec3(base);
     material.emission = vec3(emissive_strength(from) *
                              colour(from.numbers("emissiveFactor", 3), 0));
+    material.two_sided = from.flag("doubleSided", false) && material.emission != vec3(0);
     from.require(is_radiance(material.emission),
                  "wanted an emission of at least 0 that fits a float, found another");
     return material;

@@ -225,6 +225,7 @@ void Writer::add_material(const Material& material) {
                 {{"baseColorFactor", factor},
                  {"metallicFactor", material.mirror ? 1 : 0},
                  {"roughnessFactor", material.mirror ? 0 : 1}}}};
+    if (!is_one_sided(material)) to["doubleSided"] = true;
     const dvec3 emission(material.emission);
     const double strength = std::max({emission.x, emission.y, emission.z, 1.0});
     if (emission != dvec3(0)) to["emissiveFactor"] = json(emission / strength);

@@ -43,7 +43,7 @@ struct Hasher {
     }
     void add(const Material& material) {
         add(material.name), add(material.albedo), add(material.emission);
-        add(material.mirror), add(material.reflectance);
+        add(material.mirror), add(material.reflectance), add(material.two_sided);
     }
     void add(const std::monostate&) {}
     void add(const Harmonic& motion) { add(motion.amplitude), add(motion.period); }

@@ -54,11 +54,12 @@ bool vanishes(const Sums& sums) {
     return !(glm::length(sums.normals) > rounding * sums.normal_count);
 }
 
-PointLight light_of(const Sums& sums, const vec3& emission) {
+PointLight light_of(const Sums& sums, const Material& material) {
     return {.position = sums.positions / sums.position_count,
-            .normal = vanishes(sums) ? dvec3(0) : glm::normalize(sums.normals),
+            .normal = material.two_sided || vanishes(sums) ? dvec3(0)
+                                                           : glm::normalize(sums.normals),
             .area = sums.area,
-            .emission = emission};
+            .emission = material.emission};
 }
 
 double area_of(const std::vector<dvec3>& world, const uvec3& t) {
@@ -102,13 +103,17 @@ std::vector<Sums> sums_of(const Mesh& mesh, const dmat4& world_from_object) {
 
 } // namespace
 
+bool is_one_sided(const Material& material) {
+    return material.emission != vec3(0) && !material.mirror && !material.two_sided;
+}
+
 std::vector<PointLight> lights(const Scene& scene) {
     std::vector<PointLight> all;
     for (const Object& object : scene.objects) {
-        const vec3& emission = scene.materials[object.material].emission;
-        if (emission == vec3(0)) continue;
+        const Material& material = scene.materials[object.material];
+        if (material.emission == vec3(0)) continue;
         for (const Sums& sums : sums_of(scene.meshes[object.mesh], object.world_from_object))
-            all.push_back(light_of(sums, emission));
+            all.push_back(light_of(sums, material));
     }
     return all;
 }

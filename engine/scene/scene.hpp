@@ -27,8 +27,13 @@ struct Material {
     vec3 albedo{0};   ///< kd in [0,1]
     vec3 emission{0}; ///< radiance Ke; non-zero makes each connected mesh a light
     bool mirror = false;
-    vec3 reflectance{1}; ///< of a mirror, in [0,1]
+    vec3 reflectance{1};    ///< of a mirror, in [0,1]
+    bool two_sided = false; ///< of a light: shines to both sides, without a cosine
 };
+
+/// Whether the surface is only there from its front, for eyes and rays that see: a light that
+/// shines to one side. Anything else has two sides, and all but a light casts its shadow from both.
+bool is_one_sided(const Material& material);
 
 /// translation(t) = amplitude * (1 - cos(2 pi t / period)), world units; 0 at t = 0.
 struct Harmonic {

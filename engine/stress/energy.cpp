@@ -46,7 +46,8 @@ void judge_furnace(Bench& bench) {
 void judge_captured_corridor(Bench& bench, const scene::Scene& scene) {
     const app::Part truth = render_dark(bench, scene, "raytrace:depth=16", 1);
     for (const std::string technique :
-         {"reuse", "parallax", "secant:continue=8", "pyramid:continue=8", "hybrid:continue=8"}) {
+         {"reuse", "parallax", "secant:continue=8", "march:continue=8", "pyramid:continue=8",
+          "layered:continue=8", "hybrid:continue=8"}) {
         const app::Part part = render_dark(bench, scene, technique, 8);
         std::size_t off = 0;
         for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)

@@ -36,10 +36,11 @@ void add_wall(scene::Scene& scene, const GlyphRoom& room, int face) {
                 });
             add_cell(meshes[inked], room, face, {us[i], us[i + 1], vs[j], vs[j + 1]});
         }
-    add_mesh(scene, std::move(meshes[0]),
-             add_material(scene, {.name = "wall", .emission = GlyphRoom::wall_colour(face)}));
-    add_mesh(scene, std::move(meshes[1]),
-             add_material(scene, {.name = "glyph", .emission = GlyphRoom::glyph_colour(face)}));
+    const auto glowing = [&](const char* name, const vec3& colour) {
+        return add_material(scene, {.name = name, .emission = colour, .two_sided = true});
+    };
+    add_mesh(scene, std::move(meshes[0]), glowing("wall", GlyphRoom::wall_colour(face)));
+    add_mesh(scene, std::move(meshes[1]), glowing("glyph", GlyphRoom::glyph_colour(face)));
 }
 
 } // namespace

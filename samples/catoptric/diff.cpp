@@ -84,6 +84,7 @@ std::string text_of(const DiffFacts& facts) {
     return fmt::format(
                "rmse    {:.6f}\nmae     {:.6f}\nflip    {:.6f}\npsnr    {}\np99     {:.6f}\n",
                d.rmse, d.mae, d.flip, psnr, d.p99) +
+           fmt::format("off     {:.6f}, the longest line {:.0f} pixels\n", d.off, d.longest_line) +
            fmt::format("max     {:.6f} at ({}, {})\npixels  {}, {} of them not finite\n", d.max,
                        d.max_x, d.max_y, d.pixels, d.nonfinite) +
            mean_text("A", facts.a_mean, facts.a_clamped) +

@@ -73,6 +73,8 @@ std::string diff_json(const DiffFacts& facts) {
     document["p99"] = d.p99;
     document["max"] = d.max;
     document["max_at"] = {d.max_x, d.max_y};
+    document["off"] = d.off;
+    document["longest_line"] = d.longest_line;
     document["mean"] = {{"a", to_json(facts.a_mean.rgb)}, {"b", to_json(facts.b_mean.rgb)}};
     document["mean_clamped"] = {{"a", to_json(facts.a_clamped.rgb)},
                                 {"b", to_json(facts.b_clamped.rgb)}};

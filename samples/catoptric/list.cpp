@@ -28,6 +28,9 @@ const std::vector<Named> kMetrics{
     {"psnr", "-20 log10 rmse in dB; none for equal pictures"},
     {"p99", "99th percentile of the pixels' largest channel difference"},
     {"max", "the largest channel difference and its pixel"},
+    {"off", "share of the pixels whose largest channel difference exceeds .02"},
+    {"longest_line", "length in pixels of the longest line of pixels that are off: of sets that "
+                     "touch when dilated by 1, among those without a 4x4 square"},
     {"nonfinite", "pixels that are NaN or infinite; any makes a row fail"},
 };
 

@@ -372,6 +372,12 @@ const uint kBvhIdMask = 0x1fffffffu; // of a triangle's words
 const uint kBvhHidden = 1u;          // flag: camera rays pass through
 const uint kBvhShadowless = 2u;      // flag: shadow rays pass through (a light's own mesh)
 const uint kBvhSphere = 4u;          // flag: stands for an exact sphere
+const uint kBvhOneSided = 8u;        // flag: rays that see pass through from behind
+
+// Whether a ray comes from behind a triangle: corners run clockwise for it.
+INLINE bool is_from_behind(vec3 a, vec3 b, vec3 c, vec3 direction) {
+    return dot(cross(b - a, c - a), direction) > real(0);
+}
 
 INLINE uint bvh_count(uint word) { return (word & ~kBvhTag) >> kBvhCountShift; }
 INLINE uint bvh_index(uint word) { return word & kBvhIndexMask; }

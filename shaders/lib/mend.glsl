@@ -29,7 +29,7 @@ bool mends(uint cause) { return (draw.mended & cause) != 0u; }
 float exact_distance(uint mirror, vec3 direction) {
     left_out = mirror + 1u;
     Hit hit;
-    bool found = closest_hit(Ray(probes[mirror].centre, direction, 0u), kLargest, 0u, hit);
+    bool found = closest_hit(Ray(probes[mirror].centre, direction, 0u), kLargest, kBvhOneSided, hit);
     left_out = 0u;
     return found ? hit.t * length(direction) : uintBitsToFloat(0x7f800000u);
 }

@@ -79,7 +79,9 @@ void trace_triangle(uint place, Ray ray, RayShear shear, uint skipped_flags, ino
                                   : plain_triangle_test(a.xyz, b.xyz, c.xyz, ray, t, weights);
     uint triangle = floatBitsToUint(b.w) & kBvhIdMask;
     uint object = floatBitsToUint(a.w) & kBvhIdMask;
-    bool seen = (floatBitsToUint(c.w) & skipped_flags) == 0u && triangle + 1u != ray.leaves && TRACE_SEES(object);
+    uint skips = floatBitsToUint(c.w) & skipped_flags;
+    bool seen = (skips == 0u || (skips == kBvhOneSided && !is_from_behind(a.xyz, b.xyz, c.xyz, ray.direction))) &&
+                triangle + 1u != ray.leaves && TRACE_SEES(object);
     bool nearer = t < best.t || (found && t == best.t && triangle < best.triangle);
     if (hit && seen && nearer) {
         best = Hit(t, weights, triangle, object, place);

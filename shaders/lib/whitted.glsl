@@ -99,7 +99,7 @@ Point on_sphere(Ray ray, float t, uint object) {
 
 bool trace_ray(Ray ray, uint skipped, out Point p) {
     Hit hit;
-    bool found = closest_hit(ray, kLargest, skipped | passed_by(), hit);
+    bool found = closest_hit(ray, kLargest, skipped | kBvhOneSided | passed_by(), hit);
     if (exact_spheres != 0u) {
         float t = found ? hit.t : kLargest;
         uint object = 0u;

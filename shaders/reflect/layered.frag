@@ -1,12 +1,15 @@
-// March through captures of two layers. Along the reflected ray's arc (march.frag) the number of captured
-// surfaces in front of the sample is watched. Where it changes, bisection to a texel tells a surface that
-// goes on from one side to the other, which is met there, from a silhouette, behind which the ray passes on.
-// Distances and colours are mixed only from texels of the surface in question, whichever layer holds it.
+// March through captures of two layers. Along the reflected ray's arc (arc.glsl) the number of captured
+// surfaces in front of the sample is watched. Where it changes, or what is ahead ends, bisection to a part of a
+// texel finds the border, and the planes that the texels on its two sides belong to say which of them the ray
+// meets; else it is a silhouette, behind which the ray passes on. Planes and colours are made only from texels
+// of the surface in question, whichever layer holds it. What a ray that is lost behind two surfaces last had
+// ahead of it is taken to go on there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
 #define OWN_LOOKUP_COLOUR
 #include "lib/probe.glsl"
+#include "reflect/arc.glsl"
 
 layout(constant_id = 4) const uint steps = 16u;
 layout(set = 0, binding = 20) uniform sampler2DArray distance1;
@@ -17,26 +20,11 @@ layout(set = 0, binding = 23) uniform sampler2DArray colour2;
 const uint kLimit = 512u;       // samples in all
 const float kSameSurface = 0.125; // largest relative step from texel to texel within one surface
 
-// The plane of the ray and the capture's centre: a unit vector in it is (x, y) = x from + y side.
-// The ray's points lie along (1, 0) at first and along `end` at last.
-struct Arc {
-    vec3 from, side;
-    vec2 end;
-    float height; // of the ray above the centre
-};
-// A direction of the arc: distance from the centre of the ray, and of both layers.
+// A place of the arc, and one over the distances there: of the ray, of both layers; 0: nothing.
 struct Sample {
     vec2 place;
     float ray, first, second;
 };
-
-vec3 direction_at(Arc arc, vec2 place) { return arc.from * place.x + arc.side * place.y; }
-float sine_between(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
-// Law of sines in the triangle of centre, start of the ray and its point in that direction.
-float ray_at(Arc arc, vec2 place) {
-    float sine = sine_between(place, arc.end);
-    return sine > 0.0 ? arc.height / sine : kLargest;
-}
 
 int edge() { return textureSize(distance1, 0).x; }
 // Position in texels on the face of a direction, and the layer of that face.
@@ -49,28 +37,60 @@ vec3 texel_of(uint mirror, vec3 direction) {
 Sample sample_at(uint mirror, Arc arc, vec2 place) {
     ivec3 texel = ivec3(texel_of(mirror, direction_at(arc, place)));
     texel.xy = min(texel.xy, ivec2(edge() - 1));
-    return Sample(place, ray_at(arc, place), texelFetch(distance1, texel, 0).r * stored_unit,
-                  texelFetch(distance2, texel, 0).r * stored_unit);
+    return Sample(place, ray_at(arc, place), inverse(texelFetch(distance1, texel, 0).r * stored_unit),
+                  inverse(texelFetch(distance2, texel, 0).r * stored_unit));
 }
 
-uint surfaces_in_front(Sample s) { return uint(s.ray >= s.first) + uint(s.ray >= s.second); }
+uint surfaces_in_front(Sample s) {
+    return uint(s.first > 0.0 && s.first >= s.ray) + uint(s.second > 0.0 && s.second >= s.ray);
+}
+// What the ray has ahead of it: the first layer, or behind that the second; 0: nothing.
+float ahead(Sample s) {
+    uint count = surfaces_in_front(s);
+    return count == 0u ? s.first : count == 1u ? s.second : 0.0;
+}
 bool is_near(float a, float b) { return abs(a - b) <= kSameSurface * b; }
+
+// What is ahead at one of them, and not at the other.
+bool ends(Sample a, Sample b) { return surfaces_in_front(a) == surfaces_in_front(b) && (ahead(a) > 0.0) != (ahead(b) > 0.0); }
 
 // Nothing happens between the two: as many surfaces in front, and the nearest is the same one.
 bool are_alike(Sample a, Sample b) {
     uint count = surfaces_in_front(a);
-    return count == surfaces_in_front(b) && (count == 0u || is_near(b.first, a.first));
+    return count == surfaces_in_front(b) && (count == 0u || is_near(b.first, a.first)) && !ends(a, b);
 }
 
-// A surface that lies behind the ray at a and in front of it at b, if there is one: its distance at b.
-bool is_crossed(Sample a, Sample b, out float distance) {
-    for (uint i = 0u; i < 2u; ++i) {
-        float before = i == 0u ? a.first : a.second;
-        // It goes on in the layer whose distance is nearer to it.
-        distance = abs(b.second - before) < abs(b.first - before) ? b.second : b.first;
-        if (a.ray < before && !is_miss(before) && is_near(distance, before) && b.ray >= distance) return true;
-    }
-    return false;
+// Of the two layers in a texel what is nearest to one over a distance.
+float nearest_to(float about, ivec3 texel) {
+    vec2 both = vec2(inverse(texelFetch(distance1, texel, 0).r * stored_unit), inverse(texelFetch(distance2, texel, 0).r * stored_unit));
+    return abs(both.y - about) < abs(both.x - about) ? both.y : both.x;
+}
+
+// From a texel to its two neighbours on an axis the lesser change of `mean`; none where it turns: an edge.
+float change(float about, float mean, ivec3 texel, ivec3 step, vec3 coordinates, vec3 move) {
+    ivec3 low = texel - step, high = texel + step;
+    bool has_low = all(greaterThanEqual(low.xy, ivec2(0))), has_high = all(lessThan(high.xy, ivec2(edge())));
+    float to_low = has_low ? mean - nearest_to(about, low) * length(coordinates - move) : kLargest;
+    float to_high = has_high ? nearest_to(about, high) * length(coordinates + move) - mean : kLargest;
+    if (has_low && has_high && to_low * to_high <= 0.0) return 0.0;
+    float least = abs(to_low) < abs(to_high) ? to_low : to_high;
+    return least < kLargest ? least : 0.0;
+}
+
+// The plane of the surface at about one over a distance in the texel at a place: one over its distance at any
+// place near by is the product with that.
+vec2 plane_at(uint mirror, Arc arc, vec2 place, float about) {
+    int face = cube_face(direction_at(arc, place));
+    ivec3 texel = ivec3(texel_of(mirror, direction_at(arc, place)));
+    texel.xy = min(texel.xy, ivec2(edge() - 1));
+    float size = 2.0 / float(edge());
+    vec3 centre = vec3((vec2(texel.xy) + 0.5) * size - 1.0, 1.0);
+    // On a plane one over the distance, times the length of the coordinates, is linear in them.
+    float mean = about * length(centre);
+    vec2 slope = vec2(change(about, mean, texel, ivec3(1, 0, 0), centre, vec3(size, 0, 0)),
+                      change(about, mean, texel, ivec3(0, 1, 0), centre, vec3(0, size, 0))) / size;
+    vec3 plane = vec3(slope, mean - dot(slope, centre.xy));
+    return vec2(dot(plane, cube_coordinates(face, arc.from)), dot(plane, cube_coordinates(face, arc.side)));
 }
 
 // The four texels around a direction, counted as textureGather does.
@@ -102,18 +122,6 @@ void choose(Taps taps, float distance, out vec4 second, out vec4 in_first, out v
     in_second = taps.weights * is_second * on_surface(second, distance);
 }
 
-float sum_where(vec4 weights, vec4 values) { return dot(weights, mix(vec4(0), values, greaterThan(weights, vec4(0)))); }
-
-// Distance of the surface, bilinear over the texels that hold it; none: as it was.
-float surface_distance(uint mirror, vec3 direction, float distance) {
-    Taps taps = taps_at(mirror, direction);
-    if (is_whole(on_surface(taps.first, distance))) return dot(taps.weights, taps.first);
-    vec4 second, in_first, in_second;
-    choose(taps, distance, second, in_first, in_second);
-    float weight = dot(in_first + in_second, vec4(1));
-    return weight > 0.0 ? (sum_where(in_first, taps.first) + sum_where(in_second, second)) / weight : distance;
-}
-
 float found_distance; // of the lookup; 0: nothing was found. Without initial value, on which -gVS of glslang 12 trips
 
 float looked_at() { return found_distance; }
@@ -134,71 +142,103 @@ vec3 lookup_colour(uint mirror, Lookup lookup) {
     return colour / weight;
 }
 
-// Where the ray meets the surface between two directions a texel apart, by secant.
-Lookup meet(uint mirror, Arc arc, vec2 front, vec2 behind, float distance, bool in_second) {
-    float d_behind = surface_distance(mirror, direction_at(arc, behind), distance);
-    float d_front = surface_distance(mirror, direction_at(arc, front), d_behind);
-    float f_front = ray_at(arc, front) - d_front, f_behind = ray_at(arc, behind) - d_behind;
-    float share = f_front / (f_front - f_behind);
-    share = is_finite(share) ? clamp(share, 0.0, 1.0) : 1.0;
-    vec2 place = normalize(mix(front, behind, share));
-    found_distance = mix(d_front, d_behind, share);
-    float residual = abs(ray_at(arc, place) - found_distance) / found_distance;
-    return Lookup(direction_at(arc, place), kHit, min(residual, 1.0), in_second ? 1.0 : 0.0);
+// Where the ray meets a plane near `place`.
+Lookup meet(Arc arc, vec2 plane, vec2 place, float layer) {
+    vec2 depth = plane - ray_plane(arc), met = normalize(vec2(-depth.y, depth.x));
+    if (dot(met, place) < 0.0) met = -met;
+    // No further away than texels reach.
+    float reach = 4.0 / float(edge()), apart = sine_between(place, met);
+    if (!(abs(apart) <= reach)) met = place;
+    found_distance = 1.0 / dot(plane, met);
+    return Lookup(direction_at(arc, met), kHit, min(abs(dot(depth, met)) * found_distance, 1.0), layer);
+}
+
+// Between two samples, a part of a texel apart: whether the ray meets a surface of either.
+bool is_met(uint mirror, Arc arc, Sample a, Sample b, out Lookup found, out bool is_lost) {
+    vec2 ray = ray_plane(arc);
+    uint count = surfaces_in_front(a);
+    is_lost = ahead(a) > 0.0;
+    vec2 first = b.first > 0.0 ? plane_at(mirror, arc, b.place, b.first) : vec2(0);
+    vec2 second = b.second > 0.0 ? plane_at(mirror, arc, b.place, b.second) : vec2(0);
+    for (uint i = count; i < 2u; ++i) {
+        float before = i == 0u ? a.first : a.second;
+        if (before == 0.0) break;
+        vec2 plane = plane_at(mirror, arc, a.place, before);
+        float at_b = dot(plane, b.place);
+        bool in_first = is_near(dot(first, b.place), at_b), in_second = is_near(dot(second, b.place), at_b);
+        if (i == count) is_lost = !in_first && !in_second;
+        // It goes on to b and is behind the ray there, or ends on the way after the ray has met it.
+        bool is_behind = at_b >= b.ray || (in_first && b.first >= b.ray) || (!in_first && in_second && b.second >= b.ray);
+        if (!is_behind) continue;
+        found = meet(arc, plane, a.place, in_first || i == 0u ? 0.0 : 1.0);
+        return true;
+    }
+    // What begins at b is met if it is ahead there.
+    if (count == 0u && b.first >= b.ray && b.first > 0.0 && dot(first, b.place) < b.ray) {
+        found = meet(arc, first, b.place, 0.0);
+        return true;
+    }
+    return false;
 }
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     found_distance = 0.0;
-    float size = length(offset);
     Arc arc;
-    arc.from = size > 0.0 ? offset / size : direction;
-    arc.end.x = dot(arc.from, direction);
-    vec3 across = direction - arc.from * arc.end.x;
-    arc.end.y = length(across);
-    float whole = atan(arc.end.y, arc.end.x);
-    // Below the angle of a texel of the largest cube the arc is a point.
-    if (!(whole > kPi / 2.0 / 16384.0)) {
+    if (!make_arc(offset, direction, arc)) {
         float distance = captured_distance(mirror, direction);
         if (is_miss(distance)) return Lookup(direction, kMiss, 0.0, 0.0);
         found_distance = distance;
         return Lookup(direction, kHit, 0.0, 0.0);
     }
-    arc.side = across / arc.end.y;
-    arc.height = size * arc.end.y;
+    float whole = atan(arc.end.y, arc.end.x);
     vec2 turn = vec2(cos(whole / float(steps)), sin(whole / float(steps)));
-    float texel = 1.0 / float(edge()); // half of one, in the middle of a face
+    float half_texel = 1.0 / float(edge()); // in the middle of a face
     uint step = 1u;
-    vec2 next = turn;
+    vec2 next = steps == 1u ? arc.end : turn;
     Sample a = sample_at(mirror, arc, vec2(1, 0)), b = sample_at(mirror, arc, next);
-    for (uint i = 0u; i < kLimit; ++i) {
-        if (are_alike(a, b)) {
-            a = b;
-            if (a.place == next) {
-                if (step == steps) break;
-                ++step;
-                next = step == steps ? arc.end : vec2(next.x * turn.x - next.y * turn.y, next.x * turn.y + next.y * turn.x);
-            }
-            b = sample_at(mirror, arc, next);
-        } else if (sine_between(a.place, b.place) > texel) {
-            Sample middle = sample_at(mirror, arc, normalize(a.place + b.place));
-            if (are_alike(a, middle)) a = middle;
-            else b = middle;
-        } else {
-            float distance;
-            if (is_crossed(a, b, distance)) {
-                // Texels are steps of the surface: the crossing may lie a texel before their change.
-                vec2 front = normalize(a.place - 2.0 * texel * vec2(-a.place.y, a.place.x));
-                return meet(mirror, arc, front.y > 0.0 ? front : vec2(1, 0), b.place, distance, distance != b.first);
-            }
-            a = b;
-            b = sample_at(mirror, arc, next);
+    Lookup guess = Lookup(direction, kUnknown, 1.0, 0.0);
+    float guessed_distance = 0.0;
+    uint samples = 0u;
+    bool is_done = false;
+    while (!is_done) {
+        bool changes = false; // from a to b, a texel on
+        while (!changes && !is_done) {
+            if (are_alike(a, b)) {
+                a = b;
+                is_done = a.place == arc.end || ++samples > kLimit;
+                if (a.place == next && !is_done) {
+                    ++step;
+                    next = step == steps ? arc.end : vec2(next.x * turn.x - next.y * turn.y, next.x * turn.y + next.y * turn.x);
+                }
+                if (!is_done) b = sample_at(mirror, arc, next);
+            } else if (sine_between(a.place, b.place) > 0.25 * half_texel) {
+                Sample middle = sample_at(mirror, arc, normalize(a.place + b.place));
+                if (are_alike(a, middle)) a = middle;
+                else b = middle;
+                is_done = ++samples > kLimit;
+            } else changes = true;
         }
+        if (is_done) break;
+        float before = ahead(a);
+        Lookup found;
+        bool is_lost;
+        if (is_met(mirror, arc, a, b, found, is_lost)) return found;
+        if (is_lost) {
+            guess = Lookup(direction_at(arc, rotated(a.place, -2.0 * half_texel)), kUnknown, 1.0, 0.0);
+            guessed_distance = 1.0 / before;
+        } else if (before == 0.0 && surfaces_in_front(b) > surfaces_in_front(a)) {
+            guess = Lookup(direction, kUnknown, 1.0, kLeaves);
+            guessed_distance = 0.0;
+        }
+        a = b;
+        if (++samples > kLimit || a.place == arc.end) break;
+        b = sample_at(mirror, arc, next);
     }
     // Never met: it leaves, in front of or behind all there is along its own direction, or it was lost
     // behind two surfaces that face the centre.
-    bool is_hidden = surfaces_in_front(b) > 0u;
-    if (is_miss(is_hidden ? b.second : b.first)) return Lookup(direction, kMiss, 0.0, is_hidden ? 1.0 : 0.0);
-    found_distance = b.first;
-    return Lookup(direction, kUnknown, 1.0, 0.0);
+    uint count = surfaces_in_front(a);
+    if (count < 2u) return Lookup(direction, kMiss, 0.0, float(count));
+    found_distance = guessed_distance;
+    return guess;
 }
 #include "lib/mirror.glsl"

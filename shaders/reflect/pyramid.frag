@@ -19,6 +19,7 @@
 #define CONTINUE
 #include "lib/probe.glsl"
 #include "reflect/pyramid.glsl"
+#include "reflect/silhouette.glsl"
 
 layout(set = 0, binding = 20) uniform usampler2DArray bounds;
 
@@ -26,11 +27,6 @@ layout(set = 0, binding = 20) uniform usampler2DArray bounds;
 const int kMaxVisits = 4096;
 const int kRefinements = 3;
 const int kBelowTop = 3; // where it begins; measured, one level more or less costs little
-// A surface steeper than this against the directions from the centre (tangent of the angle at which it is
-// seen) is a silhouette: two surfaces that bilinear lookup joins.
-const float kSteepest = 4.0;
-// ... unless the step is that small a part of the distance: one of unorm8 is.
-const float kSmallStep = 1.0 / 128.0;
 // Distances and bounds are each off by a few roundings.
 const float kOutwards = 1.0 + 1.0 / 1048576.0;
 // Below this bend, a texel of the largest cube, the arc is one direction.
@@ -139,12 +135,6 @@ bool is_passed(Arc arc, vec2 bound, float s, float end) {
     return farthest * kOutwards < bound.x || nearest > bound.y * kOutwards;
 }
 
-bool is_silhouette(Arc arc, float s, float end, float captured, float captured_end) {
-    if (is_miss(captured) || is_miss(captured_end)) return true;
-    float angle = length(normalize(direction_at(arc, s)) - normalize(direction_at(arc, end)));
-    return !(abs(captured - captured_end) <= max(kSteepest * angle, kSmallStep) * min(captured, captured_end));
-}
-
 // The crossing between two points of the arc, before and behind the surface, by false position.
 Lookup refined(uint mirror, Arc arc, float before, float behind, float depth_before, float depth_behind, uint state) {
     float residual = 0.0;
@@ -214,8 +204,10 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         if (in_sight && depth_end >= 0.0) {
             float captured = captured_distance(mirror, direction_at(arc, walk.s));
             float depth = min(depth_at(arc, walk.s, captured), 0.0);
-            if (!is_silhouette(arc, walk.s, end, captured, captured_end))
-                return refined(mirror, arc, walk.s, end, depth, depth_end, state);
+            uint between = what_is_between(mirror, normalize(direction_at(arc, walk.s)), normalize(direction_at(arc, end)),
+                                           inverse(captured), inverse(captured_end));
+            if (between != kSilhouette)
+                return refined(mirror, arc, walk.s, end, depth, depth_end, between == kEnds ? kUnknown : state);
             state = kUnknown;
             nothing_beside = is_miss(captured);
             last_in_sight = max(walk.s - 2.0 / (float(face) * length(arc.bend)), 0.0); // a texel before its ramp

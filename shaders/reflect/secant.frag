@@ -1,57 +1,62 @@
 // Secant search (Szirmay-Kalos, Aszodi, Lazanyi, Premecz 2005; GPU Gems 3, chapter 17): the point of the
 // reflected ray where its distance from the capture's centre equals what was captured in that direction.
-// steps + 3 fetches; order about 1.6 where the distance is smooth. Picks any of several crossings, and
-// oscillates at silhouettes, where no bracket exists. Where nothing was captured the ray is in front, but no
-// distance says by how much: the secant needs two samples that have one. From one alone the step is
-// first * (1 - q), as at the start: along the ray q is linear on a plane, and 1 / first is its slope on the
-// plane that the ray's own direction meets. A ray that passes outside its edge is led back into the void.
+// steps + 2 fetches where the distance is smooth. It begins where the ray's own direction, which is behind
+// all there is, says that it ends (seed eq. p = x + R d_p), and goes on by false position, of inverse
+// distances: on a plane the first step is exact. Picks any of several crossings.
+// More is asked only where that finds nothing: at silhouettes, and where the ray's own direction meets
+// nothing, so that no distance says where to begin. There halves of the arc are tried.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
 #include "lib/probe.glsl"
+const float kEdge = 1.0 / 2.0;
+#include "reflect/crossing.glsl"
 
 layout(constant_id = 4) const uint steps = 2u;
-// A search that ends further than this from the captured surface has not found it.
-const float kTolerance = 0.05;
 
-// |p| over what is captured in its direction: below 1 in front of the surface, above behind it.
-float depth_ratio(uint mirror, vec3 p) {
-    float size = length(p);
-    float d = captured_distance(mirror, p / size);
-    return is_miss(d) || !(size > 0.0) ? 0.0 : size / d;
+const uint kHalves = 6u;
+
+// The place where the ray is as far away as what its own direction meets.
+vec2 first_guess(Arc arc, vec3 offset, vec3 direction, float distance) {
+    float t = max(distance - dot(offset, direction), 0.0);
+    return normalize(vec2(length(offset) + t * arc.end.x, t * arc.end.y));
+}
+
+// Its own direction meets nothing: halves of the arc are tried, towards the edge of what was captured.
+void halve(uint mirror, Arc arc, inout Sample front, inout Sample end) {
+    for (uint i = 0u; i < kHalves && !is_behind(end); ++i) {
+        Sample middle = sample_at(mirror, arc, normalize(front.place + end.place));
+        if (middle.captured > 0.0 && !is_behind(middle)) front = middle;
+        else end = middle;
+    }
 }
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float first = captured_distance(mirror, direction);
-    if (is_miss(first)) return Lookup(direction, kMiss, 0.0, 0.0);
-    float t = first - dot(offset, direction);
-    float q = depth_ratio(mirror, offset + direction * t);
-    bool has_front = q < 1.0, has_behind = !has_front;
-    float front = t, behind = t, q_front = q, q_behind = q;
-    t = max(t + first * (1.0 - q), 0.0);
-    for (uint i = 0u; i < steps; ++i) {
-        q = depth_ratio(mirror, offset + direction * t);
-        float from, q_from;
-        if (q < 1.0) {
-            front = t, q_front = q, has_front = true;
-            from = behind, q_from = q_behind;
-        } else {
-            behind = t, q_behind = q, has_behind = true;
-            from = front, q_from = q_front;
+    Arc arc;
+    if (!make_arc(offset, direction, arc)) return Lookup(direction, is_miss(first) ? kMiss : kHit, 0.0, 0.0);
+    bool leaves = is_miss(first);
+    Sample front = Sample(vec2(1, 0), 0.0, -1.0 / length(offset)), behind = Sample(arc.end, inverse(first), inverse(first));
+    if (leaves) {
+        halve(mirror, arc, front, behind);
+        if (!is_behind(behind)) {
+            if (front.captured > 0.0 && meets_at_edge(mirror, arc, front, behind))
+                return Lookup(direction_at(arc, front.place), kHit, abs(front.depth) / front.captured, 0.0);
+            if (!is_behind(behind)) return Lookup(direction, kMiss, 0.0, 0.0);
         }
-        bool is_bracket = has_front && has_behind && q_front > 0.0;
-        float move = is_bracket ? (t - from) * (1.0 - q) / (q - q_from) : first * (1.0 - q);
-        if (!is_finite(move)) break;
-        t = max(t + move, 0.0);
+    } else {
+        vec2 place = first_guess(arc, offset, direction, first);
+        for (uint i = 0u; i < steps; ++i) {
+            Sample next = sample_at(mirror, arc, place);
+            if (is_behind(next)) behind = next;
+            else front = next;
+            place = false_position(front, behind);
+            float residual = abs(next.depth) / next.captured;
+            if (residual <= kOnSurface) return Lookup(direction_at(arc, place), kHit, residual, 0.0);
+        }
     }
-    vec3 p = offset + direction * t;
-    q = depth_ratio(mirror, p);
-    float residual = abs(q - 1.0);
-    if (residual <= kTolerance) return Lookup(normalize(p), kHit, residual, 0.0);
-    // Not found, and there is nothing here or nothing in front: it went out beside a silhouette.
-    bool leaves = q == 0.0 || (has_front && q_front == 0.0 && q > 1.0);
-    if (leaves) return Lookup(direction, kUnknown, residual, kLeaves);
-    float size = length(p);
-    return Lookup(size > 0.0 ? p / size : direction, kUnknown, residual, 0.0);
+    Lookup found = crossing(mirror, arc, front, behind);
+    if (leaves && found.state == kUnknown) return Lookup(direction, kUnknown, 1.0, kLeaves);
+    return found;
 }
 #include "lib/mirror.glsl"

@@ -162,12 +162,17 @@ TEST_F(Cli, DiffOfEqualAndOtherPictures) {
     EXPECT_EQ(equal["rmse"], 0.0);
     EXPECT_EQ(equal["flip"], 0.0);
     EXPECT_TRUE(equal["psnr"].is_null());
+    EXPECT_EQ(equal["off"], 0.0);
+    EXPECT_EQ(equal["longest_line"], 0.0);
     EXPECT_EQ(cli({"diff", "a.exr", "a.exr", "--max-flip", "0", "--max-rmse", "0"}).exit_code, 0);
 
     const json other = json::parse(cli({"diff", "a.exr", "b.exr", "--json"}).out);
     EXPECT_GT(other["rmse"], 0.0);
     EXPECT_EQ(other["pixels"], 32 * 32);
-    EXPECT_THAT(cli({"diff", "a.exr", "b.exr"}).out, testing::HasSubstr("rmse"));
+    EXPECT_GT(other["off"], 0.0);
+    EXPECT_GT(other["longest_line"], 0.0);
+    EXPECT_THAT(cli({"diff", "a.exr", "b.exr"}).out,
+                testing::AllOf(testing::HasSubstr("rmse"), testing::HasSubstr("the longest line")));
     const test::Ended flip = cli({"diff", "a.exr", "b.exr", "--max-flip", "0.0001"});
     EXPECT_EQ(flip.exit_code, 1);
     EXPECT_THAT(flip.err, testing::HasSubstr("over --max-flip 0.0001"));

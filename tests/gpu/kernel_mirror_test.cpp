@@ -30,7 +30,7 @@ TEST(KernelMirror, HitsInTheBuiltInRoom) {
     Kernel kernel(app::hierarchy_without(geometry, geometry.ranges.size()));
     const std::vector<KernelRay> rays = random_rays(100000, vec3(kernel.hierarchy().nodes[0]),
                                                     vec3(kernel.hierarchy().nodes[1]), 1);
-    for (const std::uint32_t skipped : {0u, bvh::kHidden}) {
+    for (const std::uint32_t skipped : {0u, bvh::kHidden, bvh::kHidden | bvh::kOneSided}) {
         const std::vector<KernelHit> hits = kernel.closest(rays, skipped),
                                      shadows = kernel.any(rays, skipped);
         const std::size_t different = test::differences(kernel, rays, hits, skipped);

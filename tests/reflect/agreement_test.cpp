@@ -34,6 +34,42 @@ TEST_P(Agreement, OfRasterAndRayTracing) {
     }
 }
 
+/// Pixels that show a lamp, in mirrors and beside them: nothing else is that bright.
+std::pair<std::size_t, std::size_t> lamp_pixels(const scene::Scene& scene,
+                                                const std::string& technique) {
+    const app::Part truth = test::render(scene, "raytrace:depth=16", {128, 128});
+    const app::Part part = test::render(scene, technique, {128, 128}, 3);
+    std::pair<std::size_t, std::size_t> found{0, 0};
+    for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
+        if (part.hdr.pixels[i].x > 4)
+            ++(measure::first_mirror(truth.hits[i]) ? found.first : found.second);
+    return found;
+}
+
+/// A lamp has one side: from behind, eyes, mirrored rays and captures look through it.
+TEST(Lamp, IsSeenFromItsFrontAloneInBothWorlds) {
+    for (const bool faces_eye : {true, false}) {
+        scene::Scene scene = test::room(1, 0);
+        scene.objects.back().world_from_object[3] = dvec4(0, -.4, .8, 1);
+        scene.objects.back().sphere->centre = {0, -.4, .8};
+        const std::size_t lamp = test::add_material(scene, {.name = "lamp", .emission = {9, 8, 6}});
+        const double side = faces_eye ? 1 : -1;
+        test::add_quad(scene, "lamp", lamp, {.6 - .4 * side, .5, -.6}, {.6 - .4 * side, 1.3, -.6},
+                       {.6 + .4 * side, 1.3, -.6}, {.6 + .4 * side, .5, -.6});
+        const auto [mirrored, direct] = lamp_pixels(scene, "raytrace:depth=16");
+        std::cout << "[ MEASURED ] rays meet the lamp in " << mirrored << " pixels of mirrors and "
+                  << direct << " beside them\n";
+        EXPECT_EQ(mirrored > 0, !faces_eye);
+        EXPECT_EQ(direct > 0, faces_eye);
+        for (const app::TechniqueInfo& technique : app::techniques()) {
+            SCOPED_TRACE(technique.name);
+            const auto found = lamp_pixels(scene, technique.name);
+            EXPECT_NEAR(double(found.second), double(direct), .02 * double(direct));
+            EXPECT_EQ(found.first > 0, mirrored > 0);
+        }
+    }
+}
+
 /// An eye a few units above the floor, anywhere in the room, behind everything, wide, beside a
 /// ball.
 scene::Camera drawn_camera(test::Numbers& random, int kind) {

@@ -109,6 +109,35 @@ TEST(Layered, SecondLayerIsTheWallBehindTheBall) {
     EXPECT_NEAR(solid_angle, expected, .02 * expected) << hidden << " texels of ball";
 }
 
+/// Two mirrors face to face in a box that emits 1: the next of their images is what the last one's
+/// capture holds behind nothing, and never brighter than the box.
+TEST(Layered, IsAsBrightAsRaysBetweenParallelMirrors) {
+    scene::Scene scene{.name = "corridor"};
+    const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)}),
+                      mirror = test::add_material(
+                          scene, {.name = "mirror", .mirror = true, .reflectance = vec3(.8f)});
+    for (int face = 0; face < 6; ++face)
+        test::add_mesh(scene, test::wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
+    test::add_quad(scene, "left", mirror, {-2, -2, -2}, {-2, -2, 4}, {-2, 2, 4}, {-2, 2, -2});
+    test::add_quad(scene, "right", mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
+    scene.cameras.push_back(
+        {.eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60});
+    const app::Part truth = test::render(scene, "raytrace:depth=16", {96, 96});
+    const measure::Mask seen = measure::mirror_in_mirror(truth.hits);
+    const double wanted = measure::mean_of(truth.hdr, measure::Range::unclamped, seen).all;
+    const auto judged = [&](const std::string& technique) {
+        const app::Part part = test::render(scene, technique + ":continue=8,face=128", {96, 96}, 4);
+        const double found = measure::mean_of(part.hdr, measure::Range::unclamped, seen).all;
+        std::cout << "[ MEASURED ] " << technique << ": " << found << " where rays say " << wanted
+                  << "\n";
+        EXPECT_LE(found, (technique == "layered" ? 1.01 : 1.03) * wanted);
+        EXPECT_GE(found, wanted);
+        for (const vec3& pixel : part.hdr.pixels) EXPECT_LE(pixel.x, 1.001f);
+        return test::rmse(part.hdr, truth.hdr, seen);
+    };
+    EXPECT_LE(judged("layered"), judged("pyramid"));
+}
+
 TEST(Layered, PeelsWithEveryFormat) {
     constexpr std::uint32_t kFace = 32;
     for (const Format format : {Format::r32f, Format::r16f, Format::r8_unorm}) {

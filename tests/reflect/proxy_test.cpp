@@ -39,8 +39,9 @@ TEST(Proxy, TheBoxOfAnEmptyRoomIsExact) {
 
 TEST(Proxy, TheSphereOfARoundRoomIsExact) {
     scene::Scene scene{.name = "round room"};
-    test::add_ball(scene, "room", test::add_material(scene, {.name = "hot", .emission = vec3(1)}),
-                   {.5, .5, .5}, 8, 6);
+    const std::size_t hot = test::add_material(
+        scene, {.name = "hot", .emission = vec3(1), .two_sided = true}); // seen from inside
+    test::add_ball(scene, "room", hot, {.5, .5, .5}, 8, 6);
     test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}),
                    {.5, .5, .5}, 2, 5);
     scene.cameras.push_back({.eye = {.5, .5, -6}, .target = {.5, .5, .5}});

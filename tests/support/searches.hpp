@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/oracle.hpp"
+#include "measure/flip.hpp"
 #include "support/rendering.hpp"
 
 #include <iostream>
@@ -32,6 +33,26 @@ inline std::vector<Look> looks() {
               .target = {330, 120, 300},
               .vertical_fov_degrees = 45},
              2.6}};
+}
+
+/// Where searches were not looked at while they were made: low in the room's mouth, along its
+/// floor, and down from under the ceiling.
+inline std::vector<Look> unforeseen_looks() {
+    return {{{.name = "low",
+              .eye = {540, 12, -60},
+              .target = {300, 60, 400},
+              .vertical_fov_degrees = 55},
+             1.9},
+            {{.name = "floor",
+              .eye = {100, 5, -100},
+              .target = {300, 40, 400},
+              .vertical_fov_degrees = 50},
+             0},
+            {{.name = "ceiling",
+              .eye = {300, 300, 545},
+              .target = {300, 90, 200},
+              .vertical_fov_degrees = 75},
+             0}};
 }
 
 /// Against ray tracing: linear rmse by what the reflected ray meets, and where mirrors looked.
@@ -100,6 +121,28 @@ inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look,
         judged.push_back(known.at(key));
     }
     return judged;
+}
+
+/// What the eye finds wrong in mirrors, against ray tracing, for each technique, in their second
+/// frame: there is nothing in a deeper one that a search does not follow itself.
+inline std::vector<measure::Difference> seen_in_mirrors(const scene::Scene& scene, const Look& look,
+                                                        std::vector<std::string> techniques) {
+    techniques.push_back("raytrace:depth=16");
+    app::Request asked = request(scene, techniques, kContractSize);
+    asked.camera = look.camera;
+    asked.time = look.time;
+    asked.warmup = 1;
+    const std::vector<app::Part> parts = engine().run(asked).parts;
+    const app::Part& truth = parts.back();
+    std::vector<measure::Difference> seen;
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+        seen.push_back(measure::difference(parts[i].hdr, truth.hdr, measure::mirrors(truth.hits),
+                                           measure::flip(parts[i].display, truth.display)));
+        std::cout << "[ MEASURED ] " << look.camera.name << ", " << parts[i].label << ": FLIP "
+                  << seen.back().flip << ", off " << seen.back().off << ", longest line "
+                  << seen.back().longest_line << "\n";
+    }
+    return seen;
 }
 
 /// Where each first-order pixel looked and should have, seen by the scene's first camera.

@@ -122,6 +122,24 @@ TEST(Bvh, SameInputSameBytes) {
     EXPECT_EQ(std::memcmp(a.triangles.data(), b.triangles.data(), bytes(a.triangles)), 0);
 }
 
+TEST(Bvh, ALampIsMetFromItsFrontAndItsBackOnlyByRaysThatDoNotSee) {
+    const Triangle lamp{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 0, kOneSided}; // faces +z
+    const Bvh bvh = build(std::vector{lamp});
+    const auto meets = [&](double from, std::uint32_t skipped) {
+        const dvec3 origin(0, 0, from), direction(0, 0, 1 - from);
+        const bool in_double =
+            closest_hit<double>(bvh, {origin, direction, 0}, kInfinity, skipped).has_value();
+        const Ray<float> ray{vec3(origin), vec3(direction), 0};
+        EXPECT_EQ(closest_hit<float>(bvh, ray, kInfinity, skipped).has_value(), in_double);
+        EXPECT_EQ(brute_force<float>(bvh, ray, kInfinity, skipped).has_value(), in_double);
+        return in_double;
+    };
+    EXPECT_TRUE(meets(3, kOneSided));
+    EXPECT_FALSE(meets(-1, kOneSided));
+    EXPECT_TRUE(meets(3, kShadowless));
+    EXPECT_TRUE(meets(-1, kShadowless)) << "whichever side it turns, it casts a shadow";
+}
+
 TEST(Bvh, KeepsNumberObjectAndFlags) {
     const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 7, kHidden};
     const Triangle far{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}, 0x1ffffffe, 0};

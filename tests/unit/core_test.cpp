@@ -138,6 +138,28 @@ std::vector<bvh::Triangle> triangles_of(const render::Geometry& geometry) {
     return triangles;
 }
 
+/// As rays and rasteriser tell a light's front, whichever way a file's corners run.
+TEST(Geometry, ALightsCornersRunCounterClockwiseAboutItsNormals) {
+    scene::Scene scene{.name = "lamp"};
+    scene.materials = {{.name = "lamp", .emission = vec3(1)}, {.name = "wall", .albedo = vec3(1)}};
+    scene.meshes = {scene::quad("quad", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})}; // faces +z
+    dmat4 mirrored(1);
+    mirrored[0].x = -1;
+    for (const std::size_t material : {0, 1})
+        for (const dmat4& world : {dmat4(1), mirrored})
+            scene.objects.push_back(
+                {.name = "quad", .material = material, .world_from_object = world});
+    const render::Geometry geometry = render::make_geometry(scene, {});
+    const std::vector<bvh::Triangle> all = triangles_of(geometry);
+    ASSERT_EQ(all.size(), 8u);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const bool is_lamp = i < 4, turned = i % 4 >= 2;
+        EXPECT_EQ(geometry.ranges[i / 2].one_sided, is_lamp);
+        const vec3 facet = glm::cross(all[i].b - all[i].a, all[i].c - all[i].a);
+        EXPECT_EQ(facet.z > 0, is_lamp || !turned) << i;
+    }
+}
+
 /// Boxes are widened by roundings that are relative to a distance; one stray triangle must not
 /// widen all of them, and is found itself.
 TEST(Core, AStrayTriangleCostsNoRayItsWalk) {

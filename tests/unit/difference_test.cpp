@@ -100,7 +100,7 @@ TEST(Difference, NothingToJudgeIsNotEqual) {
         const Difference d = difference(a, a, mask, std::vector<float>{0});
         EXPECT_EQ(d.pixels, mask[0]);
         EXPECT_EQ(d.nonfinite, mask[0]);
-        for (const double figure : {d.rmse, d.mae, d.flip, d.p99, d.max})
+        for (const double figure : {d.rmse, d.mae, d.flip, d.p99, d.max, d.off, d.longest_line})
             EXPECT_TRUE(std::isnan(figure));
         EXPECT_FALSE(d.psnr.has_value());
         EXPECT_EQ(d.max_x, -1);

@@ -1,6 +1,7 @@
 // What one pixel covers after reflection, against two rays that are followed, and the edges it asks
 // for.
 #include "render/footprint.hpp"
+#include "render/views.hpp"
 #include "scene/shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,13 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::render;
 
-const double kPixel = pixel_angle(37.5, 512); ///< of the contract's camera
+const double kPixel = 2 * std::tan(glm::radians(37.5) / 2) / 512; ///< on the contract camera's axis
+
+/// The contract's camera at another place, along an axis.
+Pixels pixels_at(const dvec3& eye, const dvec3& target, std::uint32_t height = 512) {
+    const scene::Camera camera{.eye = eye, .target = target, .vertical_fov_degrees = 37.5};
+    return {camera_view(camera, Space{}, uvec2(height), 1), height};
+}
 
 /// Where a ray from the origin with this angle to +x goes on after a circle of radius |r| about
 /// (centre, 0), as an angle; r < 0: the circle's far side, a hollow mirror.
@@ -48,19 +55,48 @@ TEST(Footprint, OfAFlatOrFocusingMirrorIsThePixel) {
 }
 
 TEST(Footprint, KnownEdges) {
-    const double at_600 = pixel_angle(37.5, 600);
-    EXPECT_NEAR(at_600, 1.0908e-3, 1e-7);
-    EXPECT_NEAR(face_need(at_600), 1440, 1e-9); // a flat mirror
-    const double distance = glm::distance(dvec3(278, 273, -800), dvec3(190, 113, 410));
-    EXPECT_NEAR(sphere_need(at_600, distance, 110), 67.8, .05); // ball 3 of the built-in scene
-    EXPECT_NEAR(sphere_need(kPixel, distance, 110), 57.8, .05);
-    EXPECT_EQ(sphere_need(kPixel, 50, 110), face_need(kPixel)); // from inside
+    const Pixels pixels = pixels_at(dvec3(0), {0, 0, 1});
+    EXPECT_NEAR(pixels.angle(1), kPixel, 1e-7 * kPixel);
+    EXPECT_NEAR(face_need(kPixel), 1184.62, .01); // a flat mirror
+    // A ball ahead: 2 pi / 4 over a pixel and twice what its nearest point turns by.
+    EXPECT_NEAR(sphere_need(pixels, {0, 0, 12}, 2), face_need(kPixel * (1 + 2 * 10 / 2.)), .01);
+    EXPECT_EQ(sphere_need(pixels, {0, 0, 1}, 2), face_need(pixels.angle(0))); // from inside
+}
+
+TEST(Footprint, PixelsOffTheAxisAreSmaller) {
+    const Pixels pixels = pixels_at(dvec3(0), {0, 0, 1});
+    // Two pixels of the middle row, that far from the axis in the picture's plane.
+    for (const double place : {.0, .1, .3}) {
+        const double between = std::atan(place + kPixel / 2) - std::atan(place - kPixel / 2);
+        EXPECT_NEAR(pixels.angle(std::cos(std::atan(place))) / between, 1, 1e-6);
+    }
+    const double corner = std::sqrt(2.) * std::tan(glm::radians(37.5) / 2);
+    EXPECT_NEAR(pixels.corner(), std::cos(std::atan(corner)), 1e-7);
+    EXPECT_EQ(pixels.angle(0), pixels.angle(pixels.corner()));
+    const double ahead = sphere_need(pixels, {0, 0, 12}, .1);
+    const double aside = sphere_need(pixels, vec3(12.0 * glm::normalize(dvec3(.3, 0, 1))), .1);
+    EXPECT_NEAR(aside / ahead, 1 + .3 * .3, .01);
+}
+
+TEST(Footprint, OfWhatIsNotInThePictureIsNothing) {
+    const Pixels pixels = pixels_at(dvec3(0), {0, 0, 1});
+    EXPECT_EQ(sphere_need(pixels, {0, 0, -12}, 2), 0);
+    EXPECT_EQ(sphere_need(pixels, {12, 0, 12}, 2), 0);
+    EXPECT_GT(sphere_need(pixels, {5, 0, 12}, 2), 0) << "its rim is";
+    // Wholly behind the eye, and so wide that its bounds reach around the picture's sides.
+    const std::vector<shared::Vertex> corners{
+        {{-50, -50, -9}, {0, 0, 1}}, {{50, -50, -.5f}, {0, 0, 1}}, {{0, 50, -.5f}, {0, 0, 1}}};
+    const std::vector<std::uint32_t> triangle{0, 1, 2};
+    EXPECT_EQ(mesh_need(pixels, corners, triangle), 0);
+    EXPECT_GT(mesh_need(pixels_at(dvec3(0), {0, 0, -1}), corners, triangle), 0);
 }
 
 struct Mirror {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    double need(const vec3& eye) const { return mesh_need(kPixel, eye, vertices, indices); }
+    double need(const dvec3& eye, const dvec3& target) const {
+        return mesh_need(pixels_at(eye, target), vertices, indices);
+    }
 };
 
 /// The triangles of a mesh, each corner moulded to a place and a normal.
@@ -80,8 +116,31 @@ TEST(Footprint, AMeshNeedsWhatItsSphereNeeds) {
         return shared::Vertex{vec3(centre + kRadius * p), vec3(p)};
     });
     // The facet next to the eye is met at up to half its width, of about a twentieth of the radius.
-    const double wanted = sphere_need(kPixel, glm::distance(centre, eye), kRadius);
-    EXPECT_NEAR(ball.need(vec3(eye)), wanted, .01 * wanted);
+    for (const dvec3& target : {centre, centre + dvec3(.3, .1, 0)}) {
+        const double wanted = sphere_need(pixels_at(eye, target), vec3(centre), kRadius);
+        EXPECT_NEAR(ball.need(eye, target), wanted, .01 * wanted);
+    }
+}
+
+TEST(Footprint, AHollowMirrorNeedsMoreThanABulge) {
+    constexpr double kRadius = 2, kDistance = 5;
+    // A cap about (0, 0, -1), a corner of the ball, seen along its axis from outside and inside.
+    scene::Mesh cap = scene::ball("cap", 5);
+    std::erase_if(cap.triangles, [&](const uvec3& t) {
+        return !(cap.positions[t.x].z < -.99 && cap.positions[t.y].z < -.99 &&
+                 cap.positions[t.z].z < -.99);
+    });
+    ASSERT_FALSE(cap.triangles.empty());
+    for (const double side : {1., -1.}) { // whichever way its normals point
+        const Mirror mirror = mirror_of(cap, [&](const dvec3& p) {
+            return shared::Vertex{vec3(kRadius * p), vec3(side * p)};
+        });
+        const dvec3 top(0, 0, -kRadius), away(0, 0, -kDistance);
+        const double bulge = face_need(kPixel * (1 + 2 * kDistance / kRadius)),
+                     hollow = face_need(kPixel * (2 * kDistance / kRadius - 1));
+        EXPECT_NEAR(mirror.need(top + away, top), bulge, .01 * bulge);
+        EXPECT_NEAR(mirror.need(top - away, top), hollow, .01 * hollow);
+    }
 }
 
 TEST(Footprint, ACylinderNeedsWhatItsStraightLinesNeed) {
@@ -98,13 +157,15 @@ TEST(Footprint, ACylinderNeedsWhatItsStraightLinesNeed) {
         const vec3 n(static_cast<float>(std::sin(p.x)), 0, static_cast<float>(std::cos(p.x)));
         return shared::Vertex{n + vec3(0, static_cast<float>(p.y), 0), n};
     };
-    const vec3 eye(0, 0, 5);
-    EXPECT_NEAR(mirror_of(plane, bent).need(eye), face_need(kPixel), .001 * face_need(kPixel));
+    const dvec3 eye(0, 0, 5), middle(0);
+    const double corner = 2 * .4 * .4 / (5 * 5); // of the plane: its tangent from the axis, squared
+    const double wanted = face_need(kPixel) * (1 + corner);
+    EXPECT_NEAR(mirror_of(plane, bent).need(eye, middle), wanted, .01 * wanted);
     const auto flat = [](const dvec3& p) { return shared::Vertex{vec3(p), vec3(0, 0, 1)}; };
-    EXPECT_EQ(mirror_of(plane, flat).need(eye), face_need(kPixel));
-    EXPECT_EQ(mirror_of(plane, flat).need(-eye), face_need(kPixel));
+    EXPECT_NEAR(mirror_of(plane, flat).need(eye, middle), wanted, 1e-6 * wanted);
+    EXPECT_NEAR(mirror_of(plane, flat).need(-eye, middle), wanted, 1e-6 * wanted);
     const auto nothing = [](const dvec3&) { return shared::Vertex{vec3(1), vec3(0, 0, 1)}; };
-    EXPECT_EQ(mirror_of(plane, nothing).need(eye), 0);
+    EXPECT_EQ(mirror_of(plane, nothing).need(eye, middle), 0);
 }
 
 TEST(Footprint, OneEdgeHoldsEveryNeed) {

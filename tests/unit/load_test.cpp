@@ -57,6 +57,7 @@ void expect_same_materials(const Scene& found, const Scene& wanted) {
         EXPECT_EQ(a.albedo, b.albedo) << a.name;
         EXPECT_EQ(a.mirror, b.mirror) << a.name;
         EXPECT_EQ(a.reflectance, b.reflectance) << a.name;
+        EXPECT_EQ(a.two_sided, b.two_sided) << a.name;
         for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(a.emission[c], b.emission[c]) << a.name;
     }
 }
@@ -137,6 +138,21 @@ TEST_F(Load, ShippedGlbIsTheBuiltInSceneWithinFloats) {
         const dvec3 found = at(scene, t).objects.back().sphere->centre;
         // Hermite error 2.5e-7 of 50 and floats below 256
         expect_near(found, at(wanted, t).objects.back().sphere->centre, 4e-5);
+    }
+}
+
+TEST_F(Load, ALightsTwoSidesAreGltfsDoubleSided) {
+    Scene scene = cornell_mirrors();
+    for (const bool two_sided : {false, true}) {
+        scene.materials[3].two_sided = two_sided;
+        save_glb(scene, folder / "x.glb");
+        expect_same_materials(load((folder / "x.glb").string()), scene);
+        // What is no light has two sides whatever the file says; ours says so to other programs.
+        const std::string file = read_file(folder / "x.glb");
+        std::size_t count = 0;
+        for (std::size_t at = 0; (at = file.find("\"doubleSided\":true", at)) != file.npos; ++at)
+            ++count;
+        EXPECT_EQ(count, two_sided ? 5u : 4u);
     }
 }
 

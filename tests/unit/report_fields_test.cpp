@@ -102,6 +102,8 @@ private:
         set(error.psnr.emplace(), pointer + "/psnr", part(column, "psnr"));
         set(error.p99, pointer + "/p99", part(column, "p99"));
         set(error.max, pointer + "/max", part(column, "max"));
+        set(error.off, pointer + "/off", part(column, "off"));
+        set(error.longest_line, pointer + "/longest_line", part(column, "longest_line"));
         set(error.max_x, pointer + "/max_at/0", "");
         set(error.max_y, pointer + "/max_at/1", "");
     }

@@ -25,6 +25,8 @@ inline Difference error_of(double rmse, double flip) {
     if (rmse > 0) error.psnr = 20;
     error.p99 = error.max = rmse * 2;
     error.max_x = error.max_y = 1;
+    error.off = flip / 4;
+    error.longest_line = 1 + 32 * flip;
     return error;
 }
 

@@ -96,6 +96,9 @@ TEST(ReportJson, WritesNullWhereThereIsNoNumber) {
     EXPECT_EQ(document["rows"][3]["error"]["rmse"], 0);
     EXPECT_TRUE(document["rows"][3]["error"]["psnr"].is_null());
     EXPECT_EQ(document["rows"][1]["error"]["psnr"], 20);
+    EXPECT_EQ(document["rows"][1]["error"]["off"], made.rows[1].error.off);
+    EXPECT_EQ(document["rows"][1]["error"]["longest_line"], made.rows[1].error.longest_line);
+    EXPECT_TRUE(document["rows"][0]["error_mirror_in_mirror"]["longest_line"].is_null());
     EXPECT_TRUE(document["reference"]["gpu_ms"].is_null());
 }
 

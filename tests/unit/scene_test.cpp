@@ -249,6 +249,23 @@ TEST(Lights, ClosedBallHasNoDirection) {
     EXPECT_NEAR(found[0].area, 4 * M_PI * 9, 1);
 }
 
+TEST(Lights, OneOfTwoSidesHasNoCosine) {
+    Scene scene = glowing(quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}));
+    EXPECT_TRUE(is_one_sided(scene.materials[0]));
+    EXPECT_EQ(lights(scene).at(0).normal, dvec3(0, 1, 0));
+    const std::string before = hash(scene);
+    scene.materials[0].two_sided = true;
+    EXPECT_FALSE(is_one_sided(scene.materials[0]));
+    EXPECT_EQ(lights(scene).at(0).normal, dvec3(0));
+    EXPECT_NE(hash(scene), before);
+}
+
+TEST(Lights, OnlyALightHasOneSide) {
+    const Scene scene = cornell_mirrors();
+    for (const Material& material : scene.materials)
+        EXPECT_EQ(is_one_sided(material), material.name == "light") << material.name;
+}
+
 TEST(Lights, TrianglesWithoutAreaContributeNothing) {
     Mesh mesh = quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0});
     mesh.positions.insert(mesh.positions.end(), {{9, 9, 9}, {8, 8, 8}});
@@ -366,6 +383,7 @@ TEST_F(HashOf, MaterialsChangesWithThem) {
     changed_vector(
         "reflectance", [](Scene & s) -> auto& { return s.materials.back().reflectance; });
     changed("mirror", [](Scene& s) { s.materials.back().mirror = !s.materials.back().mirror; });
+    changed("sides", [](Scene& s) { s.materials[0].two_sided = !s.materials[0].two_sided; });
     changed("name", [](Scene& s) { s.materials.back().name += "'"; });
 }
 
