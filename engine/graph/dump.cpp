@@ -126,7 +126,7 @@ void write_dot_pass(std::ostream& out, const Graph& graph, std::uint32_t index, 
     for (const Access& a : accesses(pass)) {
         const std::string resource = (a.is_buffer ? "b" : "i") + std::to_string(a.id);
         const std::string node = "p" + std::to_string(index);
-        out << "  " << (a.write ? node + " -> " + resource : resource + " -> " + node)
+        out << "  " << (a.write ? node : resource) << " -> " << (a.write ? resource : node)
             << " [style=" << (a.previous ? "dotted" : style) << ", label=\""
             << (a.previous ? "previous, " : "") << graph::name_of(a.use);
         if (!a.is_buffer && a.layer_count != graph.images()[a.id].layers)

@@ -115,7 +115,7 @@ Raw decode_or_say_memory(const std::filesystem::path& path) {
 /// Encodes in memory: OpenImageIO's PNG writer reports success on a full disk.
 template <typename Value>
 std::string encode(const std::string& format, const Picture& picture,
-                   const std::vector<Value>& values, OIIO::TypeDesc type) {
+                   const std::vector<Value>& values, const OIIO::TypeDesc& type) {
     check(picture.width > 0 && picture.height > 0, Failure::internal, "a picture of ",
           picture.width, "x", picture.height, " cannot be written");
     OIIO::ImageSpec spec(picture.width, picture.height, 3, type);

@@ -49,7 +49,7 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
 template <typename Skip>
 void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_view,
                 std::uint32_t layers, const Lighting& lighting, const MirrorLook& look,
-                gpu::Constants store, std::optional<Image> peeled, Skip&& skip) {
+                const gpu::Constants& store, std::optional<Image> peeled, Skip&& skip) {
     std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed",
                 black = "mirror_black.frag";
     scene.bind(commands);

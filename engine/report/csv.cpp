@@ -14,7 +14,7 @@ namespace catoptric::report {
 namespace {
 
 std::string quoted(const std::string& field) {
-    const std::string shown = printable(field, "\n");
+    std::string shown = printable(field, "\n");
     if (shown.find_first_of("\",\n") == std::string::npos) return shown;
     std::string result = "\"";
     for (const char c : shown) result += c == '"' ? "\"\"" : std::string(1, c);

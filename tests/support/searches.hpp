@@ -153,33 +153,4 @@ inline std::vector<measure::LookedUp> looked_up(const scene::Scene& scene,
     return app::Oracle(asked).judge(engine().run(asked).parts.front().lookup);
 }
 
-/// What a search must be worth from wherever it is seen, as shares of the error of
-/// `parallax:face=512`.
-struct Worth {
-    double first_order;      ///< face=512, reflected rays that meet no second mirror
-    double all;              ///< face=512, followed through other mirrors
-    double coarse;           ///< face=256, followed through other mirrors
-    double mirror_in_mirror; ///< face=512, share of the same search that is not followed
-    double angle;            ///< face=512, mean of the looked-up direction on first-order pixels
-    double wrong_object = 1; ///< ... and no share of parallax: of those pixels
-};
-
-inline void expect_worth(const std::string& search, const Worth& worth) {
-    for (const Look& look : looks()) {
-        SCOPED_TRACE(look.camera.name);
-        const std::vector<Judged> judged = judge(
-            scene::cornell_mirrors(), look,
-            {"parallax:face=512", search + ":face=512,continue=0", search + ":face=512,continue=4",
-             search + ":face=256,continue=4"});
-        const Judged &parallax = judged[0], &alone = judged[1], &followed = judged[2],
-                     &coarse = judged[3];
-        EXPECT_LE(alone.first_order, worth.first_order * parallax.first_order);
-        EXPECT_LE(followed.all, worth.all * parallax.all);
-        EXPECT_LE(coarse.all, worth.coarse * parallax.all);
-        EXPECT_LE(followed.mirror_in_mirror, worth.mirror_in_mirror * alone.mirror_in_mirror);
-        EXPECT_LE(alone.lookup.mean_degrees, worth.angle * parallax.lookup.mean_degrees);
-        EXPECT_LE(alone.lookup.wrong_object, worth.wrong_object);
-    }
-}
-
 } // namespace test

@@ -1,0 +1,18 @@
+// What each search is worth, from wherever it is seen.
+#include "support/worth.hpp"
+
+namespace {
+
+TEST(Worth, FromEveryPlace) {
+    for (const test::Look& look : test::looks()) {
+        SCOPED_TRACE(look.camera.name);
+        for (const auto& [search, worth] : test::kWorths) {
+            SCOPED_TRACE(search);
+            test::expect_worth(search, look);
+        }
+        test::expect_small_captures(look);
+        test::expect_hybrid(look);
+    }
+}
+
+} // namespace

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "support/searches.hpp"
+
+/// What each search must be worth from wherever it is seen. reflect/worth_test.cpp asks from the
+/// scene's own camera, long/worth_test.cpp from all.
+namespace test {
+
+/// Shares of the error of `parallax:face=512`.
+struct Worth {
+    double first_order;      ///< face=512, reflected rays that meet no second mirror
+    double all;              ///< face=512, followed through other mirrors
+    double coarse;           ///< face=256, followed through other mirrors
+    double mirror_in_mirror; ///< face=512, share of the same search that is not followed
+    double angle;            ///< face=512, mean of the looked-up direction on first-order pixels
+    double wrong_object = 1; ///< ... and no share of parallax: of those pixels
+};
+
+inline const std::map<std::string, Worth> kWorths{{"secant", {.53, .38, .45, .24, .012}},
+                                                  {"march", {.53, .38, .45, .24, .012}},
+                                                  {"pyramid", {.53, .38, .45, .24, .012}},
+                                                  {"layered", {.53, .38, .45, .24, .004, .002}}};
+
+inline void expect_worth(const std::string& search, const Look& look) {
+    const Worth& worth = kWorths.at(search);
+    const std::vector<Judged> judged = judge(scene::cornell_mirrors(), look,
+                                             {"parallax:face=512", search + ":face=512,continue=0",
+                                              search + ":face=512,continue=4",
+                                              search + ":face=256,continue=4"});
+    const Judged &parallax = judged[0], &alone = judged[1], &followed = judged[2],
+                 &coarse = judged[3];
+    EXPECT_LE(alone.first_order, worth.first_order * parallax.first_order);
+    EXPECT_LE(followed.all, worth.all * parallax.all);
+    EXPECT_LE(coarse.all, worth.coarse * parallax.all);
+    EXPECT_LE(followed.mirror_in_mirror, worth.mirror_in_mirror * alone.mirror_in_mirror);
+    EXPECT_LE(alone.lookup.mean_degrees, worth.angle * parallax.lookup.mean_degrees);
+    EXPECT_LE(alone.lookup.wrong_object, worth.wrong_object);
+}
+
+/// Secant needs smaller captures than parallax.
+inline void expect_small_captures(const Look& look) {
+    const auto judged = judge(
+        scene::cornell_mirrors(), look,
+        {"parallax:face=512", "secant:face=256,continue=0", "secant:face=64,continue=0"});
+    EXPECT_LE(judged[1].first_order, judged[0].first_order);
+    EXPECT_LE(judged[2].lookup.mean_degrees, .025 * judged[0].lookup.mean_degrees);
+}
+
+/// Hybrid is worth what it traces, and traces little in a closed room.
+inline void expect_hybrid(const Look& look) {
+    const auto judged = judge(
+        scene::cornell_mirrors(), look,
+        {"parallax:face=512", "hybrid:face=512", "hybrid:face=512,continue=0", "hybrid:face=256"});
+    const Judged &parallax = judged[0], &followed = judged[1], &alone = judged[2],
+                 &coarse = judged[3];
+    EXPECT_LE(followed.all, .38 * parallax.all);
+    EXPECT_LE(coarse.all, .45 * parallax.all);
+    EXPECT_LE(followed.mirror_in_mirror, .24 * alone.mirror_in_mirror);
+    EXPECT_LE(followed.traced_fraction, .06);
+
+    const auto closed = judge(scene::cornell_mirrors_closed(), look,
+                              {"parallax:face=512", "hybrid:face=512"});
+    EXPECT_LE(closed[1].all, .39 * closed[0].all);
+    EXPECT_LE(closed[1].traced_fraction, .02);
+}
+
+} // namespace test
