@@ -13,12 +13,19 @@ namespace catoptric::scene {
 
 namespace {
 
+/// The square of a length must be a double, and no zero.
+constexpr double kLongest = 1e150, kShortest = 1e-150;
+
+bool is_in_range(const dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kLongest && is_finite(v);
+}
+
 /// Along the normal, of any length; zero where the triangle has no area. Edges are scaled first, so
 /// that no size of a triangle over- or underflows.
 dvec3 edge_cross(const dvec3& a, const dvec3& b, const dvec3& c) {
     const auto scaled = [](const dvec3& edge) {
         const double size = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
-        return size > 0 ? edge / size : edge;
+        return size >= kShortest ? edge / size : dvec3(0);
     };
     return glm::cross(scaled(b - a), scaled(c - a));
 }
@@ -102,9 +109,9 @@ bool is_radiance(const vec3& emission) {
 void finish(Scene& scene, const std::string& file, Notes& notes) {
     for (const Object& object : scene.objects)
         for (const dvec3& position : scene.meshes[object.mesh].positions)
-            check(is_finite(transform_point(object.world_from_object, position)), Failure::bad_data,
-                  file, ": object ", in_quotes(object.name),
-                  ": wanted finite world coordinates, found an overflow");
+            check(is_in_range(transform_point(object.world_from_object, position)),
+                  Failure::bad_data, file, ": object ", in_quotes(object.name),
+                  ": wanted finite world coordinates up to 1e150, found an overflow");
     std::erase_if(scene.objects, [&](const Object& object) {
         if (has_area(scene, object)) return false;
         notes.add("objects that have no triangle with an area, left out", in_quotes(object.name));

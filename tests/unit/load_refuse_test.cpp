@@ -318,6 +318,8 @@ TEST_F(LoadRefuses, ObjNumbersAndFaces) {
     EXPECT_THAT(refused("f.obj", kTriangle + "f 1 2 3\\\n \\\n 9\n"),
                 HasSubstr("f.obj:4: face wants one of 3 positions, found 9"));
     EXPECT_THAT(refused("g.obj", "v 1e200 0 0\nv 0 1e200 0\nv 0 0 1e200\nf 1 2 3\n"),
+                HasSubstr("up to 1e150, found an overflow"));
+    EXPECT_THAT(refused("h.obj", "v 1e-200 0 0\nv 0 1e-200 0\nv 0 0 1e-200\nf 1 2 3\n"),
                 HasSubstr("area"));
 }
 
