@@ -147,7 +147,7 @@ TEST(Claims, OtherCapturesAnswerRightAndNeverByAMirror) {
                 EXPECT_GT(found.all, 200u) << search;
                 EXPECT_LE(found.off, found.all / 10) << search;
                 // The hidden ball's own capture shows what is behind it.
-                if (!exact || search == "secant") continue;
+                if (!exact || search == "secant" || search == "layered") continue;
                 EXPECT_LE(found.mirrors_off, 2u) << search;
                 EXPECT_EQ(found.black, 0u) << search << " shows a mirror without history";
             }
