@@ -32,10 +32,11 @@ std::vector<test::Compared> mended(const scene::Scene& scene, const std::string&
     return result;
 }
 
-/// A box whose walls emit a colour each, and a mirror ball beside its middle.
-scene::Scene box(const std::vector<dvec3>& boards) {
-    scene::Scene scene{.name = "box"};
-    for (int face = 0; face < 6; ++face)
+/// A box, `open` without the wall behind the eye, whose walls emit a colour each, and a mirror ball
+/// beside its middle.
+scene::Scene box(const std::vector<dvec3>& boards, bool open = false) {
+    scene::Scene scene{.name = open ? "open box" : "box"};
+    for (int face = 0; face < (open ? 5 : 6); ++face)
         test::add_mesh(scene, test::wall(face, {-4, -3, -5}, {4, 3, 5}),
                        test::add_material(
                            scene, {.name = "wall",
@@ -85,6 +86,8 @@ TEST(Mended, DirectionAndTexelsAreAllThereIsInAnEmptyBox) {
     EXPECT_LE(found[3].off, kRim);
     EXPECT_EQ(found[4].off, found[0].off) << "nothing is hidden";
     EXPECT_EQ(found[5].off, found[0].off) << "and there is no second mirror";
+    const auto open = mended(box({}, true), "reuse:face=8,shadow=none", {kFirstOrder});
+    EXPECT_LE(open[1].off, kRim) << "nothing is seen where it is open";
 }
 
 // Three boards before the walls: what they hide from the ball's centre has no direction.
@@ -97,6 +100,15 @@ TEST(Mended, WhatIsHiddenIsNotFoundByDirection) {
         EXPECT_LE(found[2].off + 10, found[0].off);
         EXPECT_LE(found[3].off, kRim);
     }
+    // A fifth of the way before floor and ceiling.
+    scene::Scene scene = box({});
+    for (const double y : {-2.4, 2.4})
+        for (const double x : {-1.1, .7, 2.5})
+            test::add_glowing_board(scene, {0, .1f, 0}, {x, y, -.6}, {.5, 0, 0}, {0, 0, 1.2});
+    const auto close = mended(scene, "reuse:face=32,shadow=none",
+                              {kMendDirection | kMendTexels, kFirstOrder});
+    EXPECT_GT(close[1].off, 8u);
+    EXPECT_LE(close[2].off, kRim);
     // Texels of the layer that was looked up, which may be the second.
     const auto layered = mended(box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
                                 "layered:face=128,shadow=none", {kMendTexels});
@@ -109,16 +121,19 @@ TEST(Mended, MirrorsInMirrorsAreAsThisEyeSeesThem) {
     EXPECT_GT(once[1].off, 100u) << "without history mirrors are black in captures";
     EXPECT_LE(once[2].off, kRim);
     EXPECT_LT(5 * once[3].off, once[0].off);
+    // What the second mirror's centre does not see is seen with both mirrors' shares.
     scene::Scene scene = test::three_balls();
     scene.name = "three balls and boards";
-    test::add_glowing_board(scene, {.1f, 0, 0}, {0, 0, -.6}, {.3, 0, .2}, {0, .3, 0});
-    test::add_glowing_board(scene, {0, .1f, 0}, {-.2, -1, .9}, {.5, 0, .4}, {0, .3, .3});
-    const auto followed = mended(scene, "secant:steps=8,continue=8,face=32,shadow=none",
-                                 {kFirstOrder, kFirstOrder | kMendMirrors});
-    EXPECT_LE(followed[1].off, 12u)
-        << "mirrors met, each with its share, and what is hidden from the last";
-    EXPECT_GT(followed[0].off, 2 * followed[1].off);
-    EXPECT_LE(followed[2].off, kRim);
+    for (const dvec3& centre : {dvec3(1.2, -1.5, .3), dvec3(1.2, .1, 1.9), dvec3(-1.25, -1.9, .6),
+                                dvec3(-1.25, 1.2, .3), dvec3(1.3, 1.5, .2), dvec3(-1.2, -.3, 2.3)})
+        test::add_glowing_board(scene, {.1f, 0, 0}, centre, {.35, 0, 0},
+                                {0, centre.z > 1 ? .35 : 0, centre.z > 1 ? 0 : .35});
+    const auto followed = mended(
+        scene, "secant:steps=8,continue=8,face=32,shadow=none",
+        {kMendDirection | kMendTexels, kFirstOrder, kFirstOrder | kMendMirrors});
+    EXPECT_LE(followed[2].off, 12u);
+    EXPECT_GT(followed[0].off, 2 * followed[2].off);
+    EXPECT_LE(followed[3].off, kRim);
 }
 
 scene::Scene corner() {
