@@ -85,6 +85,62 @@ TEST(Claims, ABoardBesideOrBehindAMirrorHidesNothingOfIt) {
         }
 }
 
+/// Three balls in a row, seen in the first; of the two others either may be the first in the
+/// scene's list.
+scene::Scene row_of_balls(bool near_first) {
+    scene::Scene scene{.name = "row"};
+    test::add_bright_box(scene, {-6, -3, -4}, {6, 3, 4});
+    test::add_ball(scene, "seen", test::add_halving_mirror(scene, 0), {-1.6, 0, 0}, .9, 5);
+    const dvec3 places[2]{{.5, .2, -.2}, {2.6, .4, -.3}};
+    for (const int i : {near_first ? 0 : 1, near_first ? 1 : 0})
+        test::add_ball(scene, "ball", test::add_halving_mirror(scene, i + 1), places[i],
+                       i ? 1.1 : .6, 5);
+    scene.cameras.push_back(
+        {.eye = {-.6, .9, -1.6}, .target = {-1.3, .1, -.2}, .vertical_fov_degrees = 36});
+    return scene;
+}
+
+TEST(Claims, AMirrorBeforeAnotherIsTheOneThatIsMet) {
+    for (const bool near_first : {true, false}) {
+        const scene::Scene scene = row_of_balls(near_first);
+        const app::Part truth = traced(scene, true);
+        for (const std::string search : {"secant", "pyramid"}) {
+            const test::Compared found = behind(scene, truth, search).ball;
+            EXPECT_GT(found.pixels, 100u);
+            EXPECT_LE(found.share(), .15) << search << near_first;
+        }
+    }
+}
+
+/// A ball beside mirrors that are flat: what their edges hide from its centre is in the second
+/// layer.
+scene::Scene flat_mirrors_beside_a_ball() {
+    scene::Scene scene{.name = "beside"};
+    test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 4});
+    test::add_ball(scene, "seen", test::add_halving_mirror(scene, 0), {0, 0, .5}, 1.2, 5);
+    for (int i = 0; i < 2; ++i) {
+        const double x = i ? 1.1 : -1.1, z = -1.7;
+        test::add_quad(scene, "flat", test::add_halving_mirror(scene, i + 1), {x - .4, -1, z},
+                       {x - .4, 1, z}, {x + .4, 1, z}, {x + .4, -1, z});
+    }
+    scene.cameras.push_back(
+        {.eye = {0, .4, -3.5}, .target = {0, 0, .5}, .vertical_fov_degrees = 40});
+    return scene;
+}
+
+TEST(Claims, WhatTheSecondLayerShowsBehindAMirrorIsNoMirror) {
+    const scene::Scene scene = flat_mirrors_beside_a_ball();
+    const app::Part truth = traced(scene, true);
+    const measure::Picture picture =
+        test::render(scene, "layered:face=128,shadow=none,continue=8", kSize).hdr;
+    const test::Compared once = test::compared(picture, truth, [](std::uint32_t hit, const vec3&) {
+        return measure::first_mirror(hit) == 1 && measure::second_mirror(hit) == 0;
+    });
+    std::cout << "[ MEASURED ] no second mirror: " << once << "\n";
+    EXPECT_GT(once.pixels, 1000u);
+    EXPECT_LE(once.share(), .02);
+}
+
 /// A flat mirror, before its middle a board that hides from it a second mirror, and a ball aside
 /// that sees both.
 scene::Scene screened(bool exact) {
