@@ -40,12 +40,13 @@ inline scene::Scene three_balls() {
     return scene;
 }
 
-/// A board, which may be a wide one, upright or not, of this radiance.
+/// A board of this radiance on both sides.
 inline void add_glowing_board(scene::Scene& scene, vec3 emission, dvec3 centre, dvec3 half_along,
                               dvec3 half_up) {
-    add_quad(scene, "board", add_material(scene, {.name = "glow", .emission = emission}),
-             centre - half_along - half_up, centre + half_along - half_up,
-             centre + half_along + half_up, centre - half_along + half_up);
+    const std::size_t glow = add_material(scene, {.name = "glow", .emission = emission});
+    for (const dvec3& up : {half_up, -half_up}) // a light shines to where its corners run around
+        add_quad(scene, "board", glow, centre - half_along - up, centre + half_along - up,
+                 centre + half_along + up, centre - half_along + up);
 }
 
 /// Pixels of mirrors, and how many of them differ by more than .02 in some channel.
