@@ -86,13 +86,26 @@ float looked_at() { return 0.0; }
 void look_at(float distance) {}
 #endif
 
+// Whether the ray ends, as capture `mirror` has it, behind the exact sphere that this capture leaves out.
+bool is_behind_own_sphere(uint mirror, Path path, Lookup lookup) {
+    float t;
+    if (!(probes[mirror].radius > 0.0) ||
+        !sphere_test(probes[mirror].sphere, probes[mirror].radius, Ray(path.at, path.direction, 0u), kLargest, t))
+        return false;
+    if (lookup.state == kMiss) return true;
+    float distance = looked_at() > 0.0 ? looked_at() : captured_distance(mirror, lookup.direction);
+    vec3 end = probes[mirror].centre + lookup.direction * distance;
+    return !(dot(end - path.at, path.direction) < t);
+}
+
 // Where another capture knows how the ray ends, if one does. What a mirror shows there is for another eye.
 void ask_others(inout Path path, inout Lookup lookup) {
     float distance = looked_at();
     for (uint i = 0u; i < frame.value.mirror_count; ++i) {
         if (i == path.mirror) continue;
         Lookup other = search(i, path.at - probes[i].centre, path.direction);
-        if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction))) continue;
+        if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction)) || is_behind_own_sphere(i, path, other))
+            continue;
         path.mirror = i;
         path.centre = probes[i].centre;
         lookup = other;

@@ -45,34 +45,10 @@ double wall_distance(const dvec3& centre, const dvec3& direction, int& wall) {
     return nearest;
 }
 
-/// Both layers around every mirror, without shadows; other mirrors are black.
-std::pair<test::Captured, test::Captured> capture_layers(const scene::Scene& scene,
-                                                         std::uint32_t face, Format distance) {
-    auto& [device, pipelines] = test::bench();
-    render::GpuScene gpu_scene(device, scene);
-    gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
-    graph::Runner runner(device, pipelines);
-    graph::Graph graph;
-    const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
-    render::CaptureOptions options;
-    options.face = face;
-    options.distance = distance;
-    options.second_layer = true;
-    if (distance == Format::r8_unorm) options.stored_unit = gpu_scene.space().length(10);
-    const render::Cubes cubes = render::declare_cubes(graph, inputs, options);
-    render::add_captures(graph, inputs, options, cubes);
-    for (const graph::Image image :
-         {cubes.colour, *cubes.distance, *cubes.colour2, *cubes.distance2})
-        graph.want(image);
-    test::run(runner, graph);
-    return {{face, runner.read(cubes.colour), runner.read(*cubes.distance), gpu_scene.space()},
-            {face, runner.read(*cubes.colour2), runner.read(*cubes.distance2), gpu_scene.space()}};
-}
-
 TEST(Layered, SecondLayerIsTheWallBehindTheBall) {
     constexpr std::uint32_t kFace = 128;
     const scene::Scene scene = hidden_wall();
-    const auto [first, second] = capture_layers(scene, kFace, Format::r32f);
+    const auto [first, second] = test::capture_layers(scene, kFace, Format::r32f);
     const dvec3 centre =
         scene::bounds(scene, scene.objects[scene::mirrors(scene).front()]).centre();
     std::size_t hidden = 0, wrong = 0;
@@ -141,7 +117,7 @@ TEST(Layered, IsAsBrightAsRaysBetweenParallelMirrors) {
 TEST(Layered, PeelsWithEveryFormat) {
     constexpr std::uint32_t kFace = 32;
     for (const Format format : {Format::r32f, Format::r16f, Format::r8_unorm}) {
-        const auto [first, second] = capture_layers(test::room(3, 1), kFace, format);
+        const auto [first, second] = test::capture_layers(test::room(3, 1), kFace, format);
         std::size_t behind = 0;
         for (std::uint32_t mirror = 0; mirror < 3; ++mirror)
             for (int face = 0; face < 6; ++face)

@@ -6,6 +6,7 @@
 #include "support/scenes.hpp"
 
 #include <ostream>
+#include <utility>
 
 namespace catoptric {
 
@@ -24,6 +25,31 @@ inline Captured capture(const scene::Scene& scene, std::uint32_t face, Format di
                         double range_world = 1, bool staged = false) {
     auto& [device, pipelines] = bench(staged);
     return render::capture(device, pipelines, scene, face, distance, range_world);
+}
+
+/// Both layers around every mirror, without shadows; other mirrors are black. Eight bits range over
+/// 10 world units.
+inline std::pair<Captured, Captured> capture_layers(const scene::Scene& scene, std::uint32_t face,
+                                                    Format distance) {
+    auto& [device, pipelines] = bench();
+    render::GpuScene gpu_scene(device, scene);
+    gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
+    render::CaptureOptions options;
+    options.face = face;
+    options.distance = distance;
+    options.second_layer = true;
+    if (distance == Format::r8_unorm) options.stored_unit = gpu_scene.space().length(10);
+    const render::Cubes cubes = render::declare_cubes(graph, inputs, options);
+    render::add_captures(graph, inputs, options, cubes);
+    for (const graph::Image image :
+         {cubes.colour, *cubes.distance, *cubes.colour2, *cubes.distance2})
+        graph.want(image);
+    run(runner, graph);
+    return {{face, runner.read(cubes.colour), runner.read(*cubes.distance), gpu_scene.space()},
+            {face, runner.read(*cubes.colour2), runner.read(*cubes.distance2), gpu_scene.space()}};
 }
 
 } // namespace test

@@ -1,0 +1,212 @@
+// What stands before a mirror that a ray would be followed to, and what captures of other mirrors
+// may say.
+#include "support/paths.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr uvec2 kSize{64, 64};
+constexpr vec3 kBoard{0, 0, .25f};
+
+/// Two balls of radius .7, in a bright box, one of them before the eye, and a board of half width
+/// `half` across the line between them. Between them it is further from either than their radius.
+scene::Scene two_balls(std::size_t seen, const dvec3& board, double half, bool exact) {
+    scene::Scene scene{.name = "two balls"};
+    test::add_bright_box(scene, {-6, -3, -4}, {6, 3, 4});
+    const std::array<dvec3, 2> places{{{-1.6, 0, 0}, {1.6, .2, .1}}};
+    for (int i = 0; i < 2; ++i)
+        test::add_ball(scene, "ball", test::add_halving_mirror(scene, i),
+                       places[static_cast<std::size_t>(i)], .7, 5);
+    for (scene::Object& object : scene.objects)
+        if (!exact) object.sphere.reset();
+    test::add_glowing_board(scene, kBoard, board, {0, 0, half}, {0, half, 0});
+    const double side = seen == 0 ? 1 : -1;
+    scene.cameras.push_back({.eye = places[seen] + dvec3(1.1 * side, .9, -1.3),
+                             .target = places[seen] + dvec3(.3 * side, .1, -.2),
+                             .vertical_fov_degrees = 30});
+    return scene;
+}
+
+/// Off among the pixels whose traced ray is reflected once and then meets the board, and among
+/// those whose meets the other ball.
+struct Behind {
+    test::Compared board, ball;
+};
+
+Behind behind(const scene::Scene& scene, const app::Part& truth, const std::string& search) {
+    const measure::Picture picture =
+        test::render(scene, search + ":face=128,shadow=none,continue=8", kSize).hdr;
+    const Behind found{test::compared(picture, truth,
+                                      [](std::uint32_t hit, const vec3& colour) {
+                                          return measure::second_mirror(hit) == 0 &&
+                                                 colour.x < .01f;
+                                      }),
+                       test::compared(picture, truth, [](std::uint32_t hit, const vec3&) {
+                           return measure::second_mirror(hit) != 0;
+                       })};
+    std::cout << "[ MEASURED ] " << search << ": board " << found.board << ", other ball "
+              << found.ball << "\n";
+    return found;
+}
+
+app::Part traced(const scene::Scene& scene, bool exact) {
+    return test::render(
+        scene, std::string("raytrace:depth=9,shadow=none,sphere=") + (exact ? "exact" : "mesh"),
+        kSize);
+}
+
+TEST(Claims, ABoardBetweenTwoMirrorsIsSeenInBoth) {
+    for (const bool exact : {true, false})
+        for (const std::size_t seen : {0u, 1u}) {
+            const scene::Scene scene = two_balls(seen, {.02, .1, .05}, .6, exact);
+            const app::Part truth = traced(scene, exact);
+            for (const std::string search : {"march", "pyramid", "layered"}) {
+                const Behind found = behind(scene, truth, search);
+                EXPECT_GT(found.board.pixels, 100u);
+                EXPECT_LE(found.board.share(), .25) << search << exact << seen;
+            }
+        }
+}
+
+TEST(Claims, ABoardBesideOrBehindAMirrorHidesNothingOfIt) {
+    for (const bool exact : {true, false})
+        for (const dvec3& board : {dvec3(0, 1.1, 0), dvec3(-4, 0, 0), dvec3(4, 0, 0)}) {
+            const std::size_t seen = board.x > 0 ? 0 : 1; // the board is behind the other ball
+            const scene::Scene scene = two_balls(seen, board, .35, exact);
+            const app::Part truth = traced(scene, exact);
+            for (const std::string search : {"march", "pyramid", "layered"}) {
+                const Behind found = behind(scene, truth, search);
+                EXPECT_GT(found.ball.pixels, 80u);
+                EXPECT_LE(found.ball.share(), .2) << search << exact << board.x;
+            }
+        }
+}
+
+/// Three balls in a row, seen in the first; of the two others either may be the first in the
+/// scene's list.
+scene::Scene row_of_balls(bool near_first) {
+    scene::Scene scene{.name = "row"};
+    test::add_bright_box(scene, {-6, -3, -4}, {6, 3, 4});
+    test::add_ball(scene, "seen", test::add_halving_mirror(scene, 0), {-1.6, 0, 0}, .9, 5);
+    const dvec3 places[2]{{.5, .2, -.2}, {2.6, .4, -.3}};
+    for (const int i : {near_first ? 0 : 1, near_first ? 1 : 0})
+        test::add_ball(scene, "ball", test::add_halving_mirror(scene, i + 1), places[i],
+                       i ? 1.1 : .6, 5);
+    scene.cameras.push_back(
+        {.eye = {-.6, .9, -1.6}, .target = {-1.3, .1, -.2}, .vertical_fov_degrees = 36});
+    return scene;
+}
+
+TEST(Claims, AMirrorBeforeAnotherIsTheOneThatIsMet) {
+    for (const bool near_first : {true, false}) {
+        const scene::Scene scene = row_of_balls(near_first);
+        const app::Part truth = traced(scene, true);
+        for (const std::string search : {"secant", "pyramid"}) {
+            const test::Compared found = behind(scene, truth, search).ball;
+            EXPECT_GT(found.pixels, 100u);
+            EXPECT_LE(found.share(), .15) << search << near_first;
+        }
+    }
+}
+
+/// A ball beside mirrors that are flat: what their edges hide from its centre is in the second
+/// layer.
+scene::Scene flat_mirrors_beside_a_ball() {
+    scene::Scene scene{.name = "beside"};
+    test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 4});
+    test::add_ball(scene, "seen", test::add_halving_mirror(scene, 0), {0, 0, .5}, 1.2, 5);
+    for (int i = 0; i < 2; ++i) {
+        const double x = i ? 1.1 : -1.1, z = -1.7;
+        test::add_quad(scene, "flat", test::add_halving_mirror(scene, i + 1), {x - .4, -1, z},
+                       {x - .4, 1, z}, {x + .4, 1, z}, {x + .4, -1, z});
+    }
+    scene.cameras.push_back(
+        {.eye = {0, .4, -3.5}, .target = {0, 0, .5}, .vertical_fov_degrees = 40});
+    return scene;
+}
+
+TEST(Claims, WhatTheSecondLayerShowsBehindAMirrorIsNoMirror) {
+    const scene::Scene scene = flat_mirrors_beside_a_ball();
+    const app::Part truth = traced(scene, true);
+    const measure::Picture picture =
+        test::render(scene, "layered:face=128,shadow=none,continue=8", kSize).hdr;
+    const test::Compared once = test::compared(picture, truth, [](std::uint32_t hit, const vec3&) {
+        return measure::first_mirror(hit) == 1 && measure::second_mirror(hit) == 0;
+    });
+    std::cout << "[ MEASURED ] no second mirror: " << once << "\n";
+    EXPECT_GT(once.pixels, 1000u);
+    EXPECT_LE(once.share(), .02);
+}
+
+/// A flat mirror, before its middle a board that hides from it a second mirror, and a ball aside
+/// that sees both.
+scene::Scene screened(bool exact) {
+    scene::Scene scene{.name = "screened"};
+    test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 4});
+    std::array<std::size_t, 3> mirror{};
+    for (int i = 0; i < 3; ++i)
+        mirror[static_cast<std::size_t>(i)] = test::add_halving_mirror(scene, i);
+    test::add_quad(scene, "panel", mirror[0], {-2, -1.5, 2}, {2, -1.5, 2}, {2, 1.5, 2},
+                   {-2, 1.5, 2});
+    test::add_glowing_board(scene, kBoard, {0, 0, 1}, {.5, 0, 0}, {0, .8, 0});
+    test::add_ball(scene, "hidden", mirror[1], {0, 0, -.3}, .6, 5);
+    if (!exact) scene.objects.back().sphere.reset();
+    test::add_ball(scene, "aside", mirror[2], {2.5, .8, -.6}, .6, 5);
+    scene.cameras.push_back(
+        {.eye = {-1.5, 1, -3.2}, .target = {0, 0, 2}, .vertical_fov_degrees = 50});
+    return scene;
+}
+
+/// Of pixels that the mirror's own capture does not know, those that another's answers: all, whose
+/// ray meets another mirror, and how many of both are off; black: in which a mirror shows that was
+/// not in sight before.
+struct Answers {
+    std::size_t all = 0, off = 0, mirrors = 0, mirrors_off = 0, black = 0;
+};
+
+Answers answers(const scene::Scene& scene, const std::string& search, const std::string& hops) {
+    const app::Part truth = test::render(
+        scene, "raytrace:shadow=none,sphere=exact,depth=" + std::string(hops == "0" ? "1" : "9"),
+        kSize);
+    const std::string technique = search + ":face=128,shadow=none,continue=" + hops + ",captures=";
+    app::Request request = test::request(scene, {technique + "own", technique + "all"}, kSize);
+    request.with_lookup = true;
+    const app::Result result = test::engine().run(request);
+    const auto is_unknown = [&](std::size_t part, std::size_t i) {
+        return ((static_cast<int>(result.parts[part].lookup[i].w) - 1) & 3) == 1;
+    };
+    Answers found;
+    for (std::size_t i = 0; i < truth.hits.size(); ++i) {
+        if (measure::first_mirror(truth.hits[i]) == 0) continue;
+        if (!is_unknown(0, i) || is_unknown(1, i)) continue;
+        const vec3 own = result.parts[0].hdr.pixels[i], all = result.parts[1].hdr.pixels[i];
+        const bool is_off = test::is_off(all, truth.hdr.pixels[i]),
+                   meets = measure::second_mirror(truth.hits[i]) != 0;
+        ++found.all, found.off += is_off;
+        found.mirrors += meets, found.mirrors_off += meets && is_off;
+        found.black += all == vec3(0) && own != vec3(0);
+    }
+    std::cout << "[ MEASURED ] " << search << ", " << hops << " hops: answered " << found.all
+              << ", off " << found.off << "; of " << found.mirrors << " that meet a mirror "
+              << found.mirrors_off << "; black " << found.black << "\n";
+    return found;
+}
+
+TEST(Claims, OtherCapturesAnswerRightAndNeverByAMirror) {
+    for (const bool exact : {true, false})
+        for (const std::string hops : {"0", "8"})
+            for (const std::string search : {"secant", "march", "pyramid", "layered"}) {
+                const Answers found = answers(screened(exact), search, hops);
+                EXPECT_GT(found.all, 200u) << search;
+                EXPECT_LE(found.off, found.all / 10) << search;
+                // The hidden ball's own capture shows what is behind it.
+                if (!exact || search == "secant" || search == "layered") continue;
+                EXPECT_LE(found.mirrors_off, 2u) << search;
+                EXPECT_LE(found.black, 2u) << search << " shows a mirror without history";
+            }
+}
+
+} // namespace

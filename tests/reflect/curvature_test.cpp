@@ -1,0 +1,111 @@
+// face=auto asks of a curved mirror what its curvature makes of a pixel, from whichever side it is
+// seen and however its normals are turned.
+#include "support/rendering.hpp"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr std::uint32_t kHeight = 8;
+constexpr double kFov = 5; // so small that pixels off the axis are as large as those on it
+constexpr double kRadius = 2;
+
+/// A patch about the origin, so small that all of it is at one distance: heights along z over x and
+/// y.
+scene::Mesh patch(const std::function<double(double, double)>& height, bool turned) {
+    constexpr int kSteps = 4;
+    constexpr double kHalf = .02, kSmall = 1e-4;
+    scene::Mesh mesh{.name = "patch"};
+    for (int i = 0; i <= kSteps; ++i)
+        for (int k = 0; k <= kSteps; ++k) {
+            const double x = kHalf * (2. * i / kSteps - 1), y = kHalf * (2. * k / kSteps - 1);
+            mesh.positions.emplace_back(x, y, height(x, y));
+            const dvec3 normal(-(height(x + kSmall, y) - height(x - kSmall, y)) / (2 * kSmall),
+                               -(height(x, y + kSmall) - height(x, y - kSmall)) / (2 * kSmall), 1);
+            mesh.normals.push_back(vec3(glm::normalize(turned ? -normal : normal)));
+        }
+    for (std::uint32_t i = 0; i < kSteps; ++i)
+        for (std::uint32_t k = 0; k < kSteps; ++k) {
+            const std::uint32_t a = i * (kSteps + 1) + k, b = a + kSteps + 1;
+            mesh.triangles.push_back(turned ? uvec3(a, b + 1, b) : uvec3(a, b, b + 1));
+            mesh.triangles.push_back(turned ? uvec3(a, a + 1, b + 1) : uvec3(a, b + 1, a + 1));
+        }
+    return mesh;
+}
+
+/// What the mirror needs for an eye this far away on +z, or on -z where it is below 0.
+double need(const scene::Mesh& mesh, double eye, const dmat4& world_from_object = dmat4(1)) {
+    scene::Scene scene{.name = "patch"};
+    const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
+    for (int face = 0; face < 6; ++face)
+        test::add_mesh(scene, test::wall(face, dvec3(-20), dvec3(20)), hot);
+    test::add_mesh(scene, mesh, test::add_material(scene, {.name = "mirror", .mirror = true}));
+    scene.objects.back().world_from_object = world_from_object;
+    scene.cameras.push_back(
+        {.eye = {0, 0, eye}, .target = {0, 0, 0}, .vertical_fov_degrees = kFov});
+    app::Request request = test::request(scene, {"reuse:face=auto,shadow=none"},
+                                         {kHeight, kHeight});
+    return test::engine().run(request).parts.front().auto_face->needs.front();
+}
+
+/// By the mirror equation: neighbouring pixels look on 1 + 2 distance curvature of their angle
+/// apart (curvature above 0: a bulge); never finer than a plane's.
+double wanted(double distance, double curvature) {
+    const double pixel = 2 * std::tan(glm::radians(kFov) / 2) / kHeight;
+    return std::numbers::pi / 2 / pixel / std::max(1., std::abs(1 + 2 * distance * curvature));
+}
+
+double bowl(double x, double y) { return kRadius - std::sqrt(kRadius * kRadius - x * x - y * y); }
+
+TEST(Curvature, OfABallsInsideAndOutsideHaveTheirOwnSigns) {
+    for (const bool turned : {false, true})
+        for (const double distance : {.3 * kRadius, 1.5 * kRadius, 3 * kRadius, 8 * kRadius}) {
+            // Hollow from above, a bulge from below, whichever way its normals look.
+            const scene::Mesh mesh = patch(bowl, turned);
+            const double hollow = wanted(distance, -1 / kRadius),
+                         bulge = wanted(distance, 1 / kRadius);
+            EXPECT_NEAR(need(mesh, distance), hollow, .02 * hollow) << distance << turned;
+            EXPECT_NEAR(need(mesh, -distance), bulge, .02 * bulge) << distance << turned;
+        }
+}
+
+TEST(Curvature, AHollowNeedsMoreThanABulgeAndAPlaneAsMuchAsAny) {
+    const scene::Mesh hollow = patch(bowl, false),
+                      flat = patch([](double, double) { return 0.; }, false);
+    for (const double distance : {.3 * kRadius, 1.5 * kRadius, 3 * kRadius}) {
+        EXPECT_GT(need(hollow, distance), 1.05 * need(hollow, -distance));
+        EXPECT_LE(need(hollow, distance), 1.001 * need(flat, distance));
+        EXPECT_NEAR(need(flat, distance), wanted(distance, 0), .01 * wanted(distance, 0));
+    }
+}
+
+// In the one direction hollow, in the other a bulge: the finer of both.
+TEST(Curvature, ASaddleNeedsWhatItsHollowNeeds) {
+    const auto saddle = [](double x, double y) { return (x * x - y * y) / (2 * kRadius); };
+    const double hollow = wanted(3 * kRadius, -1 / kRadius);
+    for (const bool turned : {false, true})
+        for (const double eye : {-3 * kRadius, 3 * kRadius})
+            EXPECT_NEAR(need(patch(saddle, turned), eye), hollow, .02 * hollow);
+}
+
+TEST(Curvature, OfAnObjectThatIsScaledIsThatOfItsPlaceInTheWorld) {
+    for (const dvec3 scale : {dvec3(-1, 1, 1), dvec3(1, 1, -1), dvec3(2, 2, 2)}) {
+        const bool upside_down = scale.z < 0;
+        const double distance = 6, curvature = 1 / (kRadius * std::abs(scale.x));
+        const dmat4 place(
+            glm::dmat3(dvec3(scale.x, 0, 0), dvec3(0, scale.y, 0), dvec3(0, 0, scale.z)));
+        for (const bool from_above : {false, true}) {
+            const double expected = wanted(distance,
+                                           from_above == upside_down ? curvature : -curvature);
+            EXPECT_NEAR(need(patch(bowl, false), from_above ? distance : -distance, place),
+                        expected, .02 * expected)
+                << scale.x << ", " << scale.z << (from_above ? " from above" : " from below");
+        }
+    }
+}
+
+} // namespace

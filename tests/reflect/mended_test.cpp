@@ -1,0 +1,175 @@
+// Each cause of error that can be taken away, alone and with others, where it is known what must be
+// left: nothing, wherever the rest is right.
+#include "shared.h"
+#include "support/paths.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::shared;
+
+constexpr uvec2 kSize{48, 48};
+
+/// How far a row is from ray tracing with each of some sums of causes mended, first with none.
+std::vector<test::Compared> mended(const scene::Scene& scene, const std::string& technique,
+                                   const std::vector<std::uint32_t>& masks,
+                                   const std::string& shadow = "none", int frames = 1) {
+    const app::Part truth = test::render(scene, "raytrace:depth=16,shadow=" + shadow, kSize);
+    app::Request request = test::request(scene, {technique}, kSize);
+    request.warmup = frames - 1;
+    request.mended = masks;
+    const app::Part part = std::move(test::engine().run(request).parts.front());
+    std::vector<test::Compared> result{test::compared(part.hdr, truth)};
+    for (const measure::Picture& picture : part.mended)
+        result.push_back(test::compared(picture, truth));
+    std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": of " << result[0].pixels
+              << " off: none mended " << result[0].off;
+    for (std::size_t i = 0; i < masks.size(); ++i)
+        std::cout << ", mask " << masks[i] << ": " << result[i + 1].off;
+    std::cout << "\n";
+    return result;
+}
+
+/// A box, `open` without the wall behind the eye, whose walls emit a colour each, and a mirror ball
+/// beside its middle.
+scene::Scene box(const std::vector<dvec3>& boards, bool open = false) {
+    scene::Scene scene{.name = open ? "open box" : "box"};
+    for (int face = 0; face < (open ? 5 : 6); ++face)
+        test::add_mesh(scene, test::wall(face, {-4, -3, -5}, {4, 3, 5}),
+                       test::add_material(
+                           scene, {.name = "wall",
+                                   .emission = vec3(face & 1 ? .75f : .25f, face & 2 ? .75f : .25f,
+                                                    face & 4 ? .75f : .25f)}));
+    test::add_ball(scene, "ball", test::add_halving_mirror(scene, 1), {.5, -.2, 1}, 1, 5);
+    for (const dvec3& centre : boards)
+        test::add_glowing_board(scene, {0, .1f, 0}, centre, {.5, 0, .3}, {0, .5, 0});
+    scene.cameras.push_back(
+        {.eye = {-.8, .8, -3.6}, .target = {.5, -.2, 1}, .vertical_fov_degrees = 24});
+    return scene;
+}
+
+constexpr std::uint32_t kFirstOrder = kMendDirection | kMendHidden | kMendTexels;
+constexpr std::size_t kRim = 3; // pixels whose centre lies next to an outline or an edge
+
+// One crossing on every ray: with exact distances a search ends at it.
+TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
+    const auto found = mended(box({}), "secant:steps=8,face=2,distance=unorm8,range=60,shadow=none",
+                              {kMendTexels, kMendDistance, kMendDistance | kMendTexels});
+    EXPECT_GT(found[1].off, 8u) << "distances are wrong";
+    EXPECT_GT(found[2].off, 100u) << "texels are coarse";
+    EXPECT_LE(found[3].off, kRim);
+}
+
+// Neither distances nor colours are taken from the captures.
+TEST(Mended, WithoutTextureNothingDependsOnItsSize) {
+    const app::Part truth = test::render(box({}), "raytrace:shadow=none", kSize);
+    std::vector<measure::Picture> pictures;
+    for (const std::string face : {"2", "64"}) {
+        app::Request request = test::request(box({}), {"parallax:shadow=none,face=" + face}, kSize);
+        request.mended = {kMendDistance | kMendTexels, kMendTexels};
+        const app::Part part = std::move(test::engine().run(request).parts.front());
+        pictures.push_back(part.mended[0]);
+        // Parallax's one step is no exact one.
+        EXPECT_LE(test::compared(part.mended[0], truth).share(), .02);
+    }
+    EXPECT_TRUE(test::same_bytes(pictures[0], pictures[1]));
+}
+
+TEST(Mended, DirectionAndTexelsAreAllThereIsInAnEmptyBox) {
+    const auto found = mended(box({}), "reuse:face=8,shadow=none",
+                              {kMendDirection, kMendTexels, kMendDirection | kMendTexels,
+                               kMendHidden, kMendMirrors | kMendOwn});
+    EXPECT_GT(found[1].off, 100u);
+    EXPECT_GT(found[2].off, 60u);
+    EXPECT_LE(found[3].off, kRim);
+    EXPECT_EQ(found[4].off, found[0].off) << "nothing is hidden";
+    EXPECT_EQ(found[5].off, found[0].off) << "and there is no second mirror";
+    const auto open = mended(box({}, true), "reuse:face=8,shadow=none", {kFirstOrder});
+    EXPECT_LE(open[1].off, kRim) << "nothing is seen where it is open";
+}
+
+// Three boards before the walls: what they hide from the ball's centre has no direction.
+TEST(Mended, WhatIsHiddenIsNotFoundByDirection) {
+    for (const std::string technique : {"reuse:", "secant:steps=8,"}) {
+        const auto found = mended(box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+                                  technique + "face=32,shadow=none",
+                                  {kMendDirection | kMendTexels, kMendHidden, kFirstOrder});
+        EXPECT_GT(found[1].off, 20u);
+        EXPECT_LE(found[2].off + 10, found[0].off);
+        EXPECT_LE(found[3].off, kRim);
+    }
+    // A fifth of the way before floor and ceiling.
+    scene::Scene scene = box({});
+    for (const double y : {-2.4, 2.4})
+        for (const double x : {-1.1, .7, 2.5})
+            test::add_glowing_board(scene, {0, .1f, 0}, {x, y, -.6}, {.5, 0, 0}, {0, 0, 1.2});
+    const auto close = mended(scene, "reuse:face=32,shadow=none",
+                              {kMendDirection | kMendTexels, kFirstOrder});
+    EXPECT_GT(close[1].off, 8u);
+    EXPECT_LE(close[2].off, kRim);
+    // Texels of the layer that was looked up, which may be the second.
+    const auto layered = mended(box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+                                "layered:face=128,shadow=none", {kMendTexels});
+    EXPECT_LE(layered[1].off, layered[0].off);
+}
+
+TEST(Mended, MirrorsInMirrorsAreAsThisEyeSeesThem) {
+    const auto once = mended(test::three_balls(), "secant:steps=8,continue=0,face=32,shadow=none",
+                             {kFirstOrder, kFirstOrder | kMendMirrors, kMendMirrors});
+    EXPECT_GT(once[1].off, 100u) << "without history mirrors are black in captures";
+    EXPECT_LE(once[2].off, kRim);
+    EXPECT_LT(5 * once[3].off, once[0].off);
+    // What the second mirror's centre does not see is seen with both mirrors' shares.
+    scene::Scene scene = test::three_balls();
+    scene.name = "three balls and boards";
+    for (const dvec3& centre : {dvec3(1.2, -1.5, .3), dvec3(1.2, .1, 1.9), dvec3(-1.25, -1.9, .6),
+                                dvec3(-1.25, 1.2, .3), dvec3(1.3, 1.5, .2), dvec3(-1.2, -.3, 2.3)})
+        test::add_glowing_board(scene, {.1f, 0, 0}, centre, {.35, 0, 0},
+                                {0, centre.z > 1 ? .35 : 0, centre.z > 1 ? 0 : .35});
+    const auto followed = mended(
+        scene, "secant:steps=8,continue=8,face=32,shadow=none",
+        {kMendDirection | kMendTexels, kFirstOrder, kFirstOrder | kMendMirrors});
+    EXPECT_LE(followed[2].off, 2 * kRim);
+    EXPECT_GT(followed[1].off, 20u);
+    EXPECT_LE(followed[3].off, kRim);
+}
+
+scene::Scene corner() {
+    scene::Scene scene{.name = "corner"};
+    test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
+    scene::Mesh corner = scene::quad("corner", {-1.5, -1.5, 1.5}, {0, -1.5, 1.9}, {0, 1.5, 1.9},
+                                     {-1.5, 1.5, 1.5});
+    const scene::Mesh other = scene::quad("", {0, -1.5, 1.9}, {.4, -1.5, .4}, {.4, 1.5, .4},
+                                          {0, 1.5, 1.9});
+    corner.positions.insert(corner.positions.end(), other.positions.begin(), other.positions.end());
+    corner.normals.insert(corner.normals.end(), other.normals.begin(), other.normals.end());
+    for (const uvec3& triangle : other.triangles) corner.triangles.push_back(triangle + 4u);
+    test::add_mesh(scene, corner, test::add_halving_mirror(scene, 0));
+    scene.cameras.push_back(
+        {.eye = {.1, .2, -2.9}, .target = {-.4, 0, 1.5}, .vertical_fov_degrees = 45});
+    return scene;
+}
+
+TEST(Mended, AMirrorsOwnReflectionIsInNoCapture) {
+    const auto found = mended(corner(), "secant:steps=8,continue=0,face=32,shadow=none",
+                              {kFirstOrder | kMendMirrors, kMendOwn});
+    EXPECT_GT(found[1].off, 200u);
+    EXPECT_LE(found[2].off, kRim);
+}
+
+TEST(Mended, ShadowsByRaysReplaceThoseOfTheMap) {
+    scene::Scene scene = test::room(1, 1);
+    scene.cameras.front() = {
+        .eye = {-.3, -.7, -1.8}, .target = {-.9, -1.2, .3}, .vertical_fov_degrees = 42};
+    for (const std::string map : {"shadow_map=8", "shadow=none"}) {
+        const auto found = mended(scene, "secant:steps=8,face=64," + map,
+                                  {kFirstOrder, kFirstOrder | kMendShadows, kMendShadows}, "ray");
+        EXPECT_GT(found[1].off, 30u);
+        EXPECT_LE(found[2].off, kRim);
+        EXPECT_LT(5 * found[3].off, found[0].off);
+    }
+}
+
+} // namespace

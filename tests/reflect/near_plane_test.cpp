@@ -1,0 +1,168 @@
+// What is nearest to an eye, a mirror's centre or a lamp is in the picture, the capture and the
+// shadow map wherever it stands, in the corners too.
+#include "stress/texels.hpp"
+#include "support/captures.hpp"
+#include "support/paths.hpp"
+
+namespace {
+
+using namespace catoptric;
+
+constexpr vec3 kGlow{.25f, .5f, .125f}; // exact in binary16
+constexpr uvec2 kSize{64, 16};
+
+/// A board of this half width, across the direction in which it lies from a point, `distance` away.
+struct Board {
+    dvec3 centre, along, up;
+    double half;
+
+    Board(const dvec3& from, const dvec3& direction, double distance, double half_width)
+        : centre(from + distance * direction),
+          along(glm::normalize(glm::cross(direction, dvec3(.1, 1, .2)))),
+          up(glm::cross(along, direction)), half(half_width) {}
+    void add(scene::Scene& scene, std::size_t material) const {
+        const dvec3 a = half * (along + up), b = half * (along - up);
+        test::add_quad(scene, "board", material, centre - a, centre + b, centre + a, centre - b);
+    }
+    /// How far inside (above 0) or outside its outline a ray passes, shares of the half width.
+    double inside(const dvec3& eye, const dvec3& direction) const {
+        const dvec3 normal = glm::cross(along, up), way = centre - eye;
+        const double t = dot(way, normal) / dot(direction, normal);
+        if (!(t > 0)) return -1;
+        const dvec3 met = direction * t - way;
+        return 1 - std::max(std::abs(dot(met, along)), std::abs(dot(met, up))) / half;
+    }
+};
+
+/// Towards the eight corners of a cube whose faces look along the axes.
+std::vector<dvec3> corners() {
+    std::vector<dvec3> directions;
+    for (int i = 0; i < 8; ++i)
+        directions.push_back(glm::normalize(dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+    return directions;
+}
+
+std::size_t add_glow(scene::Scene& scene) {
+    return test::add_material(scene, {.name = "glow", .emission = kGlow});
+}
+
+/// A bright box around a mirror of two parallel plates, whose centre is free.
+scene::Scene plates() {
+    scene::Scene scene{.name = "plates"};
+    test::add_bright_box(scene, {-4, -4, -4}, {4, 4, 4});
+    const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
+    scene::Mesh mesh = scene::quad("plates", {-1, -1, -2}, {1, -1, -2}, {1, 1, -2}, {-1, 1, -2});
+    const scene::Mesh other = scene::quad("", {-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2});
+    for (const uvec3& triangle : other.triangles)
+        mesh.triangles.push_back(triangle + static_cast<std::uint32_t>(mesh.positions.size()));
+    mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+    mesh.normals.insert(mesh.normals.end(), other.normals.begin(), other.normals.end());
+    test::add_mesh(scene, mesh, mirror);
+    scene.cameras.push_back({.eye = {3, 0, 0}, .target = {0, 0, 0}});
+    return scene;
+}
+
+/// Texels of the capture of mirror 1, about the origin, that do not show what they should: the
+/// boards in this colour, before surroundings of radiance 1.
+std::size_t wrong_texels(const scene::Scene& scene, const std::vector<Board>& boards,
+                         const vec3& colour) {
+    constexpr std::uint32_t kFace = 32;
+    const test::Captured captured = test::capture(scene, kFace, Format::r32f);
+    std::size_t wrong = 0, shown = 0;
+    stress::for_texels(
+        kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+            double inside = -1;
+            for (const Board& board : boards)
+                inside = std::max(inside, board.inside(dvec3(0), direction));
+            if (std::abs(inside) < .02) return; // rasterisers snap corners
+            shown += inside > 0;
+            wrong += captured.colour(0, face, x, y) != (inside > 0 ? colour : vec3(1));
+        });
+    EXPECT_GT(shown, 20u);
+    return wrong;
+}
+
+TEST(NearPlane, OfCapturesCutsNoCorner) {
+    for (const double distance : {.02, .3}) {
+        scene::Scene scene = plates();
+        std::vector<Board> boards;
+        for (const dvec3& direction : corners())
+            boards.emplace_back(dvec3(0), direction, distance, .15 * distance);
+        for (const Board& board : boards) board.add(scene, add_glow(scene));
+        EXPECT_EQ(wrong_texels(scene, boards, kGlow), 0u) << distance;
+    }
+}
+
+// Its corners are far from the mirror's centre, its middle is near.
+TEST(NearPlane, IsThatOfTrianglesNotOfTheirCorners) {
+    for (const dvec3& direction : {dvec3(1, 0, 0), corners()[3]}) {
+        scene::Scene scene = plates();
+        const Board board(dvec3(0), direction, .05, 1.2);
+        board.add(scene, add_glow(scene));
+        EXPECT_EQ(wrong_texels(scene, {board}, kGlow), 0u);
+    }
+}
+
+TEST(NearPlane, OfCapturesKnowsMirrorsToo) {
+    scene::Scene scene = plates();
+    const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
+    std::vector<Board> boards;
+    for (const dvec3& direction : corners())
+        boards.emplace_back(dvec3(0), direction, .05, .01).add(scene, mirror);
+    EXPECT_EQ(wrong_texels(scene, boards, vec3(0)), 0u); // mirrors are black in captures
+}
+
+TEST(NearPlane, OfTheViewCutsNoCorner) {
+    for (const double fov : {40.0, 110.0}) {
+        scene::Scene scene{.name = "corners"};
+        test::add_bright_box(scene, {-4, -4, -4}, {4, 4, 4});
+        const scene::Camera camera{
+            .eye = {.5, .2, -.3}, .target = {.5, .2, 1}, .vertical_fov_degrees = fov};
+        scene.cameras.push_back(camera);
+        const double tangent = std::tan(glm::radians(fov) / 2);
+        for (const double x : {-1., 1.})
+            for (const double y : {-1., 1.})
+                Board(camera.eye, glm::normalize(dvec3(3.8 * x * tangent, .95 * y * tangent, 1)),
+                      .03, .004)
+                    .add(scene, add_glow(scene));
+        const app::Part truth = test::render(scene, "raytrace:shadow=none", kSize),
+                        drawn = test::render(scene, "naive:shadow=none,face=1,bounces=1", kSize);
+        std::size_t shown = 0, off = 0;
+        for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
+            shown += truth.hdr.pixels[i] == kGlow;
+            off += test::is_off(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
+        }
+        EXPECT_GT(shown, 20u) << fov;
+        EXPECT_LE(off, shown / 20) << fov; // a pixel's centre on an outline
+    }
+}
+
+// Four small boards close to a lamp, towards the corners of its shadow faces, darken the floor's.
+TEST(NearPlane, OfShadowsCutsNoCorner) {
+    scene::Scene scene{.name = "lamp"};
+    const std::size_t white = test::add_material(scene, {.name = "white", .albedo = vec3(.7f)}),
+                      lamp = test::add_material(scene, {.name = "lamp", .emission = vec3(9)}),
+                      black = test::add_material(scene, {.name = "black"});
+    for (int face = 0; face < 6; ++face)
+        test::add_mesh(scene, test::wall(face, {-2, -2, -2}, {2, 2, 2}), white);
+    test::add_quad(scene, "lamp", lamp, {-.3, 1.9, -.3}, {.3, 1.9, -.3}, {.3, 1.9, .3},
+                   {-.3, 1.9, .3});
+    for (const dvec3& direction : corners())
+        if (direction.y < 0) Board({0, 1.9, 0}, direction, .05, .02).add(scene, black);
+    scene.cameras.push_back(
+        {.eye = {0, 1.5, 0}, .target = {0, -2, 0}, .up = {0, 0, 1}, .vertical_fov_degrees = 130});
+    constexpr uvec2 kSquare{48, 48};
+    const app::Part lit = test::render(scene, "raytrace:shadow=none", kSquare),
+                    truth = test::render(scene, "raytrace:shadow=ray", kSquare),
+                    drawn = test::render(scene, "naive:face=1,bounces=1,shadow_map=512", kSquare);
+    std::size_t dark = 0, off = 0;
+    for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
+        dark += test::is_off(lit.hdr.pixels[i], truth.hdr.pixels[i]);
+        off += test::is_off(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
+    }
+    std::cout << "[ MEASURED ] in shadow " << dark << " pixels, off " << off << "\n";
+    EXPECT_GT(dark, 50u);
+    EXPECT_LE(off, dark / 4); // the outlines
+}
+
+} // namespace

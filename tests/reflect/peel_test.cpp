@@ -1,0 +1,111 @@
+// The second layer of captures: what lies behind the first, however close, and never the first
+// again.
+#include "stress/texels.hpp"
+#include "support/captures.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr std::uint32_t kFace = 48;
+constexpr vec3 kWall{.5f, .25f, .75f}, kBoard{.25f, 1, .125f}; // exact in binary16
+constexpr dvec3 kLow{-2, -3, -4}, kHigh{3, 4, 2}; // of the walls, from the mirror's centre
+
+class Peel : public testing::TestWithParam<Format> {
+protected:
+    bool is_unorm() const { return GetParam() == Format::r8_unorm; }
+    bool is_nothing(float distance) const {
+        return is_unorm() ? distance >= 1 : std::isinf(distance);
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Formats, Peel,
+                         testing::Values(Format::r32f, Format::r16f, Format::r8_unorm),
+                         [](const auto& instance) { return std::string(name_of(instance.param)); });
+
+/// A mirror ball about the origin in a box; before each wall, `gap` (of the way from the ball)
+/// nearer, one that covers its middle.
+scene::Scene double_walls(double gap) {
+    scene::Scene scene{.name = "double walls"};
+    const std::size_t wall = test::add_material(scene, {.name = "wall", .emission = kWall}),
+                      board = test::add_material(scene, {.name = "board", .emission = kBoard});
+    for (int face = 0; face < 6; ++face) {
+        test::add_mesh(scene, test::wall(face, kLow, kHigh), wall);
+        if (gap <= 0) continue;
+        scene::Mesh mesh = test::wall(face, kLow, kHigh);
+        const dvec3 middle = (mesh.positions[0] + mesh.positions[2]) / 2.;
+        for (dvec3& position : mesh.positions)
+            position = (1 - gap) * (middle + .6 * (position - middle));
+        test::add_mesh(scene, mesh, board);
+    }
+    test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}),
+                   dvec3(0), .5, 4);
+    scene.cameras.push_back({.eye = {0, 0, -3}, .target = {0, 0, 0}});
+    return scene;
+}
+
+TEST_P(Peel, NothingLiesBehindAWall) {
+    const auto [first, second] = test::capture_layers(double_walls(0), kFace, GetParam());
+    std::size_t again = 0;
+    stress::for_texels(kFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+        EXPECT_EQ(first.colour(0, face, x, y), kWall);
+        again += !is_nothing(second.distance(0, face, x, y, GetParam())) ||
+                 second.colour(0, face, x, y) != vec3(0);
+    });
+    EXPECT_EQ(again, 0u);
+}
+
+// From all that a stored distance can tell apart on.
+TEST_P(Peel, BehindABoardIsTheWallHoweverClose) {
+    for (const double gap : {GetParam() == Format::r8_unorm ? .05 : .004, .1}) {
+        const scene::Scene scene = double_walls(gap);
+        const auto [first, second] = test::capture_layers(scene, kFace, GetParam());
+        // Of the mesh's bounds, which is not quite the ball's.
+        const dvec3 centre = scene::bounds(scene, scene.objects.back()).centre();
+        std::size_t boards = 0, wrong = 0;
+        double worst = 0;
+        stress::for_texels(kFace, [&](const dvec3& direction, int face, std::uint32_t x,
+                                      std::uint32_t y) {
+            const float one = first.distance(0, face, x, y, GetParam()),
+                        two = second.distance(0, face, x, y, GetParam());
+            if (first.colour(0, face, x, y) == kWall) {
+                wrong += !is_nothing(two);
+                return;
+            }
+            ++boards;
+            wrong += second.colour(0, face, x, y) != kWall || !(two > one);
+            double wall = INFINITY;
+            for (int axis = 0; axis < 3; ++axis)
+                if (direction[axis] != 0)
+                    wall = std::min(wall,
+                                    ((direction[axis] < 0 ? kLow : kHigh)[axis] - centre[axis]) /
+                                        direction[axis]);
+            wall *= glm::length(direction);
+            const double unit = is_unorm() ? 10 : 1 / second.space.scale;
+            worst = std::max(worst, std::abs(two * unit / wall - 1));
+        });
+        EXPECT_GT(boards, 1000u);
+        EXPECT_EQ(wrong, 0u) << "gap " << gap;
+        EXPECT_LE(worst, is_unorm() ? .012 : .001) << "gap " << gap;
+    }
+}
+
+// What looks away from the centre is no second layer: a ball's far side.
+TEST_P(Peel, TheFarSideOfABallIsInNoLayer) {
+    scene::Scene scene = double_walls(0);
+    const std::size_t glow = test::add_material(scene, {.name = "glow", .emission = kBoard});
+    for (const dvec3& centre : {dvec3(1.2, .3, -.4), dvec3(-1.1, .2, .3), dvec3(.2, -1.5, -2)})
+        test::add_ball(scene, "occluder", glow, centre, .45, 4);
+    const auto [first, second] = test::capture_layers(scene, kFace, GetParam());
+    std::size_t balls = 0, wrong = 0;
+    stress::for_texels(kFace, [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
+        if (first.colour(0, face, x, y) != kBoard) return;
+        ++balls;
+        wrong += second.colour(0, face, x, y) != kWall;
+    });
+    EXPECT_GT(balls, 200u);
+    EXPECT_LE(wrong, balls / 50); // at outlines facets look away where smooth normals do not yet
+}
+
+} // namespace

@@ -1,0 +1,120 @@
+// The radius of the sphere that stands for a mirror's surroundings, read back from where its pixels
+// look: the mean distance over all directions in which there is something.
+#include "app/rays.hpp"
+#include "render/views.hpp"
+#include "stress/texels.hpp"
+#include "support/rendering.hpp"
+
+#include <algorithm>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr uvec2 kSize{48, 48};
+constexpr dvec3 kLow{-7, -1, -1.5}, kHigh{5, 2, 2.5}; // long: means of other kinds differ
+constexpr double kHalf = .4;                          // of the flat mirrors, across z
+
+struct Room {
+    std::array<dvec3, 2> centres{{{.6, .3, .4}, {-2.5, .8, .9}}}; // of the mirrors
+    bool open = false;                                            // without its wall at +x
+
+    scene::Scene scene(std::size_t looked_at) const {
+        scene::Scene scene{.name = "long room"};
+        const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
+        for (int face = open ? 1 : 0; face < 6; ++face)
+            test::add_mesh(scene, test::wall(face, kLow, kHigh), hot);
+        const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
+        for (const dvec3& c : centres)
+            test::add_quad(scene, "mirror", mirror, c + dvec3(-kHalf, -kHalf, 0),
+                           c + dvec3(-kHalf, kHalf, 0), c + dvec3(kHalf, kHalf, 0),
+                           c + dvec3(kHalf, -kHalf, 0));
+        scene.cameras.push_back({.eye = centres[looked_at] + dvec3(.3, .2, -1.2),
+                                 .target = centres[looked_at],
+                                 .vertical_fov_degrees = 30});
+        return scene;
+    }
+
+    /// To the walls or the other mirror; infinite where there is nothing.
+    double distance(std::size_t mirror, const dvec3& direction) const {
+        const dvec3 from = centres[mirror];
+        double nearest = std::numeric_limits<double>::infinity();
+        for (int axis = 0; axis < 3; ++axis) {
+            if (direction[axis] == 0) continue;
+            const bool low = direction[axis] < 0;
+            if (open && axis == 0 && !low) continue;
+            const double t = ((low ? kLow : kHigh)[axis] - from[axis]) / direction[axis];
+            // Beside the open end a ray leaves; farther walls are not met beyond it.
+            if (axis != 0 && open && from.x + t * direction.x > kHigh.x) continue;
+            nearest = std::min(nearest, t);
+        }
+        const dvec3 other = centres[1 - mirror] - from;
+        const double t = other.z / direction.z;
+        const dvec3 met = t * direction - other;
+        if (t > 0 && std::abs(met.x) <= kHalf && std::abs(met.y) <= kHalf)
+            nearest = std::min(nearest, t);
+        return nearest;
+    }
+
+    /// Mean of `value(distance)` over the solid angle in which something is nearer than `range`.
+    double mean(std::size_t mirror, double range = std::numeric_limits<double>::infinity()) const {
+        double sum = 0, all = 0;
+        stress::for_texels(256, [&](const dvec3& direction, int, std::uint32_t, std::uint32_t) {
+            const double size = glm::length(direction), angle = 1 / (size * size * size),
+                         d = distance(mirror, direction / size);
+            if (!(d < range)) return;
+            sum += angle * d, all += angle;
+        });
+        return sum / all;
+    }
+};
+
+/// Median over the mirror's pixels of the radius, in world units, of the sphere that they look at.
+double radius_of(const Room& room, std::size_t mirror, const std::string& settings) {
+    const scene::Scene scene = room.scene(mirror);
+    app::Request request = test::request(scene, {"proxy:shape=sphere,shadow=none," + settings},
+                                         kSize);
+    request.with_lookup = true;
+    const app::Part part = std::move(test::engine().run(request).parts.front());
+    const shared::View view = render::camera_view(request.camera, {}, kSize, 0);
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < part.lookup.size(); ++i) {
+        if (!(part.lookup[i].w > 0)) continue;
+        const dvec3 eye = request.camera.eye, centre = room.centres[mirror],
+                    ray(app::camera_ray(view, kSize, i).direction),
+                    offset = eye + ray * ((centre.z - eye.z) / ray.z) - centre,
+                    onward(ray.x, ray.y, -ray.z), looked(vec3(part.lookup[i]));
+        // Where the ray meets the line that it looked along.
+        const dvec3 across = glm::cross(onward, looked);
+        if (glm::length(across) < .05) continue;
+        const double t = -dot(glm::cross(offset, looked), across) / dot(across, across);
+        radii.push_back(glm::length(offset + t * onward));
+    }
+    EXPECT_GT(radii.size(), 50u);
+    std::ranges::nth_element(radii, radii.begin() + std::ssize(radii) / 2);
+    return radii[radii.size() / 2];
+}
+
+TEST(ProxyMean, IsThatOfTheDistanceOverAllDirections) {
+    for (const std::string face : {"16", "37", "64", "200"})
+        for (const std::size_t mirror : {0u, 1u}) {
+            const double wanted = Room{}.mean(mirror),
+                         found = radius_of(Room{}, mirror, "face=" + face);
+            std::cout << "[ MEASURED ] face " << face << ", mirror " << mirror + 1 << ": radius "
+                      << found << ", mean distance " << wanted << "\n";
+            EXPECT_NEAR(found, wanted, .004 * wanted) << "face " << face << ", mirror " << mirror;
+        }
+}
+
+TEST(ProxyMean, CountsOnlyDirectionsThatShowSomething) {
+    const Room open{.open = true};
+    const double wanted = open.mean(0), found = radius_of(open, 0, "face=64");
+    EXPECT_NEAR(found, wanted, .004 * wanted);
+    const double in_range = Room{}.mean(0, 3),
+                 eight_bits = radius_of(Room{}, 0, "face=64,distance=unorm8,range=3");
+    std::cout << "[ MEASURED ] open: " << found << " for " << wanted << "; in range: " << eight_bits
+              << " for " << in_range << "\n";
+    EXPECT_NEAR(eight_bits, in_range, .008 * in_range);
+}
+
+} // namespace

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "support/rendering.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <vector>
+
+/// Pictures that say which mirrors a ray has met on its way: surroundings of radiance 1, and three
+/// mirrors, each of which halves one channel.
+namespace test {
+
+/// Material of mirror `number`, 0 to 2, which halves channel `number`.
+inline std::size_t add_halving_mirror(scene::Scene& scene, int number) {
+    scene::Material material{.name = "mirror" + std::to_string(number + 1), .mirror = true};
+    material.reflectance[number] = .5f;
+    return add_material(scene, material);
+}
+
+/// A closed box [lo, hi] every point of which emits 1 in all channels.
+inline void add_bright_box(scene::Scene& scene, dvec3 lo, dvec3 hi) {
+    const std::size_t bright = add_material(scene, {.name = "bright", .emission = vec3(1)});
+    for (int face = 0; face < 6; ++face) add_mesh(scene, wall(face, lo, hi), bright);
+}
+
+/// Three balls in a bright box that see each other, exact spheres all.
+inline scene::Scene three_balls() {
+    scene::Scene scene{.name = "three balls"};
+    add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
+    const std::array<dvec3, 3> places{{{-1.25, -.3, .6}, {1.2, .1, .3}, {.05, 1, 2.2}}};
+    const std::array<double, 3> radii{1.1, 1, 1.1};
+    for (int i = 0; i < 3; ++i)
+        add_ball(scene, "ball" + std::to_string(i + 1), add_halving_mirror(scene, i),
+                 places[static_cast<std::size_t>(i)], radii[static_cast<std::size_t>(i)], 5);
+    scene.cameras.push_back(
+        {.eye = {.1, .3, -4}, .target = {0, .3, 1}, .vertical_fov_degrees = 44});
+    return scene;
+}
+
+/// A board of this radiance on both sides.
+inline void add_glowing_board(scene::Scene& scene, vec3 emission, dvec3 centre, dvec3 half_along,
+                              dvec3 half_up) {
+    const std::size_t glow = add_material(scene, {.name = "glow", .emission = emission});
+    for (const dvec3& up : {half_up, -half_up}) // a light shines to where its corners run around
+        add_quad(scene, "board", glow, centre - half_along - up, centre + half_along - up,
+                 centre + half_along + up, centre - half_along + up);
+}
+
+/// Pixels of mirrors, and how many of them differ by more than .02 in some channel.
+struct Compared {
+    std::size_t pixels = 0, off = 0;
+    double share() const { return static_cast<double>(off) / static_cast<double>(pixels); }
+};
+
+inline bool is_off(const vec3& a, const vec3& b) {
+    for (int i = 0; i < 3; ++i)
+        if (!(std::abs(a[i] - b[i]) <= .02f)) return true; // NaN too
+    return false;
+}
+
+/// Mirrors that the traced ray of a pixel has met, from its colour (of a mirror of radiance 1's
+/// surroundings); 0 for black.
+inline int mirrors_met(const vec3& colour) {
+    const float product = colour.x * colour.y * colour.z;
+    return product > 0 ? static_cast<int>(std::lround(-std::log2(product))) : 0;
+}
+
+/// Over the mirrors' pixels for which `counts(hit, colour)` holds of what the traced rays met and
+/// brought.
+template <typename Counts>
+Compared compared(const measure::Picture& picture, const app::Part& truth, Counts&& counts) {
+    Compared result;
+    for (std::size_t i = 0; i < truth.hits.size(); ++i) {
+        if (measure::first_mirror(truth.hits[i]) == 0) continue;
+        if (!counts(truth.hits[i], truth.hdr.pixels[i])) continue;
+        ++result.pixels;
+        result.off += is_off(picture.pixels[i], truth.hdr.pixels[i]);
+    }
+    return result;
+}
+inline Compared compared(const measure::Picture& picture, const app::Part& truth) {
+    return compared(picture, truth, [](std::uint32_t, const vec3&) { return true; });
+}
+
+inline std::ostream& operator<<(std::ostream& out, const Compared& found) {
+    return out << found.off << " of " << found.pixels << " off";
+}
+
+} // namespace test

@@ -1,0 +1,63 @@
+// Nothing that is as far away as the nearest thing lies in front of a near plane, in whatever
+// corner of a picture or of a cube's face.
+#include "core/shader_math.hpp"
+#include "render/views.hpp"
+#include "support/numbers.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr vec3 kEye{.3f, -.2f, .1f};
+
+/// The view, of six, that a direction falls into, in coordinates of the views' own axes.
+const shared::View& view_of(const std::vector<shared::View>& views, const vec3& direction) {
+    return *std::ranges::max_element(
+        views, {}, [&](const shared::View& view) { return dot(view.forward, direction); });
+}
+
+TEST(NearPlane, OfCubeFacesKeepsWhatIsInTheirCorners) {
+    test::Numbers numbers(1);
+    for (const float gap : {.001f, .1f, 3.f})
+        for (int k = 0; k < 20; ++k) {
+            // Not turned at first, then any way.
+            const vec3 forward = k == 0 ? vec3(0) : numbers.direction();
+            const auto views = render::turned_cube_views(kEye, forward, gap);
+            ASSERT_EQ(views.size(), 6u);
+            const vec3 x = views[0].forward, y = views[2].forward, z = views[4].forward;
+            std::vector<vec3> directions{x, -x, y, -y, z, -z};
+            for (int corner = 0; corner < 8; ++corner)
+                directions.push_back(normalize((corner & 1 ? x : -x) + (corner & 2 ? y : -y) +
+                                               (corner & 4 ? z : -z)));
+            for (int i = 0; i < 100; ++i) directions.push_back(numbers.direction());
+            for (const vec3& direction : directions) {
+                const shared::View& view = view_of(views, direction);
+                EXPECT_LT(view.near, dot(view.forward, gap * direction));
+                EXPECT_GT(view.near, 0.f);
+            }
+        }
+}
+
+TEST(NearPlane, OfTheCameraKeepsWhatIsInThePicturesCorners) {
+    for (const float gap : {.001f, .1f, 3.f})
+        for (const double fov : {10.0, 45.0, 120.0})
+            for (const uvec2 size : {uvec2(64, 64), uvec2(128, 32), uvec2(32, 128)}) {
+                const scene::Camera camera{.eye = dvec3(kEye),
+                                           .target = dvec3(kEye) + dvec3(.3, -.4, .8),
+                                           .vertical_fov_degrees = fov};
+                const shared::View view = render::camera_view(camera, {}, size, gap);
+                EXPECT_GT(view.near, 0.f);
+                for (const float x : {-1.f, 0.f, 1.f})
+                    for (const float y : {-1.f, 0.f, 1.f}) {
+                        const vec3 direction = normalize(
+                            view.forward + x * view.right / dot(view.right, view.right) +
+                            y * view.down / dot(view.down, view.down));
+                        EXPECT_LT(view.near, dot(view.forward, gap * direction))
+                            << "fov " << fov << ", " << size.x << "x" << size.y;
+                    }
+            }
+}
+
+} // namespace
