@@ -100,6 +100,7 @@ protected:
                                         std::vector<int> (*choose)(int calls)) {
         std::vector<Fault> faults;
         for (const auto& [call, count] : whole.counts) {
+            if (call.starts_with("vkCmd")) continue; // recorded, which cannot fail
             EXPECT_TRUE(kCalls.contains(call))
                 << call << " is made " << count.calls << " times and not watched";
             for (const int k : choose(count.calls))
