@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # make_results.sh PROGRAM TESTS: writes docs/results.md, docs/views.md, their pictures, and the tables of README.md and of
-# docs/causes.md, extremes.md, lag.md and robustness.md anew. TESTS: the folder of catoptric_bench and gpu_test. Called by
+# docs/causes.md, extremes.md, lag.md and robustness.md anew. TESTS: the folder of catoptric_bench, cli_test and gpu_test. Called by
 # ./dev results.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -64,6 +64,10 @@ put rules docs/robustness.md "$("$tests/catoptric_bench" rules)"
 
 "$program" stress -o out/stress >/dev/null
 put stress docs/extremes.md "$(grep '^|' out/stress/stress.md)"
+put bombs docs/extremes.md "$(
+    echo '| file | KiB | exit code | s | peak MiB | says |'
+    echo '|---|--:|--:|--:|--:|---|'
+    "$tests/cli_test" --gtest_filter='Bomb*' | sed -n 's/^\[ MEASURED \] //p')"
 put kernel docs/extremes.md "$("$tests/gpu_test" --gtest_filter='Kernel*' | sed -n 's/^\[ MEASURED \]/-/p')"
 
 # The ladder from three places that stay and three drawn from seeds.

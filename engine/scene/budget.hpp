@@ -68,7 +68,6 @@ struct Account {
     Total meshes{"meshes", budget.objects};
     Total primitives{"primitives", budget.objects};
     Total materials{"materials", budget.objects};
-    Total material_names{"names of materials used", budget.objects};
     Total remarks{"objects named by comments", budget.objects};
     Total cameras{"cameras", budget.objects};
     Total channels{"animation channels", budget.objects};

@@ -1,40 +1,50 @@
-#include "scene/gltf_document.hpp"
-
-#include <utility>
+#include "core/text.hpp"
+#include "scene/gltf_model.hpp"
 
 namespace catoptric::scene::gltf {
 
 namespace {
 
-std::vector<double> times_of(const Accessor& input, const Item& sampler) {
+using KeysOf = std::vector<std::shared_ptr<const Keys>>;
+
+std::vector<double> times_of(const Elements& input, const std::string& place) {
     std::vector<double> times(input.count);
     for (std::size_t i = 0; i < times.size(); ++i) {
         times[i] = scalar_at(input, i);
-        sampler.require(times[i] >= 0 && (i == 0 || times[i] > times[i - 1]),
-                        "input: wanted increasing times from 0 on, found ", times[i]);
+        check(times[i] >= 0 && (i == 0 || times[i] > times[i - 1]), Failure::bad_data, place,
+              ": input: wanted increasing times from 0 on, found ", times[i]);
     }
     return times;
 }
 
-/// Cubic ones come as in-tangent, value, out-tangent.
-Keys keys_of(const Item& sampler, Context& context) {
+Keys::Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler,
+                                     const std::string& place) {
     using enum Keys::Interpolation;
-    const std::string kind = sampler.text("interpolation", "LINEAR");
-    sampler.require(kind == "LINEAR" || kind == "STEP" || kind == "CUBICSPLINE",
-                    "interpolation: wanted LINEAR, STEP or CUBICSPLINE, found ", shown(Json(kind)));
-    Keys keys{.interpolation = kind == "CUBICSPLINE" ? cubic : kind == "STEP" ? step : linear};
-    const bool is_cubic = keys.interpolation == cubic;
-    const std::size_t each = is_cubic ? 3 : 1, count = context.accessors.size();
-    const Accessor& input = context.accessors.floats(sampler.needed_index("input", count), "SCALAR",
-                                                     context.account.key_times,
-                                                     sampler.place() + ": input");
-    const Accessor& output = context.accessors.floats(sampler.needed_index("output", count), "VEC3",
-                                                      context.account.key_values,
-                                                      sampler.place() + ": output");
-    sampler.require(output.count == each * input.count, "output: wanted ", each,
-                    " values for each of ", input.count, " keys, found ", output.count);
-    context.account.keys.add(input.count, sampler.place());
-    keys.times = times_of(input, sampler);
+    const std::string& kind = sampler.interpolation; // of tinygltf's own accord "LINEAR"
+    if (kind == "LINEAR") return linear;
+    if (kind == "STEP") return step;
+    check(kind == "CUBICSPLINE", Failure::bad_data, place,
+          ": interpolation: wanted LINEAR, STEP or CUBICSPLINE, found ", shown(Json(kind)));
+    return cubic;
+}
+
+/// Cubic ones come as in-tangent, value, out-tangent.
+Keys keys_of(const tinygltf::AnimationSampler& sampler, const std::string& place,
+             Context& context) {
+    Keys keys{.interpolation = interpolation_of(sampler, place)};
+    const bool is_cubic = keys.interpolation == Keys::Interpolation::cubic;
+    const std::size_t each = is_cubic ? 3 : 1;
+    check(sampler.input >= 0, Failure::bad_data, place, ": input: wanted an index, found none");
+    check(sampler.output >= 0, Failure::bad_data, place, ": output: wanted an index, found none");
+    Account& account = context.account;
+    const Elements input = context.floats(sampler.input, TINYGLTF_TYPE_SCALAR, account.key_times,
+                                          place + ": input");
+    const Elements output = context.floats(sampler.output, TINYGLTF_TYPE_VEC3, account.key_values,
+                                           place + ": output");
+    check(output.count == each * input.count, Failure::bad_data, place, ": output: wanted ", each,
+          " values for each of ", input.count, " keys, found ", output.count);
+    account.keys.add(input.count, place);
+    keys.times = times_of(input, place);
     for (std::size_t i = 0; i < input.count; ++i) {
         keys.values.push_back(vector_at(output, each * i + each / 2));
         if (!is_cubic) continue;
@@ -44,31 +54,30 @@ Keys keys_of(const Item& sampler, Context& context) {
     return keys;
 }
 
-void read_animation(const Item& animation, std::vector<Node>& nodes, Context& context) {
-    std::vector<std::shared_ptr<const Keys>> samplers(animation.size("samplers"));
-    animation.each("channels", [&](const Item& channel) {
-        context.account.channels.add(1, channel.place());
-        const std::size_t sampler = channel.needed_index("sampler", samplers.size());
-        const std::optional<Item> target = channel.object("target");
-        channel.require(target.has_value(), "wanted a target, found none");
-        const std::optional<std::size_t> node = target->index("node", nodes.size());
-        if (!node) return;
-        if (const std::string path = target->text("path"); path != "translation") {
-            context.notes.add("animation channels of '" + path + "', left out", channel.label());
-            return;
-        }
-        if (!samplers[sampler])
-            samplers[sampler] = std::make_shared<const Keys>(
-                keys_of(animation.at("samplers", sampler), context));
-        nodes[*node].motion = samplers[sampler];
-    });
+void read_animation(const tinygltf::Animation& animation, const std::string& place, KeysOf& motions,
+                    Context& context) {
+    KeysOf samplers(animation.samplers.size());
+    for (const tinygltf::AnimationChannel& channel : animation.channels) {
+        if (channel.target_path != "translation") continue; // named by the checks
+        const auto index = std::size_t(channel.sampler);
+        if (!samplers[index])
+            samplers[index] = std::make_shared<const Keys>(keys_of(
+                animation.samplers[index], place + ": " + label_of("samplers", index), context));
+        motions[std::size_t(channel.target_node)] = samplers[index];
+    }
 }
 
 } // namespace
 
-void read_animations(const Item& root, std::vector<Node>& nodes, Context& context) {
-    root.each("animations",
-              [&](const Item& animation) { read_animation(animation, nodes, context); });
+KeysOf read_motions(Context& context) {
+    const tinygltf::Model& model = context.document.model;
+    KeysOf motions(model.nodes.size());
+    for (std::size_t i = 0; i < model.animations.size(); ++i)
+        read_animation(model.animations[i],
+                       context.document.file + ": " +
+                           label_of("animations", i, model.animations[i].name),
+                       motions, context);
+    return motions;
 }
 
 } // namespace catoptric::scene::gltf

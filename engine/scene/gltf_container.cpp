@@ -1,8 +1,8 @@
 #include "scene/gltf_container.hpp"
 
 #include "core/text.hpp"
+#include "scene/gltf_check.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -14,7 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kExtensions[] = {"KHR_materials_emissive_strength"};
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 struct Chunks {
@@ -61,70 +60,66 @@ void check_extensions(const Item& root) {
     if (required == nullptr) return;
     root.require(required->is_array(), "extensionsRequired: wanted an array, found ",
                  shown(*required));
-    for (const Json& extension : *required) {
-        const bool known = extension.is_string() &&
-                           std::ranges::find(kExtensions,
-                                             extension.get_ref<const std::string&>()) !=
-                               std::end(kExtensions);
-        root.require(known,
-                     "extensionsRequired: wanted none but KHR_materials_emissive_strength, found ",
-                     shown(extension));
-    }
+    for (const Json& extension : *required)
+        root.require(extension == kEmissiveStrength, "extensionsRequired: wanted none but ",
+                     kEmissiveStrength, ", found ", shown(extension));
 }
 
-/// Each file is read once, however many buffers lie in it.
 class Buffers {
 public:
     Buffers(Container& container, Files& files, std::string_view binary)
         : container_(container), files_(files), binary_(binary) {}
 
     void add(const Item& buffer) {
-        const std::string_view bytes = bytes_of(buffer);
-        const std::uint64_t length = buffer.whole("byteLength", 0);
-        buffer.require(length >= 1 && length <= bytes.size(), "byteLength: wanted 1 to ",
-                       bytes.size(), ", the bytes that are there, found ", length);
-        container_.buffers.push_back(bytes.substr(0, length));
+        const std::size_t file = file_of(buffer);
+        const std::uint64_t length = buffer.whole("byteLength", 0),
+                            size = container_.files[file].size();
+        buffer.require(length >= 1 && length <= size, "byteLength: wanted 1 to ", size,
+                       ", the bytes that are there, found ", length);
+        container_.buffers.push_back({file, length});
     }
 
 private:
-    std::string_view bytes_of(const Item& buffer) {
+    std::size_t file_of(const Item& buffer) {
         if (!buffer.has("uri")) {
             buffer.require(
                 buffer.number_in_list() == 0 && !binary_.empty(),
                 "wanted a uri, or a GLB's binary chunk and the first place, found neither");
-            return binary_;
+            return keep({binary_.begin(), binary_.end()});
         }
         const std::string uri = buffer.text("uri");
         if (is_data_uri(uri)) return keep(data_of(uri, buffer.place()));
         const fs::path real = files_.get(file_name_of(uri, buffer.place()), buffer.place());
-        const auto [entry, is_new] = read_.try_emplace(real);
-        if (is_new) entry->second = keep(files_.read(real, buffer.place()));
+        const auto [entry, is_new] = read_.try_emplace(real, container_.files.size());
+        if (is_new) {
+            const std::string bytes = files_.read(real, buffer.place());
+            keep({bytes.begin(), bytes.end()});
+        }
         return entry->second;
     }
-    std::string_view keep(std::string bytes) {
-        container_.owners.push_back(std::make_shared<const std::string>(std::move(bytes)));
-        return *container_.owners.back();
+    std::size_t keep(Bytes bytes) {
+        container_.files.push_back(std::move(bytes));
+        return container_.files.size() - 1;
     }
 
     Container& container_;
     Files& files_;
     std::string_view binary_;
-    std::map<fs::path, std::string_view> read_;
+    std::map<fs::path, std::size_t> read_;
 };
 
 } // namespace
 
 Container read_container(const std::string& file, Files& files, Account& account) {
     Container container;
-    auto bytes = std::make_shared<const std::string>(files.read_scene());
-    const Chunks chunks = chunks_of(file, *bytes);
+    const std::string bytes = files.read_scene();
+    const Chunks chunks = chunks_of(file, bytes);
     container.document = parse_json(file, chunks.json, account);
     const Item root(container.document, file);
     check(container.document.is_object(), Failure::bad_data, file,
           ": JSON: wanted an object, found ", shown(container.document));
     check_version(root);
     check_extensions(root);
-    if (!chunks.binary.empty()) container.owners.push_back(std::move(bytes));
     Buffers buffers(container, files, chunks.binary);
     root.each("buffers", [&](const Item& buffer) { buffers.add(buffer); });
     return container;

@@ -3,19 +3,27 @@
 #include "scene/files.hpp"
 #include "scene/json.hpp"
 
-#include <memory>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace catoptric::scene::gltf {
 
+using Bytes = std::vector<unsigned char>;
+
+/// Of one of the container's files the first `length` bytes, at least 1.
+struct Buffer {
+    std::size_t file = 0;
+    std::uint64_t length = 0;
+};
+
 /// What a .gltf or .glb holds: its JSON, of version 2 and with no required extension that we lack,
 /// and the bytes of its buffers.
 struct Container {
     Json document;
-    std::vector<std::string_view> buffers;
-    std::vector<std::shared_ptr<const std::string>> owners; ///< of the buffers' bytes
+    std::vector<Buffer> buffers;
+    std::vector<Bytes> files; ///< each once, however many buffers lie in it; data URIs too
 };
 
 /// Throws `bad_data`, or `missing_input` for a buffer that is not there.
@@ -27,6 +35,6 @@ std::string file_name_of(const std::string& uri, const std::string& place);
 
 bool is_data_uri(std::string_view uri);
 /// The bytes of a base64 data: URI. Throws `bad_data` beginning with `place` for any other.
-std::string data_of(std::string_view uri, const std::string& place);
+Bytes data_of(std::string_view uri, const std::string& place);
 
 } // namespace catoptric::scene::gltf

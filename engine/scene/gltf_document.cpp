@@ -1,81 +1,68 @@
-#include "scene/gltf_document.hpp"
+#include "scene/gltf_model.hpp"
 
-#include "scene/repair.hpp"
+#include "core/text.hpp"
 
-#include <numbers>
+#include <utility>
 
 namespace catoptric::scene::gltf {
 
 namespace {
 
-dvec3 colour(const std::vector<double>& factor, double otherwise) {
-    return factor.empty() ? dvec3(otherwise) : dvec3(factor[0], factor[1], factor[2]);
+/// tinygltf's only way to bytes: our files, which are called by their numbers. Each is asked for
+/// once and given away.
+tinygltf::FsCallbacks callbacks_of(std::vector<Bytes>& files) {
+    return {.FileExists = [](const std::string&, void*) { return true; },
+            .ExpandFilePath = [](const std::string& name, void*) { return name; },
+            .ReadWholeFile =
+                [](Bytes* bytes, std::string*, const std::string& name, void* its_files) {
+                    *bytes = std::move(
+                        (*static_cast<std::vector<Bytes>*>(its_files))[std::stoul(name)]);
+                    return true;
+                },
+            .WriteWholeFile = nullptr,
+            .user_data = &files};
 }
 
-double emissive_strength(const Item& material) {
-    const std::optional<Item> extensions = material.object("extensions");
-    if (!extensions) return 1;
-    const std::optional<Item> strength = extensions->object("KHR_materials_emissive_strength");
-    return strength ? strength->number("emissiveStrength", 1) : 1;
+/// The text of what is read of a checked document. Its buffers become whole files.
+std::string text_of(Container& container) {
+    Json document = what_is_read(std::move(container.document));
+    for (Json& view : document["bufferViews"])
+        view["buffer"] = container.buffers[view["buffer"].get<std::size_t>()].file;
+    Json& buffers = document["buffers"] = Json::array();
+    for (std::size_t i = 0; i < container.files.size(); ++i)
+        buffers.push_back({{"uri", std::to_string(i)}, {"byteLength", container.files[i].size()}});
+    return document.dump();
 }
 
-Material material_of(const Item& from, Notes& notes) {
-    Material material{.name = from.name()};
-    const std::optional<Item> pbr = from.object("pbrMetallicRoughness");
-    const double metallic = pbr ? pbr->number("metallicFactor", 1) : 1;
-    const double roughness = pbr ? pbr->number("roughnessFactor", 1) : 1;
-    material.mirror = metallic == 1 && roughness == 0;
-    if (!material.mirror && !(metallic == 0 && roughness == 1))
-        notes.add("materials neither a perfect mirror (metallic 1, roughness 0) nor diffuse "
-                  "(metallic 0, roughness 1), drawn as diffuse",
-                  from.label());
-    const std::vector<double> factor = pbr ? pbr->numbers("baseColorFactor", 4)
-                                           : std::vector<double>();
-    const dvec3 base = glm::clamp(colour(factor, 1), 0.0, 1.0);
-    (material.mirror ? material.reflectance : material.albedo) = vec3(base);
-    material.emission = vec3(emissive_strength(from) *
-                             colour(from.numbers("emissiveFactor", 3), 0));
-    material.two_sided = from.flag("doubleSided", false) && material.emission != vec3(0);
-    from.require(is_radiance(material.emission),
-                 "wanted an emission of at least 0 that fits a float, found another");
-    return material;
-}
-
-std::optional<Camera> camera_of(const Item& from, Notes& notes) {
-    const std::string type = from.text("type");
-    if (type == "orthographic") {
-        notes.add("orthographic cameras, left out", from.label());
-        return std::nullopt;
-    }
-    const std::optional<Item> perspective = from.object("perspective");
-    from.require(type == "perspective" && perspective,
-                 "wanted a perspective or orthographic camera, "
-                 "found neither");
-    const double fov = perspective->number("yfov", 0);
-    perspective->require(fov > 0 && fov < std::numbers::pi,
-                         "yfov: wanted an angle between 0 and pi, found ", fov);
-    return Camera{.name = from.name(), .vertical_fov_degrees = glm::degrees(fov)};
+tinygltf::Model parse(const std::string& file, Container& container) {
+    const std::string text = text_of(container);
+    tinygltf::TinyGLTF parser;
+    parser.SetFsCallbacks(callbacks_of(container.files));
+    tinygltf::Model model;
+    std::string error, warning;
+    const bool is_read = parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
+                                                    static_cast<unsigned>(text.size()), "");
+    check(is_read, Failure::bad_data, file, ": cannot be read: ", printable(error));
+    return model;
 }
 
 } // namespace
 
-Document read(const Item& root, Context& context) {
-    note_unread(root, context);
-    Document document;
-    root.each("materials", [&](const Item& item) {
-        context.account.materials.add(1, item.place());
-        document.materials.push_back(material_of(item, context.notes));
-    });
-    root.each("cameras", [&](const Item& item) {
-        context.account.cameras.add(1, item.place());
-        document.cameras.push_back(camera_of(item, context.notes));
-    });
-    document.meshes = read_meshes(root, document.materials, context);
-    document.nodes = read_nodes(root, context);
-    check_forest(root, document.nodes);
-    document.roots = read_roots(root, document.nodes);
-    read_animations(root, document.nodes, context);
-    return document;
+std::string Document::label(std::size_t node) const {
+    return label_of("nodes", node, model.nodes[node].name);
+}
+
+Document read(const std::string& file, Files& files, Account& account, Notes& notes) {
+    Container container = read_container(file, files, account);
+    std::vector<Marks> marks;
+    {
+        const Item root(container.document, file);
+        check_members(root, account, notes);
+        check_bounds(root, container.buffers);
+        check_uses(root, files, notes);
+        marks = read_marks(root);
+    }
+    return {.file = file, .model = parse(file, container), .marks = std::move(marks)};
 }
 
 } // namespace catoptric::scene::gltf

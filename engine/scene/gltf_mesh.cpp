@@ -1,5 +1,4 @@
-#include "scene/gltf_document.hpp"
-#include "scene/repair.hpp"
+#include "scene/gltf_model.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -10,50 +9,65 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-constexpr std::uint64_t kTriangles = 4; // the mode; 0 .. 6
+std::string mesh_label(const Document& document, std::size_t mesh) {
+    return label_of("meshes", mesh, document.model.meshes[mesh].name);
+}
 
-Primitive primitive_of(const Item& item, Context& context) {
-    const std::size_t count = context.accessors.size();
-    const std::optional<Item> attributes = item.object("attributes");
-    item.require(attributes && attributes->has("POSITION"),
-                 "attributes: wanted POSITION, found none");
-    Primitive primitive{.positions = attributes->needed_index("POSITION", count),
-                        .normals = attributes->index("NORMAL", count),
-                        .indices = item.index("indices", count)};
-    Account& account = context.account;
-    const Accessor& positions = context.accessors.floats(
-        primitive.positions, "VEC3", account.positions, attributes->place() + ": POSITION");
-    if (primitive.normals) {
-        const Accessor& normals = context.accessors.floats(
-            *primitive.normals, "VEC3", account.normals, attributes->place() + ": NORMAL");
-        attributes->require(normals.count == positions.count, "wanted ", positions.count,
-                            " normals, one for each position, found ", normals.count);
+int attribute(const tinygltf::Primitive& primitive, const char* name) {
+    const auto at = primitive.attributes.find(name);
+    return at == primitive.attributes.end() ? -1 : at->second;
+}
+
+/// The elements that a primitive is made of.
+struct Primitive {
+    Primitive(const tinygltf::Model& model, const tinygltf::Primitive& from)
+        : positions(elements_of(model, attribute(from, "POSITION"))) {
+        if (const int of = attribute(from, "NORMAL"); of >= 0) normals = elements_of(model, of);
+        if (from.indices >= 0) indices = elements_of(model, from.indices);
     }
-    const Accessor& corners = primitive.indices
-                                  ? context.accessors.whole(*primitive.indices,
-                                                            item.place() + ": indices")
-                                  : positions;
-    item.require(corners.count % 3 == 0, "wanted three corners for each triangle, found ",
-                 corners.count, " corners");
-    return primitive;
+    std::size_t corners() const { return indices ? indices->count : positions.count; }
+
+    Elements positions;
+    std::optional<Elements> normals, indices;
+};
+
+void check_primitive(const tinygltf::Primitive& primitive, const std::string& place,
+                     Context& context) {
+    const std::string attributes = place + ": attributes";
+    const int position = attribute(primitive, "POSITION"), normal = attribute(primitive, "NORMAL");
+    check(position >= 0, Failure::bad_data, attributes, ": wanted POSITION, found none");
+    Account& account = context.account;
+    const std::size_t count = context
+                                  .floats(position, TINYGLTF_TYPE_VEC3, account.positions,
+                                          attributes + ": POSITION")
+                                  .count;
+    if (normal >= 0) {
+        const std::size_t normals = context
+                                        .floats(normal, TINYGLTF_TYPE_VEC3, account.normals,
+                                                attributes + ": NORMAL")
+                                        .count;
+        check(normals == count, Failure::bad_data, attributes, ": wanted ", count,
+              " normals, one for each position, found ", normals);
+    }
+    const std::size_t corners = primitive.indices < 0
+                                    ? count
+                                    : context.whole(primitive.indices, place + ": indices").count;
+    check(corners % 3 == 0, Failure::bad_data, place,
+          ": wanted three corners for each triangle, found ", corners, " corners");
 }
 
 /// Its triangles, as numbers of its positions.
-std::vector<std::uint32_t> corners_of(const Primitive& primitive, const Accessor& positions,
-                                      const Accessors& accessors, const std::string& place) {
-    std::vector<std::uint32_t> corners(primitive.indices ? accessors[*primitive.indices].count
-                                                         : positions.count);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (!primitive.indices) {
-            corners[i] = static_cast<std::uint32_t>(i);
-            continue;
-        }
-        const Accessor& indices = accessors[*primitive.indices];
-        const std::uint32_t index = corners[i] = whole_at(indices, i);
-        check(index < positions.count, Failure::bad_data, place, ": indices: wanted indices below ",
-              positions.count, ", found ", index);
-        check(index != restart_of(indices.component), Failure::bad_data, place,
-              ": indices: wanted a vertex, found ", index, ", which begins a new primitive");
+std::vector<std::uint32_t> corners_of(const Primitive& primitive, const std::string& place) {
+    std::vector<std::uint32_t> corners(primitive.corners());
+    std::iota(corners.begin(), corners.end(), 0u);
+    if (!primitive.indices) return corners;
+    const std::size_t count = primitive.positions.count;
+    for (std::uint32_t& corner : corners) {
+        corner = whole_at(*primitive.indices, corner);
+        check(corner < count, Failure::bad_data, place, ": indices: wanted indices below ", count,
+              ", found ", corner);
+        check(corner != restart_of(*primitive.indices), Failure::bad_data, place,
+              ": indices: wanted a vertex, found ", corner, ", which begins a new primitive");
     }
     return corners;
 }
@@ -74,8 +88,9 @@ std::vector<std::uint32_t> vertices_of(const std::vector<std::uint32_t>& corners
 }
 
 /// Adds the triangles and their vertices.
-void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Accessor& positions,
-            const Accessor* normals) {
+void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Primitive& primitive) {
+    const Elements& positions = primitive.positions;
+    const std::optional<Elements>& normals = primitive.normals;
     const std::vector<std::uint32_t> used = vertices_of(corners, positions.count);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const std::uint32_t vertex : used) {
@@ -91,59 +106,64 @@ void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Accessor& posi
         mesh.triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
 }
 
-} // namespace
-
-std::vector<PrimitiveGroup> read_meshes(const Item& root, std::vector<Material>& materials,
-                                        Context& context) {
-    std::vector<PrimitiveGroup> groups;
-    const std::size_t material_count = materials.size();
-    root.each("meshes", [&](const Item& item) {
-        context.account.meshes.add(1, item.place());
-        PrimitiveGroup group{.name = item.name(), .place = item.place()};
-        std::unordered_map<std::size_t, std::size_t> part_of; // by material
-        item.each("primitives", [&](const Item& part) {
-            context.account.primitives.add(1, part.place());
-            const auto material = part.index("material", material_count);
-            const std::uint64_t mode = part.whole("mode", kTriangles);
-            part.require(mode <= 6, "mode: wanted 0 to 6, found ", mode);
-            if (mode != kTriangles) {
-                context.notes.add("primitives that are not made of triangles, left out",
-                                  part.label());
-                return;
-            }
-            if (!material && materials.size() == material_count)
-                materials.push_back({.name = "default", .albedo = vec3(1)});
-            const std::size_t its = material.value_or(material_count);
-            const auto [entry, is_new] = part_of.try_emplace(its, group.parts.size());
-            if (is_new) group.parts.push_back({.material = its});
-            group.parts[entry->second].primitives.push_back(primitive_of(part, context));
-        });
-        groups.push_back(std::move(group));
-    });
-    return groups;
+std::vector<Part> parts_of(std::size_t mesh, std::vector<Material>& materials, Context& context) {
+    const auto& [file, model, marks] = context.document;
+    std::vector<Part> parts;
+    std::unordered_map<std::size_t, std::size_t> part_of; // by material
+    const std::vector<tinygltf::Primitive>& primitives = model.meshes[mesh].primitives;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const std::string label = mesh_label(context.document, mesh) + ": " +
+                                  label_of("primitives", i);
+        if (primitives[i].mode != TINYGLTF_MODE_TRIANGLES) {
+            context.notes.add("primitives that are not made of triangles, left out", label);
+            continue;
+        }
+        check_primitive(primitives[i], file + ": " + label, context);
+        const bool has_none = primitives[i].material < 0;
+        if (has_none && materials.size() == model.materials.size())
+            materials.push_back({.name = "default", .albedo = vec3(1)});
+        const std::size_t material = has_none ? model.materials.size()
+                                              : std::size_t(primitives[i].material);
+        const auto [entry, is_new] = part_of.try_emplace(material, parts.size());
+        if (is_new) parts.push_back({.material = material});
+        parts[entry->second].primitives.push_back(i);
+    }
+    return parts;
 }
 
-Mesh mesh_of(const PrimitiveGroup& group, const Part& part, Context& context) {
-    const Accessors& accessors = context.accessors;
+} // namespace
+
+std::vector<std::vector<Part>> read_parts(std::vector<Material>& materials, Context& context) {
+    std::vector<std::vector<Part>> parts;
+    for (std::size_t mesh = 0; mesh < context.document.model.meshes.size(); ++mesh)
+        parts.push_back(parts_of(mesh, materials, context));
+    return parts;
+}
+
+Mesh mesh_of(std::size_t index, const Part& part, const Context& context) {
+    const tinygltf::Model& model = context.document.model;
+    const std::string place = mesh_place(context.document, index);
+    Account& account = context.account;
+    std::vector<Primitive> primitives;
     std::size_t vertices = 0, triangles = 0;
-    for (const Primitive& primitive : part.primitives) { // before anything is made of it
-        const std::size_t positions = accessors[primitive.positions].count;
-        const std::size_t corners = primitive.indices ? accessors[*primitive.indices].count
-                                                      : positions;
-        context.account.mesh_triangles.add(corners / 3, group.place);
-        context.account.mesh_vertices.add(std::min(positions, corners), group.place);
-        vertices += std::min(positions, corners), triangles += corners / 3;
+    for (const std::size_t i : part.primitives) { // before anything is made of it
+        const Primitive& its = primitives.emplace_back(model, model.meshes[index].primitives[i]);
+        const std::size_t count = std::min(its.positions.count, its.corners());
+        account.mesh_triangles.add(its.corners() / 3, place);
+        account.mesh_vertices.add(count, place);
+        vertices += count, triangles += its.corners() / 3;
     }
-    context.account.name_bytes.add(group.name.size(), group.place);
-    Mesh mesh{.name = group.name};
+    Mesh mesh{.name = model.meshes[index].name};
+    account.name_bytes.add(mesh.name.size(), place);
     mesh.positions.reserve(vertices), mesh.normals.reserve(vertices);
     mesh.triangles.reserve(triangles);
-    for (const Primitive& primitive : part.primitives) {
-        const Accessor& positions = accessors[primitive.positions];
-        append(mesh, corners_of(primitive, positions, accessors, group.place), positions,
-               primitive.normals ? &accessors[*primitive.normals] : nullptr);
-    }
+    for (const Primitive& primitive : primitives)
+        append(mesh, corners_of(primitive, place), primitive);
     return mesh;
+}
+
+std::string mesh_place(const Document& document, std::size_t mesh) {
+    return document.file + ": " + mesh_label(document, mesh);
 }
 
 } // namespace catoptric::scene::gltf

@@ -1,8 +1,10 @@
-#include "scene/gltf_document.hpp"
+#include "scene/gltf_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 namespace catoptric::scene::gltf {
 
@@ -40,54 +42,46 @@ Marks marks_of(const Item& node) {
     return marks;
 }
 
-dmat4 matrix_of(const Item& node) {
+} // namespace
+
+std::vector<Marks> read_marks(const Item& root) {
+    std::vector<Marks> marks;
+    root.each("nodes", [&](const Item& node) { marks.push_back(marks_of(node)); });
+    return marks;
+}
+
+dmat4 parent_from_node(const Document& document, std::size_t index) {
+    const tinygltf::Node& node = document.model.nodes[index];
+    const std::vector<double>&r = node.rotation, &scale = node.scale, &t = node.translation;
     dmat4 result(1);
-    if (const std::vector<double> matrix = node.numbers("matrix", 16); !matrix.empty()) {
-        for (int i = 0; i < 16; ++i) result[i / 4][i % 4] = matrix[std::size_t(i)];
-        return result;
-    }
-    if (const std::vector<double> r = node.numbers("rotation", 4); !r.empty()) {
+    if (!node.matrix.empty()) return glm::make_mat4(node.matrix.data());
+    if (!r.empty()) {
         const glm::dquat rotation(r[3], r[0], r[1], r[2]);
         const double length = glm::length(rotation);
-        node.require(length > 0 && std::isfinite(length),
-                     "rotation: wanted a quaternion with a length, found ", length);
+        check(length > 0 && std::isfinite(length), Failure::bad_data, document.file, ": ",
+              document.label(index), ": rotation: wanted a quaternion with a length, found ",
+              length);
         result = dmat4(glm::mat3_cast(glm::normalize(rotation)));
     }
-    const std::vector<double> scale = node.numbers("scale", 3),
-                              translation = node.numbers("translation", 3);
     for (int i = 0; i < 3 && !scale.empty(); ++i) result[i] *= scale[std::size_t(i)];
-    if (const auto& t = translation; !t.empty()) result[3] = dvec4(t[0], t[1], t[2], 1);
+    if (!t.empty()) result[3] = dvec4(t[0], t[1], t[2], 1);
     return result;
 }
 
-} // namespace
-
-std::vector<Node> read_nodes(const Item& root, Context& context) {
-    std::vector<Node> nodes;
-    const std::size_t node_count = root.size("nodes"), mesh_count = root.size("meshes"),
-                      camera_count = root.size("cameras");
-    root.each("nodes", [&](const Item& item) {
-        context.account.nodes.add(1, item.place());
-        nodes.push_back({.name = item.name(),
-                         .label = item.label(),
-                         .parent_from_node = matrix_of(item),
-                         .mesh = item.index("mesh", mesh_count),
-                         .camera = item.index("camera", camera_count),
-                         .children = item.indices("children", node_count),
-                         .marks = marks_of(item)});
-    });
-    return nodes;
-}
-
-void check_forest(const Item& root, const std::vector<Node>& nodes) {
+void check_forest(const Document& document) {
+    const std::vector<tinygltf::Node>& nodes = document.model.nodes;
+    const auto require = [&](bool ok, std::size_t node, const auto&... parts) {
+        if (!ok) fail(Failure::bad_data, document.file, ": ", document.label(node), parts...);
+    };
     constexpr std::size_t kNone = ~std::size_t(0);
     std::vector<std::size_t> parent(nodes.size(), kNone), depth(nodes.size(), 0);
     for (std::size_t i = 0; i < nodes.size(); ++i)
-        for (const std::size_t child : nodes[i].children) {
-            root.require(parent[child] == kNone, nodes[child].label,
-                         ": wanted one parent at most, found ",
-                         nodes[parent[child] % nodes.size()].label, " and ", nodes[i].label);
-            parent[child] = i;
+        for (const int child : nodes[i].children) {
+            std::size_t& its = parent[std::size_t(child)];
+            if (its != kNone)
+                require(false, std::size_t(child), ": wanted one parent at most, found ",
+                        document.label(its), " and ", document.label(i));
+            its = i;
         }
     std::vector<std::size_t> waiting; // with their depth known
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -95,29 +89,24 @@ void check_forest(const Item& root, const std::vector<Node>& nodes) {
     while (!waiting.empty()) {
         const std::size_t i = waiting.back();
         waiting.pop_back();
-        root.require(depth[i] <= kDeepest, nodes[i].label, ": wanted at most ", kDeepest,
-                     " nodes one in another, found more");
-        for (const std::size_t child : nodes[i].children)
-            depth[child] = depth[i] + 1, waiting.push_back(child);
+        require(depth[i] <= kDeepest, i, ": wanted at most ", kDeepest,
+                " nodes one in another, found more");
+        for (const int child : nodes[i].children)
+            depth[std::size_t(child)] = depth[i] + 1, waiting.push_back(std::size_t(child));
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) // who has no first ancestor is its own
-        root.require(depth[i] > 0, nodes[i].label, ": wanted a tree, found a node within itself");
+        require(depth[i] > 0, i, ": wanted a tree, found a node within itself");
 }
 
-std::vector<std::size_t> read_roots(const Item& root, const std::vector<Node>& nodes) {
-    const std::size_t scene_count = root.size("scenes");
-    const std::size_t chosen = root.index("scene", scene_count).value_or(0);
-    std::vector<std::size_t> roots;
-    root.each("scenes", [&](const Item& item) {
-        std::vector<std::size_t> listed = item.indices("nodes", nodes.size());
-        if (item.number_in_list() == chosen) roots = std::move(listed);
-    });
-    if (scene_count > 0) return roots;
-    std::vector<bool> is_child(nodes.size(), false);
-    for (const Node& node : nodes)
-        for (const std::size_t child : node.children) is_child[child] = true;
+std::vector<int> roots_of(const tinygltf::Model& model) {
+    if (!model.scenes.empty())
+        return model.scenes[std::size_t(std::max(model.defaultScene, 0))].nodes;
+    std::vector<bool> is_child(model.nodes.size(), false);
+    for (const tinygltf::Node& node : model.nodes)
+        for (const int child : node.children) is_child[std::size_t(child)] = true;
+    std::vector<int> roots;
     for (std::size_t i = 0; i < is_child.size(); ++i)
-        if (!is_child[i]) roots.push_back(i);
+        if (!is_child[i]) roots.push_back(static_cast<int>(i));
     return roots;
 }
 

@@ -1,5 +1,6 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "scene/gltf_check.hpp"
 #include "scene/load.hpp"
 #include "scene/number.hpp"
 #include "scene/transform.hpp"
@@ -10,98 +11,102 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
-#include <nlohmann/json.hpp>
+#include <tiny_gltf.h>
 
 namespace catoptric::scene {
 
 namespace {
 
-using Json = nlohmann::ordered_json; // keys stay as written: same scene, same bytes
+using tinygltf::Value;
 
-enum : int { kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126 };
-
-/// The JSON and the one buffer, growing together.
+/// The model and its one buffer, growing together.
 struct Writer {
     const Scene& scene;
-    Json root;
-    std::string buffer;
-    std::map<std::tuple<std::size_t, std::size_t, bool>, std::size_t> meshes;
-    Json nodes = Json::array(), animated = Json::array(), samplers = Json::array();
+    tinygltf::Model model;
+    gltf::Bytes bytes;
+    tinygltf::Animation motion;
+    std::map<std::tuple<std::size_t, std::size_t, bool>, int> meshes;
 
-    std::size_t append(const void* data, std::size_t size, Json accessor);
-    std::size_t vectors(const std::vector<vec3>& list);
-    std::size_t times(const std::vector<float>& list);
-    std::size_t indices(const Mesh& mesh, bool inside_out);
-    std::size_t mesh_for(const Object& object);
-    void add_motion(const Keys& keys, const dvec3& rest, std::size_t node);
+    template <typename Element>
+    tinygltf::Accessor& append(const std::vector<Element>& list, int type, int component);
+    int vectors(const std::vector<vec3>& list);
+    int times(const std::vector<float>& list);
+    int indices(const Mesh& mesh, bool inside_out);
+    int mesh_for(const Object& object);
+    void add_motion(const Keys& keys, const dvec3& rest, int node);
     void add_object(const Object& object);
     void add_camera(const Camera& camera);
     void add_material(const Material& material);
 };
 
-/// Puts the bytes into the buffer, with a view and an accessor for them; returns the accessor.
-std::size_t Writer::append(const void* data, std::size_t size, Json accessor) {
-    accessor["bufferView"] = root["bufferViews"].size();
-    root["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", size}});
-    buffer.append(static_cast<const char*>(data), size);
-    buffer.resize((buffer.size() + 3) / 4 * 4, '\0');
-    root["accessors"].push_back(std::move(accessor));
-    return root["accessors"].size() - 1;
+int size_of(const auto& list) { return static_cast<int>(list.size()); }
+
+/// Puts the elements into the buffer, with a view and an accessor for them, the last one.
+template <typename Element>
+tinygltf::Accessor& Writer::append(const std::vector<Element>& list, int type, int component) {
+    tinygltf::BufferView& view = model.bufferViews.emplace_back();
+    view.buffer = 0, view.byteOffset = bytes.size(),
+    view.byteLength = list.size() * sizeof(Element);
+    const auto* const first = reinterpret_cast<const unsigned char*>(list.data());
+    bytes.insert(bytes.end(), first, first + view.byteLength);
+    bytes.resize((bytes.size() + 3) / 4 * 4, 0);
+    tinygltf::Accessor& accessor = model.accessors.emplace_back();
+    accessor.bufferView = size_of(model.bufferViews) - 1, accessor.count = list.size();
+    accessor.type = type, accessor.componentType = component;
+    return accessor;
 }
 
-Json json(const vec3& v) { return {as_typed(v.x), as_typed(v.y), as_typed(v.z)}; }
-Json json(const dvec3& v) { return {v.x + 0.0, v.y + 0.0, v.z + 0.0}; } // + 0: no "-0.0"
+template <typename Vector>
+std::vector<double> numbers(const Vector& v) {
+    return {v.x + 0.0, v.y + 0.0, v.z + 0.0}; // + 0: no "-0.0"
+}
 
-std::size_t Writer::vectors(const std::vector<vec3>& list) {
+int Writer::vectors(const std::vector<vec3>& list) {
     Bounds<float> box;
     for (const vec3& v : list) box.add(v);
-    return append(list.data(), list.size() * sizeof(vec3),
-                  {{"componentType", kFloat},
-                   {"count", list.size()},
-                   {"type", "VEC3"},
-                   {"min", {double(box.lo.x), double(box.lo.y), double(box.lo.z)}},
-                   {"max", {double(box.hi.x), double(box.hi.y), double(box.hi.z)}}});
+    tinygltf::Accessor& accessor = append(list, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT);
+    accessor.minValues = numbers(box.lo), accessor.maxValues = numbers(box.hi);
+    return size_of(model.accessors) - 1;
 }
 
-std::size_t Writer::times(const std::vector<float>& list) {
-    return append(list.data(), list.size() * sizeof(float),
-                  {{"componentType", kFloat},
-                   {"count", list.size()},
-                   {"type", "SCALAR"},
-                   {"min", Json::array({double(list.front())})},
-                   {"max", Json::array({double(list.back())})}});
+int Writer::times(const std::vector<float>& list) {
+    tinygltf::Accessor& accessor = append(list, TINYGLTF_TYPE_SCALAR,
+                                          TINYGLTF_COMPONENT_TYPE_FLOAT);
+    accessor.minValues = {list.front()}, accessor.maxValues = {list.back()};
+    return size_of(model.accessors) - 1;
 }
 
-std::size_t Writer::indices(const Mesh& mesh, bool inside_out) {
+int Writer::indices(const Mesh& mesh, bool inside_out) {
     std::vector<std::uint32_t> wide;
     for (const uvec3& t : mesh.triangles)
         wide.insert(wide.end(), {t.x, inside_out ? t.z : t.y, inside_out ? t.y : t.z});
-    Json accessor = {{"componentType", kUnsignedInt}, {"count", wide.size()}, {"type", "SCALAR"}};
     if (mesh.positions.size() >= 65535) // the highest 16-bit index means "restart"
-        return append(wide.data(), wide.size() * sizeof(std::uint32_t), std::move(accessor));
-    const std::vector<std::uint16_t> narrow(wide.begin(), wide.end());
-    accessor["componentType"] = kUnsignedShort;
-    return append(narrow.data(), narrow.size() * sizeof(std::uint16_t), std::move(accessor));
+        append(wide, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+    else
+        append(std::vector<std::uint16_t>(wide.begin(), wide.end()), TINYGLTF_TYPE_SCALAR,
+               TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+    return size_of(model.accessors) - 1;
 }
 
 /// glTF keeps the material with the triangles, and turns those of a mirrored node inside out.
-std::size_t Writer::mesh_for(const Object& object) {
+int Writer::mesh_for(const Object& object) {
     const bool inside_out = glm::determinant(dmat3(object.world_from_object)) < 0;
     const auto [entry, is_new] = meshes.try_emplace({object.mesh, object.material, inside_out},
-                                                    root["meshes"].size());
+                                                    size_of(model.meshes));
     if (!is_new) return entry->second;
     const Mesh& mesh = scene.meshes[object.mesh];
-    Json attributes;
-    attributes["POSITION"] = vectors({mesh.positions.begin(), mesh.positions.end()});
-    attributes["NORMAL"] = vectors(mesh.normals);
-    const std::size_t corners = indices(mesh, inside_out);
-    const Json primitive = {
-        {"attributes", attributes}, {"indices", corners}, {"material", object.material}};
-    root["meshes"].push_back({{"name", mesh.name}, {"primitives", Json::array({primitive})}});
+    tinygltf::Mesh& to = model.meshes.emplace_back();
+    to.name = mesh.name;
+    tinygltf::Primitive& primitive = to.primitives.emplace_back();
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = static_cast<int>(object.material);
+    primitive.attributes["POSITION"] = vectors({mesh.positions.begin(), mesh.positions.end()});
+    primitive.attributes["NORMAL"] = vectors(mesh.normals);
+    primitive.indices = indices(mesh, inside_out);
     return entry->second;
 }
 
@@ -128,7 +133,7 @@ std::optional<Keys> keys_of(const Motion& motion) {
     return std::nullopt;
 }
 
-void Writer::add_motion(const Keys& keys, const dvec3& rest, std::size_t node) {
+void Writer::add_motion(const Keys& keys, const dvec3& rest, int node) {
     using enum Keys::Interpolation;
     const bool is_cubic = keys.interpolation == cubic;
     std::vector<vec3> output;
@@ -137,32 +142,43 @@ void Writer::add_motion(const Keys& keys, const dvec3& rest, std::size_t node) {
         output.emplace_back(rest + keys.values[i]);
         if (is_cubic) output.emplace_back(keys.out_tangents[i]);
     }
-    const std::size_t input = times({keys.times.begin(), keys.times.end()});
-    animated.push_back(
-        {{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", "translation"}}}});
-    const char* name = is_cubic ? "CUBICSPLINE" : keys.interpolation == step ? "STEP" : "LINEAR";
-    samplers.push_back({{"input", input}, {"output", vectors(output)}, {"interpolation", name}});
+    tinygltf::AnimationSampler sampler;
+    sampler.input = times({keys.times.begin(), keys.times.end()});
+    sampler.output = vectors(output);
+    sampler.interpolation = is_cubic                     ? "CUBICSPLINE"
+                            : keys.interpolation == step ? "STEP"
+                                                         : "LINEAR";
+    tinygltf::AnimationChannel channel;
+    channel.sampler = size_of(motion.samplers);
+    channel.target_node = node, channel.target_path = "translation";
+    motion.samplers.push_back(std::move(sampler));
+    motion.channels.push_back(std::move(channel));
 }
 
-Json json(const dmat4& matrix) {
-    Json numbers = Json::array();
-    for (int i = 0; i < 16; ++i) numbers.push_back(matrix[i / 4][i % 4] + 0.0);
-    return numbers;
+std::vector<double> numbers(const dmat4& matrix) {
+    std::vector<double> list;
+    for (int i = 0; i < 16; ++i) list.push_back(matrix[i / 4][i % 4] + 0.0);
+    return list;
 }
 
-/// Our marks (gltf_document.hpp), the sphere in node space; null when there is nothing to say.
-Json extras(const Object& object) {
-    Json ours;
+Value marked(Value::Object ours) {
+    return Value(Value::Object{{"catoptric", Value(std::move(ours))}});
+}
+
+/// Our marks (gltf_model.hpp), the sphere in node space; nothing when there is nothing to say.
+Value extras(const Object& object) {
+    Value::Object ours;
     const dmat4& world = object.world_from_object;
     const double scale = glm::length(dvec3(world[0]));
     if (object.sphere && object.sphere->centre == dvec3(world[3]) && object.sphere->radius == scale)
-        ours["sphere"] = true;
+        ours["sphere"] = Value(true);
     else if (object.sphere) {
         const dvec3 centre = transform_point(glm::inverse(world), object.sphere->centre);
-        ours["sphere"] = {centre.x, centre.y, centre.z, object.sphere->radius / scale};
+        ours["sphere"] = Value(Value::Array{Value(centre.x), Value(centre.y), Value(centre.z),
+                                            Value(object.sphere->radius / scale)});
     }
-    if (!object.seen_by_camera) ours["seen_by_camera"] = false;
-    return ours.is_null() ? ours : Json{{"catoptric", ours}};
+    if (!object.seen_by_camera) ours["seen_by_camera"] = Value(false);
+    return ours.empty() ? Value() : marked(std::move(ours));
 }
 
 /// A node that moves holds its translation apart; where the rest is more than a scale, that goes
@@ -173,25 +189,25 @@ void Writer::add_object(const Object& object) {
     const dvec3 rest(world[3]), scale(world[0][0], world[1][1], world[2][2]);
     const bool is_scale = dmat3(world) == glm::matrixCompMult(dmat3(world), dmat3(1));
     const std::optional<Keys> keys = keys_of(object.motion);
-    const std::size_t index = nodes.size();
-    root["scenes"][0]["nodes"].push_back(index);
+    const int index = size_of(model.nodes);
+    model.scenes[0].nodes.push_back(index);
     if (keys) add_motion(*keys, rest, index);
 
-    Json node = {{"name", object.name}, {"mesh", mesh_for(object)}};
-    if (const Json marks = extras(object); !marks.is_null()) node["extras"] = marks;
-    if (is_scale && rest != dvec3(0)) node["translation"] = json(rest);
-    if (is_scale && scale != dvec3(1)) node["scale"] = json(scale);
+    tinygltf::Node node;
+    node.name = object.name, node.mesh = mesh_for(object), node.extras = extras(object);
+    if (is_scale && rest != dvec3(0)) node.translation = numbers(rest);
+    if (is_scale && scale != dvec3(1)) node.scale = numbers(scale);
     if (!is_scale && keys) {
-        nodes.push_back({{"name", object.name + "/motion"},
-                         {"translation", json(rest)},
-                         {"children", Json::array({index + 1})}});
+        tinygltf::Node& parent = model.nodes.emplace_back();
+        parent.name = object.name + "/motion";
+        parent.translation = numbers(rest), parent.children = {index + 1};
         dmat4 unmoved = world;
         unmoved[3] = dvec4(0, 0, 0, 1);
-        node["matrix"] = json(unmoved);
+        node.matrix = numbers(unmoved);
     } else if (!is_scale) {
-        node["matrix"] = json(world);
+        node.matrix = numbers(world);
     }
-    nodes.push_back(std::move(node));
+    model.nodes.push_back(std::move(node));
 }
 
 /// glTF cameras look along -z with +y up.
@@ -203,75 +219,61 @@ void Writer::add_camera(const Camera& camera) {
           "' wants an up that is not along its view");
     const dmat4 world(dvec4(right, 0), dvec4(glm::cross(right, forward), 0), dvec4(-forward, 0),
                       dvec4(camera.eye, 1));
-    root["scenes"][0]["nodes"].push_back(nodes.size());
-    nodes.push_back({{"name", camera.name},
-                     {"camera", root["cameras"].size()},
-                     {"matrix", json(world)},
-                     {"extras", {{"catoptric", {{"distance", distance}}}}}});
-    root["cameras"].push_back({{"name", camera.name},
-                               {"type", "perspective"},
-                               {"perspective",
-                                {{"yfov", glm::radians(camera.vertical_fov_degrees)},
-                                 {"znear", distance / 1000}}}}); // glTF wants one; we clip nothing
+    model.scenes[0].nodes.push_back(size_of(model.nodes));
+    tinygltf::Node& node = model.nodes.emplace_back();
+    node.name = camera.name, node.camera = size_of(model.cameras), node.matrix = numbers(world);
+    node.extras = marked({{"distance", Value(distance)}});
+    tinygltf::Camera& to = model.cameras.emplace_back();
+    to.name = camera.name, to.type = "perspective";
+    to.perspective.yfov = glm::radians(camera.vertical_fov_degrees);
+    to.perspective.znear = distance / 1000,
+    to.perspective.zfar = distance * 1000; // we clip nothing
 }
 
-/// Radiance above 1 needs the extension: the largest component is the strength.
+/// Radiance above 1 needs the extension: the largest component is the strength; and so does what
+/// tinygltf takes for black.
 void Writer::add_material(const Material& material) {
     const vec3& base = material.mirror ? material.reflectance : material.albedo;
-    Json factor = json(base);
-    factor.push_back(1);
-    Json to = {{"name", material.name},
-               {"pbrMetallicRoughness",
-                {{"baseColorFactor", factor},
-                 {"metallicFactor", material.mirror ? 1 : 0},
-                 {"roughnessFactor", material.mirror ? 0 : 1}}}};
-    if (!is_one_sided(material)) to["doubleSided"] = true;
+    tinygltf::Material& to = model.materials.emplace_back();
+    to.name = material.name;
+    to.pbrMetallicRoughness.baseColorFactor = {as_typed(base.x), as_typed(base.y), as_typed(base.z),
+                                               1};
+    to.pbrMetallicRoughness.metallicFactor = material.mirror ? 1 : 0;
+    to.pbrMetallicRoughness.roughnessFactor = material.mirror ? 0 : 1;
+    to.doubleSided = !is_one_sided(material);
     const dvec3 emission(material.emission);
-    const double strength = std::max({emission.x, emission.y, emission.z, 1.0});
-    if (emission != dvec3(0)) to["emissiveFactor"] = json(emission / strength);
-    if (strength > 1) {
-        to["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
-        root["extensionsUsed"] = Json::array({"KHR_materials_emissive_strength"});
-    }
-    root["materials"].push_back(std::move(to));
+    const double largest = std::max({emission.x, emission.y, emission.z});
+    if (largest == 0) return;
+    const bool is_common = largest <= 1 && largest > 1e-6;
+    to.emissiveFactor = numbers(is_common ? emission : emission / largest);
+    if (is_common) return;
+    const std::string extension(gltf::kEmissiveStrength);
+    to.extensions[extension] = Value(Value::Object{{"emissiveStrength", Value(largest)}});
+    model.extensionsUsed = {extension};
 }
 
-std::string word(std::uint32_t value) {
-    std::string bytes(4, '\0');
-    for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<char>(value >> (8 * i) & 255);
-    return bytes;
-}
-
-std::string chunk(std::string content, const char* type, char padding) {
-    content.resize((content.size() + 3) / 4 * 4, padding);
-    return word(static_cast<std::uint32_t>(content.size())) + std::string(type, 4) + content;
-}
-
-/// The GLB container of what the writer holds. glTF has no empty lists.
+/// The GLB container of what the writer holds.
 std::string packed(Writer& writer) {
-    Json& root = writer.root;
-    root["nodes"] = writer.nodes;
-    root["buffers"][0]["byteLength"] = writer.buffer.size();
-    if (!writer.samplers.empty())
-        root["animations"][0] = {
-            {"name", "motion"}, {"channels", writer.animated}, {"samplers", writer.samplers}};
-    for (const char* list : {"nodes", "cameras", "materials", "meshes", "accessors", "bufferViews"})
-        if (root[list].empty()) root.erase(list);
-    const std::string body = chunk(root.dump(), "JSON", ' ') + chunk(writer.buffer, "BIN\0", '\0');
-    check(body.size() < 0xffff0000u, Failure::io, "a .glb holds at most 4 GiB, this wants ",
-          body.size(), " bytes");
-    return "glTF" + word(2) + word(static_cast<std::uint32_t>(body.size() + 12)) + body;
+    tinygltf::Model& model = writer.model;
+    if (!writer.bytes.empty()) model.buffers.emplace_back().data = std::move(writer.bytes);
+    if (!writer.motion.channels.empty()) model.animations = {std::move(writer.motion)};
+    std::ostringstream stream;
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
+    std::string bytes = std::move(stream).str();
+    check(bytes.size() < 0xffff0000u, Failure::io, "a .glb holds at most 4 GiB, this wants ",
+          bytes.size(), " bytes");
+    return bytes;
 }
 
 } // namespace
 
 void save_glb(const Scene& scene, const std::filesystem::path& path) {
     Writer writer{.scene = scene};
-    writer.root = {{"asset", {{"version", "2.0"}, {"generator", "catoptric"}}},
-                   {"scene", 0},
-                   {"scenes", Json::array({{{"name", scene.name}, {"nodes", Json::array()}}})}};
-    for (const char* list : {"nodes", "cameras", "materials", "meshes", "accessors", "bufferViews"})
-        writer.root[list] = Json::array();
+    tinygltf::Model& model = writer.model;
+    model.asset.version = "2.0", model.asset.generator = "catoptric";
+    model.defaultScene = 0;
+    model.scenes.emplace_back().name = scene.name;
+    writer.motion.name = "motion";
     for (const Material& material : scene.materials) writer.add_material(material);
     for (const Object& object : scene.objects) writer.add_object(object);
     for (const Camera& camera : scene.cameras) writer.add_camera(camera);

@@ -1,15 +1,11 @@
 #include "core/text.hpp"
-#include "scene/gltf_container.hpp"
-#include "scene/gltf_document.hpp"
-
-#include <algorithm>
+#include "scene/gltf_check.hpp"
 
 namespace catoptric::scene::gltf {
 
 namespace {
 
 constexpr std::string_view kLights = "KHR_lights_punctual";
-constexpr std::string_view kRead = "KHR_materials_emissive_strength";
 
 /// What glTF allows by the beginning of an attribute's name.
 struct Semantic {
@@ -27,7 +23,7 @@ void note_extensions(const Json& value, const Item& around, Notes& notes) {
         if (value.is_object() && key == "extras") continue;
         if (value.is_object() && key == "extensions" && inner.is_object())
             for (const auto& [name, content] : inner.items())
-                if (name != kRead && name != kLights)
+                if (name != kEmissiveStrength && name != kLights)
                     notes.add("extension " + in_quotes(name) + ", not read", around.label());
         note_extensions(inner, around, notes);
     }
@@ -55,97 +51,78 @@ void note_lights(const Item& root, Notes& notes) {
     });
 }
 
-void note_texture(const Item& material, const Item& holder, const char* slot, std::size_t count,
-                  Notes& notes) {
-    const std::optional<Item> texture = holder.object(slot);
-    if (!texture) return;
-    texture->needed_index("index", count);
-    notes.add("materials with a " + std::string(slot) + ", drawn without it", material.label());
+void check_alpha(const Item& material, Notes& notes) {
+    const std::string alpha = material.text("alphaMode", "OPAQUE");
+    material.require(alpha == "OPAQUE" || alpha == "MASK" || alpha == "BLEND",
+                     "alphaMode: wanted OPAQUE, MASK or BLEND, found ", shown(Json(alpha)));
+    if (alpha != "OPAQUE")
+        notes.add("materials with alphaMode " + alpha + ", drawn opaque", material.label());
 }
 
-void note_materials(const Item& root, Notes& notes) {
-    const std::size_t textures = root.size("textures");
-    root.each("materials", [&](const Item& material) {
-        if (const std::optional<Item> pbr = material.object("pbrMetallicRoughness"))
-            for (const char* slot : {"baseColorTexture", "metallicRoughnessTexture"})
-                note_texture(material, *pbr, slot, textures, notes);
-        for (const char* slot : {"normalTexture", "occlusionTexture", "emissiveTexture"})
-            note_texture(material, material, slot, textures, notes);
-        const std::string alpha = material.text("alphaMode", "OPAQUE");
-        material.require(alpha == "OPAQUE" || alpha == "MASK" || alpha == "BLEND",
-                         "alphaMode: wanted OPAQUE, MASK or BLEND, found ", shown(Json(alpha)));
-        if (alpha != "OPAQUE")
-            notes.add("materials with alphaMode " + alpha + ", drawn opaque", material.label());
-    });
+void check_image(const Item& image, Files& files) {
+    const std::string uri = image.text("uri");
+    if (!uri.empty() && !is_data_uri(uri))
+        files.find(file_name_of(uri, image.place()), image.place());
 }
 
-/// Images are not read, but named: those in files lie where a scene's files may.
-void note_images(const Item& root, Context& context) {
-    const std::size_t images = root.size("images"), samplers = root.size("samplers"),
-                      views = root.size("bufferViews");
-    root.each("textures", [&](const Item& texture) {
-        texture.index("source", images);
-        texture.index("sampler", samplers);
-    });
-    root.each("images", [&](const Item& image) {
-        image.index("bufferView", views);
-        context.notes.add("images, not read", image.label());
-        const std::string uri = image.text("uri");
-        if (!uri.empty() && !is_data_uri(uri))
-            context.files.find(file_name_of(uri, image.place()), image.place());
-    });
+void check_camera(const Item& camera, Notes& notes) {
+    const std::string type = camera.text("type");
+    if (type == "orthographic")
+        notes.add("orthographic cameras, left out", camera.label());
+    else
+        camera.require(type == "perspective" && camera.has("perspective"),
+                       "wanted a perspective or orthographic camera, found neither");
 }
 
-void note_skins(const Item& root, Context& context) {
-    const std::size_t skins = root.size("skins"), nodes = root.size("nodes");
-    root.each("skins", [&](const Item& skin) {
-        skin.indices("joints", nodes);
-        skin.index("skeleton", nodes);
-        skin.index("inverseBindMatrices", context.accessors.size());
-    });
-    root.each("nodes", [&](const Item& node) {
-        if (node.index("skin", skins))
-            context.notes.add("nodes with a skin, not posed", node.label());
-    });
-}
-
-void check_attributes(const Item& attributes, const Accessors& accessors) {
+void check_attributes(const Item& attributes, const Item& root) {
+    const std::size_t count = root.size("accessors");
     for (const auto& [name, value] : attributes.json().items()) {
-        const Accessor& accessor = accessors[attributes.needed_index(name, accessors.size())];
+        const std::string type =
+            root.at("accessors", attributes.needed_index(name, count)).text("type");
         for (const Semantic& semantic : kSemantics)
-            attributes.require(!name.starts_with(semantic.name) || accessor.type == semantic.type ||
-                                   accessor.type == semantic.other_type,
-                               name, ": wanted an accessor of ", semantic.type, ", found ",
-                               accessor.type);
+            attributes.require(!name.starts_with(semantic.name) || type == semantic.type ||
+                                   type == semantic.other_type,
+                               name, ": wanted an accessor of ", semantic.type, ", found ", type);
     }
 }
 
-void note_primitives(const Item& root, Context& context) {
-    root.each("meshes", [&](const Item& mesh) {
-        mesh.each("primitives", [&](const Item& primitive) {
-            if (const std::optional<Item> attributes = primitive.object("attributes")) {
-                check_attributes(*attributes, context.accessors);
-                if (attributes->has("COLOR_0"))
-                    context.notes.add("primitives with colours at vertices, not read",
-                                      primitive.label());
-            }
-            primitive.each("targets", [&](const Item& target) {
-                check_attributes(target, context.accessors);
-                context.notes.add("morph targets, not read", target.label());
-            });
-        });
+void check_primitive(const Item& primitive, const Item& root) {
+    const std::uint64_t mode = primitive.whole("mode", 4);
+    primitive.require(mode <= 6, "mode: wanted 0 to 6, found ", mode);
+    const std::optional<Item> attributes = primitive.object("attributes");
+    if (attributes) check_attributes(*attributes, root);
+    primitive.each("targets", [&](const Item& target) { check_attributes(target, root); });
+    // tinygltf asks for it in words of its own
+    if (const auto indices = primitive.index("indices", root.size("accessors")))
+        primitive.require(root.at("accessors", *indices).has("bufferView"),
+                          "indices: wanted an accessor with a buffer view and without sparse, "
+                          "found another");
+}
+
+void check_animation(const Item& animation, Notes& notes) {
+    const std::size_t samplers = animation.size("samplers");
+    animation.each("channels", [&](const Item& channel) {
+        channel.needed_index("sampler", samplers);
+        const std::optional<Item> target = channel.object("target");
+        channel.require(target.has_value(), "wanted a target, found none");
+        const std::string path = target->text("path");
+        if (target->has("node") && path != "translation")
+            notes.add("animation channels of '" + path + "', left out", channel.label());
     });
 }
 
 } // namespace
 
-void note_unread(const Item& root, Context& context) {
-    note_lights(root, context.notes);
-    note_materials(root, context.notes);
-    note_images(root, context);
-    note_skins(root, context);
-    note_primitives(root, context);
-    note_all_extensions(root, context.notes);
+void check_uses(const Item& root, Files& files, Notes& notes) {
+    note_lights(root, notes);
+    root.each("materials", [&](const Item& material) { check_alpha(material, notes); });
+    root.each("images", [&](const Item& image) { check_image(image, files); });
+    root.each("cameras", [&](const Item& camera) { check_camera(camera, notes); });
+    root.each("meshes", [&](const Item& mesh) {
+        mesh.each("primitives", [&](const Item& primitive) { check_primitive(primitive, root); });
+    });
+    root.each("animations", [&](const Item& animation) { check_animation(animation, notes); });
+    note_all_extensions(root, notes);
 }
 
 } // namespace catoptric::scene::gltf

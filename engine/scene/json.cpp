@@ -69,18 +69,27 @@ std::string shown(const Json& value) {
     return text;
 }
 
-std::string Item::label(std::string_view before) const {
+std::string label_of(std::string_view list, std::size_t index, const std::string& name) {
+    return std::string(list) + "[" + std::to_string(index) + "]" +
+           (name.empty() ? "" : " " + in_quotes(name));
+}
+
+std::string Item::label(std::string_view before, std::size_t steps) const {
     std::string text;
-    for (std::size_t i = 0; i < steps_; ++i) {
+    for (std::size_t i = 0; i < steps; ++i) {
         const auto& [key, index, json] = way_[i];
         text += i == 0 ? before : std::string_view(": ");
-        text += key;
-        if (index) text += "[" + std::to_string(*index) + "]";
         const auto name = json->find("name"); // of what is no object there is none
-        if (name != json->end() && name->is_string() && *name != "")
-            text += " " + in_quotes(name->get_ref<const std::string&>());
+        const bool is_named = name != json->end() && name->is_string();
+        text += index ? label_of(key, *index, is_named ? name->get<std::string>() : "") : key;
     }
     return text;
+}
+
+std::string Item::entry() const {
+    std::size_t steps = steps_;
+    while (steps > 0 && !way_[steps - 1].index) --steps;
+    return label("", steps);
 }
 
 Item Item::to(const Step& step) const {

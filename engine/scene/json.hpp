@@ -24,6 +24,9 @@ Json parse_json(const std::string& file, std::string_view text, Account& account
 /// What a value is, short enough for a message: `"text"`, `3.5`, `an array`.
 std::string shown(const Json& value);
 
+/// "nodes[3] 'lamp'", or without a name "nodes[3]".
+std::string label_of(std::string_view list, std::size_t index, const std::string& name = {});
+
 /// An object of the document and the way to it. What is absent has a default; what is there but of
 /// the wrong kind throws `bad_data` with place, wanted and found. Valid as long as the
 /// document and the file's name.
@@ -31,9 +34,11 @@ class Item {
 public:
     Item(const Json& document, const std::string& file) : json_(&document), file_(&file) {}
 
-    /// "FILE: nodes[3] 'lamp': mesh"; `label` is the same without the file.
-    std::string place() const { return *file_ + label(": "); }
-    std::string label() const { return label(""); }
+    /// "FILE: nodes[3] 'lamp': mesh"; `label` is the same without the file, and `entry` ends with
+    /// the last of a list: "nodes[3] 'lamp'".
+    std::string place() const { return *file_ + label(": ", steps_); }
+    std::string label() const { return label("", steps_); }
+    std::string entry() const;
     template <typename... Parts>
     void require(bool ok, const Parts&... parts) const {
         if (!ok) fail(Failure::bad_data, place(), ": ", parts...);
@@ -77,7 +82,7 @@ private:
     static constexpr std::size_t kMostSteps = 4; // glTF's own objects lie no deeper
 
     Item to(const Step& step) const;
-    std::string label(std::string_view before) const;
+    std::string label(std::string_view before, std::size_t steps) const;
     std::uint64_t whole_of(const Json& value, std::string_view key) const;
     std::size_t index_of(const Json& value, std::string_view key, std::size_t count) const;
     const Json* list(std::string_view key) const;

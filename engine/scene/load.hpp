@@ -41,7 +41,7 @@ Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options = 
 Scene load_obj(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// Writes .glb (mirror = metallic 1, roughness 0; light = KHR_materials_emissive_strength; motion
-/// as a CUBICSPLINE translation; the camera; marks in gltf_document.hpp) or .obj with .mtl beside
+/// as a CUBICSPLINE translation; the camera; marks in gltf_model.hpp) or .obj with .mtl beside
 /// it (mirror = illum 3, Ks; light = Ke; camera, motion and exact spheres as `# catoptric ...`
 /// comment lines, obj_text.hpp). Same scene, same bytes.
 /// Throws `cannot_create` or `io`; an existing file is replaced only by a complete one.

@@ -17,7 +17,7 @@ namespace {
 
 /// One vertex for each pair of position and normal that is used, ascending, those without a normal
 /// first; the corners come three to a triangle.
-Mesh mesh_of(const obj::Text& text, const std::vector<obj::Corner>& corners, std::string name,
+Mesh mesh_of(const obj::Text& text, const std::vector<tinyobj::index_t>& corners, std::string name,
              Total& vertices, const std::string& place) {
     struct Use {
         std::uint64_t pair;
@@ -26,7 +26,7 @@ Mesh mesh_of(const obj::Text& text, const std::vector<obj::Corner>& corners, std
     };
     std::vector<Use> uses;
     uses.reserve(corners.size());
-    for (const auto& [position, normal] : corners) // kNoNormal + 1 is 0
+    for (const auto& [position, normal, texture] : corners) // normal -1: none
         uses.push_back({std::uint64_t(position) << 32 | std::uint32_t(normal + 1),
                         static_cast<std::uint32_t>(uses.size())});
     std::ranges::sort(uses);
@@ -39,12 +39,11 @@ Mesh mesh_of(const obj::Text& text, const std::vector<obj::Corner>& corners, std
     mesh.triangles.resize(corners.size() / 3);
     for (std::size_t i = 0; i < uses.size(); ++i) {
         const std::uint32_t corner = uses[i].corner;
-        const auto& [position, normal] = corners[corner];
+        const auto& [position, normal, texture] = corners[corner];
         if (is_first(i)) {
-            mesh.positions.push_back(text.positions[position]);
-            mesh.normals.push_back(normal == obj::kNoNormal
-                                       ? vec3(0)
-                                       : vec3(normalized_or_zero(text.normals[normal])));
+            mesh.positions.push_back(text.positions[std::size_t(position)]);
+            mesh.normals.push_back(
+                normal < 0 ? vec3(0) : vec3(normalized_or_zero(text.normals[std::size_t(normal)])));
         }
         mesh.triangles[corner / 3][static_cast<int>(corner % 3)] = static_cast<std::uint32_t>(
             mesh.positions.size() - 1);
@@ -59,36 +58,34 @@ struct Builder {
     Scene scene;
     std::optional<std::size_t> without_material; ///< known once something needs it
 
-    /// A shape's triangles of one material.
+    /// A shape's triangles of one material, -1: none.
     struct Part {
-        std::uint32_t material;
-        std::vector<obj::Corner> corners;
+        int material;
+        std::vector<tinyobj::index_t> corners;
     };
-    std::vector<Part> parts_of(std::size_t first_face, std::size_t end_face);
-    void add_shape(const std::string& name, std::size_t first_face, std::size_t end_face);
+    static std::vector<Part> parts_of(const tinyobj::mesh_t& mesh);
+    void add_shape(const tinyobj::shape_t& shape);
     void add_object(const std::string& shape, Part part, bool is_only);
-    std::size_t material_index(std::uint32_t material);
+    std::size_t material_index(int material);
 };
 
 /// In order of first use.
-std::vector<Builder::Part> Builder::parts_of(std::size_t first_face, std::size_t end_face) {
+std::vector<Builder::Part> Builder::parts_of(const tinyobj::mesh_t& mesh) {
     std::vector<Part> parts;
-    std::unordered_map<std::uint32_t, std::size_t> part_of;
-    for (std::size_t i = first_face; i < end_face; ++i) {
-        const auto [first, material] = text.faces[i];
-        const std::size_t end = i + 1 < text.faces.size() ? text.faces[i + 1].first
-                                                          : text.corners.size();
-        const auto [entry, is_new] = part_of.try_emplace(material, parts.size());
-        if (is_new) parts.push_back({.material = material});
-        obj::cut(std::span(text.corners).subspan(first, end - first), text.positions,
-                 context.account.cuts, file, parts[entry->second].corners);
+    std::unordered_map<int, std::size_t> part_of;
+    for (std::size_t i = 0; i < mesh.material_ids.size(); ++i) {
+        const auto [entry, is_new] = part_of.try_emplace(mesh.material_ids[i], parts.size());
+        if (is_new) parts.push_back({.material = mesh.material_ids[i]});
+        const auto first = mesh.indices.begin() + std::ptrdiff_t(3 * i);
+        std::vector<tinyobj::index_t>& corners = parts[entry->second].corners;
+        corners.insert(corners.end(), first, first + 3);
     }
     return parts;
 }
 
 /// What has no material gets the first that is called "default", or a grey one.
-std::size_t Builder::material_index(std::uint32_t material) {
-    if (material != obj::kNoMaterial) return material;
+std::size_t Builder::material_index(int material) {
+    if (material >= 0) return std::size_t(material);
     if (without_material) return *without_material;
     const auto found = std::ranges::find(scene.materials, "default", &Material::name);
     without_material = static_cast<std::size_t>(found - scene.materials.begin());
@@ -125,23 +122,29 @@ void Builder::add_object(const std::string& shape, Part part, bool is_only) {
     scene.objects.push_back(std::move(object));
 }
 
-void Builder::add_shape(const std::string& name, std::size_t first_face, std::size_t end_face) {
-    std::vector<Part> parts = parts_of(first_face, end_face);
-    for (Part& part : parts) add_object(name, std::move(part), parts.size() == 1);
+void Builder::add_shape(const tinyobj::shape_t& shape) {
+    std::vector<Part> parts = parts_of(shape.mesh);
+    for (Part& part : parts)
+        add_object(text.names[std::stoul(shape.name)], std::move(part), parts.size() == 1);
 }
 
 void check_names(const obj::Text& text) {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < text.shapes.size(); ++i) {
-        const bool is_last = i + 1 == text.shapes.size();
-        if (text.shapes[i].first < (is_last ? text.faces.size() : text.shapes[i + 1].first))
-            names.push_back(text.shapes[i].name);
-    }
-    const std::unordered_set<std::string> known(names.begin(), names.end());
+    const std::unordered_set<std::string> known(text.names.begin(), text.names.end());
     for (const auto& [name, where] : text.remarks.named_at)
         if (!known.contains(name))
             fail(Failure::bad_data, where, ": wanted the name of an object with faces, found ",
-                 in_quotes(name), did_you_mean(name, names));
+                 in_quotes(name), did_you_mean(name, text.names));
+}
+
+tinyobj::ObjReader parse(const obj::Text& text, const std::string& file) {
+    tinyobj::ObjReaderConfig config;
+    config.triangulate = false; // they are triangles
+    config.vertex_color = false;
+    tinyobj::ObjReader reader;
+    const bool is_read = reader.ParseFromString("mtllib all\no 0\n" + text.statements,
+                                                text.library.statements, config);
+    check(is_read, Failure::bad_data, file, ": cannot be read: ", printable(reader.Error()));
+    return reader;
 }
 
 } // namespace
@@ -154,16 +157,13 @@ Scene load_obj(const std::filesystem::path& path, const LoadOptions& options) {
     obj::Context context{files, account, notes};
     const obj::Text text = obj::read_text(file, context);
     check_names(text);
+    const tinyobj::ObjReader reader = parse(text, file);
     Builder builder{.file = file, .text = text, .context = context};
     builder.scene = {.name = path.stem().string(),
-                     .materials = text.materials,
+                     .materials = materials_of(text.library, reader.GetMaterials()),
                      .cameras = text.remarks.cameras,
                      .files = files.found()};
-    for (std::size_t i = 0; i < text.shapes.size(); ++i) {
-        const bool is_last = i + 1 == text.shapes.size();
-        builder.add_shape(text.shapes[i].name, text.shapes[i].first,
-                          is_last ? text.faces.size() : text.shapes[i + 1].first);
-    }
+    for (const tinyobj::shape_t& shape : reader.GetShapes()) builder.add_shape(shape);
     finish(builder.scene, file, notes);
     return std::move(builder.scene);
 }

@@ -5,27 +5,28 @@
 
 #include <algorithm>
 
+#include <glm/gtc/type_ptr.hpp>
+
 namespace catoptric::scene::obj {
 
 namespace {
 
-vec3 colour(const Line& line) { return vec3(vector_of(line)); }
-
-vec3 reflectance(const Line& line) { return glm::clamp(colour(line), 0.0f, 1.0f); }
-
-vec3 radiance(const Line& line) {
-    const vec3 emission = colour(line);
-    check(is_radiance(emission), Failure::bad_data, line.where(),
+void check_radiance(const Line& line) {
+    check(is_radiance(vec3(vector_of(line))), Failure::bad_data, line.where(),
           ": 'Ke' wants radiance of at least 0 that fits a float, found ", in_quotes(line.rest));
-    return emission;
 }
 
 /// 0 and 1 are diffuse, 3 is a mirror; others have something that this engine has not.
-bool is_mirror(const Line& line, Notes& notes) {
+std::string illum_text(const Line& line, Notes& notes) {
     const double kind = numbers(line, words(line), 0, 1)[0];
     if (kind != 0 && kind != 1 && kind != 3)
         notes.add("materials with illum " + number_text(kind) + ", drawn as diffuse", line.where());
-    return kind == 3;
+    return kind == 3 ? " 3" : " 0";
+}
+
+std::string vector_text(const Line& line) {
+    const dvec3 v = vector_of(line);
+    return " " + number_text(v.x) + " " + number_text(v.y) + " " + number_text(v.z);
 }
 
 /// "map_Kd", "bump", "norm", "refl" and the like.
@@ -40,21 +41,23 @@ void find_map(const Line& line, Files& files) {
     if (!name.empty()) files.find(name, line.where());
 }
 
-void add_statement(std::vector<Material>& materials, const Line& line, Unread& unread,
-                   Context& context) {
+void add_statement(Library& library, const Line& line, Unread& unread, Context& context,
+                   bool& is_in_material) {
+    const auto say = [&](const std::string& rest) {
+        (library.statements += line.keyword).append(rest) += '\n';
+    };
     if (line.keyword == "newmtl") {
         context.account.materials.add(1, *line.file);
-        materials.push_back({.name = std::string(line.rest)});
-    } else if (materials.empty()) {
+        say(" " + std::to_string(library.names.size()));
+        library.names.emplace_back(line.rest);
+        is_in_material = true;
+    } else if (!is_in_material) {
         return; // nothing to say it of
-    } else if (line.keyword == "Kd") {
-        materials.back().albedo = reflectance(line);
-    } else if (line.keyword == "Ks") {
-        materials.back().reflectance = reflectance(line);
-    } else if (line.keyword == "Ke") {
-        materials.back().emission = radiance(line);
+    } else if (line.keyword == "Kd" || line.keyword == "Ks" || line.keyword == "Ke") {
+        if (line.keyword == "Ke") check_radiance(line);
+        say(vector_text(line));
     } else if (line.keyword == "illum") {
-        materials.back().mirror = is_mirror(line, context.notes);
+        say(illum_text(line, context.notes));
     } else {
         unread.add(line);
         if (is_map(line.keyword)) find_map(line, context.files);
@@ -77,18 +80,33 @@ std::string map_file(const Line& line) {
 }
 
 void read_materials(const std::filesystem::path& real, const std::string& place, Context& context,
-                    std::vector<Material>& materials) {
-    std::vector<Material> found;
+                    Library& library) {
     Unread unread;
+    bool is_in_material = false;
     const std::string file = real.string();
-    for_each_line(file, context.files.read(real, place),
-                  [&](const Line& line) { add_statement(found, line, unread, context); });
+    for_each_line(file, context.files.read(real, place), [&](const Line& line) {
+        add_statement(library, line, unread, context, is_in_material);
+    });
     unread.tell(file, context.notes);
-    // Ks of anything but a perfect mirror is a highlight, which this engine has not
-    for (Material& material : found) {
-        if (!material.mirror) material.reflectance = vec3(1);
-        materials.push_back(std::move(material));
+}
+
+std::vector<Material> materials_of(const Library& library,
+                                   const std::vector<tinyobj::material_t>& read) {
+    std::vector<Material> materials;
+    const auto reflectance = [](const tinyobj::real_t(&c)[3]) {
+        return glm::clamp(vec3(c[0], c[1], c[2]), 0.0f, 1.0f);
+    };
+    for (const std::string& name : library.names) {
+        const tinyobj::material_t& from = read[materials.size()];
+        const bool is_mirror = from.illum == 3;
+        // Ks of anything but a perfect mirror is a highlight, which this engine has not
+        materials.push_back({.name = name,
+                             .albedo = reflectance(from.diffuse),
+                             .emission = glm::make_vec3(from.emission),
+                             .mirror = is_mirror,
+                             .reflectance = is_mirror ? reflectance(from.specular) : vec3(1)});
     }
+    return materials;
 }
 
 } // namespace catoptric::scene::obj

@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -15,52 +16,43 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The highest number that a face used, checked at the end: a face may come before its vertices.
-struct Highest {
-    std::uint64_t number = 0;
-    std::size_t line = 0;
-};
-
-/// A name that `usemtl` gave, looked up at the end: a library may come after it.
-struct Use {
-    std::string name, where;
-};
-
+/// Goes over the file twice: faces and uses may come before what they name.
 class Reader {
 public:
     Reader(const std::string& file, Context& context) : file_(file), context_(context) {}
 
-    void statement(const Line& line);
+    /// Everything but faces, groups and uses of materials.
+    void definition(const Line& line);
+    void name_materials();
+    /// These.
+    void use(const Line& line);
     Text finish();
 
 private:
     void library(const Line& line);
     void library_file(const Line& line, const std::string& name);
     void face(const Line& line);
-    Corner corner(const Line& line, std::string_view word);
-    std::uint32_t index(const Line& line, std::string_view digits, std::size_t count,
-                        Highest& highest);
+    Corner corner(const Line& line, std::string_view word) const;
     void group(const Line& line);
     void use_material(const Line& line);
-    void check_highest(const Highest& highest, std::size_t count, std::string_view what) const;
-    void name_materials();
 
     const std::string& file_;
     Context& context_;
     Text text_;
     Unread unread_;
     std::unordered_set<std::string> libraries_; ///< real paths of those that have been read
-    std::vector<Use> uses_;                     ///< what a face's material means until the end
-    std::unordered_map<std::string, std::uint32_t> use_of_;
-    std::uint32_t use_ = kNoMaterial;
-    Highest position_, normal_;
+    std::unordered_map<std::string, std::size_t> material_of_;
+    std::optional<std::size_t> material_;     ///< of the faces that come
+    std::size_t positions_ = 0, normals_ = 0; ///< so far
+    bool has_faces_ = false;                  ///< the last shape
+    std::vector<Corner> polygon_, triangles_; ///< of one face
 };
 
 void Reader::library_file(const Line& line, const std::string& name) {
     const std::string place = line.where() + ": mtllib";
     const fs::path real = context_.files.get(name, place);
     if (libraries_.insert(real.string()).second)
-        read_materials(real, place, context_, text_.materials);
+        read_materials(real, place, context_, text_.library);
 }
 
 /// One name with spaces, or several names.
@@ -75,14 +67,21 @@ void Reader::library(const Line& line) {
     for (const std::string_view name : names) library_file(line, std::string(name));
 }
 
+/// Of materials with the same name the first is meant.
+void Reader::name_materials() {
+    for (std::size_t i = 0; i < text_.library.names.size(); ++i)
+        material_of_.try_emplace(text_.library.names[i], i);
+}
+
 void Reader::use_material(const Line& line) {
-    const auto [entry, is_new] = use_of_.try_emplace(std::string(line.rest),
-                                                     static_cast<std::uint32_t>(uses_.size()));
-    if (is_new) {
-        context_.account.material_names.add(1, *line.file, ":", line.number);
-        uses_.push_back({std::string(line.rest), line.where()});
-    }
-    use_ = entry->second;
+    const std::string name(line.rest);
+    const auto found = material_of_.find(name);
+    if (found == material_of_.end())
+        fail(Failure::bad_data, line.where(), ": usemtl wants a material of the libraries, found ",
+             in_quotes(name), did_you_mean(name, text_.library.names));
+    if (material_ == found->second) return;
+    material_ = found->second;
+    text_.statements += "usemtl " + std::to_string(*material_) + "\n";
 }
 
 /// `o` has one name, all of the line; `g` has several, of which one is made.
@@ -93,37 +92,40 @@ void Reader::group(const Line& line) {
         for (std::string_view rest = line.rest; !rest.empty();)
             name.append(name.empty() ? "" : " ").append(take_word(rest));
     }
-    if (text_.shapes.back().first == text_.faces.size()) // nothing in it
-        text_.shapes.back().name = std::move(name);
-    else
-        text_.shapes.push_back({.name = std::move(name), .first = text_.faces.size()});
+    if (std::exchange(has_faces_, false)) {
+        text_.statements += "o " + std::to_string(text_.names.size()) + "\n";
+        text_.names.emplace_back();
+    }
+    text_.names.back() = std::move(name);
 }
 
 /// From 0; negative ones count from the last one so far.
-std::uint32_t Reader::index(const Line& line, std::string_view digits, std::size_t count,
-                            Highest& highest) {
+std::uint32_t index_of(const Line& line, std::string_view digits, std::size_t so_far,
+                       std::size_t count, std::string_view what) {
     std::int64_t value = 0;
     const char* end = digits.data() + digits.size();
     const auto result = std::from_chars(digits.data(), end, value);
     if (result.ec != std::errc() || result.ptr != end || value == 0)
         fail(Failure::bad_data, line.where(), ": face wants an index other than 0, found ",
              in_quotes(digits));
-    const bool exists = value > 0 || std::uint64_t(0) - std::uint64_t(value) <= count;
-    if (!exists)
-        fail(Failure::bad_data, line.where(), ": face wants one of ", count,
+    if (value < 0 && std::uint64_t(0) - std::uint64_t(value) > so_far)
+        fail(Failure::bad_data, line.where(), ": face wants one of ", so_far,
              " vertices so far, found ", value);
-    const std::uint64_t number = value > 0 ? std::uint64_t(value)
-                                           : count + 1 + std::uint64_t(value);
-    if (number > highest.number) highest = {number, line.number};
-    return static_cast<std::uint32_t>(number - 1); // `highest` knows of larger ones
+    if (value > 0 && std::uint64_t(value) > count)
+        fail(Failure::bad_data, line.where(), ": face wants one of ", count, " ", what, ", found ",
+             value);
+    return static_cast<std::uint32_t>(value > 0 ? value - 1 : std::int64_t(so_far) + value);
 }
 
 /// "v", "v/vt", "v//vn" or "v/vt/vn" without the vt.
-Corner Reader::corner(const Line& line, std::string_view word) {
+Corner Reader::corner(const Line& line, std::string_view word) const {
     const std::size_t slash = word.find('/'), last = word.rfind('/');
-    Corner corner{index(line, word.substr(0, slash), text_.positions.size(), position_), kNoNormal};
+    Corner corner{
+        index_of(line, word.substr(0, slash), positions_, text_.positions.size(), "positions"),
+        kNoNormal};
     if (last != slash && last + 1 != word.size())
-        corner.normal = index(line, word.substr(last + 1), text_.normals.size(), normal_);
+        corner.normal = index_of(line, word.substr(last + 1), normals_, text_.normals.size(),
+                                 "normals");
     return corner;
 }
 
@@ -132,63 +134,47 @@ void Reader::face(const Line& line) {
     if (count < 3)
         fail(Failure::bad_data, line.where(), ": face wants at least 3 corners, found ", count);
     context_.account.mesh_triangles.add(count - 2, *line.file, ":", line.number);
-    text_.faces.push_back({static_cast<std::uint32_t>(text_.corners.size()), use_});
+    polygon_.clear(), triangles_.clear();
     std::string_view rest = line.rest;
-    for (std::size_t i = 0; i < count; ++i) text_.corners.push_back(corner(line, take_word(rest)));
+    for (std::size_t i = 0; i < count; ++i) polygon_.push_back(corner(line, take_word(rest)));
+    cut(polygon_, text_.positions, context_.account.cuts, file_, triangles_);
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        const auto [position, normal] = triangles_[i];
+        (text_.statements += i % 3 == 0 ? "f " : " ") += std::to_string(position + 1);
+        if (normal != kNoNormal) text_.statements += "//" + std::to_string(normal + 1);
+        if (i % 3 == 2) text_.statements += '\n';
+    }
+    has_faces_ = true;
 }
 
-void Reader::statement(const Line& line) {
+void Reader::definition(const Line& line) {
     if (line.keyword == "v") {
         context_.account.positions.add(1, *line.file, ":", line.number);
         text_.positions.push_back(vector_of(line));
     } else if (line.keyword == "vn") {
         context_.account.normals.add(1, *line.file, ":", line.number);
         text_.normals.push_back(vector_of(line));
-    } else if (line.keyword == "f") {
-        face(line);
-    } else if (line.keyword == "o" || line.keyword == "g") {
-        group(line);
-    } else if (line.keyword == "usemtl") {
-        use_material(line);
     } else if (line.keyword == "mtllib") {
         library(line);
     } else if (line.keyword.front() == '#') {
         add_remark(text_.remarks, line, context_.account);
-    } else {
+    } else if (line.keyword != "f" && line.keyword != "o" && line.keyword != "g" &&
+               line.keyword != "usemtl") {
         unread_.add(line);
     }
 }
 
-void Reader::check_highest(const Highest& highest, std::size_t count, std::string_view what) const {
-    check(highest.number <= count, Failure::bad_data, file_, ":", highest.line,
-          ": face wants one of ", count, " ", what, ", found ", highest.number);
-}
-
-/// Of materials with the same name the first is meant.
-void Reader::name_materials() {
-    std::vector<std::string> names;
-    std::unordered_map<std::string, std::uint32_t> index_of;
-    for (const Material& material : text_.materials) {
-        index_of.try_emplace(material.name, static_cast<std::uint32_t>(names.size()));
-        names.push_back(material.name);
-    }
-    std::vector<std::uint32_t> meant;
-    for (const auto& [name, where] : uses_) {
-        const auto found = index_of.find(name);
-        if (found == index_of.end())
-            fail(Failure::bad_data, where, ": usemtl wants a material of the libraries, found ",
-                 in_quotes(name), did_you_mean(name, names));
-        meant.push_back(found->second);
-    }
-    for (Face& face : text_.faces)
-        if (face.material != kNoMaterial) face.material = meant[face.material];
+void Reader::use(const Line& line) {
+    if (line.keyword == "v") ++positions_;
+    if (line.keyword == "vn") ++normals_;
+    if (line.keyword == "f") face(line);
+    if (line.keyword == "o" || line.keyword == "g") group(line);
+    if (line.keyword == "usemtl") use_material(line);
 }
 
 Text Reader::finish() {
-    check_highest(position_, text_.positions.size(), "positions");
-    check_highest(normal_, text_.normals.size(), "normals");
-    name_materials();
     unread_.tell(file_, context_.notes);
+    if (!has_faces_) text_.names.pop_back();
     return std::move(text_);
 }
 
@@ -196,8 +182,10 @@ Text Reader::finish() {
 
 Text read_text(const std::string& file, Context& context) {
     Reader reader(file, context);
-    for_each_line(file, context.files.read_scene(),
-                  [&](const Line& line) { reader.statement(line); });
+    const std::string bytes = context.files.read_scene();
+    for_each_line(file, bytes, [&](const Line& line) { reader.definition(line); });
+    reader.name_materials();
+    for_each_line(file, bytes, [&](const Line& line) { reader.use(line); });
     return reader.finish();
 }
 

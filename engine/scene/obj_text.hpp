@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include <tiny_obj_loader.h>
+
 namespace catoptric::scene::obj {
 
 /// A line that says something. The views end with the call that gets it.
@@ -63,6 +65,13 @@ private:
     std::map<std::string, Count, std::less<>> counts_;
 };
 
+/// Material libraries as tinyobjloader is given them, all in one: nothing but `newmtl NUMBER`, Kd,
+/// Ks, Ke and `illum 3`, checked.
+struct Library {
+    std::string statements;
+    std::vector<std::string> names; ///< by number: tinyobjloader would end a line at a '\r' in one
+};
+
 /// What reading needs beside the text.
 struct Context {
     Files& files;
@@ -70,9 +79,12 @@ struct Context {
     Notes& notes;
 };
 
-/// Appends the materials of one .mtl file, in file order (mirror = illum 3 with Ks, light = Ke).
+/// Adds what one .mtl file says of materials.
 void read_materials(const std::filesystem::path& real, const std::string& place, Context& context,
-                    std::vector<Material>& materials);
+                    Library& library);
+/// In file order (mirror = illum 3 with Ks, light = Ke).
+std::vector<Material> materials_of(const Library& library,
+                                   const std::vector<tinyobj::material_t>& read);
 
 /// What the `# catoptric` comments say about objects, by name:
 ///   # catoptric camera NAME ex ey ez tx ty tz ux uy uz fov
@@ -102,26 +114,13 @@ struct Corner {
 };
 inline constexpr std::uint32_t kNoNormal = ~0u;
 
-/// Corners [first, the next face's first).
-struct Face {
-    std::uint32_t first;
-    std::uint32_t material; ///< `kNoMaterial`: none
-};
-inline constexpr std::uint32_t kNoMaterial = ~0u;
-
-/// Faces [first, the next shape's first) of an `o` or `g`; there may be none.
-struct Shape {
-    std::string name;
-    std::size_t first = 0;
-};
-
-/// An .obj file as it stands, every index in range.
+/// An .obj file for tinyobjloader.
 struct Text {
-    std::vector<dvec3> positions, normals;
-    std::vector<Corner> corners;
-    std::vector<Face> faces;
-    std::vector<Shape> shapes{1};    ///< in file order, beginning with one without a name
-    std::vector<Material> materials; ///< of all libraries
+    /// Nothing but `o NUMBER`, `usemtl NUMBER`, and triangles `f` with indices that exist.
+    std::string statements;
+    std::vector<std::string> names{1};     ///< of shapes; the first has none
+    std::vector<dvec3> positions, normals; ///< exact; tinyobjloader's are floats
+    Library library;
     Remarks remarks;
 };
 

@@ -1,28 +1,12 @@
 // Scene files that reach out, ask for too much, or talk to the terminal.
-#include "cli/program.hpp"
+#include "cli/triangle.hpp"
 
 #include <algorithm>
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
-/// A triangle that lies in a file of its own.
-Json triangle(const std::string& uri) {
-    return {{"asset", {{"version", "2.0"}}},
-            {"nodes", {{{"mesh", 0}}}},
-            {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
-            {"accessors",
-             {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}}},
-            {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
-            {"buffers", {{{"byteLength", 36}, {"uri", uri}}}}};
-}
-
-std::string corners() {
-    const float numbers[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    return {reinterpret_cast<const char*>(numbers), sizeof numbers};
-}
+using namespace test::loading;
 
 bool is_plain(const std::string& text) {
     return std::ranges::all_of(
@@ -35,14 +19,6 @@ protected:
         Words words = {"render", scene, "--technique", "raytrace", "-o", "x.png"};
         words.insert(words.end(), more.begin(), more.end());
         return quick(words);
-    }
-    /// Refused for one of the totals, with little memory.
-    void expect_over_budget(const std::string& scene, const std::string& what) const {
-        const test::Ended ended = cli(render(scene));
-        expect_ended(ended, 65,
-                     {scene, "wanted at most ", what, ", the budget of a scene, found "});
-        EXPECT_LE(ended.peak_bytes, 1ull << 30);
-        EXPECT_LE(ended.err.size(), 500u);
     }
 };
 
@@ -68,51 +44,6 @@ TEST_F(SceneFile, APlusIsAPlus) {
     expect_refused(render("x.gltf"), 66, {"'a+b.bin' is not there"});
     write("a+b.bin", corners());
     EXPECT_EQ(cli(render("x.gltf")).exit_code, 0);
-}
-
-TEST_F(SceneFile, SmallFilesThatWantMuch) {
-    // 5 KB of the same library of 80,000 materials: read once
-    std::string text = "mtllib m.mtl", materials;
-    for (int i = 0; i < 80'000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
-    for (int i = 0; i < 600; ++i) text += " m.mtl";
-    write("m.mtl", materials);
-    write("library.obj", text + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const test::Ended library = cli(render("library.obj"));
-    EXPECT_EQ(library.exit_code, 0) << library.err;
-    EXPECT_LE(library.peak_bytes, 1ull << 30);
-
-    Json nodes = triangle("a.bin");
-    nodes["accessors"][0]["count"] = 60'000;
-    nodes["bufferViews"][0]["byteLength"] = nodes["buffers"][0]["byteLength"] = 720'000;
-    std::string floats;
-    for (int i = 0; i < 20'000; ++i) floats += corners();
-    write("a.bin", floats);
-    for (int i = 0; i < 20'000; ++i) nodes["nodes"].push_back({{"mesh", 0}});
-    write("nodes.gltf", nodes.dump());
-    expect_over_budget("nodes.gltf", "4000000 vertices shown by objects");
-
-    Json primitives = triangle("a.bin");
-    primitives["accessors"] = nodes["accessors"], primitives["bufferViews"] = nodes["bufferViews"];
-    primitives["buffers"] = nodes["buffers"];
-    for (int i = 0; i < 10'000; ++i)
-        primitives["meshes"][0]["primitives"].push_back(primitives["meshes"][0]["primitives"][0]);
-    write("primitives.gltf", primitives.dump());
-    expect_over_budget("primitives.gltf", "4000000 vertices in meshes");
-
-    std::string empty = "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}";
-    for (int i = 0; i < 330'000; ++i) empty += ",{}";
-    write("empty.gltf", empty + "]}");
-    expect_over_budget("empty.gltf", "125000 materials");
-}
-
-TEST_F(SceneFile, ALongNameIsLookedUpAtOnce) {
-    std::string materials;
-    for (int i = 0; i < 50'000; ++i) materials += "newmtl material" + std::to_string(i) + "\n";
-    write("m.mtl", materials);
-    write("x.obj", "mtllib m.mtl\nusemtl " + std::string(20'000, 'm') + "\n");
-    const test::Ended ended = cli(render("x.obj"));
-    expect_ended(ended, 65, {"x.obj:2", "mmm...' (20000 bytes)"});
-    EXPECT_LE(ended.err.size(), 300u);
 }
 
 TEST_F(SceneFile, WhatIsNotReadIsNamed) {

@@ -1,0 +1,174 @@
+// Small files that would take gigabytes or hours, and lies: refused, or harmless, within 1 GiB. The
+// table in docs/extremes.md ("bombs") is what they print.
+#include "cli/triangle.hpp"
+
+#include <cmath>
+#include <iostream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace test::loading;
+
+const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+class Bomb : public Cli {
+protected:
+    /// Renders the file: ends with the code, `parts` in what it says, little of it, and little
+    /// memory. 0: it loads and renders.
+    void expect(const std::string& what, const std::string& file, int exit_code,
+                const Words& parts = {}) const {
+        const test::Ended ended = cli(
+            quick({"render", file, "--technique", "raytrace", "-o", "x.png"}));
+        EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
+        for (const std::string& part : parts) EXPECT_THAT(ended.err, testing::HasSubstr(part));
+        EXPECT_LE(ended.peak_bytes, 1ull << 30);
+        EXPECT_LE(ended.err.size(), 600u);
+        std::string said = ended.err.substr(0, ended.err.find('\n'));
+        said = exit_code == 0 ? "(renders)" : said.substr(std::string("catoptric: ").size(), 110);
+        std::cout << "[ MEASURED ] | " << what << " | " << fs::file_size(folder / file) / 1024 + 1
+                  << " | " << exit_code << " | " << std::ceil(ended.seconds * 10) / 10 << " | "
+                  << (ended.peak_bytes >> 20) << " | " << said << " |\n";
+    }
+    void expect(const std::string& what, const std::string& file, const Json& scene, int exit_code,
+                const Words& parts = {}) const {
+        write(file, scene.dump());
+        expect(what, file, exit_code, parts);
+    }
+    /// 20,000 triangles in a.bin, and how to show them.
+    Json many_triangles() const {
+        Json scene = triangle("a.bin");
+        scene["accessors"][0]["count"] = 60'000;
+        scene["bufferViews"][0]["byteLength"] = scene["buffers"][0]["byteLength"] = 720'000;
+        std::string floats;
+        for (int i = 0; i < 20'000; ++i) floats += corners();
+        write("a.bin", floats);
+        return scene;
+    }
+    void SetUp() override { write("a.bin", corners()); }
+};
+
+TEST_F(Bomb, ListsOfEmptyObjects) {
+    std::string text = "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}";
+    for (int i = 0; i < 330'000; ++i) text += ",{}";
+    write("empty.gltf", text + "]}");
+    expect("1 MB of empty objects", "empty.gltf", 65,
+           {"empty.gltf", "wanted at most 125000 materials, the budget of a scene, found 125001"});
+}
+
+/// All of the budget for JSON and what is made of it.
+TEST_F(Bomb, ListsOfAccessors) {
+    Json scene = triangle("a.bin");
+    std::string text = scene.dump(), more;
+    for (int i = 0; i < 600'000; ++i)
+        more += R"({"componentType":5126,"count":1,"type":"SCALAR"},)";
+    text.insert(text.find('[', text.find("accessors")) + 1, more);
+    write("accessors.gltf", text);
+    expect("600,000 accessors", "accessors.gltf", 65, {"bytes of memory for its JSON"});
+}
+
+TEST_F(Bomb, AnAccessorOfFourThousandMillion) {
+    Json scene = triangle("a.bin");
+    scene["accessors"][0]["count"] = 4'000'000'000;
+    expect("accessor of 4e9 elements", "count.gltf", scene, 65,
+           {"accessors[0]: wanted 4000000000 elements", "holds 3"});
+    scene["accessors"][0].erase("bufferView");
+    expect("the same without a view", "view.gltf", scene, 65, {"without sparse, found another"});
+}
+
+TEST_F(Bomb, NodesThatDouble) {
+    Json scene = triangle("a.bin");
+    scene["nodes"] = Json::array();
+    for (int i = 0; i < 30; ++i) scene["nodes"].push_back({{"children", {i + 1, i + 1}}});
+    scene["nodes"].push_back({{"mesh", 0}});
+    expect("30 nodes, each twice in the one before", "double.gltf", scene, 65,
+           {"nodes[1]: wanted one parent at most, found nodes[0] and nodes[0]"});
+}
+
+TEST_F(Bomb, NodesAndPrimitivesThatShare) {
+    Json nodes = many_triangles();
+    for (int i = 0; i < 20'000; ++i) nodes["nodes"].push_back({{"mesh", 0}});
+    expect("20,000 nodes of a mesh of 20,000 triangles", "nodes.gltf", nodes, 65,
+           {"wanted at most 4000000 vertices shown by objects, the budget of a scene, found "});
+    Json primitives = many_triangles();
+    Json& list = primitives["meshes"][0]["primitives"];
+    const Json one = list[0];
+    for (int i = 0; i < 10'000; ++i) list.push_back(one);
+    expect("10,000 primitives of the same numbers", "primitives.gltf", primitives, 65,
+           {"wanted at most 4000000 vertices in meshes, the budget of a scene, found "});
+}
+
+TEST_F(Bomb, LibrariesNamedAgainAndAgain) {
+    std::string text = "mtllib m.mtl", materials;
+    for (int i = 0; i < 80'000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
+    for (int i = 0; i < 600; ++i) text += " m.mtl";
+    write("m.mtl", materials);
+    write("library.obj", text + "\n" + kTriangle + "f 1 2 3\n");
+    expect("600 times a library of 80,000 materials: read once", "library.obj", 0);
+}
+
+TEST_F(Bomb, ObjThatWantsMuch) {
+    std::string text, face = "f", materials;
+    for (int i = 0; i < 20'000; ++i) {
+        const double angle = i * 2 * M_PI / 20'000, radius = 1 + i % 2;
+        text += "v " + std::to_string(radius * std::cos(angle)) + " " +
+                std::to_string(radius * std::sin(angle)) + " 0\n";
+        face += " " + std::to_string(i + 1);
+    }
+    write("star.obj", text + face + "\n");
+    expect("a star of 20,000 corners", "star.obj", 65,
+           {"wanted at most 100000000 comparisons to cut concave polygons"});
+    write("negative.obj", kTriangle + "f 1 2 -9223372036854775808\n");
+    expect("index -9223372036854775808", "negative.obj", 65, {"found -9223372036854775808"});
+    text = "mtllib m.mtl\n" + kTriangle + "o " + std::string(100'000, 'n') + "\n";
+    for (int i = 0; i < 400; ++i) {
+        materials += "newmtl " + std::to_string(i) + "\n";
+        text += "usemtl " + std::to_string(i) + "\nf 1 2 3\n";
+    }
+    write("m.mtl", materials), write("names.obj", text);
+    expect("a name of 100 kB in 400 materials", "names.obj", 65, {"bytes of names"});
+}
+
+TEST_F(Bomb, ALongNameIsLookedUpAtOnce) {
+    std::string materials;
+    for (int i = 0; i < 50'000; ++i) materials += "newmtl material" + std::to_string(i) + "\n";
+    write("m.mtl", materials);
+    write("name.obj", "mtllib m.mtl\nusemtl " + std::string(20'000, 'm') + "\n");
+    expect("a misspelt name of 20 kB, 50,000 names", "name.obj", 65,
+           {"name.obj:2", "mmm...' (20000 bytes)"});
+}
+
+TEST_F(Bomb, FilesThatAreOthers) {
+    fs::create_directories(folder / "in");
+    write("secret.bin", corners()), write("a b.bin", corners());
+    fs::create_symlink("../secret.bin", folder / "in/link.bin");
+    expect("a link out of the folder", "in/link.gltf", triangle("link.bin"), 65,
+           {"buffers[0]: wanted a file below '", "--root", "secret.bin'"});
+    expect("`a+b.bin` where `a b.bin` lies", "plus.gltf", triangle("a+b.bin"), 66,
+           {"'a+b.bin' is not there"});
+}
+
+TEST_F(Bomb, ValuesThatCannotBe) {
+    Json scene = triangle("a.bin");
+    scene["nodes"][0]["rotation"] = {0, 0, 0, 0};
+    expect("a quaternion of zeros", "rotation.gltf", scene, 65,
+           {"nodes[0]: rotation: wanted a quaternion with a length, found 0"});
+
+    scene = triangle("a.bin");
+    write("a.bin", corners() + std::string(8, '\0') + std::string(4, '\xff'));
+    scene["buffers"][0]["byteLength"] = 48;
+    scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 12}});
+    scene["accessors"].push_back(
+        {{"bufferView", 1}, {"componentType", 5125}, {"count", 3}, {"type", "SCALAR"}});
+    scene["meshes"][0]["primitives"][0]["indices"] = 1;
+    expect("index 4294967295", "index.gltf", scene, 65,
+           {"indices: wanted indices below 3, found 4294967295"});
+
+    scene = triangle("a.bin");
+    for (int i = 0; i < 20'000; ++i) scene["nodes"][i] = {{"children", {i + 1}}};
+    scene["nodes"].push_back({{"mesh", 0}});
+    expect("20,000 nodes one in another", "deep.gltf", scene, 65,
+           {"nodes[4096]: wanted at most 4096 nodes one in another"});
+}
+
+} // namespace
