@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # make_results.sh PROGRAM TESTS: writes docs/results.md, docs/views.md, their pictures, and the tables of README.md and of
-# docs/causes.md, extremes.md, lag.md and robustness.md anew. TESTS: the folder of catoptric_bench, cli_test and gpu_test. Called by
-# ./dev results.
+# docs/causes.md, extremes.md, lag.md and robustness.md anew. TESTS: the folder of catoptric_bench, cli_test and
+# gpu_test. Called by ./dev results.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=$1 tests=$2

@@ -7,35 +7,13 @@ namespace catoptric::scene::gltf {
 namespace {
 
 /// The objects of a glTF file that have something to say to us.
+// clang-format off
 enum class In {
-    file,
-    asset,
-    view,
-    accessor,
-    sparse,
-    sparse_part,
-    material,
-    pbr,
-    extensions,
-    strength,
-    texture_use,
-    camera,
-    perspective,
-    orthographic,
-    mesh,
-    primitive,
-    attributes,
-    node,
-    scene,
-    animation,
-    channel,
-    target,
-    sampler,
-    skin,
-    texture,
-    image,
-    nothing,
+    nothing, file, asset, view, accessor, sparse, sparse_part, material, pbr, extensions, strength,
+    texture_use, camera, perspective, orthographic, mesh, primitive, attributes, node, scene,
+    animation, channel, target, sampler, skin, texture, image
 };
+// clang-format on
 
 enum class Kind { text, flag, number, numbers, whole, index, needed_index, indices, object, list };
 
@@ -44,41 +22,28 @@ struct Member {
     In in;
     std::string_view key;
     Kind kind;
-    In is = In::nothing;             ///< the object, or each one of the list
-    std::string_view of = {};        ///< the list that an index is of
-    std::size_t count = 0;           ///< of numbers
-    bool needed_there = false;       ///< tinygltf wants it: where absent it is -1 as an index, or 0
-    bool unread = false;             ///< checked only
-    std::string_view note = {};      ///< what is said of it when it is there
+    In is = In::nothing;        ///< the object, or each one of the list
+    std::string_view of = {};   ///< the list that an index is of
+    std::size_t count = 0;      ///< of numbers
+    bool unread = false;        ///< checked only
+    std::string_view note = {}; ///< what is said of it when it is there
+    bool made_up = false;       ///< where absent, since tinygltf wants it: -1 as an index, or 0
     Total Account::*total = nullptr; ///< each one of the list counts here,
     std::size_t bytes = 0;           ///< and takes so much memory
 };
 
-constexpr Member text(In in, std::string_view key) { return {in, key, Kind::text}; }
-constexpr Member flag(In in, std::string_view key) { return {in, key, Kind::flag}; }
-constexpr Member whole(In in, std::string_view key) { return {in, key, Kind::whole}; }
-constexpr Member number(In in, std::string_view key) { return {in, key, Kind::number}; }
-constexpr Member numbers(In in, std::string_view key, std::size_t count) {
+constexpr Member vector(In in, std::string_view key, std::size_t count) {
     return {.in = in, .key = key, .kind = Kind::numbers, .count = count};
 }
-constexpr Member index(In in, std::string_view key, std::string_view of) {
-    return {.in = in, .key = key, .kind = Kind::index, .of = of};
+constexpr Member one_of(In in, std::string_view key, std::string_view of, Kind kind = Kind::index) {
+    return {.in = in, .key = key, .kind = kind, .of = of};
 }
-constexpr Member needed_index(In in, std::string_view key, std::string_view of) {
-    return {.in = in, .key = key, .kind = Kind::needed_index, .of = of};
-}
-constexpr Member indices(In in, std::string_view key, std::string_view of) {
-    return {.in = in, .key = key, .kind = Kind::indices, .of = of};
-}
-constexpr Member object(In in, std::string_view key, In is) { return {in, key, Kind::object, is}; }
 template <typename Made = char>
-constexpr Member list(std::string_view key, In is, Total Account::*total = nullptr,
-                      In in = In::file) {
-    return {
-        .in = in, .key = key, .kind = Kind::list, .is = is, .total = total, .bytes = sizeof(Made)};
+constexpr Member list_of(In in, std::string_view key, In is, Total Account::*total = nullptr) {
+    return {in, key, Kind::list, is, {}, 0, false, {}, false, total, sizeof(Made)};
 }
-constexpr Member there(Member member) {
-    member.needed_there = true;
+constexpr Member made_up(Member member) {
+    member.made_up = true;
     return member;
 }
 constexpr Member unread(Member member, std::string_view note = {}) {
@@ -86,114 +51,117 @@ constexpr Member unread(Member member, std::string_view note = {}) {
     return member;
 }
 
+using enum In;
+using enum Kind;
+
 constexpr Member kMembers[] = {
-    object(In::file, "asset", In::asset),
-    text(In::asset, "version"),
+    {file, "asset", object, asset},
+    {asset, "version", text},
 
-    list<tinygltf::BufferView>("bufferViews", In::view),
-    needed_index(In::view, "buffer", "buffers"),
-    whole(In::view, "byteOffset"),
-    whole(In::view, "byteLength"),
-    whole(In::view, "byteStride"),
+    list_of<tinygltf::BufferView>(file, "bufferViews", view),
+    one_of(view, "buffer", "buffers", needed_index),
+    {view, "byteOffset", whole},
+    {view, "byteLength", whole},
+    {view, "byteStride", whole},
 
-    list<tinygltf::Accessor>("accessors", In::accessor),
-    index(In::accessor, "bufferView", "bufferViews"),
-    whole(In::accessor, "byteOffset"),
-    whole(In::accessor, "componentType"),
-    whole(In::accessor, "count"),
-    text(In::accessor, "type"),
-    object(In::accessor, "sparse", In::sparse),
-    whole(In::sparse, "count"),
-    object(In::sparse, "indices", In::sparse_part),
-    object(In::sparse, "values", In::sparse_part),
-    index(In::sparse_part, "bufferView", "bufferViews"),
-    whole(In::sparse_part, "byteOffset"),
-    whole(In::sparse_part, "componentType"),
+    list_of<tinygltf::Accessor>(file, "accessors", accessor),
+    one_of(accessor, "bufferView", "bufferViews"),
+    {accessor, "byteOffset", whole},
+    {accessor, "componentType", whole},
+    {accessor, "count", whole},
+    {accessor, "type", text},
+    {accessor, "sparse", object, sparse},
+    {sparse, "count", whole},
+    {sparse, "indices", object, sparse_part},
+    {sparse, "values", object, sparse_part},
+    one_of(sparse_part, "bufferView", "bufferViews"),
+    {sparse_part, "byteOffset", whole},
+    {sparse_part, "componentType", whole},
 
-    list<tinygltf::Material>("materials", In::material, &Account::materials),
-    text(In::material, "name"),
-    object(In::material, "pbrMetallicRoughness", In::pbr),
-    numbers(In::pbr, "baseColorFactor", 4),
-    number(In::pbr, "metallicFactor"),
-    number(In::pbr, "roughnessFactor"),
-    numbers(In::material, "emissiveFactor", 3),
-    flag(In::material, "doubleSided"),
-    object(In::material, "extensions", In::extensions),
-    object(In::extensions, kEmissiveStrength, In::strength),
-    number(In::strength, "emissiveStrength"),
-    unread(object(In::pbr, "baseColorTexture", In::texture_use),
+    list_of<tinygltf::Material>(file, "materials", material, &Account::materials),
+    {material, "name", text},
+    {material, "pbrMetallicRoughness", object, pbr},
+    vector(pbr, "baseColorFactor", 4),
+    {pbr, "metallicFactor", number},
+    {pbr, "roughnessFactor", number},
+    vector(material, "emissiveFactor", 3),
+    {material, "doubleSided", flag},
+    {material, "extensions", object, extensions},
+    {extensions, kEmissiveStrength, object, strength},
+    {strength, "emissiveStrength", number},
+    unread({pbr, "baseColorTexture", object, texture_use},
            "materials with a baseColorTexture, drawn without it"),
-    unread(object(In::pbr, "metallicRoughnessTexture", In::texture_use),
+    unread({pbr, "metallicRoughnessTexture", object, texture_use},
            "materials with a metallicRoughnessTexture, drawn without it"),
-    unread(object(In::material, "normalTexture", In::texture_use),
+    unread({material, "normalTexture", object, texture_use},
            "materials with a normalTexture, drawn without it"),
-    unread(object(In::material, "occlusionTexture", In::texture_use),
+    unread({material, "occlusionTexture", object, texture_use},
            "materials with a occlusionTexture, drawn without it"),
-    unread(object(In::material, "emissiveTexture", In::texture_use),
+    unread({material, "emissiveTexture", object, texture_use},
            "materials with a emissiveTexture, drawn without it"),
-    needed_index(In::texture_use, "index", "textures"),
-    unread(list("textures", In::texture)),
-    index(In::texture, "source", "images"),
-    index(In::texture, "sampler", "samplers"),
-    unread(list("images", In::image), "images, not read"),
-    index(In::image, "bufferView", "bufferViews"),
-    text(In::image, "uri"),
+    one_of(texture_use, "index", "textures", needed_index),
+    unread(list_of(file, "textures", texture)),
+    one_of(texture, "source", "images"),
+    one_of(texture, "sampler", "samplers"),
+    unread(list_of(file, "images", image), "images, not read"),
+    one_of(image, "bufferView", "bufferViews"),
+    {image, "uri", text},
 
-    list<tinygltf::Camera>("cameras", In::camera, &Account::cameras),
-    text(In::camera, "name"),
-    text(In::camera, "type"),
-    there(object(In::camera, "perspective", In::perspective)),
-    there(number(In::perspective, "yfov")),
-    there(number(In::perspective, "znear")),
-    there(object(In::camera, "orthographic", In::orthographic)),
-    there(number(In::orthographic, "xmag")),
-    there(number(In::orthographic, "ymag")),
-    there(number(In::orthographic, "zfar")),
-    there(number(In::orthographic, "znear")),
+    list_of<tinygltf::Camera>(file, "cameras", camera, &Account::cameras),
+    {camera, "name", text},
+    {camera, "type", text},
+    made_up({camera, "perspective", object, perspective}),
+    made_up({perspective, "yfov", number}),
+    made_up({perspective, "znear", number}),
+    made_up({camera, "orthographic", object, orthographic}),
+    made_up({orthographic, "xmag", number}),
+    made_up({orthographic, "ymag", number}),
+    made_up({orthographic, "zfar", number}),
+    made_up({orthographic, "znear", number}),
 
-    list<tinygltf::Mesh>("meshes", In::mesh, &Account::meshes),
-    text(In::mesh, "name"),
-    list<tinygltf::Primitive>("primitives", In::primitive, &Account::primitives, In::mesh),
-    index(In::primitive, "material", "materials"),
-    whole(In::primitive, "mode"),
-    there(object(In::primitive, "attributes", In::attributes)),
-    index(In::attributes, "POSITION", "accessors"),
-    index(In::attributes, "NORMAL", "accessors"),
-    unread(index(In::attributes, "COLOR_0", "accessors"),
+    list_of<tinygltf::Mesh>(file, "meshes", mesh, &Account::meshes),
+    {mesh, "name", text},
+    list_of<tinygltf::Primitive>(mesh, "primitives", primitive, &Account::primitives),
+    one_of(primitive, "material", "materials"),
+    {primitive, "mode", whole},
+    made_up({primitive, "attributes", object, attributes}),
+    one_of(attributes, "POSITION", "accessors"),
+    one_of(attributes, "NORMAL", "accessors"),
+    unread(one_of(attributes, "COLOR_0", "accessors"),
            "primitives with colours at vertices, not read"),
-    index(In::primitive, "indices", "accessors"),
-    unread(list("targets", In::nothing, nullptr, In::primitive), "morph targets, not read"),
+    one_of(primitive, "indices", "accessors"),
+    unread(list_of(primitive, "targets", nothing), "morph targets, not read"),
 
-    list<tinygltf::Node>("nodes", In::node, &Account::nodes),
-    text(In::node, "name"),
-    index(In::node, "mesh", "meshes"),
-    index(In::node, "camera", "cameras"),
-    indices(In::node, "children", "nodes"),
-    numbers(In::node, "matrix", 16),
-    numbers(In::node, "rotation", 4),
-    numbers(In::node, "scale", 3),
-    numbers(In::node, "translation", 3),
-    unread(index(In::node, "skin", "skins"), "nodes with a skin, not posed"),
-    unread(list("skins", In::skin)),
-    indices(In::skin, "joints", "nodes"),
-    index(In::skin, "skeleton", "nodes"),
-    index(In::skin, "inverseBindMatrices", "accessors"),
+    list_of<tinygltf::Node>(file, "nodes", node, &Account::nodes),
+    {node, "name", text},
+    one_of(node, "mesh", "meshes"),
+    one_of(node, "camera", "cameras"),
+    one_of(node, "children", "nodes", indices),
+    vector(node, "matrix", 16),
+    vector(node, "rotation", 4),
+    vector(node, "scale", 3),
+    vector(node, "translation", 3),
+    unread(one_of(node, "skin", "skins"), "nodes with a skin, not posed"),
+    unread(list_of(file, "skins", skin)),
+    one_of(skin, "joints", "nodes", indices),
+    one_of(skin, "skeleton", "nodes"),
+    one_of(skin, "inverseBindMatrices", "accessors"),
 
-    index(In::file, "scene", "scenes"),
-    list<tinygltf::Scene>("scenes", In::scene),
-    indices(In::scene, "nodes", "nodes"),
+    one_of(file, "scene", "scenes"),
+    list_of<tinygltf::Scene>(file, "scenes", scene),
+    one_of(scene, "nodes", "nodes", indices),
 
-    list<tinygltf::Animation>("animations", In::animation),
-    text(In::animation, "name"),
-    list<tinygltf::AnimationChannel>("channels", In::channel, &Account::channels, In::animation),
-    whole(In::channel, "sampler"),
-    object(In::channel, "target", In::target),
-    index(In::target, "node", "nodes"),
-    text(In::target, "path"),
-    list<tinygltf::AnimationSampler>("samplers", In::sampler, nullptr, In::animation),
-    there(index(In::sampler, "input", "accessors")),
-    there(index(In::sampler, "output", "accessors")),
-    text(In::sampler, "interpolation"),
+    list_of<tinygltf::Animation>(file, "animations", animation),
+    {animation, "name", text},
+    list_of<tinygltf::AnimationChannel>(animation, "channels", channel, &Account::channels),
+    {channel, "sampler", whole},
+    {channel, "target", object, target},
+    one_of(target, "node", "nodes"),
+    {target, "path", text},
+    list_of<tinygltf::AnimationSampler>(animation, "samplers", sampler),
+    made_up(one_of(sampler, "input", "accessors")),
+    made_up(one_of(sampler, "output", "accessors")),
+    {sampler, "interpolation", text},
 };
 
 class Checker {
@@ -240,16 +208,16 @@ Json read_members(Json& from, In in);
 
 /// What is there, as tinygltf understands it: of whole numbers it does not take 3.0.
 Json read_member(Json& value, const Member& member) {
-    const auto whole = [](const Json& number) { return number.get<std::uint64_t>(); };
-    if (member.kind == Kind::flag) return value.get<bool>();
+    if (member.kind == flag) return value.get<bool>();
+    const auto counted = [](const Json& number) { return number.get<std::uint64_t>(); };
     if (member.kind == Kind::object) return read_members(value, member.is);
     if (member.kind == Kind::number) return value.get<double>(); // and cuts others to 32 bits
     if (member.kind == Kind::list)
         for (Json& one : value) one = read_members(one, member.is);
     else if (member.kind == Kind::indices)
-        for (Json& one : value) one = whole(one);
+        for (Json& one : value) one = counted(one);
     else if (member.kind != Kind::text && member.kind != Kind::numbers)
-        return whole(value);
+        return counted(value);
     return std::move(value);
 }
 
@@ -261,7 +229,7 @@ Json read_members(Json& from, In in) {
         const auto at = from.find(member.key);
         if (at != from.end()) {
             to[std::string(member.key)] = read_member(*at, member);
-        } else if (member.needed_there) {
+        } else if (member.made_up) {
             Json nothing = Json::object();
             to[std::string(member.key)] = member.kind == Kind::object
                                               ? read_members(nothing, member.is)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <sstream>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -136,16 +137,21 @@ void check_names(const obj::Text& text) {
                  in_quotes(name), did_you_mean(name, text.names));
 }
 
-tinyobj::ObjReader parse(const obj::Text& text, const std::string& file) {
-    tinyobj::ObjReaderConfig config;
-    config.triangulate = false; // they are triangles
-    config.vertex_color = false;
-    tinyobj::ObjReader reader;
-    const bool is_read = reader.ParseFromString("mtllib all\no 0\n" + text.statements,
-                                                text.library.statements, config);
-    check(is_read, Failure::bad_data, file, ": cannot be read: ", printable(reader.Error()));
-    return reader;
-}
+/// What tinyobjloader makes of the statements, which are used up: they may be long.
+struct Parsed {
+    Parsed(obj::Text& text, const std::string& file) {
+        std::istringstream statements(std::move(text.statements)),
+            library(std::move(text.library.statements));
+        tinyobj::MaterialStreamReader libraries(library);
+        tinyobj::attrib_t attributes;
+        std::string error;
+        const bool is_read = tinyobj::LoadObj(&attributes, &shapes, &materials, nullptr, &error,
+                                              &statements, &libraries, false, false);
+        check(is_read, Failure::bad_data, file, ": cannot be read: ", printable(error));
+    }
+    std::vector<tinyobj::shape_t> shapes;
+    std::vector<tinyobj::material_t> materials;
+};
 
 } // namespace
 
@@ -155,15 +161,15 @@ Scene load_obj(const std::filesystem::path& path, const LoadOptions& options) {
     Files files(path, options.root, account);
     Notes notes;
     obj::Context context{files, account, notes};
-    const obj::Text text = obj::read_text(file, context);
+    obj::Text text = obj::read_text(file, context);
     check_names(text);
-    const tinyobj::ObjReader reader = parse(text, file);
+    const Parsed parsed(text, file);
     Builder builder{.file = file, .text = text, .context = context};
     builder.scene = {.name = path.stem().string(),
-                     .materials = materials_of(text.library, reader.GetMaterials()),
+                     .materials = materials_of(text.library, parsed.materials),
                      .cameras = text.remarks.cameras,
                      .files = files.found()};
-    for (const tinyobj::shape_t& shape : reader.GetShapes()) builder.add_shape(shape);
+    for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_shape(shape);
     finish(builder.scene, file, notes);
     return std::move(builder.scene);
 }

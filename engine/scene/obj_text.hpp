@@ -117,7 +117,7 @@ inline constexpr std::uint32_t kNoNormal = ~0u;
 /// An .obj file for tinyobjloader.
 struct Text {
     /// Nothing but `o NUMBER`, `usemtl NUMBER`, and triangles `f` with indices that exist.
-    std::string statements;
+    std::string statements = "mtllib all\no 0\n";
     std::vector<std::string> names{1};     ///< of shapes; the first has none
     std::vector<dvec3> positions, normals; ///< exact; tinyobjloader's are floats
     Library library;

@@ -25,6 +25,8 @@ protected:
         EXPECT_LE(ended.peak_bytes, 1ull << 30);
         EXPECT_LE(ended.err.size(), 600u);
         std::string said = ended.err.substr(0, ended.err.find('\n'));
+        if (const std::size_t at = said.find(folder.string()); at != said.npos)
+            said.replace(at, folder.string().size(), "FOLDER");
         said = exit_code == 0 ? "(renders)" : said.substr(std::string("catoptric: ").size(), 110);
         std::cout << "[ MEASURED ] | " << what << " | " << fs::file_size(folder / file) / 1024 + 1
                   << " | " << exit_code << " | " << std::ceil(ended.seconds * 10) / 10 << " | "
