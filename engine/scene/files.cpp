@@ -101,7 +101,7 @@ fs::path Files::find(const std::string& name, const std::string& place) {
     check(!name.empty() && name.size() <= kLongestName && name.find('\0') == name.npos,
           Failure::bad_data, place, ": wanted the name of a file, found ", in_quotes(name));
     const fs::path path = folder_ / name;
-    const fs::path real = real_path(path);
+    fs::path real = real_path(path);
     check_place(real.empty() ? path.lexically_normal() : real, name, place);
     if (real.empty()) {
         const fs::path parent = real_path(path.parent_path());

@@ -206,8 +206,8 @@ TEST_F(Cli, DiffOfOtherSizes) {
 }
 
 TEST_F(Cli, CompareWritesAndPrints) {
-    const Words words = quick(
-        {"compare", "-o", "out", "--techniques", "naive:bounces=1", "reuse", "raytrace:depth=16"});
+    const Words words = quick({"compare", "-o", "out", "--no-causes", "--techniques",
+                               "naive:bounces=1", "reuse", "raytrace:depth=16"});
     const test::Ended ended = cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     for (const char* part : {"naive:bounces=1", "reuse", "raytrace:depth=16", "rmse", "flip"})
@@ -223,7 +223,7 @@ TEST_F(Cli, CompareWritesAndPrints) {
 
 TEST_F(Cli, CompareJsonIsTheReport) {
     const test::Ended ended = cli(quick({"compare", "-o", "out", "--json", "--together",
-                                         "--techniques", "reuse", "raytrace:depth=1"}));
+                                         "--techniques", "reuse:face=32", "raytrace:depth=1"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(json::parse(ended.out), json::parse(read("out/report.json")));
 }
