@@ -23,7 +23,8 @@ protected:
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         for (const std::string& part : parts) EXPECT_THAT(ended.err, testing::HasSubstr(part));
         EXPECT_LE(ended.peak_bytes, 1ull << 30);
-        EXPECT_LE(ended.err.size(), 600u);
+        EXPECT_LE(ended.err.size(), 300u) << ended.err;
+        EXPECT_EQ(ended.out, "");
         std::string said = ended.err.substr(0, ended.err.find('\n'));
         if (const std::size_t at = said.find(folder.string()); at != said.npos)
             said.replace(at, folder.string().size(), "FOLDER");
