@@ -32,13 +32,13 @@ std::string lower_case_extension(const std::filesystem::path& path) {
 } // namespace
 
 const std::vector<BuiltIn>& built_in_scenes() {
-    static const std::vector<BuiltIn> scenes = {
+    static const std::vector<BuiltIn> kScenes = {
         {"cornell-mirrors", "Cornell box with four mirror balls, one of them moving; front open",
          cornell_mirrors},
         {"cornell-mirrors-closed", "the same with a white front wall that camera rays ignore",
          cornell_mirrors_closed},
     };
-    return scenes;
+    return kScenes;
 }
 
 Scene load(const std::string& name_or_path, const LoadOptions& options) {

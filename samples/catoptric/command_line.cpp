@@ -64,8 +64,8 @@ void Verb::option(const std::string& names, const std::string& type, const std::
 }
 
 void Verb::option(const std::string& names, const std::string& type, const std::string& help,
-                  Take take) {
-    app_.add_option_function<std::string>(names, std::move(take), help)->type_name(type);
+                  const Take& take) {
+    app_.add_option_function<std::string>(names, take, help)->type_name(type);
 }
 
 CommandLine::CommandLine(const std::string& name, const std::string& summary,

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
+namespace CLI { // NOLINT(readability-identifier-naming): theirs
 class App;
 }
 
@@ -37,7 +37,7 @@ public:
                 std::vector<std::string>& values);
     /// `take` gets the text while the line is parsed; what it throws, `CommandLine::parse` throws.
     void option(const std::string& names, const std::string& type, const std::string& help,
-                Take take);
+                const Take& take);
 
     /// Called once the whole line is parsed; returns the exit code.
     void does(std::function<int()> run) { run_ = std::move(run); }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -28,7 +29,7 @@ std::size_t terminal_columns() {
 } // namespace
 
 std::string duration_text(double seconds) {
-    const auto whole = static_cast<long long>(std::clamp(seconds, 0.0, 3.6e8) + 0.5);
+    const auto whole = std::llround(std::clamp(seconds, 0.0, 3.6e8));
     const long long hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
     return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, minutes, rest)
                      : fmt::format("{}:{:02}", minutes, rest);
