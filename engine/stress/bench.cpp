@@ -26,8 +26,8 @@ std::string as_file_name(const std::string& text) {
 } // namespace
 
 bool names_limit(const std::string& text) {
-    static const std::regex limit(R"(allows ([a-z_]+[a-z_0-9]* = )?[0-9])");
-    return std::regex_search(text, limit);
+    static const std::regex kLimit(R"(allows ([a-z_]+[a-z_0-9]* = )?[0-9])");
+    return std::regex_search(text, kLimit);
 }
 
 app::Request Bench::asked(const scene::Scene& scene, const std::string& technique,
