@@ -9,9 +9,9 @@ namespace catoptric::scene {
 
 /// How much a scene file may ask for. A loader adds up what the file claims and stops before it
 /// allocates or works for more: `bad_data` naming the place, the total, the budget and what was
-/// found. Within it a load takes at most 1 GiB of memory and 10 s, whatever the file says, and so
-/// does a small picture of what was loaded. A million triangles that share no normal fit. Nothing
-/// here limits scenes made in code.
+/// found. Within it a load with a small picture of it is to take at most 1 GiB of memory and 10 s,
+/// whatever the file says (measured: docs/extremes.md). A million triangles that share no normal
+/// fit. Nothing here limits scenes made in code.
 struct Budget {
     std::uint64_t file_bytes = 256 << 20;  ///< of all files of the scene, each counted once
     std::uint64_t files = 4'000;           ///< names of files, read or not

@@ -115,14 +115,7 @@ TEST(Causes, OneBallMirrorsNeitherOthersNorItself) {
 TEST(Causes, AHollowMirrorReflectsItself) {
     scene::Scene scene = test::room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
-    scene::Mesh corner = scene::quad("corner", {-1.5, -1.5, 1.5}, {0, -1.5, 1.9}, {0, 1.5, 1.9},
-                                     {-1.5, 1.5, 1.5});
-    const scene::Mesh other = scene::quad("", {0, -1.5, 1.9}, {.4, -1.5, .4}, {.4, 1.5, .4},
-                                          {0, 1.5, 1.9});
-    corner.positions.insert(corner.positions.end(), other.positions.begin(), other.positions.end());
-    corner.normals.insert(corner.normals.end(), other.normals.begin(), other.normals.end());
-    for (const uvec3& triangle : other.triangles) corner.triangles.push_back(triangle + 4u);
-    test::add_mesh(scene, corner, mirror);
+    test::add_mesh(scene, test::hollow_corner(), mirror);
     const Split found = split(scene, "pyramid:face=64");
     EXPECT_GT(found.in_turn("own reflection"), .3);
     EXPECT_LE(found.causes.rest_rmse, 1e-3);

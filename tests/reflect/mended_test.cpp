@@ -139,14 +139,7 @@ TEST(Mended, MirrorsInMirrorsAreAsThisEyeSeesThem) {
 scene::Scene corner() {
     scene::Scene scene{.name = "corner"};
     test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
-    scene::Mesh corner = scene::quad("corner", {-1.5, -1.5, 1.5}, {0, -1.5, 1.9}, {0, 1.5, 1.9},
-                                     {-1.5, 1.5, 1.5});
-    const scene::Mesh other = scene::quad("", {0, -1.5, 1.9}, {.4, -1.5, .4}, {.4, 1.5, .4},
-                                          {0, 1.5, 1.9});
-    corner.positions.insert(corner.positions.end(), other.positions.begin(), other.positions.end());
-    corner.normals.insert(corner.normals.end(), other.normals.begin(), other.normals.end());
-    for (const uvec3& triangle : other.triangles) corner.triangles.push_back(triangle + 4u);
-    test::add_mesh(scene, corner, test::add_halving_mirror(scene, 0));
+    test::add_mesh(scene, test::hollow_corner(), test::add_halving_mirror(scene, 0));
     scene.cameras.push_back(
         {.eye = {.1, .2, -2.9}, .target = {-.4, 0, 1.5}, .vertical_fov_degrees = 45});
     return scene;

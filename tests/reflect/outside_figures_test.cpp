@@ -1,30 +1,12 @@
 // Ray tracing of the built-in scene against figures of two independent renderers: ambient 0,
 // 512x512, balls as meshes.
-#include "support/rendering.hpp"
-
-#include <iomanip>
-#include <iostream>
+#include "support/outside_figures.hpp"
 
 namespace {
 
 using namespace catoptric;
 
-app::Part trace(int depth, int samples) {
-    app::Request request = test::request(
-        scene::cornell_mirrors(),
-        {"raytrace:depth=" + std::to_string(depth) + ",samples=" + std::to_string(samples)},
-        {512, 512});
-    request.ambient = 0;
-    return std::move(test::engine().run(request).parts.front());
-}
-
-/// Expects `found` within a share of `wanted`, and prints both.
-void expect_share(const std::string& what, double found, double wanted, double share) {
-    std::cout << "[ MEASURED ] " << what << ": " << std::setprecision(8) << found << ", outside "
-              << wanted << ", " << std::setprecision(3) << std::showpos
-              << 100 * (found / wanted - 1) << std::noshowpos << " %\n";
-    EXPECT_NEAR(found, wanted, share * wanted) << what;
-}
+using test::expect_share, test::trace;
 
 /// All rays: from the camera, reflected, and to the light.
 double rays(const app::Part& part) {

@@ -86,4 +86,16 @@ inline scene::Scene hall() {
     return scene;
 }
 
+/// Two boards at a right angle in one mesh, facing each other: a mirror that sees itself.
+inline scene::Mesh hollow_corner() {
+    scene::Mesh corner = scene::quad("corner", {-1.5, -1.5, 1.5}, {0, -1.5, 1.9}, {0, 1.5, 1.9},
+                                     {-1.5, 1.5, 1.5});
+    const scene::Mesh other = scene::quad("", {0, -1.5, 1.9}, {.4, -1.5, .4}, {.4, 1.5, .4},
+                                          {0, 1.5, 1.9});
+    corner.positions.insert(corner.positions.end(), other.positions.begin(), other.positions.end());
+    corner.normals.insert(corner.normals.end(), other.normals.begin(), other.normals.end());
+    for (const uvec3& triangle : other.triangles) corner.triangles.push_back(triangle + 4u);
+    return corner;
+}
+
 } // namespace test
