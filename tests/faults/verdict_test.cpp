@@ -21,7 +21,8 @@ TEST_F(Verdict, AnExecutionBarrierFollowsEachStamp) {
         << "the layer sees none that is loose";
 }
 
-/// A frame whose rays are never traced fails its property, and the run with it.
+/// A frame whose rays are never traced fails its property, and the run with it. What its picture
+/// then holds is whatever the memory held, so that what is measured may be no number (null).
 TEST_F(Verdict, StressWithAFailedRowExitsWithOne) {
     const Words words{"stress", "--json", "--size", "32x32", "--only", "N4"};
     const Watched sound = watch(words, std::nullopt);
@@ -30,7 +31,8 @@ TEST_F(Verdict, StressWithAFailedRowExitsWithOne) {
     EXPECT_EQ(broken.ended.exit_code, 1) << broken.ended.err;
     const nlohmann::json rows = nlohmann::json::parse(broken.ended.out)["rows"];
     EXPECT_EQ(rows[0]["verdict"], "fail");
-    EXPECT_GT(rows[0]["measured"].get<double>(), rows[0]["threshold"].get<double>());
+    const nlohmann::json& measured = rows[0]["measured"];
+    EXPECT_TRUE(measured.is_null() || measured > rows[0]["threshold"]) << rows[0];
 }
 
 } // namespace
