@@ -50,6 +50,8 @@ struct Probe {
     vec3 sphere;      // centre of the exact sphere that the mirror stands for
     float radius;     // of that sphere; 0: the mirror stands for none
     vec3 reflectance; // of the mirror
+    vec3 lowest;      // corners of the mirror's bounds
+    vec3 highest;
 };
 
 // One projection: clip = (dot(right, v), dot(down, v), near, dot(forward, v)) with v = position - eye.
@@ -112,7 +114,7 @@ struct Counters {
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
 static_assert(sizeof(Light) == 76);
-static_assert(sizeof(Probe) == 40);
+static_assert(sizeof(Probe) == 64);
 static_assert(sizeof(View) == 52);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(Draw) == 80);

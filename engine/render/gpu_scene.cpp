@@ -112,7 +112,9 @@ void GpuScene::fill_views(const scene::Scene& now, const scene::Camera& camera, 
         const Bounds<double> bounds = scene::bounds(now, now.objects[object]);
         const vec3 centre = space_.point(bounds.centre());
         const shared::Surface& surface = surfaces_[object];
-        probes_.push_back({centre, surface.centre, surface.radius, surface.reflectance});
+        const Bounds<float>& box = geometry_.ranges[object].bounds;
+        probes_.push_back(
+            {centre, surface.centre, surface.radius, surface.reflectance, box.lo, box.hi});
         const float gap = nearest_distance(
             geometry_, centre, [&](std::size_t i, const DrawRange&) { return i == object; });
         std::ranges::copy(cube_views(centre, gap), std::back_inserter(views_));

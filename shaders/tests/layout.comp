@@ -32,6 +32,7 @@ void main() {
     Light l = lights[1];
     put(l.position), put(l.normal), put(l.intensity), put(l.right), put(l.down), put(l.forward), put(l.near);
     put(probes[1].centre), put(probes[1].sphere), put(probes[1].radius), put(probes[1].reflectance);
+    put(probes[1].lowest), put(probes[1].highest);
     View v = views[1];
     put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near);
     Frame f = frames[1];
