@@ -155,10 +155,9 @@ scene::Scene screened(bool exact, bool from_aside) {
     test::add_ball(scene, "hidden", mirror[1], {0, 0, -.3}, .6, 5);
     if (!exact) scene.objects.back().sphere.reset();
     test::add_ball(scene, "aside", mirror[2], {2.5, .8, -.6}, .6, 5);
-    scene.cameras.push_back(
-        {.eye = from_aside ? dvec3(-3, .3, -1) : dvec3(-1.5, 1, -3.2),
-         .target = from_aside ? dvec3(-1, 0, 2) : dvec3(0, 0, 2),
-         .vertical_fov_degrees = 50});
+    scene.cameras.push_back({.eye = from_aside ? dvec3(-3, .3, -1) : dvec3(-1.5, 1, -3.2),
+                             .target = from_aside ? dvec3(-1, 0, 2) : dvec3(0, 0, 2),
+                             .vertical_fov_degrees = 50});
     return scene;
 }
 
