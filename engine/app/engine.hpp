@@ -184,6 +184,10 @@ std::string commit();  ///< abbreviated, "unknown" outside a checkout
 bool any_abandoned();
 
 /// A device with what has been compiled for it. One thread at a time.
+///
+/// Making one sets variables of this process's environment, before threads of the program should
+/// read it: NODEVICE_SELECT, unless somebody chose a device by Mesa's, and with `validate` what the
+/// validation layer is to watch.
 class Engine {
 public:
     explicit Engine(const EngineOptions& options);

@@ -98,6 +98,7 @@ int run(const Options& options) {
     const Manners& manners = options.common.manners;
     require_given(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
     check_folder_can_be_made(options.folder);
+    check_folder_can_be_made(std::filesystem::path(options.folder) / "images");
     app::CompareRequest request = make_compare_request(options);
     check_places(options, request.base);
     const std::size_t row_count = options.techniques.empty() ? app::default_techniques().size()
@@ -118,7 +119,8 @@ int run(const Options& options) {
     const report::Comparison comparison = app::compare(engine, request);
     progress.clear();
 
-    writer.write(comparison);
+    // Where no row came to its end, a report of before is worth more.
+    if (!comparison.rows.empty()) writer.write(comparison);
     show(options, comparison);
     const int code = exit_code(options, comparison);
     if (options.common.validate) engine.check_validation();

@@ -54,10 +54,15 @@ std::string table_of(const report::Stress& stress) {
 int run(const Options& options) {
     for (const std::string& id : options.only) stress::find_property(id); // before any work
     if (!options.folder.empty()) {
-        check_folder_can_be_made(options.folder);
         const std::filesystem::path folder = options.folder;
-        check_apart({kStdout, folder / "stress.json", folder / "stress.html", folder / "stress.md"},
-                    {});
+        check_folder_can_be_made(folder);
+        check_folder_can_be_made(folder / "images");
+        std::vector<std::filesystem::path> outputs{kStdout, folder / "stress.json",
+                                                   folder / "stress.html", folder / "stress.md"};
+        std::error_code none_yet; // pictures of what fails may replace any that are there
+        for (const auto& entry : std::filesystem::directory_iterator(folder / "images", none_yet))
+            outputs.push_back(entry.path());
+        check_apart(outputs, {});
     }
     app::Engine engine({.device = options.device, .validate = options.validate});
     if (!options.folder.empty()) report::create_folder(options.folder);
@@ -76,7 +81,7 @@ int run(const Options& options) {
                                std::size_t count) { progress.row(id, index, count); },
                  .on_finished_row = write});
     progress.clear();
-    write(found);
+    if (!found.rows.empty()) write(found); // else a table of before is worth more
     put(options.manners.json ? report::to_json(found) : table_of(found));
     if (found.stopped)
         fail_incomplete(*found.stopped, found.rows.size(), found.asked, "", options.folder);

@@ -94,7 +94,7 @@ double share_off(const app::Part& raster, const app::Part& traced) {
         if (traced.hits[i] != 0) continue;
         const vec3 apart = abs(clamp(raster.hdr.pixels[i], 0.0f, 1.0f) -
                                clamp(traced.hdr.pixels[i], 0.0f, 1.0f));
-        off += !(std::max({apart.x, apart.y, apart.z}) <= .02f);
+        off += !(std::max({apart.x, apart.y, apart.z}) <= static_cast<float>(measure::kOff));
     }
     return static_cast<double>(off) / static_cast<double>(traced.hits.size());
 }
