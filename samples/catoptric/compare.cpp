@@ -6,7 +6,7 @@
 #include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
-#include "signals.hpp"
+#include "scene/load.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
 
@@ -103,19 +103,15 @@ int run(const Options& options) {
     check_places(options, request.base);
     const std::size_t row_count = options.techniques.empty() ? app::default_techniques().size()
                                                              : options.techniques.size();
-    app::Engine engine(engine_options(options.common));
-    detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
+    app::Engine engine(engine_options(options.common.device, options.common.validate));
+    introduce(engine, options.common.manners);
     report::create_folder(options.folder);
 
-    stop_on_signals();
     Progress progress(manners);
     progress.row("reference " + request.reference, 0, row_count);
-    request.on_row = [&](const std::string& label, std::size_t index, std::size_t count) {
-        progress.row(label, index, count);
-    };
+    request.watcher = watcher_of(progress);
     report::Writer writer(options.folder);
     request.on_finished_row = [&](const report::Comparison& so_far) { writer.write(so_far); };
-    request.base.progress = [&](int number, int total) { progress.frame(number, total); };
     const report::Comparison comparison = app::compare(engine, request);
     progress.clear();
 

@@ -8,7 +8,6 @@
 #include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
-#include "signals.hpp"
 #include "stress/property.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
@@ -64,22 +63,20 @@ int run(const Options& options) {
             outputs.push_back(entry.path());
         check_apart(outputs, {});
     }
-    app::Engine engine({.device = options.device, .validate = options.validate});
+    app::Engine engine(engine_options(options.device, options.validate));
+    introduce(engine, options.manners);
     if (!options.folder.empty()) report::create_folder(options.folder);
-    stop_on_signals();
     Progress progress(options.manners);
     report::StressWriter writer(options.folder);
     const auto write = [&](const report::Stress& so_far) {
         if (!options.folder.empty()) writer.write(so_far);
     };
-    const report::Stress found = stress::run(
-        engine, {.only = options.only,
-                 .size = options.size,
-                 .seed = options.seed,
-                 .command = options.command,
-                 .on_row = [&](const std::string& id, std::size_t index,
-                               std::size_t count) { progress.row(id, index, count); },
-                 .on_finished_row = write});
+    const report::Stress found = stress::run(engine, {.only = options.only,
+                                                      .size = options.size,
+                                                      .seed = options.seed,
+                                                      .command = options.command,
+                                                      .watcher = watcher_of(progress),
+                                                      .on_finished_row = write});
     progress.clear();
     if (!found.rows.empty()) write(found); // else a table of before is worth more
     put(options.manners.json ? report::to_json(found) : table_of(found));

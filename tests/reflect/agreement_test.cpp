@@ -118,7 +118,7 @@ TEST(ShadowMap, ReceiversOfRasterAndRaysAreTheSameFromAnyCamera) {
                                                   .vertical_fov_degrees = 50}
                                   : drawn_camera(random, i % 5);
         request.time = i == 0 ? 1.9 : i == 1 ? 0 : .7 * (i % 6);
-        const app::Result result = test::engine().run(request);
+        const app::Result result = app::run(test::engine(), request);
         const double off = share_off(result.parts[0], result.parts[1]);
         EXPECT_LE(off, 1e-4) << "eye " << request.camera.eye.x << "," << request.camera.eye.y << ","
                              << request.camera.eye.z;

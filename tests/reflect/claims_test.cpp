@@ -175,7 +175,7 @@ Answers answers(const scene::Scene& scene, const std::string& search, const std:
     const std::string technique = search + ":face=128,shadow=none,continue=" + hops + ",captures=";
     app::Request request = test::request(scene, {technique + "own", technique + "all"}, kSize);
     request.with_lookup = true;
-    const app::Result result = test::engine().run(request);
+    const app::Result result = app::run(test::engine(), request);
     const auto is_unknown = [&](std::size_t part, std::size_t i) {
         return ((static_cast<int>(result.parts[part].lookup[i].w) - 1) & 3) == 1;
     };

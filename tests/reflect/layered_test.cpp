@@ -139,7 +139,7 @@ TEST(Layered, FindsTheWallWhereOneLayerShowsTheBall) {
         app::Request request = test::request(scene, {technique}, kSize);
         request.warmup = 1;
         request.ambient = 0;
-        return std::move(test::engine().run(request).parts.front());
+        return std::move(app::run(test::engine(), request).parts.front());
     };
     const app::Part truth = render("raytrace:depth=4");
     const measure::Picture parallax = render("parallax").hdr, secant = render("secant").hdr,
