@@ -29,6 +29,7 @@ const std::map<std::string, std::string> kCalls = {
     {"vkCreateShaderModule", "shader '"},
     {"vkCreateDescriptorSetLayout", "lay out '"},
     {"vkCreatePipelineLayout", "lay out '"},
+    {"vkCreatePipelineCache", "pipeline cache"},
     {"vkCreateGraphicsPipelines", "pipeline '"},
     {"vkCreateComputePipelines", "pipeline '"},
     {"vkCreateDescriptorPool", "descriptor pool"},
