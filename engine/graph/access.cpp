@@ -2,28 +2,60 @@
 
 namespace catoptric::graph {
 
+namespace {
+
+Access access_of(const ImageUse& use) {
+    const bool loads = is_attachment(use.use) && !use.clear;
+    return {.is_buffer = false,
+            .id = use.image.id,
+            .previous = use.image.previous,
+            .first_layer = use.image.first_layer,
+            .layer_count = use.image.layer_count,
+            .use = use.use,
+            .write = use.write,
+            .needs = !use.write || use.use == Use::storage || loads,
+            .clears = use.clear.has_value()};
+}
+
+Access access_of(const BufferUse& use) {
+    return {.is_buffer = true,
+            .id = use.buffer.id,
+            .use = use.use,
+            .write = use.write,
+            .needs = !use.write || use.use == Use::storage};
+}
+
+void add(std::vector<Access>& all, const Pass& pass) {
+    for (const ImageUse& use : pass.images) all.push_back(access_of(use));
+    for (const BufferUse& use : pass.buffers) all.push_back(access_of(use));
+}
+
+} // namespace
+
 std::vector<Access> accesses(const Pass& pass) {
     std::vector<Access> all;
-    for (const ImageUse& use : pass.images) {
-        const bool loads = is_attachment(use.use) && !use.clear;
-        all.push_back({.is_buffer = false,
-                       .id = use.image.id,
-                       .previous = use.image.previous,
-                       .first_layer = use.image.first_layer,
-                       .layer_count = use.image.layer_count,
-                       .use = use.use,
-                       .write = use.write,
-                       .needs = !use.write || use.use == Use::storage || loads,
-                       .clears = use.clear.has_value()});
-    }
-    for (const BufferUse& use : pass.buffers) {
-        all.push_back({.is_buffer = true,
-                       .id = use.buffer.id,
-                       .use = use.use,
-                       .write = use.write,
-                       .needs = !use.write || use.use == Use::storage});
-    }
+    add(all, pass);
     return all;
+}
+
+Accesses::Accesses(const Graph& graph) {
+    first_.reserve(graph.passes().size() + 1);
+    for (const Pass& pass : graph.passes()) {
+        first_.push_back(all_.size());
+        add(all_, pass);
+    }
+    first_.push_back(all_.size());
+}
+
+Ledger<char> wanted_parts(const Graph& graph) {
+    Ledger<char> wanted(graph, false);
+    for (const Image& image : graph.wanted_images())
+        wanted.set(
+            {.id = image.id, .first_layer = image.first_layer, .layer_count = image.layer_count},
+            true);
+    for (const Buffer& buffer : graph.wanted_buffers())
+        wanted.set({.is_buffer = true, .id = buffer.id}, true);
+    return wanted;
 }
 
 Touch touch_of(const Access& access, const Pass& pass) {

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "graph/plan.hpp"
+#include "graph/runs.hpp"
 
-#include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,25 @@ struct Access {
     bool needs = false; ///< contents from before: a read, an attachment without clear, `storage`
     bool clears = false;
 
+    /// Also of a wrong access, whose layers may be more than 32 bits hold.
     std::uint64_t end_layer() const { return std::uint64_t{first_layer} + layer_count; }
 };
 
 /// What the pass touches: images in order of declaration, then buffers.
 std::vector<Access> accesses(const Pass& pass);
+
+/// The same of every pass of a graph, gathered once.
+class Accesses {
+public:
+    explicit Accesses(const Graph& graph);
+    std::span<const Access> of(std::size_t pass) const {
+        return {all_.data() + first_[pass], all_.data() + first_[pass + 1]};
+    }
+
+private:
+    std::vector<Access> all_;
+    std::vector<std::size_t> first_; // of each pass, and the end
+};
 
 /// The touch that an access leaves behind.
 Touch touch_of(const Access& access, const Pass& pass);
@@ -40,28 +55,39 @@ std::string quoted_name(const Graph& graph, const Access& access);
 
 /// A value for each layer of each image and for each buffer.
 template <typename T>
-class PerLayer {
+class Ledger {
 public:
-    explicit PerLayer(const Graph& graph, const T& value = {}) {
-        for (const ImageDesc& desc : graph.images()) images_.emplace_back(desc.layers, value);
-        buffers_.assign(graph.buffers().size(), std::vector<T>(1, value));
+    explicit Ledger(const Graph& graph, const T& value = {}) : images_(graph.images().size()) {
+        runs_.reserve(images_ + graph.buffers().size());
+        for (const ImageDesc& desc : graph.images()) runs_.emplace_back(desc.layers, value);
+        runs_.resize(images_ + graph.buffers().size(), Runs<T>(1, value));
     }
-    /// All layers of the access's resource.
-    std::vector<T>& of(const Access& access) { return of(access.is_buffer, access.id); }
-    std::vector<T>& of(bool is_buffer, std::uint32_t id) {
-        return is_buffer ? buffers_[id] : images_[id];
+    Runs<T>& of(const Access& a) { return runs_[a.is_buffer ? images_ + a.id : a.id]; }
+    const Runs<T>& of(const Access& a) const { return runs_[a.is_buffer ? images_ + a.id : a.id]; }
+
+    /// Calls visit(first layer, end layer, value) for the runs that the access meets.
+    template <typename Visit>
+    void each(const Access& a, const Visit& visit) const {
+        of(a).each(a.first_layer, a.first_layer + a.layer_count, visit);
     }
-    /// Of truth values: whether any layer of the access has it.
-    bool any(const Access& access) {
-        const auto first = of(access).begin() + access.first_layer;
-        return std::any_of(first, first + access.layer_count, [](const T& value) { return value; });
+    template <typename Visit>
+    void change(const Access& a, const Visit& visit) {
+        of(a).change(a.first_layer, a.first_layer + a.layer_count, visit);
     }
-    void set(const Access& access, const T& value) {
-        std::fill_n(of(access).begin() + access.first_layer, access.layer_count, value);
+    void set(const Access& a, const T& value) {
+        of(a).set(a.first_layer, a.first_layer + a.layer_count, value);
+    }
+    /// Whether some layer of the access has the value.
+    bool any(const Access& a, const T& value) const {
+        return of(a).any(a.first_layer, a.first_layer + a.layer_count, value);
     }
 
 private:
-    std::vector<std::vector<T>> images_, buffers_;
+    std::size_t images_;
+    std::vector<Runs<T>> runs_; // images, then buffers
 };
+
+/// True for every layer and buffer that the graph wants.
+Ledger<char> wanted_parts(const Graph& graph);
 
 } // namespace catoptric::graph

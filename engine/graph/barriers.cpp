@@ -1,52 +1,55 @@
 #include "graph/barriers.hpp"
 
+#include "graph/memory_users.hpp"
+
+#include <bit>
+
 namespace catoptric::graph {
 
 namespace {
 
 /// What happened so far in this frame to one layer of an image or to a buffer.
 struct State {
-    Touch write;                // the last one; `nothing`: none in this frame
-    std::vector<Touch> readers; // since that write or the last change of layout; distinct
+    TouchCode write = kNothing; // the last one; `nothing`: none in this frame
+    Touches readers;            // since that write or the last change of layout; distinct
 
     /// What the next write must wait for. For an image all are in the layout it has now.
-    std::vector<Touch> latest() const {
+    Touches latest() const {
         if (!readers.empty()) return readers;
-        return write.nothing ? std::vector<Touch>{} : std::vector{write};
+        return write == kNothing ? Touches() : Touches(write);
     }
+    friend bool operator==(const State&, const State&) = default;
 };
 
-bool contains(const std::vector<Touch>& touches, const Touch& touch) {
-    return std::ranges::find(touches, touch) != touches.end();
-}
-
 /// What a read must wait for; empty when an earlier reader waited in its stead.
-std::vector<Touch> awaited_by_read(const State& state, const Touch& touch, bool is_buffer) {
-    if (contains(state.readers, touch)) return {};
-    if (state.readers.empty() || is_buffer) return {state.write};
+Touches awaited_by_read(const State& state, TouchCode touch, bool is_buffer) {
+    if (state.readers.contains(touch)) return {};
+    if (state.readers.empty() || is_buffer) return Touches(state.write);
     // Same layout, another stage: `before` must tell the present layout, so chain to a reader,
     // which waited for the write, rather than to the write.
-    if (state.readers.front().use == touch.use) return {state.readers.front()};
+    if (use_of(state.readers.front()) == use_of(touch)) return Touches(state.readers.front());
     return state.readers; // a change of layout is a write
 }
 
-void advance(State& state, const Touch& touch, bool is_buffer) {
-    if (touch.write) {
+void advance(State& state, TouchCode touch, bool is_buffer) {
+    if (touch_of(touch).write) {
         state = {.write = touch, .readers = {}};
         return;
     }
-    const bool moved = !state.readers.empty() && state.readers.front().use != touch.use;
+    const bool moved = !state.readers.empty() && use_of(state.readers.front()) != use_of(touch);
     if (moved && !is_buffer) state.readers.clear();
-    if (!contains(state.readers, touch)) state.readers.push_back(touch);
+    state.readers.add(touch);
 }
 
-bool memory_overlaps(const Placement& a, const Placement& b) {
-    return a.used && b.used && a.heap == b.heap && a.offset < b.offset + b.bytes &&
-           b.offset < a.offset + a.bytes;
+std::vector<Touch> listed(TouchSet set) {
+    std::vector<Touch> touches;
+    for (; set; set &= set - 1)
+        touches.push_back(touch_of(static_cast<TouchCode>(std::countr_zero(set))));
+    return touches;
 }
 
 /// Adds a barrier, as part of the last one when it only continues its layers.
-void append(std::vector<Barrier>& barriers, const Barrier& barrier) {
+void append(std::vector<Barrier>& barriers, Barrier&& barrier) {
     if (!barriers.empty() && !barrier.is_buffer) {
         Barrier& last = barriers.back();
         if (!last.is_buffer && last.id == barrier.id && last.previous == barrier.previous &&
@@ -57,39 +60,52 @@ void append(std::vector<Barrier>& barriers, const Barrier& barrier) {
             return;
         }
     }
-    barriers.push_back(barrier);
+    barriers.push_back(std::move(barrier));
 }
 
 /// Owns the states of everything while the frame is walked from top to bottom.
 class Tracker {
 public:
     Tracker(const Graph& graph, const Plan& plan)
-        : plan_(plan), states_(graph), previous_(graph, arrived()) {}
+        : plan_(plan), states_(graph), previous_(graph, arrived()), users_(plan) {}
 
     void touch(const Access& access, const Touch& touch, std::vector<Barrier>& barriers) {
-        std::vector<State>& layers = (access.previous ? previous_ : states_).of(access);
-        for (std::uint32_t l = access.first_layer; l < access.end_layer(); ++l) {
-            State& state = layers[l];
-            if (state.latest().empty()) {
-                emit(access, l, {}, touch, last_users_of_memory(access), barriers);
-            } else {
-                std::vector<Touch> awaited = touch.write
-                                                 ? state.latest()
-                                                 : awaited_by_read(state, touch, access.is_buffer);
-                wait(access, l, std::move(awaited), touch, barriers);
-            }
-            advance(state, touch, access.is_buffer);
-        }
+        const TouchCode code = code_of(touch);
+        const auto visit = [&](std::uint32_t first, std::uint32_t end, State& state) {
+            if (state.latest().empty())
+                emit(access, first, end, {}, touch, listed(users_.left_in(placement(access))),
+                     barriers);
+            else
+                wait(access, first, end,
+                     touch.write ? state.latest() : awaited_by_read(state, code, access.is_buffer),
+                     touch, barriers);
+            advance(state, code, access.is_buffer);
+        };
+        (access.previous ? previous_ : states_).change(access, visit);
+    }
+
+    /// After the last pass that touches the resource of the access.
+    void finish(const Access& access) {
+        if (placement(access).alone) return; // nobody follows in its memory
+        TouchSet touches = 0;
+        states_.of(access).each([&](std::uint32_t, std::uint32_t, const State& state) {
+            const Touches latest = state.latest();
+            for (std::size_t i = 0; i < latest.size(); ++i) touches |= set_of(latest[i]);
+        });
+        users_.leave(placement(access), touches);
     }
 
     /// A barrier for each layer, needed or not: whoever comes after the frame relies on it.
     void leave(const Access& access, const Touch& touch, std::vector<Barrier>& barriers) {
-        const std::vector<State>& layers = states_.of(access);
-        for (std::uint32_t l = access.first_layer; l < access.end_layer(); ++l) {
-            std::vector<Touch> latest = layers[l].latest();
-            if (latest.empty()) latest.push_back({}); // never touched: from nothing
-            wait(access, l, std::move(latest), touch, barriers);
-        }
+        states_.each(access, [&](std::uint32_t first, std::uint32_t end, const State& state) {
+            Touches latest = state.latest();
+            if (latest.empty()) latest.add(kNothing); // never touched: from nothing
+            wait(access, first, end, latest, touch, barriers);
+        });
+    }
+
+    const Placement& placement(const Access& access) const {
+        return access.is_buffer ? plan_.buffers[access.id] : plan_.images[access.id];
     }
 
 private:
@@ -98,81 +114,71 @@ private:
         const Touch compute{.nothing = false, .use = Use::sampled, .write = false, .raster = false};
         Touch raster = compute;
         raster.raster = true;
-        return {.write = {}, .readers = {compute, raster}};
+        State state{.write = kNothing, .readers = Touches(code_of(compute))};
+        state.readers.add(code_of(raster));
+        return state;
     }
 
-    static void wait(const Access& access, std::uint32_t layer, std::vector<Touch> awaited,
-                     const Touch& touch, std::vector<Barrier>& barriers) {
+    static void wait(const Access& access, std::uint32_t first, std::uint32_t end,
+                     const Touches& awaited, const Touch& touch, std::vector<Barrier>& barriers) {
         if (awaited.empty()) return;
-        const Touch before = awaited.front();
-        awaited.erase(awaited.begin());
-        emit(access, layer, before, touch, std::move(awaited), barriers);
+        std::vector<Touch> others;
+        for (std::size_t i = 1; i < awaited.size(); ++i) others.push_back(touch_of(awaited[i]));
+        emit(access, first, end, touch_of(awaited.front()), touch, std::move(others), barriers);
     }
 
-    static void emit(const Access& access, std::uint32_t layer, const Touch& before,
-                     const Touch& after, std::vector<Touch> shared,
+    static void emit(const Access& access, std::uint32_t first, std::uint32_t end,
+                     const Touch& before, const Touch& after, std::vector<Touch> shared,
                      std::vector<Barrier>& barriers) {
         // A buffer has no layout: without anything to wait for there is nothing to do.
         if (access.is_buffer && before.nothing && shared.empty()) return;
         append(barriers, {.is_buffer = access.is_buffer,
                           .id = access.id,
                           .previous = access.previous,
-                          .first_layer = layer,
-                          .layer_count = 1,
+                          .first_layer = first,
+                          .layer_count = end - first,
                           .before = before,
                           .after = after,
                           .shared = std::move(shared)});
     }
 
-    std::vector<Touch> last_users_of_memory(const Access& access) {
-        const Placement& mine = access.is_buffer ? plan_.buffers[access.id]
-                                                 : plan_.images[access.id];
-        std::vector<Touch> touches;
-        const auto collect = [&](bool is_buffer, const std::vector<Placement>& placements) {
-            for (std::uint32_t id = 0; id < placements.size(); ++id) {
-                const Placement& other = placements[id];
-                if (other.last >= mine.first || !memory_overlaps(mine, other)) continue;
-                for (const State& state : states_.of(is_buffer, id))
-                    for (const Touch& touch : state.latest())
-                        if (!contains(touches, touch)) touches.push_back(touch);
-            }
-        };
-        collect(false, plan_.images);
-        collect(true, plan_.buffers);
-        return touches;
-    }
-
     const Plan& plan_;
-    PerLayer<State> states_, previous_;
+    Ledger<State> states_, previous_;
+    MemoryUsers users_;
 };
 
 void order_end(const Graph& graph, Tracker& tracker, Plan& plan) {
+    const Ledger<char> wanted = wanted_parts(graph);
     Touch touch{.nothing = false, .use = Use::copy_from};
-    std::vector<std::vector<char>> wanted;
-    for (const ImageDesc& desc : graph.images()) wanted.emplace_back(desc.layers, false);
-    for (const Image& image : graph.wanted_images())
-        std::fill_n(wanted[image.id].begin() + image.first_layer, image.layer_count, true);
-    for (std::uint32_t i = 0; i < wanted.size(); ++i) {
+    const auto leave = [&](const Access& whole, bool all) {
+        wanted.of(whole).each([&](std::uint32_t first, std::uint32_t end, bool is_wanted) {
+            Access part = whole;
+            part.first_layer = first, part.layer_count = end - first;
+            if (all || is_wanted) tracker.leave(part, touch, plan.last);
+        });
+    };
+    for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const bool kept = plan.images[i].used && graph.is_kept(i);
         touch.use = kept ? Use::sampled : Use::copy_from;
-        for (std::uint32_t l = 0; l < wanted[i].size(); ++l)
-            if (kept || wanted[i][l]) tracker.leave({.id = i, .first_layer = l}, touch, plan.last);
+        leave({.id = i}, kept);
     }
     touch.use = Use::copy_from;
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
-        if (std::ranges::find(graph.wanted_buffers(), b, &Buffer::id) !=
-            graph.wanted_buffers().end())
-            tracker.leave({.is_buffer = true, .id = b}, touch, plan.last);
+        leave({.is_buffer = true, .id = b}, false);
 }
 
 } // namespace
 
-void order(const Graph& graph, Plan& plan) {
+void order(const Graph& graph, const Accesses& all, Plan& plan) {
     Tracker tracker(graph, plan);
-    for (PlannedPass& planned : plan.passes) {
+    for (std::uint32_t position = 0; position < plan.passes.size(); ++position) {
+        PlannedPass& planned = plan.passes[position];
         const Pass& pass = graph.passes()[planned.pass];
-        for (const Access& a : accesses(pass))
-            tracker.touch(a, touch_of(a, pass), planned.barriers);
+        const std::span<const Access> uses = all.of(planned.pass);
+        planned.barriers.reserve(uses.size());
+        for (const Access& a : uses) tracker.touch(a, touch_of(a, pass), planned.barriers);
+        for (const Access& a : uses)
+            if (tracker.placement(a).last == position) tracker.finish(a);
     }
     order_end(graph, tracker, plan);
 }

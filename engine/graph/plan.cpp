@@ -12,16 +12,16 @@ namespace catoptric::graph {
 
 namespace {
 
-void cull(const Graph& graph, Plan& plan) {
-    const std::vector<char> survives = survivors(graph);
+void cull(const Graph& graph, const Accesses& all, Plan& plan) {
+    const std::vector<char> survives = survivors(graph, all);
+    plan.passes.reserve(survives.size());
     for (std::uint32_t p = 0; p < survives.size(); ++p) {
-        const Pass& pass = graph.passes()[p];
         if (!survives[p]) {
-            plan.culled.push_back({p, cull_reason(graph, pass)});
+            plan.culled.push_back({p, cull_reason(graph, all.of(p))});
             continue;
         }
         plan.passes.push_back({p, {}});
-        plan.scene_passes += pass.tag == Tag::scene ? 1 : 0;
+        plan.scene_passes += graph.passes()[p].tag == Tag::scene ? 1 : 0;
     }
 }
 
@@ -77,13 +77,14 @@ Sizer plain_sizer() {
 }
 
 Plan plan(const Graph& graph, const Limits& limits, const Sizer& sizer) {
-    validate(graph, limits);
+    const Accesses all(graph);
+    validate(graph, all, limits);
     Plan plan;
-    cull(graph, plan);
-    find_lifetimes(graph, plan);
+    cull(graph, all, plan);
+    find_lifetimes(graph, all, plan);
     place(graph, sizer, plan);
     check_memory(graph, plan, limits);
-    order(graph, plan);
+    order(graph, all, plan);
     return plan;
 }
 

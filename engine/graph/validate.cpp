@@ -2,20 +2,24 @@
 
 #include "core/error.hpp"
 
+#include <optional>
+#include <string_view>
+#include <unordered_set>
+
 namespace catoptric::graph {
 
 namespace {
 
 constexpr auto kWrong = Failure::internal;
 
-/// The first run of layers of `access` for which `written` is false; empty when there is none.
-std::string missing_layers(PerLayer<char>& written, const Access& access) {
-    const std::vector<char>& layers = written.of(access);
-    std::uint64_t first = access.first_layer;
-    while (first < access.end_layer() && layers[first]) ++first;
-    std::uint64_t end = first;
-    while (end < access.end_layer() && !layers[end]) ++end;
-    return first == end ? "" : layers_text(first, end);
+/// The first layers of `access` that are not written; empty when all are.
+std::string missing_layers(const Ledger<char>& written, const Access& access) {
+    if (!written.any(access, false)) return "";
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> missing;
+    written.each(access, [&](std::uint32_t first, std::uint32_t end, bool is_written) {
+        if (!is_written && !missing) missing = {first, end};
+    });
+    return layers_text(missing->first, missing->second);
 }
 
 Access access_to(const Image& image) {
@@ -27,7 +31,8 @@ Access access_to(const Image& image) {
 }
 
 void check_names(const Graph& graph) {
-    std::set<std::string_view> seen;
+    std::unordered_set<std::string_view> seen;
+    seen.reserve(graph.images().size() + graph.buffers().size());
     const auto resource = [&](const std::string& name, std::string_view kind) {
         check(!name.empty(), kWrong, kind, " number ", seen.size(), " has no name");
         check(seen.insert(name).second, kWrong, kind, " '", name,
@@ -36,6 +41,7 @@ void check_names(const Graph& graph) {
     for (const ImageDesc& desc : graph.images()) resource(desc.name, "image");
     for (const BufferDesc& desc : graph.buffers()) resource(desc.name, "buffer");
     seen.clear();
+    seen.reserve(graph.passes().size());
     for (const Pass& pass : graph.passes()) {
         check(!pass.name.empty(), kWrong, "pass number ", seen.size(), " has no name");
         check(seen.insert(pass.name).second, kWrong, "pass '", pass.name,
@@ -59,49 +65,47 @@ void check_image(const ImageDesc& desc, const Limits& limits) {
           desc.layers, " layers, device allows max_layers = ", limits.max_layers);
 }
 
-/// Every read finds its layers written, by an earlier pass of this frame.
-void check_order(const Graph& graph) {
-    PerLayer<char> written(graph, false);
-    for (const Pass& pass : graph.passes()) {
-        const std::vector<Access> all = accesses(pass);
-        for (const Access& a : all) {
-            if (!a.needs || a.previous) continue;
-            const std::string missing = missing_layers(written, a);
-            const char* verb = !a.write                ? "reads "
-                               : a.use == Use::storage ? "reads and writes "
-                                                       : "loads (has no clear for) ";
-            check(missing.empty(), kWrong, "pass '", pass.name, "' ", verb, describe(graph, a),
-                  " as ", name_of(a.use), " before any pass writes ", a.is_buffer ? "it" : missing);
-        }
-        for (const Access& a : all)
-            if (a.write) written.set(a, true);
-    }
+[[noreturn]] void refuse_read(const Graph& graph, const Pass& pass, const Access& a,
+                              const std::string& missing) {
+    const char* verb = !a.write                ? "reads "
+                       : a.use == Use::storage ? "reads and writes "
+                                               : "loads (has no clear for) ";
+    fail(kWrong, "pass '", pass.name, "' ", verb, describe(graph, a), " as ", name_of(a.use),
+         " before any pass writes ", a.is_buffer ? "it" : missing);
 }
 
-PerLayer<char> written_by_anyone(const Graph& graph) {
-    PerLayer<char> written(graph, false);
-    for (const Pass& pass : graph.passes())
-        for (const Access& a : accesses(pass))
+/// Every read finds its layers written, by an earlier pass of this frame. Returns what is written
+/// by anyone.
+Ledger<char> check_order(const Graph& graph, const Accesses& all) {
+    Ledger<char> written(graph, false);
+    for (std::size_t p = 0; p < graph.passes().size(); ++p) {
+        for (const Access& a : all.of(p))
+            if (a.needs && !a.previous && written.any(a, false))
+                refuse_read(graph, graph.passes()[p], a, missing_layers(written, a));
+        for (const Access& a : all.of(p))
             if (a.write) written.set(a, true);
+    }
     return written;
 }
 
-void check_previous(const Graph& graph, PerLayer<char>& written) {
-    for (const Pass& pass : graph.passes()) {
-        for (const Access& a : accesses(pass)) {
-            if (!a.previous) continue;
-            const std::string name = quoted_name(graph, a);
-            check(written.any({.id = a.id, .layer_count = graph.images()[a.id].layers}), kWrong,
-                  "pass '", pass.name, "' reads previous(", name, ") as ", name_of(a.use),
-                  " but no pass writes ", name);
-            const std::string missing = missing_layers(written, a);
-            check(missing.empty(), kWrong, "pass '", pass.name, "' reads ", describe(graph, a),
-                  " as ", name_of(a.use), " but no pass writes ", missing, " of ", name);
-        }
-    }
+[[noreturn]] void refuse_previous(const Graph& graph, const Pass& pass, const Access& a,
+                                  const Ledger<char>& written) {
+    const std::string name = quoted_name(graph, a);
+    check(written.any({.id = a.id, .layer_count = graph.images()[a.id].layers}, true), kWrong,
+          "pass '", pass.name, "' reads previous(", name, ") as ", name_of(a.use),
+          " but no pass writes ", name);
+    fail(kWrong, "pass '", pass.name, "' reads ", describe(graph, a), " as ", name_of(a.use),
+         " but no pass writes ", missing_layers(written, a), " of ", name);
 }
 
-void check_wanted(const Graph& graph, PerLayer<char>& written) {
+void check_previous(const Graph& graph, const Accesses& all, const Ledger<char>& written) {
+    for (std::size_t p = 0; p < graph.passes().size(); ++p)
+        for (const Access& a : all.of(p))
+            if (a.previous && written.any(a, false))
+                refuse_previous(graph, graph.passes()[p], a, written);
+}
+
+void check_wanted(const Graph& graph, const Ledger<char>& written) {
     for (const Image& image : graph.wanted_images()) {
         check(image.id < graph.images().size(), kWrong, "image number ", image.id,
               " is wanted, but the graph has ", graph.images().size());
@@ -117,21 +121,22 @@ void check_wanted(const Graph& graph, PerLayer<char>& written) {
         check(buffer.id < graph.buffers().size(), kWrong, "buffer number ", buffer.id,
               " is wanted, but the graph has ", graph.buffers().size());
         const Access a{.is_buffer = true, .id = buffer.id};
-        check(written.any(a), kWrong, describe(graph, a), " is wanted, but no pass writes it");
+        check(written.any(a, true), kWrong, describe(graph, a),
+              " is wanted, but no pass writes it");
     }
 }
 
 } // namespace
 
-void validate(const Graph& graph, const Limits& limits) {
+void validate(const Graph& graph, const Accesses& all, const Limits& limits) {
     check_names(graph);
     for (const ImageDesc& desc : graph.images()) check_image(desc, limits);
     for (const BufferDesc& desc : graph.buffers())
         check(desc.bytes > 0, kWrong, "buffer '", desc.name, "' is empty: 0 bytes");
-    for (const Pass& pass : graph.passes()) validate_pass(graph, pass, limits);
-    check_order(graph);
-    PerLayer<char> written = written_by_anyone(graph);
-    check_previous(graph, written);
+    for (std::size_t p = 0; p < graph.passes().size(); ++p)
+        validate_pass(graph, graph.passes()[p], all.of(p), limits);
+    const Ledger<char> written = check_order(graph, all);
+    check_previous(graph, all, written);
     check_wanted(graph, written);
 }
 
