@@ -200,7 +200,7 @@ render_mended(graph::Runner& runner, const Request& request,
     std::vector<std::vector<measure::Picture>> pictures(choices.size());
     for (const std::uint32_t mended : request.mended) {
         const FrameGraph frame = declare(request, choices, scene, runner.history(), mended);
-        runner.run(frame.graph, runner.plan(frame.graph), graph::Timing::pipelined, true);
+        runner.run(frame.graph, graph::Timing::pipelined, true);
         for (std::size_t i = 0; i < choices.size(); ++i)
             pictures[i].push_back(
                 to_picture(runner.read(frame.parts[i].outputs.hdr), request.size, Format::rgba32f));
@@ -284,8 +284,8 @@ Result Engine::run(const Request& request) {
         auto mended = k == total ? render_mended(runner, request, choices, scene)
                                  : std::vector<std::vector<measure::Picture>>();
         const FrameGraph frame = declare(request, choices, scene, runner.history());
-        const graph::Plan plan = runner.plan(frame.graph);
-        const graph::FrameTimes times = runner.run(frame.graph, plan, timing);
+        const graph::Plan& plan = runner.compiled(frame.graph);
+        const graph::FrameTimes times = runner.run(frame.graph, timing);
         if (k > request.warmup) result.frames.push_back(to_frame(times));
         const ReadParts read = [&] { return read_parts(runner, frame, plan, scene, request); };
         const bool enough = request.watch && !request.watch(k, read);
@@ -307,9 +307,9 @@ std::string Engine::plan(const Request& request, PlanFormat format) {
     render::GpuScene scene(impl_->device, request.scene);
     scene.update(scene::at(request.scene, request.time), request.camera, request.size,
                  request.ambient);
-    const graph::Runner runner(impl_->device, impl_->pipelines);
+    graph::Runner runner(impl_->device, impl_->pipelines);
     const FrameGraph frame = declare(request, choices, scene, {});
-    const graph::Plan plan = runner.plan(frame.graph);
+    const graph::Plan& plan = runner.compiled(frame.graph);
     switch (format) {
     case PlanFormat::dot: return graph::to_dot(frame.graph, plan);
     case PlanFormat::json: return graph::to_json(frame.graph, plan);
@@ -340,8 +340,7 @@ std::vector<double> Engine::clear_ms(const Request& request) {
                 .record([](graph::Commands&) {});
         }
         graph.want(cubes);
-        const graph::FrameTimes times = runner.run(graph, runner.plan(graph),
-                                                   graph::Timing::isolated);
+        const graph::FrameTimes times = runner.run(graph, graph::Timing::isolated);
         if (k > request.warmup)
             samples.push_back(std::accumulate(
                 times.passes.begin(), times.passes.end(), 0.0,

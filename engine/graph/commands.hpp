@@ -12,8 +12,7 @@
 
 namespace catoptric::graph {
 
-class Runner;
-struct Physical;
+class Recorder;
 
 /// How a sampled image is looked up. Edges clamp; cubes are seamless.
 enum class Filter { nearest, linear, compare /*depth >= reference, 2x2 PCF*/ };
@@ -23,9 +22,9 @@ enum class Filter { nearest, linear, compare /*depth >= reference, 2x2 PCF*/ };
 /// and nobody bound is refused. Valid only during the call of the body.
 class Commands {
 public:
-    Commands(Runner& runner, const Graph& graph, const Pass& pass, VkCommandBuffer commands,
+    Commands(Recorder& recorder, const Graph& graph, const Pass& pass, VkCommandBuffer commands,
              std::uint32_t first_layer, std::uint32_t layer_count)
-        : runner_(runner), graph_(graph), pass_(pass), commands_(commands),
+        : recorder_(recorder), graph_(graph), pass_(pass), commands_(commands),
           first_layer_(first_layer), layer_count_(layer_count) {}
 
     /// In a pass of several layers the vertex shader's "#layered" build is used where the device
@@ -71,7 +70,7 @@ private:
                                VkDescriptorImageInfo& image, VkDescriptorBufferInfo& buffer,
                                VkBufferView& texels);
 
-    Runner& runner_;
+    Recorder& recorder_;
     const Graph& graph_;
     const Pass& pass_;
     VkCommandBuffer commands_;

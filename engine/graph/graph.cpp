@@ -91,4 +91,10 @@ void Graph::want(Image image) { wanted_images_.push_back(image); }
 void Graph::want(Buffer buffer) { wanted_buffers_.push_back(buffer); }
 bool Graph::is_kept(std::uint32_t image) const { return kept_.contains(image); }
 
+Graph Graph::without_bodies() const {
+    Graph outline = *this;
+    for (Pass& pass : outline.passes_) pass.body = nullptr;
+    return outline;
+}
+
 } // namespace catoptric::graph

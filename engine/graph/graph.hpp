@@ -63,10 +63,12 @@ struct Image {
     Image layers(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer + first, count, previous};
     }
+    friend bool operator==(const Image&, const Image&) = default;
 };
 
 struct Buffer {
     std::uint32_t id = 0;
+    friend bool operator==(const Buffer&, const Buffer&) = default;
 };
 
 /// Attachment contents before the pass. Colour: r, g, b, a. Depth: the first value.
@@ -83,6 +85,7 @@ struct BufferUse {
     Buffer buffer;
     Use use = Use::sampled;
     bool write = false;
+    friend bool operator==(const BufferUse&, const BufferUse&) = default;
 };
 
 struct Pass {
@@ -139,6 +142,8 @@ public:
     const std::vector<Image>& wanted_images() const { return wanted_images_; }
     const std::vector<Buffer>& wanted_buffers() const { return wanted_buffers_; }
     bool is_kept(std::uint32_t image) const; ///< someone asked for its `previous`
+    /// The declarations alone, to compare other graphs with.
+    Graph without_bodies() const;
 
 private:
     History history_;

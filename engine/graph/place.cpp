@@ -9,7 +9,6 @@ namespace {
 
 struct Item {
     Placement* placement = nullptr;
-    std::uint64_t alignment = 1;
     int rank = 0; ///< 0 shares, 1 is wanted, 2 is kept: the order in the heap
 };
 
@@ -45,7 +44,7 @@ std::uint64_t first_fit(const Item& item, const Shelves& shelves) {
     for (const Shelf& shelf : shelves) {
         if (offset + item.placement->bytes <= shelf.offset) break;
         const std::uint64_t end = shelf.reach(*item.placement);
-        if (end > 0) offset = std::max(offset, align_up(end, item.alignment));
+        if (end > 0) offset = std::max(offset, align_up(end, item.placement->alignment));
     }
     return offset;
 }
@@ -62,8 +61,9 @@ void put(Shelves& shelves, const Placement& placement) {
 Item size_up(Placement& placement, const Requirements& wanted, bool kept) {
     const std::uint64_t alignment = std::max<std::uint64_t>(wanted.alignment, 1);
     placement.heap = wanted.heap;
+    placement.alignment = alignment;
     placement.bytes = kept ? 2 * align_up(wanted.bytes, alignment) : wanted.bytes;
-    return {&placement, alignment, kept ? 2 : placement.alone ? 1 : 0};
+    return {&placement, kept ? 2 : placement.alone ? 1 : 0};
 }
 
 /// Used ones by rank, then the largest first, so that small ones fill the gaps.
@@ -113,11 +113,11 @@ void place(const Graph& graph, const Sizer& sizer, Plan& plan) {
             plan.heap_bytes.resize(placement.heap + 1, 0);
         }
         std::uint64_t& heap = plan.heap_bytes[placement.heap];
-        placement.offset = placement.alone ? align_up(heap, item.alignment)
+        placement.offset = placement.alone ? align_up(heap, item.placement->alignment)
                                            : first_fit(item, shelves[placement.heap]);
         heap = std::max(heap, end_of(placement));
         std::uint64_t& alone = unshared[placement.heap];
-        alone = align_up(alone, item.alignment) + placement.bytes;
+        alone = align_up(alone, item.placement->alignment) + placement.bytes;
         if (!placement.alone) put(shelves[placement.heap], placement);
     }
     for (const std::uint64_t bytes : plan.heap_bytes) plan.bytes += bytes;

@@ -67,6 +67,7 @@ struct Placement {
     /// In the heap; `alone` ones start after the shared part. A kept image has two copies, at
     /// `offset` and at `offset + bytes / 2`.
     std::uint64_t offset = 0, bytes = 0;
+    std::uint64_t alignment = 1;
 };
 
 struct Culled {

@@ -50,7 +50,7 @@ Captured capture(gpu::Device& device, gpu::Pipelines& pipelines, const scene::Sc
     add_captures(graph, inputs, options, cubes);
     graph.want(cubes.colour);
     graph.want(*cubes.distance);
-    runner.run(graph, runner.plan(graph), graph::Timing::isolated);
+    runner.run(graph, graph::Timing::isolated);
     return {face, runner.read(cubes.colour), runner.read(*cubes.distance), gpu_scene.space()};
 }
 

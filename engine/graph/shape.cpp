@@ -1,0 +1,96 @@
+#include "graph/shape.hpp"
+
+#include <algorithm>
+
+namespace catoptric::graph {
+
+namespace {
+
+/// Of what is added, in order.
+class Hash {
+public:
+    void add(std::uint64_t value) {
+        constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15u;
+        value_ = (value_ ^ value) * kOdd;
+        value_ ^= value_ >> 29;
+    }
+    void add(std::uint32_t high, std::uint32_t low) { add(std::uint64_t{high} << 32 | low); }
+    void add(std::string_view text) { add(std::hash<std::string_view>()(text)); }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0;
+};
+
+template <typename E>
+std::uint32_t number(E value) {
+    return static_cast<std::uint32_t>(value);
+}
+
+void add(Hash& hash, const ImageDesc& desc) {
+    hash.add(desc.name);
+    hash.add(desc.width, desc.height);
+    hash.add(desc.layers, number(desc.format) << 1 | desc.cube);
+}
+
+void add(Hash& hash, const Image& image) {
+    hash.add(image.id << 1 | image.previous, image.first_layer);
+    hash.add(image.layer_count);
+}
+
+void add(Hash& hash, const Pass& pass) {
+    hash.add(pass.name);
+    hash.add(number(pass.tag) << 1 | static_cast<bool>(pass.body), pass.layer_count);
+    hash.add(static_cast<std::uint32_t>(pass.images.size()),
+             static_cast<std::uint32_t>(pass.buffers.size()));
+    for (const ImageUse& use : pass.images) {
+        add(hash, use.image);
+        hash.add(number(use.use), std::uint32_t{use.write} << 1 | use.clear.has_value());
+    }
+    for (const BufferUse& use : pass.buffers)
+        hash.add(use.buffer.id, number(use.use) << 1 | use.write);
+}
+
+bool same(const ImageUse& a, const ImageUse& b) {
+    return a.image == b.image && a.use == b.use && a.write == b.write &&
+           a.clear.has_value() == b.clear.has_value();
+}
+
+bool same(const Pass& a, const Pass& b) {
+    return a.name == b.name && a.tag == b.tag && a.layer_count == b.layer_count &&
+           a.buffers == b.buffers &&
+           std::ranges::equal(a.images, b.images,
+                              [](const ImageUse& x, const ImageUse& y) { return same(x, y); });
+}
+
+} // namespace
+
+std::uint64_t shape_hash(const Graph& graph) {
+    Hash hash;
+    hash.add(graph.images().size());
+    for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
+        add(hash, graph.images()[i]);
+        hash.add(graph.is_kept(i));
+    }
+    for (const BufferDesc& desc : graph.buffers()) {
+        hash.add(desc.name);
+        hash.add(desc.bytes);
+    }
+    for (const Pass& pass : graph.passes()) add(hash, pass);
+    for (const Image& image : graph.wanted_images()) add(hash, image);
+    for (const Buffer& buffer : graph.wanted_buffers()) hash.add(buffer.id);
+    return hash.value();
+}
+
+bool has_shape(const Graph& graph, const Graph& known) {
+    if (graph.images() != known.images() || graph.buffers() != known.buffers() ||
+        graph.wanted_images() != known.wanted_images() ||
+        graph.wanted_buffers() != known.wanted_buffers())
+        return false;
+    for (std::uint32_t i = 0; i < graph.images().size(); ++i)
+        if (graph.is_kept(i) != known.is_kept(i)) return false;
+    return std::ranges::equal(graph.passes(), known.passes(),
+                              [](const Pass& a, const Pass& b) { return same(a, b); });
+}
+
+} // namespace catoptric::graph
