@@ -16,6 +16,8 @@ struct Access {
     bool previous = false;
     std::uint32_t first_layer = 0;
     std::uint32_t layer_count = 1;
+    std::uint32_t first_mip = 0;
+    std::uint32_t mip_count = 1;
     Use use = Use::sampled;
     bool write = false;
     bool needs = false; ///< contents from before: a read, an attachment without clear, `storage`
@@ -23,6 +25,7 @@ struct Access {
 
     /// Also of a wrong access, whose layers may be more than 32 bits hold.
     std::uint64_t end_layer() const { return std::uint64_t{first_layer} + layer_count; }
+    std::uint64_t end_mip() const { return std::uint64_t{first_mip} + mip_count; }
 };
 
 /// What the pass touches: images in order of declaration, then buffers.
@@ -48,45 +51,78 @@ constexpr bool is_attachment(Use use) { return use == Use::colour || use == Use:
 
 /// "'cubes' [0,6)", "previous('cubes') [0,6)" or "buffer 'args'".
 std::string describe(const Graph& graph, const Access& access);
-/// "layers [6,12)"
-std::string layers_text(std::uint64_t first, std::uint64_t end);
+/// "layers [6,12)", and of which mip where there are several: numbers as of
+/// `for_each_range`, up to the end of the first one's mip.
+std::string layers_text(const ImageDesc& desc, std::uint32_t first, std::uint32_t end);
 /// "'cubes'"; also for buffers.
 std::string quoted_name(const Graph& graph, const Access& access);
 
-/// A value for each layer of each image and for each buffer.
+/// Calls visit(first, end) for the layers of the mips of a part of an image with so many layers:
+/// layer l of mip m has number m * layers + l.
+template <typename Part, typename Visit>
+void for_each_range(const Part& part, std::uint32_t layers, const Visit& visit) {
+    if (part.layer_count == layers)
+        return visit(part.first_mip * layers, (part.first_mip + part.mip_count) * layers);
+    for (std::uint32_t m = part.first_mip; m < part.first_mip + part.mip_count; ++m)
+        visit(m * layers + part.first_layer, m * layers + part.first_layer + part.layer_count);
+}
+
+/// A value for each layer of each mip of each image and for each buffer.
 template <typename T>
 class Ledger {
 public:
     explicit Ledger(const Graph& graph, const T& value = {}) : images_(graph.images().size()) {
-        runs_.reserve(images_ + graph.buffers().size());
-        for (const ImageDesc& desc : graph.images()) runs_.emplace_back(desc.layers, value);
-        runs_.resize(images_ + graph.buffers().size(), Runs<T>(1, value));
+        entries_.reserve(images_ + graph.buffers().size());
+        for (const ImageDesc& desc : graph.images())
+            entries_.push_back({Runs<T>(desc.layers * desc.mips, value), desc.layers});
+        entries_.resize(images_ + graph.buffers().size(), {Runs<T>(1, value), 1});
     }
-    Runs<T>& of(const Access& a) { return runs_[a.is_buffer ? images_ + a.id : a.id]; }
-    const Runs<T>& of(const Access& a) const { return runs_[a.is_buffer ? images_ + a.id : a.id]; }
+    Runs<T>& of(const Access& a) { return entry(a).runs; }
+    const Runs<T>& of(const Access& a) const { return entry(a).runs; }
+    std::uint32_t layers_of(const Access& a) const { return entry(a).layers; }
 
-    /// Calls visit(first layer, end layer, value) for the runs that the access meets.
+    /// Calls visit(first, end, value) for the runs that the access meets.
     template <typename Visit>
     void each(const Access& a, const Visit& visit) const {
-        of(a).each(a.first_layer, a.first_layer + a.layer_count, visit);
+        const Entry& e = entry(a);
+        for_each_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
+            e.runs.each(first, end, visit);
+        });
     }
     template <typename Visit>
     void change(const Access& a, const Visit& visit) {
-        of(a).change(a.first_layer, a.first_layer + a.layer_count, visit);
+        Entry& e = entries_[index(a)];
+        for_each_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
+            e.runs.change(first, end, visit);
+        });
     }
     void set(const Access& a, const T& value) {
-        of(a).set(a.first_layer, a.first_layer + a.layer_count, value);
+        change(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
     /// Whether some layer of the access has the value.
     bool any(const Access& a, const T& value) const {
-        return of(a).any(a.first_layer, a.first_layer + a.layer_count, value);
+        bool found = false;
+        each(a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
+        return found;
     }
 
 private:
+    struct Entry {
+        Runs<T> runs;
+        std::uint32_t layers;
+    };
+    std::size_t index(const Access& a) const { return a.is_buffer ? images_ + a.id : a.id; }
+    Entry& entry(const Access& a) { return entries_[index(a)]; }
+    const Entry& entry(const Access& a) const { return entries_[index(a)]; }
+
     std::size_t images_;
-    std::vector<Runs<T>> runs_; // images, then buffers
+    std::vector<Entry> entries_; // images, then buffers
 };
 
+/// A part of an image as an access of no use.
+Access access_to(const Image& image);
+/// All of an image.
+Access access_to_all(const Graph& graph, std::uint32_t image);
 /// True for every layer and buffer that the graph wants.
 Ledger<char> wanted_parts(const Graph& graph);
 

@@ -48,26 +48,74 @@ std::vector<Touch> listed(TouchSet set) {
     return touches;
 }
 
-/// Adds a barrier, as part of the last one when it only continues its layers.
+/// Whether `next` only continues the layers, or the mips, of `last`.
+bool continues(const Barrier& last, const Barrier& next) {
+    if (last.is_buffer || next.is_buffer || last.id != next.id || last.previous != next.previous)
+        return false;
+    if (last.before != next.before || last.after != next.after || last.shared != next.shared)
+        return false;
+    const bool same_layers = last.first_layer == next.first_layer &&
+                             last.layer_count == next.layer_count;
+    const bool same_mips = last.first_mip == next.first_mip && last.mip_count == next.mip_count;
+    return (same_mips && last.first_layer + last.layer_count == next.first_layer) ||
+           (same_layers && last.first_mip + last.mip_count == next.first_mip);
+}
+
+/// Adds a barrier, as part of the last one when it continues it.
 void append(std::vector<Barrier>& barriers, Barrier&& barrier) {
-    if (!barriers.empty() && !barrier.is_buffer) {
-        Barrier& last = barriers.back();
-        if (!last.is_buffer && last.id == barrier.id && last.previous == barrier.previous &&
-            last.first_layer + last.layer_count == barrier.first_layer &&
-            last.before == barrier.before && last.after == barrier.after &&
-            last.shared == barrier.shared) {
-            last.layer_count += barrier.layer_count;
-            return;
-        }
+    if (barriers.empty() || !continues(barriers.back(), barrier)) {
+        barriers.push_back(std::move(barrier));
+        return;
     }
-    barriers.push_back(std::move(barrier));
+    Barrier& last = barriers.back();
+    if (last.first_mip == barrier.first_mip)
+        last.layer_count += barrier.layer_count;
+    else
+        last.mip_count += barrier.mip_count;
+}
+
+/// Calls visit(first mip, mips, first layer, layers) for rectangles that make up numbers
+/// [first, end) of an image with so many layers.
+template <typename Visit>
+void for_each_rectangle(std::uint32_t first, std::uint32_t end, std::uint32_t layers,
+                        const Visit& visit) {
+    while (first < end) {
+        const std::uint32_t mip = first / layers, layer = first % layers;
+        const std::uint32_t mips = layer == 0 ? (end - first) / layers : 0;
+        const std::uint32_t count = mips > 0 ? layers : std::min(layers - layer, end - first);
+        visit(mip, std::max(mips, 1u), layer, count);
+        first += std::max(mips, 1u) * count;
+    }
+}
+
+/// What was ready for every stage when the frame began.
+State arrived(Use use) {
+    const Touch compute{.nothing = false, .use = use, .write = false, .raster = false};
+    Touch raster = compute;
+    raster.raster = true;
+    State state{.write = kNothing, .readers = Touches(code_of(compute))};
+    state.readers.add(code_of(raster));
+    return state;
+}
+
+/// How an image is at the start of a frame.
+State at_start(const Graph& graph, std::uint32_t image) {
+    if (graph.lifetime(image) == Lifetime::kept) return arrived(Use::sampled);
+    if (graph.lifetime(image) == Lifetime::imported && graph.arrives(image))
+        return arrived(*graph.arrives(image));
+    return {};
 }
 
 /// Owns the states of everything while the frame is walked from top to bottom.
 class Tracker {
 public:
     Tracker(const Graph& graph, const Plan& plan)
-        : plan_(plan), states_(graph), previous_(graph, arrived()), users_(plan) {}
+        : graph_(graph), plan_(plan), states_(graph), previous_(graph, arrived(Use::sampled)),
+          users_(plan) {
+        for (std::uint32_t i = 0; i < plan.images.size(); ++i)
+            if (const State state = at_start(graph, i); !state.latest().empty())
+                states_.set(access_to_all(graph, i), state);
+    }
 
     void touch(const Access& access, const Touch& touch, std::vector<Barrier>& barriers) {
         const TouchCode code = code_of(touch);
@@ -96,8 +144,12 @@ public:
     }
 
     /// A barrier for each layer, needed or not: whoever comes after the frame relies on it.
-    void leave(const Access& access, const Touch& touch, std::vector<Barrier>& barriers) {
+    /// `untouched`: also for what no pass touched.
+    void leave(const Access& access, Use use, bool untouched, std::vector<Barrier>& barriers) {
+        const State start = access.is_buffer ? State() : at_start(graph_, access.id);
+        const Touch touch{.nothing = false, .use = use};
         states_.each(access, [&](std::uint32_t first, std::uint32_t end, const State& state) {
+            if (!untouched && state == start) return;
             Touches latest = state.latest();
             if (latest.empty()) latest.add(kNothing); // never touched: from nothing
             wait(access, first, end, latest, touch, barriers);
@@ -109,62 +161,78 @@ public:
     }
 
 private:
-    /// Last frame's contents: the end of that frame made them ready for every stage.
-    static State arrived() {
-        const Touch compute{.nothing = false, .use = Use::sampled, .write = false, .raster = false};
-        Touch raster = compute;
-        raster.raster = true;
-        State state{.write = kNothing, .readers = Touches(code_of(compute))};
-        state.readers.add(code_of(raster));
-        return state;
-    }
-
-    static void wait(const Access& access, std::uint32_t first, std::uint32_t end,
-                     const Touches& awaited, const Touch& touch, std::vector<Barrier>& barriers) {
+    void wait(const Access& access, std::uint32_t first, std::uint32_t end, const Touches& awaited,
+              const Touch& touch, std::vector<Barrier>& barriers) const {
         if (awaited.empty()) return;
         std::vector<Touch> others;
         for (std::size_t i = 1; i < awaited.size(); ++i) others.push_back(touch_of(awaited[i]));
-        emit(access, first, end, touch_of(awaited.front()), touch, std::move(others), barriers);
+        emit(access, first, end, touch_of(awaited.front()), touch, others, barriers);
     }
 
-    static void emit(const Access& access, std::uint32_t first, std::uint32_t end,
-                     const Touch& before, const Touch& after, std::vector<Touch> shared,
-                     std::vector<Barrier>& barriers) {
+    void emit(const Access& access, std::uint32_t first, std::uint32_t end, const Touch& before,
+              const Touch& after, const std::vector<Touch>& shared,
+              std::vector<Barrier>& barriers) const {
         // A buffer has no layout: without anything to wait for there is nothing to do.
         if (access.is_buffer && before.nothing && shared.empty()) return;
-        append(barriers, {.is_buffer = access.is_buffer,
-                          .id = access.id,
-                          .previous = access.previous,
-                          .first_layer = first,
-                          .layer_count = end - first,
-                          .before = before,
-                          .after = after,
-                          .shared = std::move(shared)});
+        for_each_rectangle(first, end, states_.layers_of(access),
+                           [&](std::uint32_t first_mip, std::uint32_t mips,
+                               std::uint32_t first_layer, std::uint32_t layers) {
+                               append(barriers, {.is_buffer = access.is_buffer,
+                                                 .id = access.id,
+                                                 .previous = access.previous,
+                                                 .first_layer = first_layer,
+                                                 .layer_count = layers,
+                                                 .first_mip = first_mip,
+                                                 .mip_count = mips,
+                                                 .before = before,
+                                                 .after = after,
+                                                 .shared = shared});
+                           });
     }
 
+    const Graph& graph_;
     const Plan& plan_;
     Ledger<State> states_, previous_;
     MemoryUsers users_;
 };
 
+void order_wanted(const Access& whole, const Ledger<char>& wanted, Tracker& tracker,
+                  std::vector<Barrier>& barriers) {
+    const auto leave = [&](std::uint32_t first, std::uint32_t end, bool is_wanted) {
+        if (!is_wanted) return;
+        for_each_rectangle(first, end, wanted.layers_of(whole),
+                           [&](std::uint32_t first_mip, std::uint32_t mips,
+                               std::uint32_t first_layer, std::uint32_t layers) {
+                               Access part = whole;
+                               part.first_mip = first_mip, part.mip_count = mips;
+                               part.first_layer = first_layer, part.layer_count = layers;
+                               tracker.leave(part, Use::copy_from, true, barriers);
+                           });
+    };
+    wanted.of(whole).each(leave);
+}
+
 void order_end(const Graph& graph, Tracker& tracker, Plan& plan) {
     const Ledger<char> wanted = wanted_parts(graph);
-    Touch touch{.nothing = false, .use = Use::copy_from};
-    const auto leave = [&](const Access& whole, bool all) {
-        wanted.of(whole).each([&](std::uint32_t first, std::uint32_t end, bool is_wanted) {
-            Access part = whole;
-            part.first_layer = first, part.layer_count = end - first;
-            if (all || is_wanted) tracker.leave(part, touch, plan.last);
-        });
-    };
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
-        const bool kept = plan.images[i].used && graph.is_kept(i);
-        touch.use = kept ? Use::sampled : Use::copy_from;
-        leave({.id = i}, kept);
+        const Access whole = access_to_all(graph, i);
+        const bool stays = graph.lifetime(i) == Lifetime::kept; // also where no pass touches it
+        switch (plan.images[i].used || stays ? graph.lifetime(i) : Lifetime::frame) {
+        case Lifetime::frame: order_wanted(whole, wanted, tracker, plan.last); break;
+        case Lifetime::previous: tracker.leave(whole, Use::sampled, true, plan.last); break;
+        case Lifetime::kept: tracker.leave(whole, Use::sampled, false, plan.last); break;
+        case Lifetime::imported:
+            tracker.leave(whole, graph.leaves(i), graph.arrives(i) != graph.leaves(i), plan.last);
+            break;
+        }
     }
-    touch.use = Use::copy_from;
-    for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
-        leave({.is_buffer = true, .id = b}, false);
+    for (std::uint32_t b = 0; b < plan.buffers.size(); ++b) {
+        const Access whole{.is_buffer = true, .id = b};
+        if (plan.buffers[b].used && graph.is_imported({b}))
+            tracker.leave(whole, Use::copy_from, false, plan.last);
+        else
+            order_wanted(whole, wanted, tracker, plan.last);
+    }
 }
 
 } // namespace

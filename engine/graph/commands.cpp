@@ -30,6 +30,8 @@ void Commands::use(const gpu::ComputeState& state) {
 void Commands::require_declared(Image image, std::string_view name) const {
     const auto same = [&](const ImageUse& use) {
         return use.image.id == image.id && use.image.previous == image.previous &&
+               use.image.first_mip <= image.first_mip &&
+               image.first_mip + image.mip_count <= use.image.first_mip + use.image.mip_count &&
                use.image.first_layer <= image.first_layer &&
                image.first_layer + image.layer_count <=
                    use.image.first_layer + use.image.layer_count;
@@ -113,11 +115,19 @@ void Commands::copy(Image from, Image to) {
     const VkImageAspectFlags aspect = is_depth(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
                                                             : VK_IMAGE_ASPECT_COLOR_BIT;
     VkImageCopy region{};
-    region.srcSubresource = {aspect, 0, from.first_layer, from.layer_count};
-    region.dstSubresource = {aspect, 0, to.first_layer, to.layer_count};
-    region.extent = {desc.width, desc.height, 1};
+    region.srcSubresource = {aspect, from.first_mip, from.first_layer, from.layer_count};
+    region.dstSubresource = {aspect, to.first_mip, to.first_layer, to.layer_count};
+    region.extent = {at_mip(desc.width, from.first_mip), at_mip(desc.height, from.first_mip), 1};
     vkCmdCopyImage(commands_, recorder_.physical(from).image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                    recorder_.physical(to).image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void Commands::copy(Image from, Buffer to) {
+    require_declared(from, "source of a copy");
+    require_declared(to, "target of a copy");
+    const VkBufferImageCopy region = copy_region(graph_.images()[from.id], from);
+    vkCmdCopyImageToBuffer(commands_, recorder_.physical(from).image,
+                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.buffer(to), 1, &region);
 }
 
 void Commands::fill(Buffer buffer, std::uint32_t word) {
@@ -146,8 +156,7 @@ VkWriteDescriptorSet Commands::write(const gpu::Binding& binding, const Bound& b
         const bool sampled = binding.kind == BindingKind::sampled_image;
         image.sampler = sampled ? recorder_.sampler(bound_image->filter) : VK_NULL_HANDLE;
         image.imageView = recorder_.physical(bound_image->image)
-                              .view(recorder_.device(), binding.shape,
-                                    bound_image->image.first_layer, bound_image->image.layer_count);
+                              .view(recorder_.device(), binding.shape, bound_image->image);
         image.imageLayout = sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
                                     : VK_IMAGE_LAYOUT_GENERAL;
         write.descriptorType = sampled ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER

@@ -15,7 +15,12 @@ namespace catoptric::graph {
 class Recorder;
 
 /// How a sampled image is looked up. Edges clamp; cubes are seamless.
-enum class Filter { nearest, linear, compare /*depth >= reference, 2x2 PCF*/ };
+enum class Filter {
+    nearest,
+    linear,
+    compare,  ///< depth >= reference, 2x2 PCF
+    mipmapped ///< linear, also between mips
+};
 
 /// What a pass body records with. Bindings have the names they have in the shaders and stay bound
 /// until the pass ends; a name that the current pipeline does not use is ignored, one that it uses
@@ -54,6 +59,8 @@ public:
     void barrier();
     /// Both declared by the pass; same size and format, all layers of the handles.
     void copy(Image from, Image to);
+    /// Both declared by the pass: texels of one mip, rows top down, layers one after the other.
+    void copy(Image from, Buffer to);
     /// Sets every word of a buffer that the pass declares as copy_to.
     void fill(Buffer buffer, std::uint32_t word);
 

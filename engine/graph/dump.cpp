@@ -39,7 +39,7 @@ public:
     }
     /// Everything whose memory overlaps that of `mine`.
     std::size_t count(const Placement& mine) const {
-        if (!mine.used) return 0;
+        if (!mine.used || mine.bytes == 0) return 0;
         const Heap& heap = heaps_[mine.heap];
         const auto begun = std::ranges::lower_bound(heap.begins, mine.offset + mine.bytes);
         const auto ended = std::ranges::upper_bound(heap.ends, mine.offset);
@@ -66,7 +66,7 @@ private:
     };
     void add(const Placement& placement, std::string_view name) {
         all_.emplace_back(&placement, name);
-        if (!placement.used) return;
+        if (!placement.used || placement.bytes == 0) return;
         if (heaps_.size() <= placement.heap) heaps_.resize(placement.heap + 1);
         heaps_[placement.heap].begins.push_back(placement.offset);
         heaps_[placement.heap].ends.push_back(placement.offset + placement.bytes);
@@ -108,6 +108,7 @@ Json access_json(const Graph& graph, const Access& a) {
     Json json{{"image", graph.images()[a.id].name},
               {"layers", {a.first_layer, a.layer_count}},
               {"use", graph::name_of(a.use)}};
+    if (graph.images()[a.id].mips > 1) json["mips"] = {a.first_mip, a.mip_count};
     if (a.write)
         json["clear"] = a.clears;
     else
@@ -137,12 +138,15 @@ void add_placement(Json& json, const Placement& placement) {
     json["alone"] = placement.alone;
 }
 
-Json image_json(const ImageDesc& desc, const Placement& placement) {
+Json image_json(const ImageDesc& desc, Lifetime lifetime, const Placement& placement) {
     Json json{{"name", desc.name},
               {"format", catoptric::name_of(desc.format)},
               {"size", {desc.width, desc.height}},
               {"layers", desc.layers},
               {"cube", desc.cube}};
+    if (desc.mips > 1) json["mips"] = desc.mips;
+    if (lifetime == Lifetime::kept) json["kept"] = true;
+    if (lifetime == Lifetime::imported) json["imported"] = true;
     add_placement(json, placement);
     return json;
 }
@@ -193,11 +197,14 @@ std::string to_text(const Graph& graph, const Plan& plan) {
         out << "  '" << graph.passes()[culled.pass].name << "': " << culled.reason << "\n";
     const Sharers sharers(graph, plan);
     if (!plan.images.empty()) out << "\nimages\n";
-    for (std::size_t i = 0; i < plan.images.size(); ++i) {
+    for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const ImageDesc& desc = graph.images()[i];
         out << "  '" << desc.name << "' " << catoptric::name_of(desc.format) << " " << desc.width
             << "x" << desc.height << ", " << counted(desc.layers, "layer", "s")
             << (desc.cube ? " (cube)" : "");
+        if (desc.mips > 1) out << ", " << counted(desc.mips, "mip", "s");
+        if (graph.lifetime(i) == Lifetime::kept) out << ", kept";
+        if (graph.lifetime(i) == Lifetime::imported) out << ", imported";
         write_placement(out, sharers, plan.images[i]);
     }
     if (!plan.buffers.empty()) out << "\nbuffers\n";
@@ -234,7 +241,8 @@ std::string to_json(const Graph& graph, const Plan& plan) {
         json["culled"].push_back(
             {{"name", graph.passes()[culled.pass].name}, {"reason", culled.reason}});
     for (std::size_t i = 0; i < plan.images.size(); ++i)
-        json["images"].push_back(image_json(graph.images()[i], plan.images[i]));
+        json["images"].push_back(image_json(
+            graph.images()[i], graph.lifetime(static_cast<std::uint32_t>(i)), plan.images[i]));
     for (std::size_t b = 0; b < plan.buffers.size(); ++b) {
         Json buffer{{"name", graph.buffers()[b].name}};
         add_placement(buffer, plan.buffers[b]);

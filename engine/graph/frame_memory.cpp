@@ -1,66 +1,23 @@
 #include "graph/frame_memory.hpp"
 
+#include "graph/device_memory.hpp"
+
 #include <algorithm>
 
 namespace catoptric::graph {
 
 namespace {
 
-VkMemoryRequirements requirements(const gpu::Device& device, const ImageDesc& desc) {
-    const VkImageCreateInfo create = image_create_info(desc);
-    VkDeviceImageMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS};
-    info.pCreateInfo = &create;
-    VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
-    vkGetDeviceImageMemoryRequirements(device.handle(), &info, &needs);
-    return needs.memoryRequirements;
-}
-
-VkBufferCreateInfo buffer_create_info(const BufferDesc& desc) {
-    VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-    create.size = desc.bytes;
-    create.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                   VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    return create;
-}
-
-VkMemoryRequirements requirements(const gpu::Device& device, const BufferDesc& desc) {
-    const VkBufferCreateInfo create = buffer_create_info(desc);
-    VkDeviceBufferMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS};
-    info.pCreateInfo = &create;
-    VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
-    vkGetDeviceBufferMemoryRequirements(device.handle(), &info, &needs);
-    return needs.memoryRequirements;
-}
-
-Requirements placed(const gpu::Device& device, const VkMemoryRequirements& needs,
-                    const std::string& name) {
-    const int type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    check(type >= 0, Failure::internal, "no memory type for '", name, "'");
-    // Linear buffers and optimal images share heaps: the granularity keeps them on pages of their
-    // own.
-    const auto granularity = device.limits().bufferImageGranularity;
-    return {needs.size, std::max<std::uint64_t>(needs.alignment, granularity),
-            static_cast<std::uint32_t>(type)};
-}
-
-gpu::UniqueBuffer make_buffer(const gpu::Device& device, const BufferDesc& desc) {
-    const VkBufferCreateInfo create = buffer_create_info(desc);
-    VkBuffer buffer = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateBuffer(device.handle(), &create, nullptr, &buffer),
-                  "create buffer '" + desc.name + "'");
-    device.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), desc.name);
-    return {device.handle(), buffer};
-}
-
 /// Calls visit(placement) for what lies in the memory of frames: `alone` or not, and not kept.
 template <typename Visit>
 void for_each_placement(const Compiled& shape, bool alone, const Visit& visit) {
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
         const Placement& placement = shape.plan.images[i];
-        if (placement.used && placement.alone == alone && !shape.is_kept(i)) visit(placement);
+        if (shape.is_owned(i) && placement.alone == alone && !shape.is_kept(i)) visit(placement);
     }
-    for (const Placement& placement : shape.plan.buffers)
-        if (placement.used && placement.alone == alone) visit(placement);
+    for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b)
+        if (shape.is_owned(Buffer{b}) && shape.plan.buffers[b].alone == alone)
+            visit(shape.plan.buffers[b]);
 }
 
 /// Where in each heap of the plan the memory of its wanted ones begins. The plan has them behind
@@ -101,15 +58,6 @@ std::vector<std::uint64_t> largest_claim(std::span<const std::shared_ptr<Compile
 
 } // namespace
 
-Sizer sizer_of(const gpu::Device& device) {
-    return {[&device](const ImageDesc& desc) {
-                return placed(device, requirements(device, desc), desc.name);
-            },
-            [&device](const BufferDesc& desc) {
-                return placed(device, requirements(device, desc), desc.name);
-            }};
-}
-
 void FrameMemory::allocate(Arena& arena, std::vector<std::uint64_t> bytes) {
     arena = {}; // before more is asked for
     for (std::size_t type = 0; type < bytes.size(); ++type)
@@ -130,23 +78,33 @@ void FrameMemory::make(Compiled& shape, Resources& resources, const Arena& arena
         const Placement& p = shape.plan.images[i];
         const ImageDesc& desc = shape.outline.images()[i];
         resources.images.emplace_back();
-        if (!p.used || p.alone != alone || shape.is_kept(i)) continue;
+        if (!shape.is_owned(i) || p.alone != alone || shape.is_kept(i)) continue;
         resources.images.back() = make_physical(device_, desc);
         gpu::check_vk(vkBindImageMemory(device_.handle(), resources.images.back().image,
                                         arena.heaps[p.heap], offset_of(p)),
                       "place image '" + desc.name + "'");
     }
-    for (std::size_t b = 0; b < shape.plan.buffers.size(); ++b) {
+    for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b) {
         const Placement& p = shape.plan.buffers[b];
         const BufferDesc& desc = shape.outline.buffers()[b];
         resources.buffers.emplace_back();
-        if (!p.used || p.alone != alone) continue;
+        if (!shape.is_owned(Buffer{b}) || p.alone != alone) continue;
         resources.buffers.back() = make_buffer(device_, desc);
         gpu::check_vk(vkBindBufferMemory(device_.handle(), resources.buffers.back(),
                                          arena.heaps[p.heap], offset_of(p)),
                       "place buffer '" + desc.name + "'");
     }
     resources.made = true;
+}
+
+std::uint64_t FrameMemory::bytes() const {
+    std::uint64_t sum = 0;
+    const auto add = [&](const Arena& arena) {
+        for (const std::uint64_t bytes : arena.bytes) sum += bytes;
+    };
+    add(shared_);
+    for (const Arena& arena : own_) add(arena);
+    return sum;
 }
 
 void FrameMemory::provide(Compiled& shape, std::size_t slot,

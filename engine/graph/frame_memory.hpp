@@ -20,6 +20,9 @@ public:
                  std::span<const std::shared_ptr<Compiled>> shapes,
                  const std::function<void()>& wait);
 
+    /// Bytes that are taken of the device.
+    std::uint64_t bytes() const;
+
 private:
     /// Bytes of each heap, with their memory.
     struct Arena {
@@ -33,8 +36,5 @@ private:
     Arena shared_;
     std::array<Arena, kMostInFlight> own_;
 };
-
-/// Memory that a device wants for images and buffers of the graph.
-Sizer sizer_of(const gpu::Device& device);
 
 } // namespace catoptric::graph

@@ -9,7 +9,7 @@ namespace {
 
 struct Item {
     Placement* placement = nullptr;
-    int rank = 0; ///< 0 shares, 1 is wanted, 2 is kept: the order in the heap
+    int rank = 0; ///< 0 shares, 1 is wanted, 2 outlives the frame: the order in the heap
 };
 
 std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
@@ -58,24 +58,26 @@ void put(Shelves& shelves, const Placement& placement) {
     shelf->lives.insert(after, life);
 }
 
-Item size_up(Placement& placement, const Requirements& wanted, bool kept) {
+Item size_up(Placement& placement, const Requirements& wanted, Lifetime lifetime) {
     const std::uint64_t alignment = std::max<std::uint64_t>(wanted.alignment, 1);
     placement.heap = wanted.heap;
     placement.alignment = alignment;
-    placement.bytes = kept ? 2 * align_up(wanted.bytes, alignment) : wanted.bytes;
-    return {&placement, kept ? 2 : placement.alone ? 1 : 0};
+    placement.bytes = lifetime == Lifetime::previous ? 2 * align_up(wanted.bytes, alignment)
+                                                     : wanted.bytes;
+    return {&placement, lifetime != Lifetime::frame ? 2 : placement.alone ? 1 : 0};
 }
 
 /// Used ones by rank, then the largest first, so that small ones fill the gaps.
 std::vector<Item> sized_items(const Graph& graph, const Sizer& sizer, Plan& plan) {
     std::vector<Item> items;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        if (plan.images[i].used)
+        if (plan.images[i].used && graph.lifetime(i) != Lifetime::imported)
             items.push_back(
-                size_up(plan.images[i], sizer.image(graph.images()[i]), graph.is_kept(i)));
+                size_up(plan.images[i], sizer.image(graph.images()[i]), graph.lifetime(i)));
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
-        if (plan.buffers[b].used)
-            items.push_back(size_up(plan.buffers[b], sizer.buffer(graph.buffers()[b]), false));
+        if (plan.buffers[b].used && !graph.is_imported({b}))
+            items.push_back(
+                size_up(plan.buffers[b], sizer.buffer(graph.buffers()[b]), Lifetime::frame));
     std::ranges::stable_sort(items, [](const Item& a, const Item& b) {
         return std::tuple(a.rank, b.placement->bytes) < std::tuple(b.rank, a.placement->bytes);
     });
@@ -97,7 +99,9 @@ void find_lifetimes(const Graph& graph, const Accesses& all, Plan& plan) {
         for (const Access& a : all.of(plan.passes[position].pass))
             mark(a.is_buffer ? plan.buffers[a.id] : plan.images[a.id], position);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        plan.images[i].alone = plan.images[i].used && graph.is_kept(i);
+        plan.images[i].alone = plan.images[i].used && graph.lifetime(i) != Lifetime::frame;
+    for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
+        plan.buffers[b].alone = plan.buffers[b].used && graph.is_imported({b});
     for (const Image& image : graph.wanted_images()) plan.images[image.id].alone = true;
     for (const Buffer& buffer : graph.wanted_buffers()) plan.buffers[buffer.id].alone = true;
 }

@@ -14,6 +14,10 @@ gpu::UniqueSampler make_sampler(const gpu::Device& device, Filter filter) {
                                                                     : VK_FILTER_LINEAR;
     create.addressModeU = create.addressModeV = create.addressModeW =
         VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    if (filter == Filter::mipmapped) {
+        create.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+        create.maxLod = VK_LOD_CLAMP_NONE;
+    }
     create.compareEnable = filter == Filter::compare;
     create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depth: not behind what is stored
     VkSampler sampler = VK_NULL_HANDLE;
@@ -22,11 +26,11 @@ gpu::UniqueSampler make_sampler(const gpu::Device& device, Filter filter) {
 }
 
 VkExtent2D extent_of(const Graph& graph, const Pass& pass) {
-    const ImageDesc& desc =
-        graph.images()[std::ranges::find_if(pass.images, [](const ImageUse& use) {
-                           return use.use == Use::colour || use.use == Use::depth;
-                       })->image.id];
-    return {desc.width, desc.height};
+    const Image& image = std::ranges::find_if(pass.images, [](const ImageUse& use) {
+                             return use.use == Use::colour || use.use == Use::depth;
+                         })->image;
+    const ImageDesc& desc = graph.images()[image.id];
+    return {at_mip(desc.width, image.first_mip), at_mip(desc.height, image.first_mip)};
 }
 
 /// Stages and accesses on both sides of a barrier.
@@ -41,8 +45,12 @@ Sides sides_of(const Barrier& barrier, bool last) {
         sides.before.stages |= scope.stages, sides.before.access |= scope.access;
     }
     if (last) sides.after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
+    if (last && barrier.is_buffer) { // an imported one may lie in the host's memory
+        sides.after.stages |= VK_PIPELINE_STAGE_2_HOST_BIT;
+        sides.after.access |= VK_ACCESS_2_HOST_READ_BIT;
+    }
     // First touch of the frame: chains on to the barrier that divides it from the frame before.
-    if (sides.before.stages == VK_PIPELINE_STAGE_2_NONE) sides.before.stages = sides.after.stages;
+    if (sides.before.stages == VK_PIPELINE_STAGE_2_NONE) sides.before = sides.after;
     return sides;
 }
 
@@ -56,7 +64,7 @@ void set(VulkanBarrier& barrier, const Sides& sides) {
 
 Recorder::Recorder(gpu::Device& device, gpu::Pipelines& pipelines)
     : device_(device), pipelines_(pipelines) {
-    for (Filter filter : {Filter::nearest, Filter::linear, Filter::compare})
+    for (Filter filter : {Filter::nearest, Filter::linear, Filter::compare, Filter::mipmapped})
         samplers_[static_cast<std::size_t>(filter)] = make_sampler(device, filter);
     if (!device.has_labels()) return;
     begin_label_ = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
@@ -78,7 +86,7 @@ void Recorder::record(const Graph& graph, Compiled& shape, Slot& slot, std::size
     for (const PlannedPass& planned : shape.plan.passes) {
         if (timing == Timing::pipelined) stamp(timing);
         barriers(planned.barriers, false);
-        record_pass(graph.passes()[planned.pass]);
+        record_pass(planned);
         stamp(timing);
     }
     barriers(shape.plan.last, true);
@@ -123,9 +131,9 @@ void Recorder::add(const Barrier& barrier, bool last) {
     b.oldLayout = barrier.before.nothing ? VK_IMAGE_LAYOUT_UNDEFINED
                                          : layout_of(barrier.before.use);
     b.newLayout = layout_of(barrier.after.use);
-    b.image = physical({barrier.id, 0, 0, barrier.previous}).image;
-    b.subresourceRange = {aspect_of(graph_->images()[barrier.id].format), 0, 1, barrier.first_layer,
-                          barrier.layer_count};
+    b.image = physical({.id = barrier.id, .previous = barrier.previous}).image;
+    b.subresourceRange = {aspect_of(graph_->images()[barrier.id].format), barrier.first_mip,
+                          barrier.mip_count, barrier.first_layer, barrier.layer_count};
     image_barriers_.push_back(b);
 }
 
@@ -141,7 +149,8 @@ void Recorder::barriers(const std::vector<Barrier>& list, bool last) {
     vkCmdPipelineBarrier2(commands_, &dependency);
 }
 
-void Recorder::record_pass(const Pass& pass) {
+void Recorder::record_pass(const PlannedPass& planned) {
+    const Pass& pass = graph_->passes()[planned.pass];
     if (begin_label_) {
         VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
         label.pLabelName = pass.name.c_str();
@@ -151,23 +160,42 @@ void Recorder::record_pass(const Pass& pass) {
         Commands commands(*this, *graph_, pass, commands_, 0, 1);
         pass.body(commands);
     } else if (pass.layer_count == 1 || device_.layered()) {
-        render(pass, 0, pass.layer_count);
+        render(planned, 0, pass.layer_count);
     } else {
-        for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer) render(pass, layer, 1);
+        for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer) render(planned, layer, 1);
     }
     if (end_label_) end_label_(commands_);
 }
 
-void Recorder::add_attachment(const ImageUse& use, std::uint32_t first_layer,
+Physical& Recorder::physical(Image image) {
+    if (graph_->lifetime(image.id) != Lifetime::imported)
+        return shape_->physical(image, slot_index_);
+    Physical* const outside = graph_->outside(image.id);
+    check(outside && outside->desc.width == graph_->images()[image.id].width, Failure::internal,
+          "image '", graph_->images()[image.id].name, "' is imported from nowhere");
+    return *outside;
+}
+
+VkBuffer Recorder::buffer(Buffer buffer) const {
+    if (!graph_->is_imported(buffer)) return shape_->buffer(buffer, slot_index_);
+    const gpu::Buffer* const outside = graph_->outside(buffer);
+    check(outside, Failure::internal, "buffer '", graph_->buffers()[buffer.id].name,
+          "' is imported from nowhere");
+    return outside->handle();
+}
+
+void Recorder::add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
                               std::uint32_t layer_count) {
     const gpu::ImageShape shape = layer_count > 1 ? gpu::ImageShape::flat_array
                                                   : gpu::ImageShape::flat;
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    info.imageView = physical(use.image).view(device_, shape, use.image.first_layer + first_layer,
-                                              layer_count);
+    info.imageView = physical(use.image).view(device_, shape,
+                                              use.image.layers(first_layer, layer_count));
     info.imageLayout = layout_of(use.use);
     info.loadOp = use.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-    info.storeOp = use.write ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE;
+    info.storeOp = !use.write ? VK_ATTACHMENT_STORE_OP_NONE
+                   : unread   ? VK_ATTACHMENT_STORE_OP_DONT_CARE
+                              : VK_ATTACHMENT_STORE_OP_STORE;
     if (use.clear && use.use == Use::colour)
         std::ranges::copy(*use.clear, info.clearValue.color.float32);
     if (use.clear && use.use == Use::depth) info.clearValue.depthStencil = {(*use.clear)[0], 0};
@@ -178,12 +206,15 @@ void Recorder::add_attachment(const ImageUse& use, std::uint32_t first_layer,
 }
 
 /// One rendering scope over some layers of the pass's attachments.
-void Recorder::render(const Pass& pass, std::uint32_t first_layer, std::uint32_t layer_count) {
+void Recorder::render(const PlannedPass& planned, std::uint32_t first_layer,
+                      std::uint32_t layer_count) {
+    const Pass& pass = graph_->passes()[planned.pass];
     colours_.clear();
     depth_ = {};
-    for (const ImageUse& use : pass.images)
-        if (use.use == Use::colour || use.use == Use::depth)
-            add_attachment(use, first_layer, layer_count);
+    for (std::size_t i = 0; i < pass.images.size(); ++i)
+        if (pass.images[i].use == Use::colour || pass.images[i].use == Use::depth)
+            add_attachment(pass.images[i], i < 32 && (planned.unread >> i & 1), first_layer,
+                           layer_count);
     const VkExtent2D extent = extent_of(*graph_, pass);
     VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
     rendering.renderArea = {{0, 0}, extent};

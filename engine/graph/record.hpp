@@ -18,17 +18,18 @@ public:
     // For Commands only, during a pass's body.
     gpu::Device& device() { return device_; }
     gpu::Pipelines& pipelines() { return pipelines_; }
-    Physical& physical(Image image) { return shape_->physical(image, slot_index_); }
-    VkBuffer buffer(Buffer buffer) const { return shape_->buffer(buffer, slot_index_); }
+    Physical& physical(Image image);
+    VkBuffer buffer(Buffer buffer) const;
     VkSampler sampler(Filter filter) const { return samplers_[static_cast<std::size_t>(filter)]; }
     VkDescriptorSet descriptor_set(VkDescriptorSetLayout layout) {
         return slot_->descriptor_set(layout);
     }
 
 private:
-    void record_pass(const Pass& pass);
-    void render(const Pass& pass, std::uint32_t first_layer, std::uint32_t layer_count);
-    void add_attachment(const ImageUse& use, std::uint32_t first_layer, std::uint32_t layer_count);
+    void record_pass(const PlannedPass& planned);
+    void render(const PlannedPass& planned, std::uint32_t first_layer, std::uint32_t layer_count);
+    void add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
+                        std::uint32_t layer_count);
     void barriers(const std::vector<Barrier>& list, bool last);
     void add(const Barrier& barrier, bool last);
     void full_barrier();
@@ -36,7 +37,7 @@ private:
 
     gpu::Device& device_;
     gpu::Pipelines& pipelines_;
-    std::array<gpu::UniqueSampler, 3> samplers_;
+    std::array<gpu::UniqueSampler, 4> samplers_;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT end_label_ = nullptr;
 

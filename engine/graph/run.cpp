@@ -1,5 +1,6 @@
 #include "graph/run.hpp"
 
+#include "graph/device_memory.hpp"
 #include "graph/shape.hpp"
 #include "graph/stamps.hpp"
 
@@ -76,6 +77,13 @@ Runner::~Runner() {
     }
 }
 
+void Runner::forget() {
+    finish_all();
+    for (Slot& slot : slots_)
+        if (slot.shape) slot.shape->kept.assign(slot.shape->kept.size(), nullptr);
+    kept_.forget();
+}
+
 Limits Runner::limits() const {
     const VkPhysicalDeviceLimits& limits = device_.limits();
     return {limits.maxImageDimension2D,  limits.maxImageDimensionCube, limits.maxImageArrayLayers,
@@ -127,6 +135,7 @@ Ticket Runner::submit(const Graph& graph, Timing timing, bool stays) {
     slot.timing = timing, slot.stays = stays;
     submit(slot, shape);
     slot.shape = shapes_.front();
+    kept_.write(graph, shape);
     if (!stays) kept_.advance(shape);
     return {frame_};
 }

@@ -28,11 +28,17 @@ public:
 
     /// What the next Graph must be told about the last frame.
     History history() const { return kept_.history(); }
+    /// Drops all that was kept of earlier frames: the next one is as the first. Waits for what is
+    /// in flight.
+    void forget();
     Limits limits() const;
     /// The plan of the graph's shape: found among those of the last 8 shapes, or made. Valid until
     /// 8 others were asked for. Throws what graph::plan throws.
     const Plan& compiled(const Graph& graph) { return compile(graph).plan; }
     std::uint64_t plans_made() const { return plans_made_; }
+    /// Bytes of the device's memory that images and buffers of its graphs take: as much as the
+    /// largest of the last 8 shapes that ran, and all that is kept.
+    std::uint64_t memory_bytes() const { return memory_.bytes() + kept_.bytes(); }
 
     /// Records and submits. Waits only where all places in flight are taken, for the oldest frame.
     /// `stays`: a frame beside the sequence; the next one has the history that this one had.
@@ -45,9 +51,9 @@ public:
         return wait(submit(graph, timing, stays));
     }
 
-    /// Texels of a wanted image of the frame, which is waited for: rows top down, layers one after
-    /// the other. There until its place is taken by a later frame; what has a `previous` is there
-    /// until the next one is submitted.
+    /// Texels of a wanted image of the frame, which is waited for: rows top down, layer after
+    /// layer, mip after mip. There until its place is taken by a later frame; what outlives frames
+    /// is there until the next one is submitted.
     std::vector<std::byte> read(Ticket ticket, Image image);
     std::vector<std::byte> read(Ticket ticket, Buffer buffer);
     /// The same of the frame that was submitted last.

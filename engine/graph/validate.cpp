@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 
+#include <bit>
 #include <optional>
 #include <string_view>
 #include <unordered_set>
@@ -12,22 +13,15 @@ namespace {
 
 constexpr auto kWrong = Failure::internal;
 
-/// The first layers of `access` that are not written; empty when all are.
-std::string missing_layers(const Ledger<char>& written, const Access& access) {
-    if (!written.any(access, false)) return "";
+/// The first layers of `access` for which `there` is false; empty when all are there.
+std::string missing_layers(const Graph& graph, const Ledger<char>& there, const Access& access) {
+    if (!there.any(access, false)) return "";
     std::optional<std::pair<std::uint32_t, std::uint32_t>> missing;
-    written.each(access, [&](std::uint32_t first, std::uint32_t end, bool is_written) {
-        if (!is_written && !missing) missing = {first, end};
+    there.each(access, [&](std::uint32_t first, std::uint32_t end, bool is_there) {
+        if (!is_there && !missing) missing = {first, end};
     });
-    return layers_text(missing->first, missing->second);
-}
-
-Access access_to(const Image& image) {
-    return {.is_buffer = false,
-            .id = image.id,
-            .previous = image.previous,
-            .first_layer = image.first_layer,
-            .layer_count = image.layer_count};
+    if (access.is_buffer) return "it";
+    return layers_text(graph.images()[access.id], missing->first, missing->second);
 }
 
 void check_names(const Graph& graph) {
@@ -63,6 +57,9 @@ void check_image(const ImageDesc& desc, const Limits& limits) {
           allowed);
     check(desc.layers <= limits.max_layers, Failure::exhausted, "image '", desc.name, "' wants ",
           desc.layers, " layers, device allows max_layers = ", limits.max_layers);
+    const auto most_mips = static_cast<std::uint32_t>(std::bit_width(size));
+    check(desc.mips > 0 && desc.mips <= most_mips, kWrong, "image '", desc.name, "' wants ",
+          desc.mips, " mips, but of ", desc.width, "x", desc.height, " there are 1 to ", most_mips);
 }
 
 [[noreturn]] void refuse_read(const Graph& graph, const Pass& pass, const Access& a,
@@ -71,31 +68,80 @@ void check_image(const ImageDesc& desc, const Limits& limits) {
                        : a.use == Use::storage ? "reads and writes "
                                                : "loads (has no clear for) ";
     fail(kWrong, "pass '", pass.name, "' ", verb, describe(graph, a), " as ", name_of(a.use),
-         " before any pass writes ", a.is_buffer ? "it" : missing);
+         " before any pass writes ", missing);
 }
 
-/// Every read finds its layers written, by an earlier pass of this frame. Returns what is written
-/// by anyone.
+/// What is there before the first pass: what kept images hold, what imported ones come with.
+Ledger<char> there_at_start(const Graph& graph) {
+    Ledger<char> there(graph, false);
+    for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
+        const Access all = access_to_all(graph, i);
+        if (graph.lifetime(i) == Lifetime::imported && graph.arrives(i)) there.set(all, true);
+        if (graph.lifetime(i) != Lifetime::kept) continue;
+        graph.held(i).each([&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
+            if (stamp) there.of(all).set(first, end, true);
+        });
+    }
+    for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
+        if (graph.is_imported({b})) there.set({.is_buffer = true, .id = b}, true);
+    return there;
+}
+
+/// Every read finds its layers written, by an earlier pass of this frame or before it. Returns
+/// what is there in the end.
 Ledger<char> check_order(const Graph& graph, const Accesses& all) {
-    Ledger<char> written(graph, false);
+    Ledger<char> written = there_at_start(graph);
     for (std::size_t p = 0; p < graph.passes().size(); ++p) {
         for (const Access& a : all.of(p))
             if (a.needs && !a.previous && written.any(a, false))
-                refuse_read(graph, graph.passes()[p], a, missing_layers(written, a));
+                refuse_read(graph, graph.passes()[p], a, missing_layers(graph, written, a));
         for (const Access& a : all.of(p))
             if (a.write) written.set(a, true);
     }
     return written;
 }
 
+void check_stamped(const Graph& graph, const Stamped& stamped) {
+    const Access part = access_to(stamped.part);
+    const ImageDesc& desc = graph.images()[part.id];
+    if (part.layer_count == 0 || part.end_layer() > desc.layers || part.mip_count == 0 ||
+        part.end_mip() > desc.mips)
+        fail(kWrong, describe(graph, part),
+             " is said to be made from something, but the image has "
+             "layers [0,",
+             desc.layers, ") and ", desc.mips, " mip(s)");
+}
+
+/// What is written to kept images is what is said to be made from something.
+void check_stamps(const Graph& graph, const Accesses& all) {
+    Ledger<char> stamped(graph, false), written(graph, false);
+    for (const Stamped& s : graph.stamps()) {
+        check_stamped(graph, s);
+        stamped.set(access_to(s.part), true);
+    }
+    for (std::size_t p = 0; p < graph.passes().size(); ++p)
+        for (const Access& a : all.of(p)) {
+            if (!a.write || a.is_buffer || graph.lifetime(a.id) != Lifetime::kept) continue;
+            if (stamped.any(a, false))
+                fail(kWrong, "pass '", graph.passes()[p].name, "' writes ", describe(graph, a),
+                     ", which is kept, but nobody says what ", missing_layers(graph, stamped, a),
+                     " are made from");
+            written.set(a, true);
+        }
+    for (const Stamped& s : graph.stamps())
+        if (const Access a = access_to(s.part); written.any(a, false))
+            fail(kWrong, describe(graph, a),
+                 " is said to be made from something, but no pass writes ",
+                 missing_layers(graph, written, a));
+}
+
 [[noreturn]] void refuse_previous(const Graph& graph, const Pass& pass, const Access& a,
                                   const Ledger<char>& written) {
     const std::string name = quoted_name(graph, a);
-    check(written.any({.id = a.id, .layer_count = graph.images()[a.id].layers}, true), kWrong,
-          "pass '", pass.name, "' reads previous(", name, ") as ", name_of(a.use),
-          " but no pass writes ", name);
+    check(written.any(access_to_all(graph, a.id), true), kWrong, "pass '", pass.name,
+          "' reads previous(", name, ") as ", name_of(a.use), " but no pass writes ", name);
     fail(kWrong, "pass '", pass.name, "' reads ", describe(graph, a), " as ", name_of(a.use),
-         " but no pass writes ", missing_layers(written, a), " of ", name);
+         " but no pass writes ", missing_layers(graph, written, a), " of ", name);
 }
 
 void check_previous(const Graph& graph, const Accesses& all, const Ledger<char>& written) {
@@ -112,15 +158,22 @@ void check_wanted(const Graph& graph, const Ledger<char>& written) {
         const Access a = access_to(image);
         const std::string what = describe(graph, a);
         check(!image.previous, kWrong, what, " is wanted: only this frame's contents can be");
-        check(a.layer_count > 0 && a.end_layer() <= graph.images()[image.id].layers, kWrong, what,
-              " is wanted, but the image has layers [0,", graph.images()[image.id].layers, ")");
-        const std::string missing = missing_layers(written, a);
+        const ImageDesc& desc = graph.images()[image.id];
+        check(a.layer_count > 0 && a.end_layer() <= desc.layers, kWrong, what,
+              " is wanted, but the image has layers [0,", desc.layers, ")");
+        check(a.mip_count > 0 && a.end_mip() <= desc.mips, kWrong, what,
+              " is wanted, but the image has mips [0,", desc.mips, ")");
+        check(graph.lifetime(a.id) != Lifetime::imported, kWrong, what,
+              " is wanted, but imported: read it where it comes from");
+        const std::string missing = missing_layers(graph, written, a);
         check(missing.empty(), kWrong, what, " is wanted, but no pass writes ", missing);
     }
     for (const Buffer& buffer : graph.wanted_buffers()) {
         check(buffer.id < graph.buffers().size(), kWrong, "buffer number ", buffer.id,
               " is wanted, but the graph has ", graph.buffers().size());
         const Access a{.is_buffer = true, .id = buffer.id};
+        check(!graph.is_imported(buffer), kWrong, describe(graph, a),
+              " is wanted, but imported: read it where it comes from");
         check(written.any(a, true), kWrong, describe(graph, a),
               " is wanted, but no pass writes it");
     }
@@ -138,6 +191,8 @@ void validate(const Graph& graph, const Accesses& all, const Limits& limits) {
     const Ledger<char> written = check_order(graph, all);
     check_previous(graph, all, written);
     check_wanted(graph, written);
+    for (std::uint32_t i = 0; i < graph.images().size(); ++i)
+        if (graph.lifetime(i) == Lifetime::kept) return check_stamps(graph, all);
 }
 
 } // namespace catoptric::graph

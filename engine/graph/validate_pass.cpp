@@ -38,13 +38,19 @@ void check_handle(const Graph& graph, const Pass& pass, const Access& a) {
     check(a.id < count, kWrong, "pass '", pass.name, "' names ", a.is_buffer ? "buffer" : "image",
           " number ", a.id, ", but the graph has ", count);
     if (a.is_buffer) return;
-    const std::uint32_t layers = graph.images()[a.id].layers;
+    const auto& [layers, mips] = std::pair(graph.images()[a.id].layers, graph.images()[a.id].mips);
     if (a.layer_count == 0)
         fail(kWrong, "pass '", pass.name, "' names no layer of ", quoted_name(graph, a), " as ",
              name_of(a.use));
     if (a.end_layer() > layers)
         fail(kWrong, "pass '", pass.name, "' uses ", describe(graph, a), " as ", name_of(a.use),
              ", but the image has layers [0,", layers, ")");
+    if (a.mip_count == 0 || a.end_mip() > mips)
+        fail(kWrong, "pass '", pass.name, "' uses ", describe(graph, a), " as ", name_of(a.use),
+             ", but the image has mips [0,", mips, ")");
+    if (a.mip_count > 1 && a.use != Use::sampled)
+        fail(kWrong, "pass '", pass.name, "' uses ", describe(graph, a), " as ", name_of(a.use),
+             ": one mip at a time");
 }
 
 void check_attachment(const Graph& graph, const Pass& pass, const Access& a) {
@@ -76,10 +82,15 @@ void check_use(const Graph& graph, const Pass& pass, const Access& a) {
 void check_sizes(const Graph& graph, const Pass& pass, const Access& a, const Access& b) {
     const ImageDesc& x = graph.images()[a.id];
     const ImageDesc& y = graph.images()[b.id];
-    if (x.width == y.width && x.height == y.height) return;
+    const auto size = [](const ImageDesc& desc, const Access& at) {
+        return std::pair(at_mip(desc.width, at.first_mip), at_mip(desc.height, at.first_mip));
+    };
+    const auto [width, height] = size(x, a);
+    const auto [width2, height2] = size(y, b);
+    if (width == width2 && height == height2) return;
     fail(kWrong, "pass '", pass.name, "' attaches ", describe(graph, a), " as ", name_of(a.use),
-         " (", x.width, "x", x.height, ") and ", describe(graph, b), " as ", name_of(b.use), " (",
-         y.width, "x", y.height, "): attachments have one size");
+         " (", width, "x", height, ") and ", describe(graph, b), " as ", name_of(b.use), " (",
+         width2, "x", height2, "): attachments have one size");
 }
 
 void check_attachments(const Graph& graph, const Pass& pass, std::span<const Access> all) {
@@ -104,8 +115,15 @@ void check_attachments(const Graph& graph, const Pass& pass, std::span<const Acc
 void check_pair(const Graph& graph, const Pass& pass, const Access& a, const Access& b) {
     const std::uint64_t first = std::max(a.first_layer, b.first_layer);
     const std::uint64_t end = std::min(a.end_layer(), b.end_layer());
-    if (first >= end) return;
-    const auto where = [&] { return a.is_buffer ? "" : ", in " + layers_text(first, end); };
+    const std::uint64_t mip = std::max(a.first_mip, b.first_mip);
+    if (first >= end || mip >= std::min(a.end_mip(), b.end_mip())) return;
+    const auto where = [&]() -> std::string {
+        if (a.is_buffer) return "";
+        const ImageDesc& desc = graph.images()[a.id];
+        const auto base = static_cast<std::uint32_t>(mip * desc.layers);
+        return ", in " + layers_text(desc, base + static_cast<std::uint32_t>(first),
+                                     base + static_cast<std::uint32_t>(end));
+    };
     if (a.write && b.write)
         fail(kWrong, "pass '", pass.name, "' writes ", describe(graph, a), " as ", name_of(a.use),
              " and ", describe(graph, b), " as ", name_of(b.use), ": written twice", where());

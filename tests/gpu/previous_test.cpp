@@ -25,7 +25,7 @@ TEST(Previous, IsBlackOnceAndThenTheLastFrame) {
 TEST(Previous, BelongsToItsRunner) {
     for (int run = 0; run < 2; ++run) {
         graph::Runner runner(test::bench().device, test::bench().pipelines);
-        EXPECT_TRUE(runner.history().empty());
+        EXPECT_TRUE(runner.history().previous.empty());
         graph::Graph graph(runner.history());
         const graph::Image image = add_image(graph, "kept");
         add_step(graph, "step", graph.previous(image), image, 5);
