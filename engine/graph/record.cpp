@@ -77,7 +77,6 @@ void Recorder::record(const Graph& graph, Compiled& shape, Slot& slot, std::size
                       Timing timing) {
     graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index;
     commands_ = slot.commands;
-    slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");

@@ -123,6 +123,7 @@ Ticket Runner::submit(const Graph& graph, Timing timing, bool stays) {
     const auto wait = [this] { finish_all(); };
     memory_.provide(shape, index, shapes_, wait);
     kept_.provide(shape, wait);
+    slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
     FrameTimes times;
     times.compile_ms = compile_ms_ + milliseconds_since(begin) - (wait_ms_ - waited_for_place);
     times.wait_ms = wait_ms_ - waited_before;
