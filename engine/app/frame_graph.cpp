@@ -118,14 +118,16 @@ bool reads_previous(const FrameGraph& frame, const graph::Plan& plan, const std:
     });
 }
 
-measure::Picture read_hdr(graph::Runner& runner, const Declared& declared, uvec2 size) {
-    return to_picture(runner.read(declared.outputs.hdr), size, Format::rgba32f);
+measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Declared& declared,
+                          uvec2 size) {
+    return to_picture(runner.read(ticket, declared.outputs.hdr), size, Format::rgba32f);
 }
 
-Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan,
+Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& frame,
                std::size_t index, const render::GpuScene& scene, const FrameSpec& spec) {
     const Declared& declared = frame.parts[index];
     const reflect::Outputs& outputs = declared.outputs;
+    const graph::Plan& plan = runner.compiled(frame.graph);
     Part part;
     part.label = declared.choice.label;
     part.prefix = declared.prefix;
@@ -135,13 +137,14 @@ Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan
     const Settings& settings = declared.choice.settings;
     if (settings.has("face") && settings.is_special("face"))
         part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
-    if (outputs.counters) read_counters(runner.read(*outputs.counters), part);
-    part.hdr = read_hdr(runner, declared, spec.size);
-    part.display = to_picture(runner.read(declared.display), spec.size, Format::rgba8_unorm);
-    if (outputs.hits) part.hits = values_of<std::uint32_t>(runner.read(*outputs.hits));
+    if (outputs.counters) read_counters(runner.read(ticket, *outputs.counters), part);
+    part.hdr = read_hdr(runner, ticket, declared, spec.size);
+    part.display = to_picture(runner.read(ticket, declared.display), spec.size,
+                              Format::rgba8_unorm);
+    if (outputs.hits) part.hits = values_of<std::uint32_t>(runner.read(ticket, *outputs.hits));
     if (spec.with_lookup && outputs.captures && holds_halves(frame.graph, *outputs.captures))
-        part.saturated = saturated_texels(runner.read(outputs.captures->colour));
-    if (outputs.lookup) part.lookup = values_of<vec4>(runner.read(*outputs.lookup));
+        part.saturated = saturated_texels(runner.read(ticket, outputs.captures->colour));
+    if (outputs.lookup) part.lookup = values_of<vec4>(runner.read(ticket, *outputs.lookup));
     return part;
 }
 

@@ -33,9 +33,10 @@ FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Choice>& ch
 /// Whether a pass whose name begins with `prefix` reads what the frame before left.
 bool reads_previous(const FrameGraph& frame, const graph::Plan& plan, const std::string& prefix);
 
-measure::Picture read_hdr(graph::Runner& runner, const Declared& declared, uvec2 size);
+measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Declared& declared,
+                          uvec2 size);
 /// `part`: index into the frame's parts. Throws `exhausted` where rays gave up.
-Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan,
+Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& frame,
                std::size_t part, const render::GpuScene& scene, const FrameSpec& spec);
 
 } // namespace catoptric::app

@@ -30,6 +30,7 @@ struct Standing {
 
 FrameTimes to_times(const graph::FrameTimes& times) {
     FrameTimes frame{{}, times.span_ms, times.record_ms, times.wall_ms, {}};
+    frame.host.compile = times.compile_ms, frame.host.record = times.record_ms;
     for (const graph::PassTime& pass : times.passes)
         frame.passes.push_back({pass.name, pass.begin_ms, pass.end_ms});
     return frame;
@@ -47,13 +48,14 @@ void check_spec(const FrameSpec& spec) {
 } // namespace
 
 struct Session::Impl {
-    Impl(Engine::Impl& shared, scene::Scene at_rest)
+    Impl(Engine::Impl& shared, scene::Scene at_rest, std::uint32_t in_flight)
         : engine(shared), scene(std::move(at_rest)),
           resident(std::make_unique<render::GpuScene>(shared.device, scene)),
-          runner(shared.device, shared.pipelines) {}
+          runner(shared.device, shared.pipelines, in_flight) {}
 
-    /// Writes what the specification asks for and the device does not have yet.
-    void stand(const FrameSpec& spec);
+    /// Writes what the specification asks for and the device does not have yet; milliseconds of
+    /// work.
+    double stand(const FrameSpec& spec);
     /// The techniques' texts read; only once for as long as they stay.
     const std::vector<reflect::Choice>& choices_of(const std::vector<std::string>& techniques);
 
@@ -65,32 +67,39 @@ struct Session::Impl {
     std::vector<std::string> texts;
     std::vector<reflect::Choice> choices;    ///< of `texts`
     std::vector<reflect::Choice> remembered; ///< whose history the runner has
+    std::optional<graph::Ticket> last;       ///< of the frame that was submitted last
     Counts counts;
 };
 
 struct Frame::Impl {
     std::shared_ptr<Session::Impl> session;
-    std::uint64_t number = 0; ///< of the session's frames, from 1
+    graph::Ticket ticket;
     FrameSpec spec;
     FrameGraph frame;
-    graph::Plan plan;
-    FrameTimes times;
+    double update_ms = 0, declare_ms = 0;
+    mutable std::optional<FrameTimes> times; ///< once it was waited for
 
-    graph::Runner& runner() const {
-        check(number == session->counts.frames, Failure::internal, "frame ", number,
-              " is read after frame ", session->counts.frames, " has been rendered over it");
-        return session->runner;
-    }
+    graph::Runner& runner() const { return session->runner; }
     const Declared& part(std::size_t index) const { return frame.parts.at(index); }
+    const graph::Plan& plan() const { return runner().compiled(frame.graph); }
+    /// What outlives a frame is another's after the next.
+    void check_last() const {
+        check(session->last && session->last->frame == ticket.frame, Failure::internal, "frame ",
+              ticket.frame, " is read after frame ", session->last ? session->last->frame : 0,
+              " was rendered over it");
+    }
 };
 
-void Session::Impl::stand(const FrameSpec& spec) {
+double Session::Impl::stand(const FrameSpec& spec) {
     const Standing wanted{spec.time, spec.camera, spec.size, spec.ambient};
-    if (standing == wanted) return;
+    if (standing == wanted) return 0;
+    if (last) runner.wait(*last); // it reads what is written now
+    const Clock::time_point start = Clock::now();
     if (standing && standing->size != wanted.size) resident->forget_face_needs();
     resident->update(scene::at(scene, spec.time), spec.camera, spec.size, spec.ambient);
     standing = wanted;
     ++counts.updates;
+    return milliseconds_since(start);
 }
 
 const std::vector<reflect::Choice>&
@@ -102,12 +111,16 @@ Session::Impl::choices_of(const std::vector<std::string>& techniques) {
     return choices;
 }
 
-Session::Session(Engine& engine, scene::Scene scene)
-    : impl_(std::make_shared<Impl>(*engine.impl_, std::move(scene))) {}
+Session::Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight)
+    : impl_(std::make_shared<Impl>(*engine.impl_, std::move(scene), in_flight)) {}
 Session::~Session() = default;
 
 const scene::Scene& Session::scene() const { return impl_->scene; }
-const Counts& Session::counts() const { return impl_->counts; }
+Counts Session::counts() const {
+    Counts counts = impl_->counts;
+    counts.plans = impl_->runner.plans_made();
+    return counts;
+}
 
 Frame Session::frame(const FrameSpec& spec) {
     Impl& self = *impl_;
@@ -117,22 +130,18 @@ Frame Session::frame(const FrameSpec& spec) {
         self.runner.forget();
         self.remembered = choices;
     }
-    HostTimes host;
-    auto start = Clock::now();
-    self.stand(spec);
-    host.update = milliseconds_since(start);
-    start = Clock::now();
+    const double update_ms = self.stand(spec);
+    const Clock::time_point start = Clock::now();
     FrameGraph frame = declare(spec, choices, *self.resident, self.runner.history());
-    graph::Plan plan = self.runner.plan(frame.graph);
-    host.compile = milliseconds_since(start);
-    FrameTimes times = to_times(self.runner.run(
-        frame.graph, plan,
+    const double declare_ms = milliseconds_since(start);
+    const graph::Ticket ticket = self.runner.submit(
+        frame.graph,
         spec.timing == Timing::isolated ? graph::Timing::isolated : graph::Timing::pipelined,
-        spec.is_aside));
-    host.record = times.record_ms;
-    times.host = host;
-    return Frame(std::make_shared<Frame::Impl>(Frame::Impl{
-        impl_, ++self.counts.frames, spec, std::move(frame), std::move(plan), std::move(times)}));
+        spec.is_aside);
+    self.last = ticket;
+    ++self.counts.frames;
+    return Frame(std::make_shared<Frame::Impl>(
+        Frame::Impl{impl_, ticket, spec, std::move(frame), update_ms, declare_ms, {}}));
 }
 
 void Session::change(const scene::Edit& edit) {
@@ -160,9 +169,10 @@ std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
     graph::History history; // what the first frame would leave
     const FrameGraph first = declare(spec, choices, *self.resident, {});
     for (std::uint32_t i = 0; i < first.graph.images().size(); ++i)
-        if (first.graph.is_kept(i)) history.insert(first.graph.images()[i].name);
+        if (first.graph.lifetime(i) == graph::Lifetime::previous)
+            history.previous.insert(first.graph.images()[i].name);
     const FrameGraph frame = declare(spec, choices, *self.resident, history);
-    const graph::Plan plan = self.runner.plan(frame.graph);
+    const graph::Plan& plan = self.runner.compiled(frame.graph);
     switch (format) {
     case PlanFormat::dot: return graph::to_dot(frame.graph, plan);
     case PlanFormat::json: return graph::to_json(frame.graph, plan);
@@ -190,22 +200,32 @@ FrameTimes Session::clear_cubes() {
     }
     if (cubes) graph.want(*cubes);
     ++impl_->counts.frames;
-    return to_times(impl_->runner.run(graph, impl_->runner.plan(graph), graph::Timing::isolated));
+    impl_->last = impl_->runner.submit(graph, graph::Timing::isolated);
+    return to_times(impl_->runner.wait(*impl_->last));
 }
 
-const FrameTimes& Frame::times() const { return impl_->times; }
+const FrameTimes& Frame::times() const {
+    if (!impl_->times) {
+        impl_->times = to_times(impl_->runner().wait(impl_->ticket));
+        impl_->times->host.update = impl_->update_ms;
+        impl_->times->host.compile += impl_->declare_ms;
+    }
+    return *impl_->times;
+}
+
 std::size_t Frame::size() const { return impl_->frame.parts.size(); }
 
 bool Frame::remembers(std::size_t part) const {
-    return reads_previous(impl_->frame, impl_->plan, impl_->part(part).prefix);
+    return reads_previous(impl_->frame, impl_->plan(), impl_->part(part).prefix);
 }
 
 measure::Picture Frame::hdr(std::size_t part) const {
-    return read_hdr(impl_->runner(), impl_->part(part), impl_->spec.size);
+    return read_hdr(impl_->runner(), impl_->ticket, impl_->part(part), impl_->spec.size);
 }
 
 Part Frame::read(std::size_t part) const {
-    return read_part(impl_->runner(), impl_->frame, impl_->plan, part, *impl_->session->resident,
+    if (impl_->spec.with_lookup) impl_->check_last();
+    return read_part(impl_->runner(), impl_->ticket, impl_->frame, part, *impl_->session->resident,
                      impl_->spec);
 }
 
@@ -220,17 +240,20 @@ render::Captured Frame::captures(std::size_t part) const {
     check(impl_->spec.with_captures && cubes && cubes->distance, Failure::internal, "'",
           impl_->part(part).choice.label,
           "': wanted captures with distances that the frame was asked for, found none");
+    impl_->check_last();
     graph::Runner& runner = impl_->runner();
-    return {impl_->frame.graph.images()[cubes->colour.id].width, runner.read(cubes->colour),
-            runner.read(*cubes->distance), impl_->session->resident->space()};
+    return {impl_->frame.graph.images()[cubes->colour.id].width,
+            runner.read(impl_->ticket, cubes->colour), runner.read(impl_->ticket, *cubes->distance),
+            impl_->session->resident->space()};
 }
 
 std::vector<std::byte> Frame::state() const {
+    impl_->check_last();
     graph::Runner& runner = impl_->runner();
     std::vector<std::byte> bytes = runner.read_history();
     if (bytes.empty()) return bytes;
     for (const Declared& part : impl_->frame.parts) {
-        const std::vector<std::byte> picture = runner.read(part.outputs.hdr);
+        const std::vector<std::byte> picture = runner.read(impl_->ticket, part.outputs.hdr);
         bytes.insert(bytes.end(), picture.begin(), picture.end());
     }
     return bytes;

@@ -108,11 +108,13 @@ struct Part {
     std::optional<AutoFace> auto_face; ///< where it was left to choose the cube edge (face=auto)
 };
 
-/// A frame that a session has submitted. What it made can be read until the session's next frame;
-/// later that throws `internal`. Throws `device_lost` and `exhausted` where it waits.
+/// A frame that a session has submitted. What it made can be read until its place is taken: by the
+/// session's next frame, or with several in flight by one after; captures, look-ups and state until
+/// the next in any case. Later that throws `internal`. Throws `device_lost` and `exhausted` where
+/// it waits.
 class Frame {
 public:
-    /// Waits for the device.
+    /// Waits for the device; stay with this value from then on.
     const FrameTimes& times() const;
     /// Techniques in it.
     std::size_t size() const;
@@ -144,21 +146,24 @@ enum class PlanFormat { text, dot, json };
 struct Counts {
     std::uint64_t frames = 0;
     std::uint64_t updates = 0; ///< times that something of the scene was written to the device
+    std::uint64_t plans = 0;   ///< shapes of frames that were planned
 };
 
 /// A scene on a device, for as many frames as one likes: what is uploaded, compiled or remembered
 /// stays from frame to frame. One thread at a time. A device error ends it, and its engine.
 class Session {
 public:
-    /// The scene at rest. Throws `exhausted` where it is beyond what the device allows.
-    Session(Engine& engine, scene::Scene scene);
+    /// The scene at rest. `in_flight`: frames, 1 to 3, that may be under way before the oldest is
+    /// waited for. Throws `exhausted` where the scene is beyond what the device allows.
+    Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight = 1);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
     const scene::Scene& scene() const;
-    /// Renders a frame. Other techniques than those of the frame before begin without history.
-    /// Throws `usage` for a specification that means nothing.
+    /// Submits a frame. Waits where all places in flight are taken, and for the frame before where
+    /// the scene is written to. Other techniques than those of the frame before begin without
+    /// history. Throws `usage` for a specification that means nothing.
     Frame frame(const FrameSpec& spec);
     /// Edits the scene; seen from the next frame on, whose history stays. Throws `usage` for an
     /// object or material that is not there.
@@ -170,7 +175,7 @@ public:
     /// A frame that clears the cubes of every mirror, 256 texels an edge, and draws nothing: what
     /// any capture costs before it shows something. History stays.
     FrameTimes clear_cubes();
-    const Counts& counts() const;
+    Counts counts() const;
 
 private:
     friend class Frame;

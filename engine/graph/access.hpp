@@ -1,8 +1,9 @@
 #pragma once
 
 #include "graph/plan.hpp"
+#include "graph/runs.hpp"
 
-#include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,16 +16,33 @@ struct Access {
     bool previous = false;
     std::uint32_t first_layer = 0;
     std::uint32_t layer_count = 1;
+    std::uint32_t first_mip = 0;
+    std::uint32_t mip_count = 1;
     Use use = Use::sampled;
     bool write = false;
     bool needs = false; ///< contents from before: a read, an attachment without clear, `storage`
     bool clears = false;
 
+    /// Also of a wrong access, whose layers may be more than 32 bits hold.
     std::uint64_t end_layer() const { return std::uint64_t{first_layer} + layer_count; }
+    std::uint64_t end_mip() const { return std::uint64_t{first_mip} + mip_count; }
 };
 
 /// What the pass touches: images in order of declaration, then buffers.
 std::vector<Access> accesses(const Pass& pass);
+
+/// The same of every pass of a graph, gathered once.
+class Accesses {
+public:
+    explicit Accesses(const Graph& graph);
+    std::span<const Access> of(std::size_t pass) const {
+        return {all_.data() + first_[pass], all_.data() + first_[pass + 1]};
+    }
+
+private:
+    std::vector<Access> all_;
+    std::vector<std::size_t> first_; // of each pass, and the end
+};
 
 /// The touch that an access leaves behind.
 Touch touch_of(const Access& access, const Pass& pass);
@@ -33,35 +51,79 @@ constexpr bool is_attachment(Use use) { return use == Use::colour || use == Use:
 
 /// "'cubes' [0,6)", "previous('cubes') [0,6)" or "buffer 'args'".
 std::string describe(const Graph& graph, const Access& access);
-/// "layers [6,12)"
-std::string layers_text(std::uint64_t first, std::uint64_t end);
+/// "layers [6,12)", and of which mip where there are several: numbers as of
+/// `for_each_range`, up to the end of the first one's mip.
+std::string layers_text(const ImageDesc& desc, std::uint32_t first, std::uint32_t end);
 /// "'cubes'"; also for buffers.
 std::string quoted_name(const Graph& graph, const Access& access);
 
-/// A value for each layer of each image and for each buffer.
+/// Calls visit(first, end) for the layers of the mips of a part of an image with so many layers:
+/// layer l of mip m has number m * layers + l.
+template <typename Part, typename Visit>
+void for_each_range(const Part& part, std::uint32_t layers, const Visit& visit) {
+    if (part.layer_count == layers)
+        return visit(part.first_mip * layers, (part.first_mip + part.mip_count) * layers);
+    for (std::uint32_t m = part.first_mip; m < part.first_mip + part.mip_count; ++m)
+        visit(m * layers + part.first_layer, m * layers + part.first_layer + part.layer_count);
+}
+
+/// A value for each layer of each mip of each image and for each buffer.
 template <typename T>
-class PerLayer {
+class Ledger {
 public:
-    explicit PerLayer(const Graph& graph, const T& value = {}) {
-        for (const ImageDesc& desc : graph.images()) images_.emplace_back(desc.layers, value);
-        buffers_.assign(graph.buffers().size(), std::vector<T>(1, value));
+    explicit Ledger(const Graph& graph, const T& value = {}) : images_(graph.images().size()) {
+        entries_.reserve(images_ + graph.buffers().size());
+        for (const ImageDesc& desc : graph.images())
+            entries_.push_back({Runs<T>(desc.layers * desc.mips, value), desc.layers});
+        entries_.resize(images_ + graph.buffers().size(), {Runs<T>(1, value), 1});
     }
-    /// All layers of the access's resource.
-    std::vector<T>& of(const Access& access) { return of(access.is_buffer, access.id); }
-    std::vector<T>& of(bool is_buffer, std::uint32_t id) {
-        return is_buffer ? buffers_[id] : images_[id];
+    Runs<T>& of(const Access& a) { return entry(a).runs; }
+    const Runs<T>& of(const Access& a) const { return entry(a).runs; }
+    std::uint32_t layers_of(const Access& a) const { return entry(a).layers; }
+
+    /// Calls visit(first, end, value) for the runs that the access meets.
+    template <typename Visit>
+    void each(const Access& a, const Visit& visit) const {
+        const Entry& e = entry(a);
+        for_each_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
+            e.runs.each(first, end, visit);
+        });
     }
-    /// Of truth values: whether any layer of the access has it.
-    bool any(const Access& access) {
-        const auto first = of(access).begin() + access.first_layer;
-        return std::any_of(first, first + access.layer_count, [](const T& value) { return value; });
+    template <typename Visit>
+    void change(const Access& a, const Visit& visit) {
+        Entry& e = entries_[index(a)];
+        for_each_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
+            e.runs.change(first, end, visit);
+        });
     }
-    void set(const Access& access, const T& value) {
-        std::fill_n(of(access).begin() + access.first_layer, access.layer_count, value);
+    void set(const Access& a, const T& value) {
+        change(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
+    }
+    /// Whether some layer of the access has the value.
+    bool any(const Access& a, const T& value) const {
+        bool found = false;
+        each(a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
+        return found;
     }
 
 private:
-    std::vector<std::vector<T>> images_, buffers_;
+    struct Entry {
+        Runs<T> runs;
+        std::uint32_t layers;
+    };
+    std::size_t index(const Access& a) const { return a.is_buffer ? images_ + a.id : a.id; }
+    Entry& entry(const Access& a) { return entries_[index(a)]; }
+    const Entry& entry(const Access& a) const { return entries_[index(a)]; }
+
+    std::size_t images_;
+    std::vector<Entry> entries_; // images, then buffers
 };
+
+/// A part of an image as an access of no use.
+Access access_to(const Image& image);
+/// All of an image.
+Access access_to_all(const Graph& graph, std::uint32_t image);
+/// True for every layer and buffer that the graph wants.
+Ledger<char> wanted_parts(const Graph& graph);
 
 } // namespace catoptric::graph

@@ -1,178 +1,252 @@
 #include "graph/barriers.hpp"
 
+#include "graph/memory_users.hpp"
+
+#include <bit>
+
 namespace catoptric::graph {
 
 namespace {
 
 /// What happened so far in this frame to one layer of an image or to a buffer.
 struct State {
-    Touch write;                // the last one; `nothing`: none in this frame
-    std::vector<Touch> readers; // since that write or the last change of layout; distinct
+    TouchCode write = kNothing; // the last one; `nothing`: none in this frame
+    Touches readers;            // since that write or the last change of layout; distinct
 
     /// What the next write must wait for. For an image all are in the layout it has now.
-    std::vector<Touch> latest() const {
+    Touches latest() const {
         if (!readers.empty()) return readers;
-        return write.nothing ? std::vector<Touch>{} : std::vector{write};
+        return write == kNothing ? Touches() : Touches(write);
     }
+    friend bool operator==(const State&, const State&) = default;
 };
 
-bool contains(const std::vector<Touch>& touches, const Touch& touch) {
-    return std::ranges::find(touches, touch) != touches.end();
-}
-
 /// What a read must wait for; empty when an earlier reader waited in its stead.
-std::vector<Touch> awaited_by_read(const State& state, const Touch& touch, bool is_buffer) {
-    if (contains(state.readers, touch)) return {};
-    if (state.readers.empty() || is_buffer) return {state.write};
+Touches awaited_by_read(const State& state, TouchCode touch, bool is_buffer) {
+    if (state.readers.contains(touch)) return {};
+    if (state.readers.empty() || is_buffer) return Touches(state.write);
     // Same layout, another stage: `before` must tell the present layout, so chain to a reader,
     // which waited for the write, rather than to the write.
-    if (state.readers.front().use == touch.use) return {state.readers.front()};
+    if (use_of(state.readers.front()) == use_of(touch)) return Touches(state.readers.front());
     return state.readers; // a change of layout is a write
 }
 
-void advance(State& state, const Touch& touch, bool is_buffer) {
-    if (touch.write) {
+void advance(State& state, TouchCode touch, bool is_buffer) {
+    if (touch_of(touch).write) {
         state = {.write = touch, .readers = {}};
         return;
     }
-    const bool moved = !state.readers.empty() && state.readers.front().use != touch.use;
+    const bool moved = !state.readers.empty() && use_of(state.readers.front()) != use_of(touch);
     if (moved && !is_buffer) state.readers.clear();
-    if (!contains(state.readers, touch)) state.readers.push_back(touch);
+    state.readers.add(touch);
 }
 
-bool memory_overlaps(const Placement& a, const Placement& b) {
-    return a.used && b.used && a.heap == b.heap && a.offset < b.offset + b.bytes &&
-           b.offset < a.offset + a.bytes;
+std::vector<Touch> listed(TouchSet set) {
+    std::vector<Touch> touches;
+    for (; set; set &= set - 1)
+        touches.push_back(touch_of(static_cast<TouchCode>(std::countr_zero(set))));
+    return touches;
 }
 
-/// Adds a barrier, as part of the last one when it only continues its layers.
-void append(std::vector<Barrier>& barriers, const Barrier& barrier) {
-    if (!barriers.empty() && !barrier.is_buffer) {
-        Barrier& last = barriers.back();
-        if (!last.is_buffer && last.id == barrier.id && last.previous == barrier.previous &&
-            last.first_layer + last.layer_count == barrier.first_layer &&
-            last.before == barrier.before && last.after == barrier.after &&
-            last.shared == barrier.shared) {
-            last.layer_count += barrier.layer_count;
-            return;
-        }
+/// Whether `next` only continues the layers, or the mips, of `last`.
+bool continues(const Barrier& last, const Barrier& next) {
+    if (last.is_buffer || next.is_buffer || last.id != next.id || last.previous != next.previous)
+        return false;
+    if (last.before != next.before || last.after != next.after || last.shared != next.shared)
+        return false;
+    const bool same_layers = last.first_layer == next.first_layer &&
+                             last.layer_count == next.layer_count;
+    const bool same_mips = last.first_mip == next.first_mip && last.mip_count == next.mip_count;
+    return (same_mips && last.first_layer + last.layer_count == next.first_layer) ||
+           (same_layers && last.first_mip + last.mip_count == next.first_mip);
+}
+
+/// Adds a barrier, as part of the last one when it continues it.
+void append(std::vector<Barrier>& barriers, Barrier&& barrier) {
+    if (barriers.empty() || !continues(barriers.back(), barrier)) {
+        barriers.push_back(std::move(barrier));
+        return;
     }
-    barriers.push_back(barrier);
+    Barrier& last = barriers.back();
+    if (last.first_mip == barrier.first_mip)
+        last.layer_count += barrier.layer_count;
+    else
+        last.mip_count += barrier.mip_count;
+}
+
+/// Calls visit(first mip, mips, first layer, layers) for rectangles that make up numbers
+/// [first, end) of an image with so many layers.
+template <typename Visit>
+void for_each_rectangle(std::uint32_t first, std::uint32_t end, std::uint32_t layers,
+                        const Visit& visit) {
+    while (first < end) {
+        const std::uint32_t mip = first / layers, layer = first % layers;
+        const std::uint32_t mips = layer == 0 ? (end - first) / layers : 0;
+        const std::uint32_t count = mips > 0 ? layers : std::min(layers - layer, end - first);
+        visit(mip, std::max(mips, 1u), layer, count);
+        first += std::max(mips, 1u) * count;
+    }
+}
+
+/// What was ready for every stage when the frame began.
+State arrived(Use use) {
+    const Touch compute{.nothing = false, .use = use, .write = false, .raster = false};
+    Touch raster = compute;
+    raster.raster = true;
+    State state{.write = kNothing, .readers = Touches(code_of(compute))};
+    state.readers.add(code_of(raster));
+    return state;
+}
+
+/// How an image is at the start of a frame.
+State at_start(const Graph& graph, std::uint32_t image) {
+    if (graph.lifetime(image) == Lifetime::kept) return arrived(Use::sampled);
+    if (graph.lifetime(image) == Lifetime::imported && graph.arrives(image))
+        return arrived(*graph.arrives(image));
+    return {};
 }
 
 /// Owns the states of everything while the frame is walked from top to bottom.
 class Tracker {
 public:
     Tracker(const Graph& graph, const Plan& plan)
-        : plan_(plan), states_(graph), previous_(graph, arrived()) {}
+        : graph_(graph), plan_(plan), states_(graph), previous_(graph, arrived(Use::sampled)),
+          users_(plan) {
+        for (std::uint32_t i = 0; i < plan.images.size(); ++i)
+            if (const State state = at_start(graph, i); !state.latest().empty())
+                states_.set(access_to_all(graph, i), state);
+    }
 
     void touch(const Access& access, const Touch& touch, std::vector<Barrier>& barriers) {
-        std::vector<State>& layers = (access.previous ? previous_ : states_).of(access);
-        for (std::uint32_t l = access.first_layer; l < access.end_layer(); ++l) {
-            State& state = layers[l];
-            if (state.latest().empty()) {
-                emit(access, l, {}, touch, last_users_of_memory(access), barriers);
-            } else {
-                std::vector<Touch> awaited = touch.write
-                                                 ? state.latest()
-                                                 : awaited_by_read(state, touch, access.is_buffer);
-                wait(access, l, std::move(awaited), touch, barriers);
-            }
-            advance(state, touch, access.is_buffer);
-        }
+        const TouchCode code = code_of(touch);
+        const auto visit = [&](std::uint32_t first, std::uint32_t end, State& state) {
+            if (state.latest().empty())
+                emit(access, first, end, {}, touch, listed(users_.left_in(placement(access))),
+                     barriers);
+            else
+                wait(access, first, end,
+                     touch.write ? state.latest() : awaited_by_read(state, code, access.is_buffer),
+                     touch, barriers);
+            advance(state, code, access.is_buffer);
+        };
+        (access.previous ? previous_ : states_).change(access, visit);
+    }
+
+    /// After the last pass that touches the resource of the access.
+    void finish(const Access& access) {
+        if (placement(access).alone) return; // nobody follows in its memory
+        TouchSet touches = 0;
+        states_.of(access).each([&](std::uint32_t, std::uint32_t, const State& state) {
+            const Touches latest = state.latest();
+            for (std::size_t i = 0; i < latest.size(); ++i) touches |= set_of(latest[i]);
+        });
+        users_.leave(placement(access), touches);
     }
 
     /// A barrier for each layer, needed or not: whoever comes after the frame relies on it.
-    void leave(const Access& access, const Touch& touch, std::vector<Barrier>& barriers) {
-        const std::vector<State>& layers = states_.of(access);
-        for (std::uint32_t l = access.first_layer; l < access.end_layer(); ++l) {
-            std::vector<Touch> latest = layers[l].latest();
-            if (latest.empty()) latest.push_back({}); // never touched: from nothing
-            wait(access, l, std::move(latest), touch, barriers);
-        }
+    /// `untouched`: also for what no pass touched.
+    void leave(const Access& access, Use use, bool untouched, std::vector<Barrier>& barriers) {
+        const State start = access.is_buffer ? State() : at_start(graph_, access.id);
+        const Touch touch{.nothing = false, .use = use};
+        states_.each(access, [&](std::uint32_t first, std::uint32_t end, const State& state) {
+            if (!untouched && state == start) return;
+            Touches latest = state.latest();
+            if (latest.empty()) latest.add(kNothing); // never touched: from nothing
+            wait(access, first, end, latest, touch, barriers);
+        });
+    }
+
+    const Placement& placement(const Access& access) const {
+        return access.is_buffer ? plan_.buffers[access.id] : plan_.images[access.id];
     }
 
 private:
-    /// Last frame's contents: the end of that frame made them ready for every stage.
-    static State arrived() {
-        const Touch compute{.nothing = false, .use = Use::sampled, .write = false, .raster = false};
-        Touch raster = compute;
-        raster.raster = true;
-        return {.write = {}, .readers = {compute, raster}};
-    }
-
-    static void wait(const Access& access, std::uint32_t layer, std::vector<Touch> awaited,
-                     const Touch& touch, std::vector<Barrier>& barriers) {
+    void wait(const Access& access, std::uint32_t first, std::uint32_t end, const Touches& awaited,
+              const Touch& touch, std::vector<Barrier>& barriers) const {
         if (awaited.empty()) return;
-        const Touch before = awaited.front();
-        awaited.erase(awaited.begin());
-        emit(access, layer, before, touch, std::move(awaited), barriers);
+        std::vector<Touch> others;
+        for (std::size_t i = 1; i < awaited.size(); ++i) others.push_back(touch_of(awaited[i]));
+        emit(access, first, end, touch_of(awaited.front()), touch, others, barriers);
     }
 
-    static void emit(const Access& access, std::uint32_t layer, const Touch& before,
-                     const Touch& after, std::vector<Touch> shared,
-                     std::vector<Barrier>& barriers) {
+    void emit(const Access& access, std::uint32_t first, std::uint32_t end, const Touch& before,
+              const Touch& after, const std::vector<Touch>& shared,
+              std::vector<Barrier>& barriers) const {
         // A buffer has no layout: without anything to wait for there is nothing to do.
         if (access.is_buffer && before.nothing && shared.empty()) return;
-        append(barriers, {.is_buffer = access.is_buffer,
-                          .id = access.id,
-                          .previous = access.previous,
-                          .first_layer = layer,
-                          .layer_count = 1,
-                          .before = before,
-                          .after = after,
-                          .shared = std::move(shared)});
+        for_each_rectangle(first, end, states_.layers_of(access),
+                           [&](std::uint32_t first_mip, std::uint32_t mips,
+                               std::uint32_t first_layer, std::uint32_t layers) {
+                               append(barriers, {.is_buffer = access.is_buffer,
+                                                 .id = access.id,
+                                                 .previous = access.previous,
+                                                 .first_layer = first_layer,
+                                                 .layer_count = layers,
+                                                 .first_mip = first_mip,
+                                                 .mip_count = mips,
+                                                 .before = before,
+                                                 .after = after,
+                                                 .shared = shared});
+                           });
     }
 
-    std::vector<Touch> last_users_of_memory(const Access& access) {
-        const Placement& mine = access.is_buffer ? plan_.buffers[access.id]
-                                                 : plan_.images[access.id];
-        std::vector<Touch> touches;
-        const auto collect = [&](bool is_buffer, const std::vector<Placement>& placements) {
-            for (std::uint32_t id = 0; id < placements.size(); ++id) {
-                const Placement& other = placements[id];
-                if (other.last >= mine.first || !memory_overlaps(mine, other)) continue;
-                for (const State& state : states_.of(is_buffer, id))
-                    for (const Touch& touch : state.latest())
-                        if (!contains(touches, touch)) touches.push_back(touch);
-            }
-        };
-        collect(false, plan_.images);
-        collect(true, plan_.buffers);
-        return touches;
-    }
-
+    const Graph& graph_;
     const Plan& plan_;
-    PerLayer<State> states_, previous_;
+    Ledger<State> states_, previous_;
+    MemoryUsers users_;
 };
 
+void order_wanted(const Access& whole, const Ledger<char>& wanted, Tracker& tracker,
+                  std::vector<Barrier>& barriers) {
+    const auto leave = [&](std::uint32_t first, std::uint32_t end, bool is_wanted) {
+        if (!is_wanted) return;
+        for_each_rectangle(first, end, wanted.layers_of(whole),
+                           [&](std::uint32_t first_mip, std::uint32_t mips,
+                               std::uint32_t first_layer, std::uint32_t layers) {
+                               Access part = whole;
+                               part.first_mip = first_mip, part.mip_count = mips;
+                               part.first_layer = first_layer, part.layer_count = layers;
+                               tracker.leave(part, Use::copy_from, true, barriers);
+                           });
+    };
+    wanted.of(whole).each(leave);
+}
+
 void order_end(const Graph& graph, Tracker& tracker, Plan& plan) {
-    Touch touch{.nothing = false, .use = Use::copy_from};
-    std::vector<std::vector<char>> wanted;
-    for (const ImageDesc& desc : graph.images()) wanted.emplace_back(desc.layers, false);
-    for (const Image& image : graph.wanted_images())
-        std::fill_n(wanted[image.id].begin() + image.first_layer, image.layer_count, true);
-    for (std::uint32_t i = 0; i < wanted.size(); ++i) {
-        const bool kept = plan.images[i].used && graph.is_kept(i);
-        touch.use = kept ? Use::sampled : Use::copy_from;
-        for (std::uint32_t l = 0; l < wanted[i].size(); ++l)
-            if (kept || wanted[i][l]) tracker.leave({.id = i, .first_layer = l}, touch, plan.last);
+    const Ledger<char> wanted = wanted_parts(graph);
+    for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
+        const Access whole = access_to_all(graph, i);
+        const bool stays = graph.lifetime(i) == Lifetime::kept; // also where no pass touches it
+        switch (plan.images[i].used || stays ? graph.lifetime(i) : Lifetime::frame) {
+        case Lifetime::frame: order_wanted(whole, wanted, tracker, plan.last); break;
+        case Lifetime::previous: tracker.leave(whole, Use::sampled, true, plan.last); break;
+        case Lifetime::kept: tracker.leave(whole, Use::sampled, false, plan.last); break;
+        case Lifetime::imported:
+            tracker.leave(whole, graph.leaves(i), graph.arrives(i) != graph.leaves(i), plan.last);
+            break;
+        }
     }
-    touch.use = Use::copy_from;
-    for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
-        if (std::ranges::find(graph.wanted_buffers(), b, &Buffer::id) !=
-            graph.wanted_buffers().end())
-            tracker.leave({.is_buffer = true, .id = b}, touch, plan.last);
+    for (std::uint32_t b = 0; b < plan.buffers.size(); ++b) {
+        const Access whole{.is_buffer = true, .id = b};
+        if (plan.buffers[b].used && graph.is_imported({b}))
+            tracker.leave(whole, Use::copy_from, false, plan.last);
+        else
+            order_wanted(whole, wanted, tracker, plan.last);
+    }
 }
 
 } // namespace
 
-void order(const Graph& graph, Plan& plan) {
+void order(const Graph& graph, const Accesses& all, Plan& plan) {
     Tracker tracker(graph, plan);
-    for (PlannedPass& planned : plan.passes) {
+    for (std::uint32_t position = 0; position < plan.passes.size(); ++position) {
+        PlannedPass& planned = plan.passes[position];
         const Pass& pass = graph.passes()[planned.pass];
-        for (const Access& a : accesses(pass))
-            tracker.touch(a, touch_of(a, pass), planned.barriers);
+        const std::span<const Access> uses = all.of(planned.pass);
+        planned.barriers.reserve(uses.size());
+        for (const Access& a : uses) tracker.touch(a, touch_of(a, pass), planned.barriers);
+        for (const Access& a : uses)
+            if (tracker.placement(a).last == position) tracker.finish(a);
     }
     order_end(graph, tracker, plan);
 }

@@ -6,6 +6,6 @@ namespace catoptric::graph {
 
 /// Fills the barriers of every pass and `last`. Needs placements: memory that was used before is
 /// waited for.
-void order(const Graph& graph, Plan& plan);
+void order(const Graph& graph, const Accesses& all, Plan& plan);
 
 } // namespace catoptric::graph

@@ -1,7 +1,6 @@
 #include "graph/commands.hpp"
 
-#include "graph/physical.hpp"
-#include "graph/run.hpp"
+#include "graph/record.hpp"
 
 #include <algorithm>
 
@@ -16,14 +15,14 @@ void Commands::use(gpu::RasterState state) {
     }
     if (layer_count_ > 1) state.vertex += "#layered";
     pipeline_name_ = state.vertex + "+" + state.fragment;
-    pipeline_ = &runner_.pipelines().raster(state, attachments);
+    pipeline_ = &recorder_.pipelines().raster(state, attachments);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true;
 }
 
 void Commands::use(const gpu::ComputeState& state) {
     pipeline_name_ = state.shader;
-    pipeline_ = &runner_.pipelines().compute(state);
+    pipeline_ = &recorder_.pipelines().compute(state);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true;
 }
@@ -31,6 +30,8 @@ void Commands::use(const gpu::ComputeState& state) {
 void Commands::require_declared(Image image, std::string_view name) const {
     const auto same = [&](const ImageUse& use) {
         return use.image.id == image.id && use.image.previous == image.previous &&
+               use.image.first_mip <= image.first_mip &&
+               image.first_mip + image.mip_count <= use.image.first_mip + use.image.mip_count &&
                use.image.first_layer <= image.first_layer &&
                image.first_layer + image.layer_count <=
                    use.image.first_layer + use.image.layer_count;
@@ -55,7 +56,7 @@ void Commands::require_declared(Buffer buffer, std::string_view name) const {
 
 void Commands::bind(std::string_view name, Buffer buffer) {
     require_declared(buffer, name);
-    bound_.insert_or_assign(std::string(name), runner_.buffer(buffer));
+    bound_.insert_or_assign(std::string(name), recorder_.buffer(buffer));
     dirty_ = true;
 }
 
@@ -93,7 +94,7 @@ void Commands::dispatch_indirect(Buffer arguments, std::uint64_t offset) {
           "' dispatches what buffer '", graph_.buffers()[arguments.id].name,
           "' says but does not declare it as indirect");
     flush();
-    vkCmdDispatchIndirect(commands_, runner_.buffer(arguments), offset);
+    vkCmdDispatchIndirect(commands_, recorder_.buffer(arguments), offset);
 }
 
 void Commands::barrier() {
@@ -114,16 +115,24 @@ void Commands::copy(Image from, Image to) {
     const VkImageAspectFlags aspect = is_depth(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
                                                             : VK_IMAGE_ASPECT_COLOR_BIT;
     VkImageCopy region{};
-    region.srcSubresource = {aspect, 0, from.first_layer, from.layer_count};
-    region.dstSubresource = {aspect, 0, to.first_layer, to.layer_count};
-    region.extent = {desc.width, desc.height, 1};
-    vkCmdCopyImage(commands_, runner_.physical(from).image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                   runner_.physical(to).image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    region.srcSubresource = {aspect, from.first_mip, from.first_layer, from.layer_count};
+    region.dstSubresource = {aspect, to.first_mip, to.first_layer, to.layer_count};
+    region.extent = {at_mip(desc.width, from.first_mip), at_mip(desc.height, from.first_mip), 1};
+    vkCmdCopyImage(commands_, recorder_.physical(from).image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                   recorder_.physical(to).image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void Commands::copy(Image from, Buffer to) {
+    require_declared(from, "source of a copy");
+    require_declared(to, "target of a copy");
+    const VkBufferImageCopy region = copy_region(graph_.images()[from.id], from);
+    vkCmdCopyImageToBuffer(commands_, recorder_.physical(from).image,
+                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.buffer(to), 1, &region);
 }
 
 void Commands::fill(Buffer buffer, std::uint32_t word) {
     require_declared(buffer, "target of a fill");
-    vkCmdFillBuffer(commands_, runner_.buffer(buffer), 0, VK_WHOLE_SIZE, word);
+    vkCmdFillBuffer(commands_, recorder_.buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
 VkWriteDescriptorSet Commands::write(const gpu::Binding& binding, const Bound& bound,
@@ -145,10 +154,9 @@ VkWriteDescriptorSet Commands::write(const gpu::Binding& binding, const Bound& b
           wants_image ? " is an image, bound is a buffer" : " is a buffer, bound is an image");
     if (bound_image) {
         const bool sampled = binding.kind == BindingKind::sampled_image;
-        image.sampler = sampled ? runner_.sampler(bound_image->filter) : VK_NULL_HANDLE;
-        image.imageView = runner_.physical(bound_image->image)
-                              .view(runner_.device(), binding.shape, bound_image->image.first_layer,
-                                    bound_image->image.layer_count);
+        image.sampler = sampled ? recorder_.sampler(bound_image->filter) : VK_NULL_HANDLE;
+        image.imageView = recorder_.physical(bound_image->image)
+                              .view(recorder_.device(), binding.shape, bound_image->image);
         image.imageLayout = sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
                                     : VK_IMAGE_LAYOUT_GENERAL;
         write.descriptorType = sampled ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
@@ -174,7 +182,7 @@ void Commands::flush() {
     check(pipeline_, Failure::internal, "pass '", pass_.name,
           "' draws or dispatches without a pipeline");
     if (dirty_ && !pipeline_->bindings.empty()) {
-        const VkDescriptorSet set = runner_.descriptor_set(pipeline_->set_layout);
+        const VkDescriptorSet set = recorder_.descriptor_set(pipeline_->set_layout);
         const std::size_t count = pipeline_->bindings.size();
         std::vector<VkDescriptorImageInfo> images(count);
         std::vector<VkDescriptorBufferInfo> buffers(count);
@@ -187,8 +195,9 @@ void Commands::flush() {
                   "': nothing is bound to '", binding.name, "' of ", pipeline_name_);
             writes.push_back(write(binding, bound->second, set, images[i], buffers[i], texels[i]));
         }
-        vkUpdateDescriptorSets(runner_.device().handle(), static_cast<std::uint32_t>(writes.size()),
-                               writes.data(), 0, nullptr);
+        vkUpdateDescriptorSets(recorder_.device().handle(),
+                               static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
+                               nullptr);
         vkCmdBindDescriptorSets(commands_, pipeline_->bind_point, pipeline_->layout, 0, 1, &set, 0,
                                 nullptr);
     }

@@ -12,20 +12,24 @@
 
 namespace catoptric::graph {
 
-class Runner;
-struct Physical;
+class Recorder;
 
 /// How a sampled image is looked up. Edges clamp; cubes are seamless.
-enum class Filter { nearest, linear, compare /*depth >= reference, 2x2 PCF*/ };
+enum class Filter {
+    nearest,
+    linear,
+    compare,  ///< depth >= reference, 2x2 PCF
+    mipmapped ///< linear, also between mips
+};
 
 /// What a pass body records with. Bindings have the names they have in the shaders and stay bound
 /// until the pass ends; a name that the current pipeline does not use is ignored, one that it uses
 /// and nobody bound is refused. Valid only during the call of the body.
 class Commands {
 public:
-    Commands(Runner& runner, const Graph& graph, const Pass& pass, VkCommandBuffer commands,
+    Commands(Recorder& recorder, const Graph& graph, const Pass& pass, VkCommandBuffer commands,
              std::uint32_t first_layer, std::uint32_t layer_count)
-        : runner_(runner), graph_(graph), pass_(pass), commands_(commands),
+        : recorder_(recorder), graph_(graph), pass_(pass), commands_(commands),
           first_layer_(first_layer), layer_count_(layer_count) {}
 
     /// In a pass of several layers the vertex shader's "#layered" build is used where the device
@@ -55,6 +59,8 @@ public:
     void barrier();
     /// Both declared by the pass; same size and format, all layers of the handles.
     void copy(Image from, Image to);
+    /// Both declared by the pass: texels of one mip, rows top down, layers one after the other.
+    void copy(Image from, Buffer to);
     /// Sets every word of a buffer that the pass declares as copy_to.
     void fill(Buffer buffer, std::uint32_t word);
 
@@ -71,7 +77,7 @@ private:
                                VkDescriptorImageInfo& image, VkDescriptorBufferInfo& buffer,
                                VkBufferView& texels);
 
-    Runner& runner_;
+    Recorder& recorder_;
     const Graph& graph_;
     const Pass& pass_;
     VkCommandBuffer commands_;

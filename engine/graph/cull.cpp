@@ -1,60 +1,73 @@
 #include "graph/cull.hpp"
 
+#include <algorithm>
+
 namespace catoptric::graph {
 
 namespace {
 
-PerLayer<char> wanted_layers(const Graph& graph) {
-    PerLayer<char> live(graph, false);
-    for (const Image& image : graph.wanted_images())
-        live.set(
-            {.id = image.id, .first_layer = image.first_layer, .layer_count = image.layer_count},
-            true);
-    for (const Buffer& buffer : graph.wanted_buffers())
-        live.set({.is_buffer = true, .id = buffer.id}, true);
+/// What must be whole at the end of the frame.
+Ledger<char> live_at_end(const Graph& graph) {
+    Ledger<char> live = wanted_parts(graph);
+    for (std::uint32_t i = 0; i < graph.images().size(); ++i)
+        if (graph.lifetime(i) == Lifetime::kept || graph.lifetime(i) == Lifetime::imported)
+            live.set(access_to_all(graph, i), true);
+    for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
+        if (graph.is_imported({b})) live.set({.is_buffer = true, .id = b}, true);
     return live;
 }
 
+/// The attachments of the pass that nobody reads before they are written again. Images come first
+/// among the accesses, in order of declaration.
+std::uint32_t unread(std::span<const Access> accesses, const Ledger<char>& live) {
+    constexpr std::size_t kBits = 32;
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < std::min(accesses.size(), kBits); ++i) {
+        const Access& a = accesses[i];
+        if (!a.is_buffer && a.write && is_attachment(a.use) && !live.any(a, true)) bits |= 1u << i;
+    }
+    return bits;
+}
+
 /// One sweep from the last pass to the first. `live` starts as what must be whole at the end.
-std::vector<char> sweep(const Graph& graph, PerLayer<char> live) {
-    std::vector<char> survives(graph.passes().size(), false);
-    for (std::size_t p = survives.size(); p-- > 0;) {
-        const std::vector<Access> all = accesses(graph.passes()[p]);
-        survives[p] = std::ranges::any_of(all,
-                                          [&](const Access& a) { return a.write && live.any(a); });
-        if (!survives[p]) continue;
-        for (const Access& a : all)
+std::vector<Fate> sweep(const Accesses& all, std::size_t passes, Ledger<char> live) {
+    std::vector<Fate> fates(passes);
+    for (std::size_t p = fates.size(); p-- > 0;) {
+        fates[p].survives = std::ranges::any_of(
+            all.of(p), [&](const Access& a) { return a.write && live.any(a, true); });
+        if (!fates[p].survives) continue;
+        fates[p].unread = unread(all.of(p), live);
+        for (const Access& a : all.of(p))
             if (a.write) live.set(a, false);
-        for (const Access& a : all)
+        for (const Access& a : all.of(p))
             if (a.needs && !a.previous) live.set(a, true);
     }
-    return survives;
+    return fates;
 }
 
 } // namespace
 
-std::vector<char> survivors(const Graph& graph) {
-    PerLayer<char> live_at_end = wanted_layers(graph);
+std::vector<Fate> fates(const Graph& graph, const Accesses& all) {
+    Ledger<char> at_end = live_at_end(graph);
     while (true) {
-        std::vector<char> survives = sweep(graph, live_at_end);
+        std::vector<Fate> fates = sweep(all, graph.passes().size(), at_end);
         // What survivors read of the last frame must be whole at the end of this one, too.
         bool grew = false;
-        for (std::size_t p = 0; p < survives.size(); ++p) {
-            if (!survives[p]) continue;
-            for (const Access& a : accesses(graph.passes()[p])) {
-                if (!a.previous) continue;
-                const std::vector<char> before = live_at_end.of(a);
-                live_at_end.set(a, true);
-                grew = grew || before != live_at_end.of(a);
+        for (std::size_t p = 0; p < fates.size(); ++p) {
+            if (!fates[p].survives) continue;
+            for (const Access& a : all.of(p)) {
+                if (!a.previous || !at_end.any(a, false)) continue;
+                at_end.set(a, true);
+                grew = true;
             }
         }
-        if (!grew) return survives;
+        if (!grew) return fates;
     }
 }
 
-std::string cull_reason(const Graph& graph, const Pass& pass) {
+std::string cull_reason(const Graph& graph, std::span<const Access> accesses) {
     std::string names;
-    for (const Access& a : accesses(pass)) {
+    for (const Access& a : accesses) {
         const std::string name = quoted_name(graph, a);
         if (!a.write || names.find(name) != std::string::npos) continue;
         names += (names.empty() ? "" : ", ") + name;

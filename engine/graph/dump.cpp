@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <sstream>
 
 namespace catoptric::graph {
@@ -23,20 +24,56 @@ const Pass& pass_of(const Graph& graph, const PlannedPass& planned) {
     return graph.passes()[planned.pass];
 }
 
-/// Names of everything whose memory overlaps that of `mine`.
-std::vector<std::string> sharers(const Graph& graph, const Plan& plan, const Placement& mine) {
-    std::vector<std::string> names;
-    const auto look = [&](const Placement& other, const std::string& name) {
-        if (&other == &mine || !mine.used || !other.used || other.heap != mine.heap) return;
-        if (other.offset < mine.offset + mine.bytes && mine.offset < other.offset + other.bytes)
-            names.push_back(name);
+/// Who shares memory with whom.
+class Sharers {
+public:
+    Sharers(const Graph& graph, const Plan& plan) {
+        for (std::size_t i = 0; i < plan.images.size(); ++i)
+            add(plan.images[i], graph.images()[i].name);
+        for (std::size_t b = 0; b < plan.buffers.size(); ++b)
+            add(plan.buffers[b], graph.buffers()[b].name);
+        for (Heap& heap : heaps_) {
+            std::ranges::sort(heap.begins);
+            std::ranges::sort(heap.ends);
+        }
+    }
+    /// Everything whose memory overlaps that of `mine`.
+    std::size_t count(const Placement& mine) const {
+        if (!mine.used || mine.bytes == 0) return 0;
+        const Heap& heap = heaps_[mine.heap];
+        const auto begun = std::ranges::lower_bound(heap.begins, mine.offset + mine.bytes);
+        const auto ended = std::ranges::upper_bound(heap.ends, mine.offset);
+        return static_cast<std::size_t>(begun - heap.begins.begin()) -
+               static_cast<std::size_t>(ended - heap.ends.begin()) - 1; // itself
+    }
+    /// The names of the first `limit` of them.
+    std::vector<std::string_view> names(const Placement& mine, std::size_t limit) const {
+        const std::size_t wanted = std::min(limit, count(mine));
+        std::vector<std::string_view> names;
+        for (std::size_t i = 0; i < all_.size() && names.size() < wanted; ++i) {
+            const auto& [other, name] = all_[i];
+            if (other != &mine && other->used && other->heap == mine.heap &&
+                other->offset < mine.offset + mine.bytes &&
+                mine.offset < other->offset + other->bytes)
+                names.push_back(name);
+        }
+        return names;
+    }
+
+private:
+    struct Heap {
+        std::vector<std::uint64_t> begins, ends; // sorted
     };
-    for (std::size_t i = 0; i < plan.images.size(); ++i)
-        look(plan.images[i], graph.images()[i].name);
-    for (std::size_t b = 0; b < plan.buffers.size(); ++b)
-        look(plan.buffers[b], graph.buffers()[b].name);
-    return names;
-}
+    void add(const Placement& placement, std::string_view name) {
+        all_.emplace_back(&placement, name);
+        if (!placement.used || placement.bytes == 0) return;
+        if (heaps_.size() <= placement.heap) heaps_.resize(placement.heap + 1);
+        heaps_[placement.heap].begins.push_back(placement.offset);
+        heaps_[placement.heap].ends.push_back(placement.offset + placement.bytes);
+    }
+    std::vector<std::pair<const Placement*, std::string_view>> all_;
+    std::vector<Heap> heaps_;
+};
 
 void write_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
     for (const Access& a : accesses(pass)) {
@@ -48,8 +85,8 @@ void write_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
     }
 }
 
-void write_placement(std::ostream& out, const Graph& graph, const Plan& plan,
-                     const Placement& placement) {
+void write_placement(std::ostream& out, const Sharers& sharers, const Placement& placement) {
+    constexpr std::size_t kNamed = 32; // in a large frame hundreds share a place
     if (!placement.used) {
         out << ", not used\n";
         return;
@@ -57,9 +94,11 @@ void write_placement(std::ostream& out, const Graph& graph, const Plan& plan,
     out << ", passes " << placement.first + 1 << " to " << placement.last + 1 << ", heap "
         << placement.heap << " at " << placement.offset << ", " << placement.bytes << " bytes";
     if (placement.alone) out << ", alone";
-    const std::vector<std::string> others = sharers(graph, plan, placement);
+    const std::vector<std::string_view> others = sharers.names(placement, kNamed);
     for (std::size_t i = 0; i < others.size(); ++i)
         out << (i == 0 ? ", shares with '" : ", '") << others[i] << "'";
+    const std::size_t count = sharers.count(placement);
+    if (count > others.size()) out << " and " << count - others.size() << " more";
     out << "\n";
 }
 
@@ -69,6 +108,7 @@ Json access_json(const Graph& graph, const Access& a) {
     Json json{{"image", graph.images()[a.id].name},
               {"layers", {a.first_layer, a.layer_count}},
               {"use", graph::name_of(a.use)}};
+    if (graph.images()[a.id].mips > 1) json["mips"] = {a.first_mip, a.mip_count};
     if (a.write)
         json["clear"] = a.clears;
     else
@@ -98,12 +138,15 @@ void add_placement(Json& json, const Placement& placement) {
     json["alone"] = placement.alone;
 }
 
-Json image_json(const ImageDesc& desc, const Placement& placement) {
+Json image_json(const ImageDesc& desc, Lifetime lifetime, const Placement& placement) {
     Json json{{"name", desc.name},
               {"format", catoptric::name_of(desc.format)},
               {"size", {desc.width, desc.height}},
               {"layers", desc.layers},
               {"cube", desc.cube}};
+    if (desc.mips > 1) json["mips"] = desc.mips;
+    if (lifetime == Lifetime::kept) json["kept"] = true;
+    if (lifetime == Lifetime::imported) json["imported"] = true;
     add_placement(json, placement);
     return json;
 }
@@ -152,18 +195,22 @@ std::string to_text(const Graph& graph, const Plan& plan) {
     if (!plan.culled.empty()) out << "\nculled\n";
     for (const Culled& culled : plan.culled)
         out << "  '" << graph.passes()[culled.pass].name << "': " << culled.reason << "\n";
+    const Sharers sharers(graph, plan);
     if (!plan.images.empty()) out << "\nimages\n";
-    for (std::size_t i = 0; i < plan.images.size(); ++i) {
+    for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const ImageDesc& desc = graph.images()[i];
         out << "  '" << desc.name << "' " << catoptric::name_of(desc.format) << " " << desc.width
             << "x" << desc.height << ", " << counted(desc.layers, "layer", "s")
             << (desc.cube ? " (cube)" : "");
-        write_placement(out, graph, plan, plan.images[i]);
+        if (desc.mips > 1) out << ", " << counted(desc.mips, "mip", "s");
+        if (graph.lifetime(i) == Lifetime::kept) out << ", kept";
+        if (graph.lifetime(i) == Lifetime::imported) out << ", imported";
+        write_placement(out, sharers, plan.images[i]);
     }
     if (!plan.buffers.empty()) out << "\nbuffers\n";
     for (std::size_t b = 0; b < plan.buffers.size(); ++b) {
         out << "  '" << graph.buffers()[b].name << "'";
-        write_placement(out, graph, plan, plan.buffers[b]);
+        write_placement(out, sharers, plan.buffers[b]);
     }
     return out.str();
 }
@@ -194,7 +241,8 @@ std::string to_json(const Graph& graph, const Plan& plan) {
         json["culled"].push_back(
             {{"name", graph.passes()[culled.pass].name}, {"reason", culled.reason}});
     for (std::size_t i = 0; i < plan.images.size(); ++i)
-        json["images"].push_back(image_json(graph.images()[i], plan.images[i]));
+        json["images"].push_back(image_json(
+            graph.images()[i], graph.lifetime(static_cast<std::uint32_t>(i)), plan.images[i]));
     for (std::size_t b = 0; b < plan.buffers.size(); ++b) {
         Json buffer{{"name", graph.buffers()[b].name}};
         add_placement(buffer, plan.buffers[b]);

@@ -1,6 +1,7 @@
 #include "graph/graph.hpp"
 
 #include "core/error.hpp"
+#include "graph/access.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -18,9 +19,18 @@ std::string_view name_of(Use use) {
     case Use::copy_from: return "copy_from";
     case Use::copy_to: return "copy_to";
     case Use::indirect: return "indirect";
+    case Use::present: return "present";
     }
     return "";
 }
+
+namespace {
+
+Image whole(std::uint32_t id, const ImageDesc& desc) {
+    return {.id = id, .layer_count = desc.layers, .mip_count = desc.mips};
+}
+
+} // namespace
 
 bool Pass::is_raster() const {
     return std::ranges::any_of(images, [](const ImageUse& use) {
@@ -58,12 +68,68 @@ void PassBuilder::record(std::function<void(Commands&)> body) { pass_.body = std
 Image Graph::image(ImageDesc desc) {
     const auto id = static_cast<std::uint32_t>(images_.size());
     images_.push_back(std::move(desc));
-    return {.id = id, .first_layer = 0, .layer_count = images_.back().layers, .previous = false};
+    lives_.emplace_back();
+    return whole(id, images_.back());
 }
 
 Buffer Graph::buffer(BufferDesc desc) {
     buffers_.push_back(std::move(desc));
+    imported_buffers_.push_back(false);
+    outside_buffers_.push_back(nullptr);
     return {static_cast<std::uint32_t>(buffers_.size() - 1)};
+}
+
+Image Graph::kept(ImageDesc desc) {
+    const auto found = history_.kept.find(desc.name);
+    Stamps held(desc.layers * desc.mips);
+    if (found != history_.kept.end() && found->second.desc == desc) held = found->second.stamps;
+    const Image handle = image(std::move(desc));
+    lives_.back().lifetime = Lifetime::kept;
+    lives_.back().held = std::move(held);
+    return handle;
+}
+
+const ImageDesc& Graph::described(Image image, const char* asked) const {
+    check(image.id < images_.size(), Failure::internal, asked, " of image number ", image.id,
+          ", but the graph has ", images_.size(), " images");
+    return images_[image.id];
+}
+
+bool Graph::holds(Image part, std::uint64_t stamp) const {
+    const ImageDesc& desc = described(part, "holds()");
+    check(lifetime(part.id) == Lifetime::kept, Failure::internal, "holds() of image '", desc.name,
+          "', which is not kept");
+    bool all = true;
+    for_each_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
+        held(part.id).each(first, end,
+                           [&](std::uint32_t, std::uint32_t,
+                               const std::optional<std::uint64_t>& s) { all = all && s == stamp; });
+    });
+    return all;
+}
+
+void Graph::made_from(Image part, std::uint64_t stamp) {
+    const ImageDesc& desc = described(part, "made_from()");
+    check(lifetime(part.id) == Lifetime::kept, Failure::internal, "made_from() of image '",
+          desc.name, "', which is not kept");
+    stamped_.push_back({part, stamp});
+}
+
+Image Graph::import(ImageDesc desc, Physical* outside, std::optional<Use> arrives, Use leaves) {
+    const Image handle = image(std::move(desc));
+    lives_.back() = {.lifetime = Lifetime::imported,
+                     .arrives = arrives,
+                     .leaves = leaves,
+                     .outside = outside,
+                     .held = Stamps()};
+    return handle;
+}
+
+Buffer Graph::import(BufferDesc desc, const gpu::Buffer* outside) {
+    const Buffer handle = buffer(std::move(desc));
+    imported_buffers_.back() = true;
+    outside_buffers_.back() = outside;
+    return handle;
 }
 
 PassBuilder Graph::pass(std::string name, Tag tag) {
@@ -74,21 +140,30 @@ PassBuilder Graph::pass(std::string name, Tag tag) {
 }
 
 Image Graph::previous(Image image) {
-    check(image.id < images_.size(), Failure::internal, "previous() of image number ", image.id,
-          ", but the graph has ", images_.size(), " images");
-    kept_.insert(image.id);
+    const ImageDesc& desc = described(image, "previous()");
+    Lifetime& lifetime = lives_[image.id].lifetime;
+    check(lifetime == Lifetime::frame || lifetime == Lifetime::previous, Failure::internal,
+          "previous() of image '", desc.name, "', which is ",
+          lifetime == Lifetime::kept ? "kept" : "imported", " and has one copy");
+    lifetime = Lifetime::previous;
     image.previous = true;
     return image;
 }
 
 bool Graph::has_history(Image image) const {
-    check(image.id < images_.size(), Failure::internal, "has_history() of image number ", image.id,
-          ", but the graph has ", images_.size(), " images");
-    return history_.contains(images_[image.id].name);
+    return history_.previous.contains(described(image, "has_history()").name);
 }
 
 void Graph::want(Image image) { wanted_images_.push_back(image); }
 void Graph::want(Buffer buffer) { wanted_buffers_.push_back(buffer); }
-bool Graph::is_kept(std::uint32_t image) const { return kept_.contains(image); }
+
+Graph Graph::without_bodies() const {
+    Graph outline = *this;
+    outline.history_ = {};
+    for (Pass& pass : outline.passes_) pass.body = nullptr;
+    for (ImageLife& life : outline.lives_) life.outside = nullptr;
+    for (const gpu::Buffer*& outside : outline.outside_buffers_) outside = nullptr;
+    return outline;
+}
 
 } // namespace catoptric::graph

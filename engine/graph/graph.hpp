@@ -1,11 +1,13 @@
 #pragma once
 
 #include "core/format.hpp"
+#include "graph/runs.hpp"
 
 #include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -15,9 +17,14 @@
 
 /// A frame as data: images, buffers and passes in the order in which they run.
 /// declare (this file) -> plan (plan.hpp, pure) -> run (run.hpp, the device).
+namespace catoptric::gpu {
+class Buffer;
+}
+
 namespace catoptric::graph {
 
-class Commands; // what a pass body records with: graph/commands.hpp
+class Commands;  // what a pass body records with: graph/commands.hpp
+struct Physical; // an image on the device: graph/physical.hpp
 
 /// How a pass touches an image or a buffer.
 enum class Use {
@@ -30,6 +37,7 @@ enum class Use {
     copy_from,
     copy_to,
     indirect, ///< buffer of draw or dispatch arguments
+    present,  ///< what the window wants of an imported image; no pass uses it so
 };
 std::string_view name_of(Use use);
 
@@ -42,9 +50,15 @@ struct ImageDesc {
     std::uint32_t width = 1;
     std::uint32_t height = 1;
     std::uint32_t layers = 1;
-    bool cube = false; ///< layers are cube faces, 6 each; may be viewed as a cube array
+    bool cube = false;      ///< layers are cube faces, 6 each; may be viewed as a cube array
+    std::uint32_t mips = 1; ///< each half as large as the one before, rounded down, at least 1
     friend bool operator==(const ImageDesc&, const ImageDesc&) = default;
 };
+
+/// Texels along a side of a mip of an image that is so large.
+constexpr std::uint32_t at_mip(std::uint32_t size, std::uint32_t mip) {
+    return std::max(size >> mip, 1u);
+}
 
 struct BufferDesc {
     std::string name; ///< unique in the graph
@@ -52,21 +66,38 @@ struct BufferDesc {
     friend bool operator==(const BufferDesc&, const BufferDesc&) = default;
 };
 
-/// Names an image of one graph, or some of its layers, or its contents of the frame before.
-/// Valid only with the graph that made it.
+/// How long contents live.
+enum class Lifetime {
+    frame,    ///< between the passes of a frame
+    previous, ///< and in the next frame, which reads them beside its own
+    kept,     ///< until a pass writes them again
+    imported, ///< as long as somebody else says
+};
+
+/// Names an image of one graph, or some of its layers and mips, or its contents of the frame
+/// before. Valid only with the graph that made it.
 struct Image {
     std::uint32_t id = 0;
     std::uint32_t first_layer = 0;
     std::uint32_t layer_count = 0;
     bool previous = false;
+    std::uint32_t first_mip = 0;
+    std::uint32_t mip_count = 1;
     /// A part of the layers, counted from this handle's first.
     Image layers(std::uint32_t first, std::uint32_t count) const {
-        return {id, first_layer + first, count, previous};
+        return {id, first_layer + first, count, previous, first_mip, mip_count};
     }
+    /// A part of the mips, likewise.
+    Image mips(std::uint32_t first, std::uint32_t count) const {
+        return {id, first_layer, layer_count, previous, first_mip + first, count};
+    }
+    Image mip(std::uint32_t number) const { return mips(number, 1); }
+    friend bool operator==(const Image&, const Image&) = default;
 };
 
 struct Buffer {
     std::uint32_t id = 0;
+    friend bool operator==(const Buffer&, const Buffer&) = default;
 };
 
 /// Attachment contents before the pass. Colour: r, g, b, a. Depth: the first value.
@@ -83,6 +114,7 @@ struct BufferUse {
     Buffer buffer;
     Use use = Use::sampled;
     bool write = false;
+    friend bool operator==(const BufferUse&, const BufferUse&) = default;
 };
 
 struct Pass {
@@ -111,8 +143,25 @@ private:
     Pass& pass_;
 };
 
-/// Names of images whose contents of the last frame exist.
-using History = std::set<std::string>;
+/// For each layer of each mip (layer l of mip m has number m * layers + l) what it was made from;
+/// nothing: it was never written.
+using Stamps = Runs<std::optional<std::uint64_t>>;
+
+/// What a runner has of the frames before.
+struct History {
+    struct Kept {
+        ImageDesc desc;
+        Stamps stamps;
+    };
+    std::set<std::string> previous;   ///< images whose contents of the last frame exist
+    std::map<std::string, Kept> kept; ///< by name
+};
+
+/// What this frame writes into a part of a kept image is made from what the number stands for.
+struct Stamped {
+    Image part;
+    std::uint64_t stamp = 0;
+};
 
 class Graph {
 public:
@@ -120,8 +169,26 @@ public:
     /// `history`: what the runner kept of the last frame (Runner::history()); empty = first frame.
     explicit Graph(History history) : history_(std::move(history)) {}
 
+    /// The handle names all layers and mips.
     Image image(ImageDesc desc);
     Buffer buffer(BufferDesc desc);
+    /// An image whose contents stay, under its name, until a pass writes them again; also through
+    /// frames that do not declare it. Its memory is taken for as long as the runner lives. Another
+    /// description under the same name starts anew.
+    Image kept(ImageDesc desc);
+    /// Whether all of the part of a kept image holds what was made from `stamp`, so that no pass
+    /// needs to write it. What `stamp` stands for is the caller's: a hash of scene and settings.
+    bool holds(Image part, std::uint64_t stamp) const;
+    /// Says what passes of this frame make the part of a kept image from. Every layer that is
+    /// written must be said to be made from something.
+    void made_from(Image part, std::uint64_t stamp);
+    /// An image of somebody else's, used like any other; what is written to it is wanted. It comes
+    /// in the layout of the use `arrives` (nothing: its contents do not matter) and is left in that
+    /// of `leaves`. `outside`, which may differ from frame to frame, must be as `desc` says and
+    /// live until the frame has ended.
+    Image import(ImageDesc desc, Physical* outside, std::optional<Use> arrives, Use leaves);
+    /// Likewise; what is written to it is visible to the host once the frame has ended.
+    Buffer import(BufferDesc desc, const gpu::Buffer* outside);
     PassBuilder pass(std::string name, Tag tag = Tag::none);
 
     /// The image's contents at the end of the last frame (black on the first). Costs a second copy
@@ -138,16 +205,39 @@ public:
     const std::deque<Pass>& passes() const { return passes_; }
     const std::vector<Image>& wanted_images() const { return wanted_images_; }
     const std::vector<Buffer>& wanted_buffers() const { return wanted_buffers_; }
-    bool is_kept(std::uint32_t image) const; ///< someone asked for its `previous`
+    const std::vector<Stamped>& stamps() const { return stamped_; }
+    Lifetime lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
+    bool is_imported(Buffer buffer) const { return imported_buffers_[buffer.id]; }
+    /// Of an imported image.
+    std::optional<Use> arrives(std::uint32_t image) const { return lives_[image].arrives; }
+    Use leaves(std::uint32_t image) const { return lives_[image].leaves; }
+    Physical* outside(std::uint32_t image) const { return lives_[image].outside; }
+    const gpu::Buffer* outside(Buffer buffer) const { return outside_buffers_[buffer.id]; }
+    /// Of a kept image: what it holds at the start of the frame.
+    const Stamps& held(std::uint32_t image) const { return lives_[image].held; }
+    /// The declarations alone, to compare other graphs with.
+    Graph without_bodies() const;
 
 private:
+    struct ImageLife {
+        Lifetime lifetime = Lifetime::frame;
+        std::optional<Use> arrives;
+        Use leaves = Use::sampled;
+        Physical* outside = nullptr;
+        Stamps held;
+    };
+    const ImageDesc& described(Image image, const char* asked) const;
+
     History history_;
     std::vector<ImageDesc> images_;
+    std::vector<ImageLife> lives_; // of `images_`
     std::vector<BufferDesc> buffers_;
+    std::vector<char> imported_buffers_; // of `buffers_`
+    std::vector<const gpu::Buffer*> outside_buffers_;
     std::deque<Pass> passes_; // builders hold references
     std::vector<Image> wanted_images_;
     std::vector<Buffer> wanted_buffers_;
-    std::set<std::uint32_t> kept_;
+    std::vector<Stamped> stamped_;
 };
 
 } // namespace catoptric::graph

@@ -12,7 +12,7 @@ VkImageCreateInfo image_create_info(const ImageDesc& desc) {
     create.imageType = VK_IMAGE_TYPE_2D;
     create.format = gpu::vk_format(desc.format);
     create.extent = {desc.width, desc.height, 1};
-    create.mipLevels = 1;
+    create.mipLevels = desc.mips;
     create.arrayLayers = desc.layers;
     create.samples = VK_SAMPLE_COUNT_1_BIT;
     create.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
@@ -35,14 +35,31 @@ Physical make_physical(const gpu::Device& device, const ImageDesc& desc) {
     device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), desc.name);
     Physical physical;
     physical.desc = desc;
-    physical.image = {device.handle(), image};
+    physical.owned = {device.handle(), image};
+    physical.image = image;
     return physical;
 }
 
-VkImageView Physical::view(const gpu::Device& device, gpu::ImageShape shape,
-                           std::uint32_t first_layer, std::uint32_t layer_count) {
+Physical adopt(const ImageDesc& desc, VkImage image) {
+    Physical physical;
+    physical.desc = desc;
+    physical.image = image;
+    return physical;
+}
+
+VkBufferImageCopy copy_region(const ImageDesc& desc, const Image& part) {
+    VkBufferImageCopy region{};
+    region.imageSubresource = {aspect_of(desc.format), part.first_mip, part.first_layer,
+                               part.layer_count};
+    region.imageExtent = {at_mip(desc.width, part.first_mip), at_mip(desc.height, part.first_mip),
+                          1};
+    return region;
+}
+
+VkImageView Physical::view(const gpu::Device& device, gpu::ImageShape shape, const Image& part) {
     using gpu::ImageShape;
-    const Key key{shape, first_layer, layer_count};
+    const std::uint32_t layer_count = part.layer_count;
+    const Key key{shape, part.first_layer, layer_count, part.first_mip, part.mip_count};
     if (const auto found = views_.find(key); found != views_.end()) return found->second;
     const auto wants = [&](bool ok, const char* what) {
         check(ok, Failure::internal, "image '", desc.name, "' has ", layer_count,
@@ -63,7 +80,8 @@ VkImageView Physical::view(const gpu::Device& device, gpu::ImageShape shape,
     }
     create.image = image;
     create.format = gpu::vk_format(desc.format);
-    create.subresourceRange = {aspect_of(desc.format), 0, 1, first_layer, layer_count};
+    create.subresourceRange = {aspect_of(desc.format), part.first_mip, part.mip_count,
+                               part.first_layer, layer_count};
     VkImageView handle = VK_NULL_HANDLE;
     gpu::check_vk(vkCreateImageView(device.handle(), &create, nullptr, &handle),
                   "view image '" + desc.name + "'");

@@ -1,5 +1,6 @@
 #include "graph/place.hpp"
 
+#include <algorithm>
 #include <tuple>
 
 namespace catoptric::graph {
@@ -8,8 +9,7 @@ namespace {
 
 struct Item {
     Placement* placement = nullptr;
-    std::uint64_t alignment = 1;
-    int rank = 0; ///< 0 shares, 1 is wanted, 2 is kept: the order in the heap
+    int rank = 0; ///< 0 shares, 1 is wanted, 2 outlives the frame: the order in the heap
 };
 
 std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
@@ -18,41 +18,66 @@ std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
 
 std::uint64_t end_of(const Placement& p) { return p.offset + p.bytes; }
 
-bool alive_together(const Placement& a, const Placement& b) {
-    return a.heap == b.heap && a.first <= b.last && b.first <= a.last;
-}
+/// What was placed at one offset. Its members share memory, so no two are alive at once.
+struct Shelf {
+    struct Life {
+        std::uint32_t first, last;
+        std::uint64_t end; ///< in the heap
+    };
+    std::uint64_t offset = 0;
+    std::vector<Life> lives; ///< from the earliest
+
+    /// Up to where the members that are alive with `placement` reach; 0: there is none.
+    std::uint64_t reach(const Placement& placement) const {
+        auto life = std::ranges::lower_bound(lives, placement.first, {}, &Life::last);
+        std::uint64_t end = 0;
+        for (; life != lives.end() && life->first <= placement.last; ++life)
+            end = std::max(end, life->end);
+        return end;
+    }
+};
+using Shelves = std::vector<Shelf>; // of one heap, from the lowest
 
 /// The lowest aligned offset at which `item` overlaps nothing that is alive with it.
-std::uint64_t first_fit(const Item& item, const std::vector<Item>& placed) {
-    std::vector<const Placement*> others;
-    for (const Item& other : placed)
-        if (alive_together(*other.placement, *item.placement)) others.push_back(other.placement);
-    std::ranges::sort(others, {}, &Placement::offset);
+std::uint64_t first_fit(const Item& item, const Shelves& shelves) {
     std::uint64_t offset = 0;
-    for (const Placement* other : others) {
-        if (offset + item.placement->bytes <= other->offset) break;
-        offset = std::max(offset, align_up(end_of(*other), item.alignment));
+    for (const Shelf& shelf : shelves) {
+        if (offset + item.placement->bytes <= shelf.offset) break;
+        const std::uint64_t end = shelf.reach(*item.placement);
+        if (end > 0) offset = std::max(offset, align_up(end, item.placement->alignment));
     }
     return offset;
 }
 
-Item size_up(Placement& placement, const Requirements& wanted, bool kept) {
+void put(Shelves& shelves, const Placement& placement) {
+    auto shelf = std::ranges::lower_bound(shelves, placement.offset, {}, &Shelf::offset);
+    if (shelf == shelves.end() || shelf->offset != placement.offset)
+        shelf = shelves.insert(shelf, {placement.offset, {}});
+    const Shelf::Life life{placement.first, placement.last, end_of(placement)};
+    const auto after = std::ranges::upper_bound(shelf->lives, life.first, {}, &Shelf::Life::first);
+    shelf->lives.insert(after, life);
+}
+
+Item size_up(Placement& placement, const Requirements& wanted, Lifetime lifetime) {
     const std::uint64_t alignment = std::max<std::uint64_t>(wanted.alignment, 1);
     placement.heap = wanted.heap;
-    placement.bytes = kept ? 2 * align_up(wanted.bytes, alignment) : wanted.bytes;
-    return {&placement, alignment, kept ? 2 : placement.alone ? 1 : 0};
+    placement.alignment = alignment;
+    placement.bytes = lifetime == Lifetime::previous ? 2 * align_up(wanted.bytes, alignment)
+                                                     : wanted.bytes;
+    return {&placement, lifetime != Lifetime::frame ? 2 : placement.alone ? 1 : 0};
 }
 
 /// Used ones by rank, then the largest first, so that small ones fill the gaps.
 std::vector<Item> sized_items(const Graph& graph, const Sizer& sizer, Plan& plan) {
     std::vector<Item> items;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        if (plan.images[i].used)
+        if (plan.images[i].used && graph.lifetime(i) != Lifetime::imported)
             items.push_back(
-                size_up(plan.images[i], sizer.image(graph.images()[i]), graph.is_kept(i)));
+                size_up(plan.images[i], sizer.image(graph.images()[i]), graph.lifetime(i)));
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
-        if (plan.buffers[b].used)
-            items.push_back(size_up(plan.buffers[b], sizer.buffer(graph.buffers()[b]), false));
+        if (plan.buffers[b].used && !graph.is_imported({b}))
+            items.push_back(
+                size_up(plan.buffers[b], sizer.buffer(graph.buffers()[b]), Lifetime::frame));
     std::ranges::stable_sort(items, [](const Item& a, const Item& b) {
         return std::tuple(a.rank, b.placement->bytes) < std::tuple(b.rank, a.placement->bytes);
     });
@@ -67,34 +92,37 @@ void mark(Placement& placement, std::uint32_t position) {
 
 } // namespace
 
-void find_lifetimes(const Graph& graph, Plan& plan) {
+void find_lifetimes(const Graph& graph, const Accesses& all, Plan& plan) {
     plan.images.assign(graph.images().size(), {});
     plan.buffers.assign(graph.buffers().size(), {});
     for (std::uint32_t position = 0; position < plan.passes.size(); ++position)
-        for (const Access& a : accesses(graph.passes()[plan.passes[position].pass]))
+        for (const Access& a : all.of(plan.passes[position].pass))
             mark(a.is_buffer ? plan.buffers[a.id] : plan.images[a.id], position);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        plan.images[i].alone = plan.images[i].used && graph.is_kept(i);
+        plan.images[i].alone = plan.images[i].used && graph.lifetime(i) != Lifetime::frame;
+    for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
+        plan.buffers[b].alone = plan.buffers[b].used && graph.is_imported({b});
     for (const Image& image : graph.wanted_images()) plan.images[image.id].alone = true;
     for (const Buffer& buffer : graph.wanted_buffers()) plan.buffers[buffer.id].alone = true;
 }
 
 void place(const Graph& graph, const Sizer& sizer, Plan& plan) {
     std::vector<std::uint64_t> unshared; // per heap
-    std::vector<Item> placed;
+    std::vector<Shelves> shelves;        // per heap
     for (const Item& item : sized_items(graph, sizer, plan)) {
         Placement& placement = *item.placement;
         if (placement.heap >= unshared.size()) {
             unshared.resize(placement.heap + 1, 0);
+            shelves.resize(placement.heap + 1);
             plan.heap_bytes.resize(placement.heap + 1, 0);
         }
         std::uint64_t& heap = plan.heap_bytes[placement.heap];
-        placement.offset = placement.alone ? align_up(heap, item.alignment)
-                                           : first_fit(item, placed);
+        placement.offset = placement.alone ? align_up(heap, item.placement->alignment)
+                                           : first_fit(item, shelves[placement.heap]);
         heap = std::max(heap, end_of(placement));
         std::uint64_t& alone = unshared[placement.heap];
-        alone = align_up(alone, item.alignment) + placement.bytes;
-        placed.push_back(item);
+        alone = align_up(alone, item.placement->alignment) + placement.bytes;
+        if (!placement.alone) put(shelves[placement.heap], placement);
     }
     for (const std::uint64_t bytes : plan.heap_bytes) plan.bytes += bytes;
     for (const std::uint64_t bytes : unshared) plan.bytes_unshared += bytes;

@@ -5,7 +5,7 @@
 namespace catoptric::graph {
 
 /// Fills `used`, `first`, `last` and `alone` of every image and buffer from the surviving passes.
-void find_lifetimes(const Graph& graph, Plan& plan);
+void find_lifetimes(const Graph& graph, const Accesses& all, Plan& plan);
 
 /// Fills offsets, bytes and heap sizes. Needs lifetimes. What is alive at the same time never
 /// overlaps; what is not may.

@@ -12,26 +12,32 @@ namespace catoptric::graph {
 
 namespace {
 
-void cull(const Graph& graph, Plan& plan) {
-    const std::vector<char> survives = survivors(graph);
-    for (std::uint32_t p = 0; p < survives.size(); ++p) {
-        const Pass& pass = graph.passes()[p];
-        if (!survives[p]) {
-            plan.culled.push_back({p, cull_reason(graph, pass)});
+void cull(const Graph& graph, const Accesses& all, Plan& plan) {
+    const std::vector<Fate> fates = graph::fates(graph, all);
+    plan.passes.reserve(fates.size());
+    for (std::uint32_t p = 0; p < fates.size(); ++p) {
+        if (!fates[p].survives) {
+            plan.culled.push_back({p, cull_reason(graph, all.of(p))});
             continue;
         }
-        plan.passes.push_back({p, {}});
-        plan.scene_passes += pass.tag == Tag::scene ? 1 : 0;
+        plan.passes.push_back({p, {}, fates[p].unread});
+        plan.scene_passes += graph.passes()[p].tag == Tag::scene ? 1 : 0;
     }
 }
 
-/// Bytes of the largest allocation: kept images have one each, all else of a heap shares one.
+bool has_own_memory(Lifetime lifetime) {
+    return lifetime == Lifetime::previous || lifetime == Lifetime::kept;
+}
+
+/// Bytes of the largest allocation: images that outlive the frame have one each, all else of a heap
+/// shares one.
 std::uint64_t largest_piece(const Graph& graph, const Plan& plan) {
     std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
         if (plan.images[i].used)
             bytes = std::max(bytes,
-                             plan.images[i].bytes + (graph.is_kept(i) ? 0 : plan.images[i].offset));
+                             plan.images[i].bytes +
+                                 (has_own_memory(graph.lifetime(i)) ? 0 : plan.images[i].offset));
     for (const Placement& buffer : plan.buffers)
         if (buffer.used) bytes = std::max(bytes, buffer.offset + buffer.bytes);
     return bytes;
@@ -70,20 +76,23 @@ Sizer plain_sizer() {
     };
     return {.image =
                 [=](const ImageDesc& desc) {
-                    return padded(std::uint64_t{desc.width} * desc.height * desc.layers *
-                                  bytes_per_texel(desc.format));
+                    std::uint64_t texels = 0;
+                    for (std::uint32_t m = 0; m < desc.mips; ++m)
+                        texels += std::uint64_t{at_mip(desc.width, m)} * at_mip(desc.height, m);
+                    return padded(texels * desc.layers * bytes_per_texel(desc.format));
                 },
             .buffer = [=](const BufferDesc& desc) { return padded(desc.bytes); }};
 }
 
 Plan plan(const Graph& graph, const Limits& limits, const Sizer& sizer) {
-    validate(graph, limits);
+    const Accesses all(graph);
+    validate(graph, all, limits);
     Plan plan;
-    cull(graph, plan);
-    find_lifetimes(graph, plan);
+    cull(graph, all, plan);
+    find_lifetimes(graph, all, plan);
     place(graph, sizer, plan);
     check_memory(graph, plan, limits);
-    order(graph, plan);
+    order(graph, all, plan);
     return plan;
 }
 

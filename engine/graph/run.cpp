@@ -1,7 +1,8 @@
 #include "graph/run.hpp"
 
+#include "graph/device_memory.hpp"
+#include "graph/shape.hpp"
 #include "graph/stamps.hpp"
-#include "graph/sync.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -12,39 +13,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double milliseconds(Clock::duration duration) {
-    return std::chrono::duration<double, std::milli>(duration).count();
-}
+constexpr std::size_t kShapes = 8;
 
-gpu::UniqueSampler make_sampler(const gpu::Device& device, Filter filter) {
-    VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    create.magFilter = create.minFilter = filter == Filter::nearest ? VK_FILTER_NEAREST
-                                                                    : VK_FILTER_LINEAR;
-    create.addressModeU = create.addressModeV = create.addressModeW =
-        VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    create.compareEnable = filter == Filter::compare;
-    create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depth: not behind what is stored
-    VkSampler sampler = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateSampler(device.handle(), &create, nullptr, &sampler), "create a sampler");
-    return {device.handle(), sampler};
-}
-
-VkCommandBuffer make_commands(const gpu::Device& device, gpu::UniqueCommandPool& pool) {
-    VkCommandPoolCreateInfo create{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-    create.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    create.queueFamilyIndex = device.queue_family();
-    VkCommandPool handle = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateCommandPool(device.handle(), &create, nullptr, &handle),
-                  "create a command pool");
-    pool = {device.handle(), handle};
-    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    allocate.commandPool = handle;
-    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    allocate.commandBufferCount = 1;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    gpu::check_vk(vkAllocateCommandBuffers(device.handle(), &allocate, &commands),
-                  "allocate a command buffer");
-    return commands;
+double milliseconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
 gpu::UniqueSemaphore make_timeline(const gpu::Device& device) {
@@ -57,241 +29,176 @@ gpu::UniqueSemaphore make_timeline(const gpu::Device& device) {
     return {device.handle(), semaphore};
 }
 
-VkExtent2D extent_of(const Graph& graph, const Pass& pass) {
-    const ImageDesc& desc =
-        graph.images()[std::ranges::find_if(pass.images, [](const ImageUse& use) {
-                           return use.use == Use::colour || use.use == Use::depth;
-                       })->image.id];
-    return {desc.width, desc.height};
+/// The number of the frame and its passes: which of them a device was lost in, nobody knows.
+std::string name_of_frame(std::uint64_t frame, const Compiled& shape) {
+    std::string name = "frame " + std::to_string(frame) + " (passes";
+    for (const PlannedPass& planned : shape.plan.passes)
+        name += " '" + shape.outline.passes()[planned.pass].name + "'";
+    return name + ")";
+}
+
+/// Fills passes and span from the stamps of a frame that has ended.
+void read_stamps(gpu::Device& device, const Slot& slot, FrameTimes& times) {
+    const Compiled& shape = *slot.shape;
+    std::vector<std::uint64_t> stamps(slot.next_query);
+    const VkResult result = vkGetQueryPoolResults(
+        device.handle(), slot.queries, 0, slot.next_query, stamps.size() * 8, stamps.data(), 8,
+        VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    if (result != VK_SUCCESS)
+        device.check_alive(result, "read the time stamps of " + name_of_frame(slot.frame, shape));
+    const std::vector<double> at = milliseconds_since_first(
+        stamps, device.timestamp_bits(), static_cast<double>(device.limits().timestampPeriod));
+    for (std::size_t i = 0; i < shape.plan.passes.size(); ++i) {
+        const bool isolated = slot.timing == Timing::isolated;
+        times.passes.push_back({shape.outline.passes()[shape.plan.passes[i].pass].name,
+                                isolated ? at[i] : at[2 * i],
+                                isolated ? at[i + 1] : at[2 * i + 1]});
+        times.span_ms = std::max(times.span_ms, times.passes.back().end_ms);
+    }
 }
 
 } // namespace
 
-Runner::Runner(gpu::Device& device, gpu::Pipelines& pipelines)
-    : device_(device), pipelines_(pipelines) {
-    for (Filter filter : {Filter::nearest, Filter::linear, Filter::compare})
-        samplers_[static_cast<std::size_t>(filter)] = make_sampler(device, filter);
-    commands_ = make_commands(device, pool_);
-    timeline_ = make_timeline(device);
-    if (!device.has_labels()) return;
-    begin_label_ = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
-        vkGetDeviceProcAddr(device.handle(), "vkCmdBeginDebugUtilsLabelEXT"));
-    end_label_ = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(
-        vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
+Runner::Runner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight)
+    : device_(device), recorder_(device, pipelines), timeline_(make_timeline(device)),
+      memory_(device), kept_(device) {
+    check(in_flight >= 1 && in_flight <= kMostInFlight, Failure::usage,
+          "frames in flight must be 1 to ", kMostInFlight, ", not ", in_flight);
+    slots_.reserve(in_flight);
+    for (std::uint32_t i = 0; i < in_flight; ++i) slots_.emplace_back(device);
 }
 
-FrameTimes Runner::run(const Graph& graph, const Plan& plan, Timing timing, bool stays) {
+Runner::~Runner() {
+    if (device_.abandoned()) return;
+    try {
+        finish_all();
+    } catch (const std::exception&) {
+        // The device is abandoned by now, and so nothing of it is destroyed.
+    }
+}
+
+void Runner::forget() {
+    finish_all();
+    for (Slot& slot : slots_)
+        if (slot.shape) slot.shape->kept.assign(slot.shape->kept.size(), nullptr);
+    kept_.forget();
+}
+
+Limits Runner::limits() const {
+    const VkPhysicalDeviceLimits& limits = device_.limits();
+    return {limits.maxImageDimension2D,  limits.maxImageDimensionCube, limits.maxImageArrayLayers,
+            limits.maxFramebufferLayers, device_.memory_budget(),      device_.max_allocation()};
+}
+
+Compiled& Runner::compile(const Graph& graph) {
+    const Clock::time_point begin = Clock::now();
+    const std::uint64_t hash = shape_hash(graph);
+    auto found = std::ranges::find_if(shapes_, [&](const std::shared_ptr<Compiled>& shape) {
+        return shape->hash == hash && has_shape(graph, shape->outline);
+    });
+    if (found == shapes_.end()) {
+        auto made = std::make_shared<Compiled>();
+        made->plan = plan(graph, limits(), sizer_of(device_));
+        made->outline = graph.without_bodies();
+        made->hash = hash;
+        ++plans_made_;
+        // Frames in flight hold their shape, so what is forgotten here is not taken from them.
+        if (shapes_.size() == kShapes) shapes_.pop_back();
+        found = shapes_.insert(shapes_.end(), std::move(made));
+    }
+    std::rotate(shapes_.begin(), found, found + 1);
+    compile_ms_ += milliseconds_since(begin);
+    return *shapes_.front();
+}
+
+Ticket Runner::submit(const Graph& graph, Timing timing, bool stays) {
     device_.check_usable();
-    prepare(graph, plan);
-    const auto start = Clock::now();
-    record(graph, plan, timing);
-    const double record_ms = milliseconds(Clock::now() - start);
-    const double wall_ms = submit_and_wait(graph, plan);
-    FrameTimes times = read_times(graph, plan, timing);
-    times.record_ms = record_ms;
-    times.wall_ms = wall_ms;
-    if (stays) return times;
-    for (const std::uint32_t id : kept_ids_) {
-        Kept& kept = kept_.at(graph.images()[id].name);
-        kept.last = 1 - kept.last;
-        kept.valid = true;
-    }
-    return times;
+    const double waited_before = wait_ms_;
+    Compiled& shape = compile(graph);
+    const std::size_t index = index_of(frame_ + 1);
+    Slot& slot = slots_[index];
+    finish(slot);
+    const Clock::time_point begin = Clock::now();
+    const double waited_for_place = wait_ms_;
+    const auto wait = [this] { finish_all(); };
+    memory_.provide(shape, index, shapes_, wait);
+    kept_.provide(shape, wait);
+    slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
+    FrameTimes times;
+    times.compile_ms = compile_ms_ + milliseconds_since(begin) - (wait_ms_ - waited_for_place);
+    times.wait_ms = wait_ms_ - waited_before;
+    compile_ms_ = 0;
+
+    const Clock::time_point record_begin = Clock::now();
+    recorder_.record(graph, shape, slot, index, timing);
+    times.record_ms = milliseconds_since(record_begin);
+    slot.times = times;
+    slot.timing = timing, slot.stays = stays;
+    submit(slot, shape);
+    slot.shape = shapes_.front();
+    kept_.write(graph, shape);
+    if (!stays) kept_.advance(shape);
+    return {frame_};
 }
 
-void Runner::record(const Graph& graph, const Plan& plan, Timing timing) {
-    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
-    next_query_ = 0;
-    full_barrier();
-    if (timing == Timing::isolated) stamp(timing);
-    for (const PlannedPass& planned : plan.passes) {
-        const Pass& pass = graph.passes()[planned.pass];
-        if (timing == Timing::pipelined) stamp(timing);
-        barriers(graph, plan, planned.barriers, false);
-        record_pass(graph, pass);
-        stamp(timing);
-    }
-    barriers(graph, plan, plan.last, true);
-    gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
-}
-
-/// Everything before is done and visible to everything after: divides frames and read-backs.
-void Runner::full_barrier() {
-    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands_, &dependency);
-}
-
-/// A stamp is only true when an execution barrier follows it: without, a software driver takes it
-/// after the next pass's work.
-void Runner::stamp(Timing timing) {
-    vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, next_query_++);
-    if (timing == Timing::isolated)
-        vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                             VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 0,
-                             nullptr);
-}
-
-void Runner::barriers(const Graph& graph, const Plan&, const std::vector<Barrier>& list,
-                      bool last) {
-    std::vector<VkImageMemoryBarrier2> images;
-    std::vector<VkBufferMemoryBarrier2> buffers;
-    for (const Barrier& barrier : list) {
-        Scope before = scope_of(barrier.before);
-        for (const Touch& touch : barrier.shared) {
-            const Scope scope = scope_of(touch);
-            before.stages |= scope.stages, before.access |= scope.access;
-        }
-        Scope after = scope_of(barrier.after);
-        if (last) after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
-        // First touch of the frame: chains on to the barrier that divides it from the frame before.
-        if (before.stages == VK_PIPELINE_STAGE_2_NONE) before.stages = after.stages;
-        if (barrier.is_buffer) {
-            VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-            b.srcStageMask = before.stages, b.srcAccessMask = before.access;
-            b.dstStageMask = after.stages, b.dstAccessMask = after.access;
-            b.buffer = buffers_[barrier.id];
-            b.size = VK_WHOLE_SIZE;
-            buffers.push_back(b);
-            continue;
-        }
-        VkImageMemoryBarrier2 b{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-        b.srcStageMask = before.stages, b.srcAccessMask = before.access;
-        b.dstStageMask = after.stages, b.dstAccessMask = after.access;
-        b.oldLayout = barrier.before.nothing ? VK_IMAGE_LAYOUT_UNDEFINED
-                                             : layout_of(barrier.before.use);
-        b.newLayout = layout_of(barrier.after.use);
-        b.image = physical({barrier.id, 0, 0, barrier.previous}).image;
-        b.subresourceRange = {aspect_of(graph.images()[barrier.id].format), 0, 1,
-                              barrier.first_layer, barrier.layer_count};
-        images.push_back(b);
-    }
-    if (images.empty() && buffers.empty()) return;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.imageMemoryBarrierCount = static_cast<std::uint32_t>(images.size());
-    dependency.pImageMemoryBarriers = images.data();
-    dependency.bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffers.size());
-    dependency.pBufferMemoryBarriers = buffers.data();
-    vkCmdPipelineBarrier2(commands_, &dependency);
-}
-
-void Runner::record_pass(const Graph& graph, const Pass& pass) {
-    if (begin_label_) {
-        VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
-        label.pLabelName = pass.name.c_str();
-        begin_label_(commands_, &label);
-    }
-    if (!pass.is_raster()) {
-        Commands commands(*this, graph, pass, commands_, 0, 1);
-        pass.body(commands);
-    } else if (pass.layer_count == 1 || device_.layered()) {
-        render(graph, pass, 0, pass.layer_count);
-    } else {
-        for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer)
-            render(graph, pass, layer, 1);
-    }
-    if (end_label_) end_label_(commands_);
-}
-
-/// One rendering scope over some layers of the pass's attachments.
-void Runner::render(const Graph& graph, const Pass& pass, std::uint32_t first_layer,
-                    std::uint32_t layer_count) {
-    std::vector<VkRenderingAttachmentInfo> colours;
-    VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    bool has_depth = false;
-    const gpu::ImageShape shape = layer_count > 1 ? gpu::ImageShape::flat_array
-                                                  : gpu::ImageShape::flat;
-    for (const ImageUse& use : pass.images) {
-        if (use.use != Use::colour && use.use != Use::depth) continue;
-        VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-        info.imageView = physical(use.image).view(device_, shape,
-                                                  use.image.first_layer + first_layer, layer_count);
-        info.imageLayout = layout_of(use.use);
-        info.loadOp = use.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-        info.storeOp = use.write ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE;
-        if (use.clear && use.use == Use::colour)
-            std::ranges::copy(*use.clear, info.clearValue.color.float32);
-        if (use.clear && use.use == Use::depth) info.clearValue.depthStencil = {(*use.clear)[0], 0};
-        if (use.use == Use::colour)
-            colours.push_back(info);
-        else
-            depth = info, has_depth = true;
-    }
-    const VkExtent2D extent = extent_of(graph, pass);
-    VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    rendering.renderArea = {{0, 0}, extent};
-    rendering.layerCount = layer_count;
-    rendering.colorAttachmentCount = static_cast<std::uint32_t>(colours.size());
-    rendering.pColorAttachments = colours.data();
-    rendering.pDepthAttachment = has_depth ? &depth : nullptr;
-    vkCmdBeginRendering(commands_, &rendering);
-    const VkViewport viewport{
-        0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
-    const VkRect2D scissor{{0, 0}, extent};
-    vkCmdSetViewport(commands_, 0, 1, &viewport);
-    vkCmdSetScissor(commands_, 0, 1, &scissor);
-    Commands commands(*this, graph, pass, commands_, first_layer, layer_count);
-    pass.body(commands);
-    vkCmdEndRendering(commands_);
-}
-
-/// The number of the frame and its passes: which of them a device was lost in, nobody knows.
-std::string Runner::name_of_frame(const Graph& graph, const Plan& plan) const {
-    std::string name = "frame " + std::to_string(frame_) + " (passes";
-    for (const PlannedPass& planned : plan.passes)
-        name += " '" + graph.passes()[planned.pass].name + "'";
-    return name + ")";
-}
-
-double Runner::submit_and_wait(const Graph& graph, const Plan& plan) {
+void Runner::submit(Slot& slot, const Compiled& shape) {
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
-    commands.commandBuffer = commands_;
+    commands.commandBuffer = slot.commands;
     VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
     signal.semaphore = timeline_;
-    signal.value = ++frame_;
+    signal.value = frame_ + 1;
     signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
     submit.signalSemaphoreInfoCount = 1;
     submit.pSignalSemaphoreInfos = &signal;
-    const std::string doing = "run " + name_of_frame(graph, plan);
+    slot.submitted = Clock::now();
+    const VkResult result = vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE);
+    if (result != VK_SUCCESS)
+        device_.check_alive(result, "run " + name_of_frame(frame_ + 1, shape));
+    slot.frame = ++frame_;
+    slot.ended = false;
+}
 
-    const auto start = Clock::now();
-    device_.check_alive(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE), doing);
+/// Waits for the frame of the slot unless that was done.
+void Runner::finish(Slot& slot) {
+    if (slot.ended) return;
+    const Clock::time_point begin = Clock::now();
     const VkSemaphore semaphore = timeline_;
     VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
-    wait.pValues = &frame_;
-    device_.check_waited(vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0}), doing);
-    return milliseconds(Clock::now() - start);
+    wait.pValues = &slot.frame;
+    const VkResult result = vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0});
+    if (result != VK_SUCCESS)
+        device_.check_waited(result, "run " + name_of_frame(slot.frame, *slot.shape));
+    slot.times.wall_ms = milliseconds_since(slot.submitted);
+    const double waited = milliseconds_since(begin);
+    slot.times.wait_ms += waited;
+    wait_ms_ += waited;
+    slot.ended = true;
+    read_stamps(device_, slot, slot.times);
 }
 
-FrameTimes Runner::read_times(const Graph& graph, const Plan& plan, Timing timing) const {
-    std::vector<std::uint64_t> stamps(next_query_);
-    device_.check_alive(vkGetQueryPoolResults(device_.handle(), queries_, 0, next_query_,
-                                              stamps.size() * 8, stamps.data(), 8,
-                                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-                        "read the time stamps of " + name_of_frame(graph, plan));
-    const std::vector<double> at = milliseconds_since_first(
-        stamps, device_.timestamp_bits(), static_cast<double>(device_.limits().timestampPeriod));
-    FrameTimes times;
-    for (std::size_t i = 0; i < plan.passes.size(); ++i) {
-        const bool isolated = timing == Timing::isolated;
-        times.passes.push_back({graph.passes()[plan.passes[i].pass].name,
-                                isolated ? at[i] : at[2 * i],
-                                isolated ? at[i + 1] : at[2 * i + 1]});
-        times.span_ms = std::max(times.span_ms, times.passes.back().end_ms);
-    }
-    return times;
+void Runner::finish_all() {
+    for (Slot& slot : slots_) finish(slot);
+}
+
+Slot& Runner::slot_of(Ticket ticket) {
+    check(ticket.frame >= 1 && ticket.frame <= frame_, Failure::internal, "frame ", ticket.frame,
+          " is asked for, but ", frame_, " were submitted");
+    Slot& slot = slots_[index_of(ticket.frame)];
+    check(slot.frame == ticket.frame, Failure::internal, "frame ", ticket.frame,
+          " is gone: its place was taken by frame ", slot.frame, ", with ", slots_.size(),
+          " in flight");
+    return slot;
+}
+
+const FrameTimes& Runner::wait(Ticket ticket) {
+    Slot& slot = slot_of(ticket);
+    finish(slot);
+    return slot.times;
 }
 
 } // namespace catoptric::graph

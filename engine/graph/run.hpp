@@ -2,117 +2,86 @@
 
 #include "gpu/buffer.hpp"
 #include "gpu/pipeline.hpp"
-#include "graph/commands.hpp"
-#include "graph/physical.hpp"
-#include "graph/plan.hpp"
-
-#include <array>
-#include <map>
-#include <memory>
+#include "graph/frame_memory.hpp"
+#include "graph/kept_images.hpp"
+#include "graph/record.hpp"
 
 namespace catoptric::graph {
 
-/// isolated: an execution barrier follows each stamp, so the times of passes add up and no two
-/// passes overlap. pipelined: only the barriers that the plan needs; believe the span, not the
-/// parts.
-enum class Timing { isolated, pipelined };
-
-struct PassTime {
-    std::string name;
-    double begin_ms = 0; ///< from the frame's first stamp
-    double end_ms = 0;
-    double ms() const { return end_ms - begin_ms; }
+/// A frame that was submitted, by its number from 1. Valid with the runner that gave it.
+struct Ticket {
+    std::uint64_t frame = 0;
 };
 
-/// One frame on the clock. On a cpu device "gpu" time is processor time of the driver's threads.
-struct FrameTimes {
-    std::vector<PassTime> passes; ///< in order of execution
-    double span_ms = 0;           ///< first to last stamp
-    double record_ms = 0;         ///< filling the command buffer, host clock
-    double wall_ms = 0;           ///< submit until the device has finished, host clock
-};
-
-/// Executes plans: one command buffer, one submit, one timeline semaphore a frame. Keeps images,
-/// memory and history between frames of the same shape. One run of a technique = one Runner.
+/// Runs graphs: each shape is planned once, each frame is one command buffer and one submit, and
+/// one timeline semaphore tells when it has ended. Frames run in order, each after all of the one
+/// before. Images, memory and history stay between frames. One run of a technique = one Runner.
 class Runner {
 public:
-    Runner(gpu::Device& device, gpu::Pipelines& pipelines);
+    /// `in_flight`: how many frames may be submitted before the first of them is waited for, 1 to
+    /// kMostInFlight; each has its own commands and its own copy of what is wanted of a frame.
+    Runner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight = 1);
     Runner(const Runner&) = delete;
     Runner& operator=(const Runner&) = delete;
+    /// Waits for what is in flight.
+    ~Runner();
 
     /// What the next Graph must be told about the last frame.
-    History history() const;
-    /// The next frame begins without history.
+    History history() const { return kept_.history(); }
+    /// Drops all that was kept of earlier frames: the next one is as the first. Waits for what is
+    /// in flight.
     void forget();
     Limits limits() const;
-    Sizer sizer() const;
-    Plan plan(const Graph& graph) const { return graph::plan(graph, limits(), sizer()); }
+    /// The plan of the graph's shape: found among those of the last 8 shapes, or made. Valid until
+    /// 8 others were asked for. Throws what graph::plan throws.
+    const Plan& compiled(const Graph& graph) { return compile(graph).plan; }
+    std::uint64_t plans_made() const { return plans_made_; }
+    /// Bytes of the device's memory that images and buffers of its graphs take: as much as the
+    /// largest of the last 8 shapes that ran, and all that is kept.
+    std::uint64_t memory_bytes() const { return memory_.bytes() + kept_.bytes(); }
 
-    /// Records, submits and waits. Throws `exhausted`, `device_lost` (naming the frame's passes).
+    /// Records and submits. Waits only where all places in flight are taken, for the oldest frame.
     /// `stays`: a frame beside the sequence; the next one has the history that this one had.
-    FrameTimes run(const Graph& graph, const Plan& plan, Timing timing, bool stays = false);
+    /// Throws `exhausted`; `device_lost` where it had to wait or the device refused the frame.
+    Ticket submit(const Graph& graph, Timing timing, bool stays = false);
+    /// Waits until the frame has ended; at once when that was done before. Throws `device_lost`
+    /// (naming the frame's passes), and `internal` when its place was taken by a later frame.
+    const FrameTimes& wait(Ticket ticket);
+    FrameTimes run(const Graph& graph, Timing timing, bool stays = false) {
+        return wait(submit(graph, timing, stays));
+    }
 
-    /// Texels of a wanted image of the graph that ran last: rows top down, layers one after the
-    /// other.
-    std::vector<std::byte> read(Image image);
-    std::vector<std::byte> read(Buffer buffer);
+    /// Texels of a wanted image of the frame, which is waited for: rows top down, layer after
+    /// layer, mip after mip. There until its place is taken by a later frame; what outlives frames
+    /// is there until the next one is submitted.
+    std::vector<std::byte> read(Ticket ticket, Image image);
+    std::vector<std::byte> read(Ticket ticket, Buffer buffer);
+    /// The same of the frame that was submitted last.
+    std::vector<std::byte> read(Image image) { return read(Ticket{frame_}, image); }
+    std::vector<std::byte> read(Buffer buffer) { return read(Ticket{frame_}, buffer); }
     /// Everything that the next frame can see of the last one: texels of the images that have a
     /// `previous`, one after the other. Empty where nothing is remembered.
     std::vector<std::byte> read_history();
 
-    // For Commands only.
-    gpu::Device& device() { return device_; }
-    gpu::Pipelines& pipelines() { return pipelines_; }
-    Physical& physical(Image image);
-    VkBuffer buffer(Buffer buffer) const { return buffers_[buffer.id]; }
-    VkSampler sampler(Filter filter) const { return samplers_[static_cast<std::size_t>(filter)]; }
-    VkDescriptorSet descriptor_set(VkDescriptorSetLayout layout);
-
 private:
-    /// An image that outlives the frame: this frame's and the last one's.
-    struct Kept {
-        std::array<Physical, 2> copies;
-        gpu::UniqueMemory memory;
-        int last = 0; ///< index of the copy that holds the last frame
-        bool valid = false;
-    };
-    void prepare(const Graph& graph, const Plan& plan);
-    void make_kept(const ImageDesc& desc);
-    void record(const Graph& graph, const Plan& plan, Timing timing);
-    void record_pass(const Graph& graph, const Pass& pass);
-    void render(const Graph& graph, const Pass& pass, std::uint32_t first_layer,
-                std::uint32_t layer_count);
-    void barriers(const Graph& graph, const Plan& plan, const std::vector<Barrier>& list,
-                  bool last);
-    void full_barrier();
-    void stamp(Timing timing);
-    std::string name_of_frame(const Graph& graph, const Plan& plan) const;
-    double submit_and_wait(const Graph& graph, const Plan& plan);
-    FrameTimes read_times(const Graph& graph, const Plan& plan, Timing timing) const;
+    Compiled& compile(const Graph& graph);
+    Slot& slot_of(Ticket ticket);
+    std::size_t index_of(std::uint64_t frame) const { return (frame - 1) % slots_.size(); }
+    void submit(Slot& slot, const Compiled& shape);
+    void finish(Slot& slot);
+    void finish_all();
 
     gpu::Device& device_;
-    gpu::Pipelines& pipelines_;
-    std::array<gpu::UniqueSampler, 3> samplers_;
-    gpu::UniqueCommandPool pool_;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    Recorder recorder_;
     gpu::UniqueSemaphore timeline_;
-    std::uint64_t frame_ = 0;
-    gpu::UniqueQueryPool queries_;
-    std::uint32_t query_count_ = 0, next_query_ = 0;
-    std::vector<gpu::UniqueDescriptorPool> descriptor_pools_;
-    std::size_t next_pool_ = 0;
-
-    std::vector<ImageDesc> image_descs_; ///< what `images_` was made for
-    std::vector<BufferDesc> buffer_descs_;
-    std::vector<std::uint64_t> offsets_;
-    std::vector<gpu::UniqueMemory> heaps_;
-    std::vector<Physical> images_;
-    std::vector<gpu::UniqueBuffer> owned_buffers_;
-    std::vector<VkBuffer> buffers_;
-    std::map<std::string, Kept> kept_;
-    std::set<std::uint32_t> kept_ids_;
-    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;
-    PFN_vkCmdEndDebugUtilsLabelEXT end_label_ = nullptr;
+    FrameMemory memory_;
+    KeptImages kept_;
+    std::vector<std::shared_ptr<Compiled>> shapes_; ///< the one that was asked for last comes first
+    std::vector<Slot> slots_;
+    std::uint64_t frame_ = 0; ///< of the last submit
+    std::uint64_t plans_made_ = 0;
+    double compile_ms_ = 0; ///< since the last submit
+    double wait_ms_ = 0;    ///< in all
 };
 
 } // namespace catoptric::graph

@@ -33,6 +33,7 @@ Scope scope_of(const Touch& touch) {
         return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
     case Use::indirect:
         return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
+    case Use::present: return {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE};
     }
     return {};
 }
@@ -48,6 +49,7 @@ VkImageLayout layout_of(Use use) {
     case Use::depth: return VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     case Use::copy_from: return VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     case Use::copy_to: return VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    case Use::present: return VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
     }
     return VK_IMAGE_LAYOUT_UNDEFINED;
 }

@@ -2,32 +2,31 @@
 
 #include "core/error.hpp"
 
+#include <bit>
+#include <optional>
+#include <string_view>
+#include <unordered_set>
+
 namespace catoptric::graph {
 
 namespace {
 
 constexpr auto kWrong = Failure::internal;
 
-/// The first run of layers of `access` for which `written` is false; empty when there is none.
-std::string missing_layers(PerLayer<char>& written, const Access& access) {
-    const std::vector<char>& layers = written.of(access);
-    std::uint64_t first = access.first_layer;
-    while (first < access.end_layer() && layers[first]) ++first;
-    std::uint64_t end = first;
-    while (end < access.end_layer() && !layers[end]) ++end;
-    return first == end ? "" : layers_text(first, end);
-}
-
-Access access_to(const Image& image) {
-    return {.is_buffer = false,
-            .id = image.id,
-            .previous = image.previous,
-            .first_layer = image.first_layer,
-            .layer_count = image.layer_count};
+/// The first layers of `access` for which `there` is false; empty when all are there.
+std::string missing_layers(const Graph& graph, const Ledger<char>& there, const Access& access) {
+    if (!there.any(access, false)) return "";
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> missing;
+    there.each(access, [&](std::uint32_t first, std::uint32_t end, bool is_there) {
+        if (!is_there && !missing) missing = {first, end};
+    });
+    if (access.is_buffer) return "it";
+    return layers_text(graph.images()[access.id], missing->first, missing->second);
 }
 
 void check_names(const Graph& graph) {
-    std::set<std::string_view> seen;
+    std::unordered_set<std::string_view> seen;
+    seen.reserve(graph.images().size() + graph.buffers().size());
     const auto resource = [&](const std::string& name, std::string_view kind) {
         check(!name.empty(), kWrong, kind, " number ", seen.size(), " has no name");
         check(seen.insert(name).second, kWrong, kind, " '", name,
@@ -36,6 +35,7 @@ void check_names(const Graph& graph) {
     for (const ImageDesc& desc : graph.images()) resource(desc.name, "image");
     for (const BufferDesc& desc : graph.buffers()) resource(desc.name, "buffer");
     seen.clear();
+    seen.reserve(graph.passes().size());
     for (const Pass& pass : graph.passes()) {
         check(!pass.name.empty(), kWrong, "pass number ", seen.size(), " has no name");
         check(seen.insert(pass.name).second, kWrong, "pass '", pass.name,
@@ -57,82 +57,142 @@ void check_image(const ImageDesc& desc, const Limits& limits) {
           allowed);
     check(desc.layers <= limits.max_layers, Failure::exhausted, "image '", desc.name, "' wants ",
           desc.layers, " layers, device allows max_layers = ", limits.max_layers);
+    const auto most_mips = static_cast<std::uint32_t>(std::bit_width(size));
+    check(desc.mips > 0 && desc.mips <= most_mips, kWrong, "image '", desc.name, "' wants ",
+          desc.mips, " mips, but of ", desc.width, "x", desc.height, " there are 1 to ", most_mips);
 }
 
-/// Every read finds its layers written, by an earlier pass of this frame.
-void check_order(const Graph& graph) {
-    PerLayer<char> written(graph, false);
-    for (const Pass& pass : graph.passes()) {
-        const std::vector<Access> all = accesses(pass);
-        for (const Access& a : all) {
-            if (!a.needs || a.previous) continue;
-            const std::string missing = missing_layers(written, a);
-            const char* verb = !a.write                ? "reads "
-                               : a.use == Use::storage ? "reads and writes "
-                                                       : "loads (has no clear for) ";
-            check(missing.empty(), kWrong, "pass '", pass.name, "' ", verb, describe(graph, a),
-                  " as ", name_of(a.use), " before any pass writes ", a.is_buffer ? "it" : missing);
-        }
-        for (const Access& a : all)
+[[noreturn]] void refuse_read(const Graph& graph, const Pass& pass, const Access& a,
+                              const std::string& missing) {
+    const char* verb = !a.write                ? "reads "
+                       : a.use == Use::storage ? "reads and writes "
+                                               : "loads (has no clear for) ";
+    fail(kWrong, "pass '", pass.name, "' ", verb, describe(graph, a), " as ", name_of(a.use),
+         " before any pass writes ", missing);
+}
+
+/// What is there before the first pass: what kept images hold, what imported ones come with.
+Ledger<char> there_at_start(const Graph& graph) {
+    Ledger<char> there(graph, false);
+    for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
+        const Access all = access_to_all(graph, i);
+        if (graph.lifetime(i) == Lifetime::imported && graph.arrives(i)) there.set(all, true);
+        if (graph.lifetime(i) != Lifetime::kept) continue;
+        graph.held(i).each([&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
+            if (stamp) there.of(all).set(first, end, true);
+        });
+    }
+    for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
+        if (graph.is_imported({b})) there.set({.is_buffer = true, .id = b}, true);
+    return there;
+}
+
+/// Every read finds its layers written, by an earlier pass of this frame or before it. Returns
+/// what is there in the end.
+Ledger<char> check_order(const Graph& graph, const Accesses& all) {
+    Ledger<char> written = there_at_start(graph);
+    for (std::size_t p = 0; p < graph.passes().size(); ++p) {
+        for (const Access& a : all.of(p))
+            if (a.needs && !a.previous && written.any(a, false))
+                refuse_read(graph, graph.passes()[p], a, missing_layers(graph, written, a));
+        for (const Access& a : all.of(p))
             if (a.write) written.set(a, true);
     }
-}
-
-PerLayer<char> written_by_anyone(const Graph& graph) {
-    PerLayer<char> written(graph, false);
-    for (const Pass& pass : graph.passes())
-        for (const Access& a : accesses(pass))
-            if (a.write) written.set(a, true);
     return written;
 }
 
-void check_previous(const Graph& graph, PerLayer<char>& written) {
-    for (const Pass& pass : graph.passes()) {
-        for (const Access& a : accesses(pass)) {
-            if (!a.previous) continue;
-            const std::string name = quoted_name(graph, a);
-            check(written.any({.id = a.id, .layer_count = graph.images()[a.id].layers}), kWrong,
-                  "pass '", pass.name, "' reads previous(", name, ") as ", name_of(a.use),
-                  " but no pass writes ", name);
-            const std::string missing = missing_layers(written, a);
-            check(missing.empty(), kWrong, "pass '", pass.name, "' reads ", describe(graph, a),
-                  " as ", name_of(a.use), " but no pass writes ", missing, " of ", name);
-        }
-    }
+void check_stamped(const Graph& graph, const Stamped& stamped) {
+    const Access part = access_to(stamped.part);
+    const ImageDesc& desc = graph.images()[part.id];
+    if (part.layer_count == 0 || part.end_layer() > desc.layers || part.mip_count == 0 ||
+        part.end_mip() > desc.mips)
+        fail(kWrong, describe(graph, part),
+             " is said to be made from something, but the image has "
+             "layers [0,",
+             desc.layers, ") and ", desc.mips, " mip(s)");
 }
 
-void check_wanted(const Graph& graph, PerLayer<char>& written) {
+/// What is written to kept images is what is said to be made from something.
+void check_stamps(const Graph& graph, const Accesses& all) {
+    Ledger<char> stamped(graph, false), written(graph, false);
+    for (const Stamped& s : graph.stamps()) {
+        check_stamped(graph, s);
+        stamped.set(access_to(s.part), true);
+    }
+    for (std::size_t p = 0; p < graph.passes().size(); ++p)
+        for (const Access& a : all.of(p)) {
+            if (!a.write || a.is_buffer || graph.lifetime(a.id) != Lifetime::kept) continue;
+            if (stamped.any(a, false))
+                fail(kWrong, "pass '", graph.passes()[p].name, "' writes ", describe(graph, a),
+                     ", which is kept, but nobody says what ", missing_layers(graph, stamped, a),
+                     " are made from");
+            written.set(a, true);
+        }
+    for (const Stamped& s : graph.stamps())
+        if (const Access a = access_to(s.part); written.any(a, false))
+            fail(kWrong, describe(graph, a),
+                 " is said to be made from something, but no pass writes ",
+                 missing_layers(graph, written, a));
+}
+
+[[noreturn]] void refuse_previous(const Graph& graph, const Pass& pass, const Access& a,
+                                  const Ledger<char>& written) {
+    const std::string name = quoted_name(graph, a);
+    check(written.any(access_to_all(graph, a.id), true), kWrong, "pass '", pass.name,
+          "' reads previous(", name, ") as ", name_of(a.use), " but no pass writes ", name);
+    fail(kWrong, "pass '", pass.name, "' reads ", describe(graph, a), " as ", name_of(a.use),
+         " but no pass writes ", missing_layers(graph, written, a), " of ", name);
+}
+
+void check_previous(const Graph& graph, const Accesses& all, const Ledger<char>& written) {
+    for (std::size_t p = 0; p < graph.passes().size(); ++p)
+        for (const Access& a : all.of(p))
+            if (a.previous && written.any(a, false))
+                refuse_previous(graph, graph.passes()[p], a, written);
+}
+
+void check_wanted(const Graph& graph, const Ledger<char>& written) {
     for (const Image& image : graph.wanted_images()) {
         check(image.id < graph.images().size(), kWrong, "image number ", image.id,
               " is wanted, but the graph has ", graph.images().size());
         const Access a = access_to(image);
         const std::string what = describe(graph, a);
         check(!image.previous, kWrong, what, " is wanted: only this frame's contents can be");
-        check(a.layer_count > 0 && a.end_layer() <= graph.images()[image.id].layers, kWrong, what,
-              " is wanted, but the image has layers [0,", graph.images()[image.id].layers, ")");
-        const std::string missing = missing_layers(written, a);
+        const ImageDesc& desc = graph.images()[image.id];
+        check(a.layer_count > 0 && a.end_layer() <= desc.layers, kWrong, what,
+              " is wanted, but the image has layers [0,", desc.layers, ")");
+        check(a.mip_count > 0 && a.end_mip() <= desc.mips, kWrong, what,
+              " is wanted, but the image has mips [0,", desc.mips, ")");
+        check(graph.lifetime(a.id) != Lifetime::imported, kWrong, what,
+              " is wanted, but imported: read it where it comes from");
+        const std::string missing = missing_layers(graph, written, a);
         check(missing.empty(), kWrong, what, " is wanted, but no pass writes ", missing);
     }
     for (const Buffer& buffer : graph.wanted_buffers()) {
         check(buffer.id < graph.buffers().size(), kWrong, "buffer number ", buffer.id,
               " is wanted, but the graph has ", graph.buffers().size());
         const Access a{.is_buffer = true, .id = buffer.id};
-        check(written.any(a), kWrong, describe(graph, a), " is wanted, but no pass writes it");
+        check(!graph.is_imported(buffer), kWrong, describe(graph, a),
+              " is wanted, but imported: read it where it comes from");
+        check(written.any(a, true), kWrong, describe(graph, a),
+              " is wanted, but no pass writes it");
     }
 }
 
 } // namespace
 
-void validate(const Graph& graph, const Limits& limits) {
+void validate(const Graph& graph, const Accesses& all, const Limits& limits) {
     check_names(graph);
     for (const ImageDesc& desc : graph.images()) check_image(desc, limits);
     for (const BufferDesc& desc : graph.buffers())
         check(desc.bytes > 0, kWrong, "buffer '", desc.name, "' is empty: 0 bytes");
-    for (const Pass& pass : graph.passes()) validate_pass(graph, pass, limits);
-    check_order(graph);
-    PerLayer<char> written = written_by_anyone(graph);
-    check_previous(graph, written);
+    for (std::size_t p = 0; p < graph.passes().size(); ++p)
+        validate_pass(graph, graph.passes()[p], all.of(p), limits);
+    const Ledger<char> written = check_order(graph, all);
+    check_previous(graph, all, written);
     check_wanted(graph, written);
+    for (std::uint32_t i = 0; i < graph.images().size(); ++i)
+        if (graph.lifetime(i) == Lifetime::kept) return check_stamps(graph, all);
 }
 
 } // namespace catoptric::graph

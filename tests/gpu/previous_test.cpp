@@ -1,48 +1,11 @@
 // Last frame's images, and images that share memory, hold what they should.
-#include "support/device.hpp"
+#include "gpu/steps.hpp"
 
 namespace {
 
 using namespace catoptric;
-using graph::Use;
-
-constexpr std::uint32_t kWidth = 40, kHeight = 24;
-
-graph::Image add_image(graph::Graph& graph, const std::string& name) {
-    return graph.image({name, Format::r32f, kWidth, kHeight});
-}
-
-void add_start(graph::Graph& graph, graph::Image after, float number) {
-    graph.pass("start/" + graph.images()[after.id].name)
-        .writes(after, Use::storage_write)
-        .record([=](graph::Commands& commands) {
-            commands.use(gpu::ComputeState{"tests/start.comp", {}});
-            commands.bind("after", after);
-            commands.push(number);
-            commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
-        });
-}
-
-void add_step(graph::Graph& graph, const std::string& name, graph::Image before, graph::Image after,
-              float number) {
-    graph.pass(name)
-        .reads(before, Use::sampled)
-        .writes(after, Use::storage_write)
-        .record([=](graph::Commands& commands) {
-            commands.use(gpu::ComputeState{"tests/step.comp", {}});
-            commands.bind("before", before);
-            commands.bind("after", after);
-            commands.push(number);
-            commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
-        });
-}
-
-/// What tests/step.comp makes of the values.
-std::vector<float> stepped(std::vector<float> values, float number) {
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = std::fmod(3 * values[i] + static_cast<float>(i) + number, 1048576.0f);
-    return values;
-}
+using test::add_image, test::add_start, test::add_step, test::stepped;
+using test::kHeight, test::kWidth;
 
 TEST(Previous, IsBlackOnceAndThenTheLastFrame) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
@@ -62,7 +25,7 @@ TEST(Previous, IsBlackOnceAndThenTheLastFrame) {
 TEST(Previous, BelongsToItsRunner) {
     for (int run = 0; run < 2; ++run) {
         graph::Runner runner(test::bench().device, test::bench().pipelines);
-        EXPECT_TRUE(runner.history().empty());
+        EXPECT_TRUE(runner.history().previous.empty());
         graph::Graph graph(runner.history());
         const graph::Image image = add_image(graph, "kept");
         add_step(graph, "step", graph.previous(image), image, 5);
@@ -116,16 +79,12 @@ TEST(Aliasing, ImagesThatShareMemoryHoldTheSameAsImagesApart) {
         for (int frame = 0; frame < 3; ++frame) { // memory that was used before, too
             graph::Graph graph;
             const graph::Image last = add_chain(graph, 9, apart);
-            const graph::Plan plan = runner.plan(graph);
-            bytes[apart] = plan.bytes;
-            runner.run(graph, plan,
-                       frame == 1 ? graph::Timing::pipelined : graph::Timing::isolated);
+            bytes[apart] = runner.compiled(graph).bytes;
+            runner.run(graph, frame == 1 ? graph::Timing::pipelined : graph::Timing::isolated);
             found[apart] = test::read_as<float>(runner, last);
         }
     }
-    std::vector<float> expected;
-    for (std::size_t i = 0; i < kWidth * kHeight; ++i)
-        expected.push_back(7.0f * static_cast<float>(1 + i));
+    std::vector<float> expected = test::started(7);
     for (int i = 1; i <= 9; ++i) expected = stepped(expected, static_cast<float>(i));
     EXPECT_EQ(found[false], expected);
     EXPECT_EQ(found[true], expected);

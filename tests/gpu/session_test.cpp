@@ -132,7 +132,7 @@ TEST(Session, ReadsAFrameUntilTheNext) {
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::Session session(test::engine(), scene);
     const app::Frame old = session.frame(spec);
-    old.hdr();
+    old.hdr(), old.times();
     session.frame(spec);
     EXPECT_GT(old.times().gpu_ms, 0) << "times stay";
     test::expect_refused([&] { old.hdr(); }, Failure::internal, {"frame 1", "frame 2"});
@@ -156,6 +156,45 @@ TEST(Session, RefusesWhatMeansNothing) {
     test::expect_refused([&] { session.frame(none); }, Failure::usage, {"no technique"});
     app::Session untouched(test::engine(), scene);
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), untouched.frame(spec).hdr()));
+}
+
+TEST(Session, ShowsTheSameHoweverManyFramesAreOnTheirWay) {
+    const scene::Scene scene = test::room(3, 1);
+    std::vector<std::vector<measure::Picture>> seen;
+    for (const std::uint32_t in_flight : {1u, 2u, 3u}) {
+        app::Session session(test::engine(), scene, in_flight);
+        std::vector<app::Frame> frames;
+        std::vector<measure::Picture>& pictures = seen.emplace_back();
+        for (int k = 0; k < 9; ++k) {
+            app::FrameSpec spec = spec_of(scene, "parallax:face=16");
+            spec.time = .1 * k;
+            spec.camera.eye.x += .02 * (k / 2);
+            frames.push_back(session.frame(spec));
+            if (frames.size() < in_flight) continue;
+            pictures.push_back(frames.front().hdr()); // the oldest that is still there
+            frames.erase(frames.begin());
+        }
+        for (const app::Frame& frame : frames) pictures.push_back(frame.hdr());
+    }
+    ASSERT_EQ(seen[0].size(), 9u);
+    for (std::size_t k = 0; k < 9; ++k)
+        for (std::size_t i : {1, 2}) EXPECT_TRUE(test::same_bytes(seen[i][k], seen[0][k])) << k;
+    test::expect_refused([&] { app::Session(test::engine(), scene, 4); }, Failure::usage,
+                         {"1 to 3", "4"});
+}
+
+TEST(Session, PlansAShapeOnce) {
+    const scene::Scene scene = test::room(2, 1);
+    app::Session session(test::engine(), scene);
+    app::FrameSpec spec = spec_of(scene, "reuse:face=16");
+    for (int k = 0; k < 6; ++k) {
+        spec.camera.eye.x += .01;
+        session.frame(spec);
+    }
+    EXPECT_EQ(session.counts().plans, 2u) << "with history and without";
+    spec.size.x += 8;
+    session.frame(spec);
+    EXPECT_EQ(session.counts().plans, 3u);
 }
 
 TEST(Session, MemoryIsFlatOverManyFrames) {

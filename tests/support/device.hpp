@@ -84,7 +84,7 @@ inline app::Engine& engine(bool layered = true) {
 /// One frame of a graph; the runner keeps what the frame after it may ask for.
 inline graph::FrameTimes run(graph::Runner& runner, const graph::Graph& graph,
                              graph::Timing timing = graph::Timing::isolated) {
-    return runner.run(graph, runner.plan(graph), timing);
+    return runner.run(graph, timing);
 }
 
 /// Texels of an image as numbers of the type T, channel after channel.

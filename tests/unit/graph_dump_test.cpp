@@ -1,5 +1,6 @@
 // What people and programs are shown of a plan.
 #include "graph/dump.hpp"
+#include "support/frames.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -139,6 +140,15 @@ TEST(EmptyDump, HasNoSections) {
               "0 passes, scene_passes 0, 0 bytes (0 without sharing)\n\npasses\n");
     EXPECT_THAT(to_dot(g, plan), Not(HasSubstr("->")));
     EXPECT_EQ(Json::parse(to_json(g, plan))["passes"], Json::array());
+}
+
+// In a frame of hundreds of mirrors every depth image lies where all the others lay.
+TEST(LargeDump, NamesTheFirstThatShareAndCountsTheOthers) {
+    const Graph g = test::reuse_frame(100);
+    const std::string text = to_text(g, graph::plan(g, {}, plain_sizer()));
+    EXPECT_THAT(text, HasSubstr("shares with 'view.depth', 'capture/1.depth', 'capture/2.depth'"));
+    EXPECT_THAT(text, HasSubstr(", 'capture/31.depth' and 68 more\n"));
+    EXPECT_THAT(text, HasSubstr(", 'capture/32.depth' and 68 more\n"));
 }
 
 } // namespace

@@ -191,7 +191,7 @@ TEST(GraphPlan, KeptImageIsReadWithoutABarrierAndLeftReadable) {
 }
 
 TEST(GraphPlan, HistoryIsWhatTheRunnerKept) {
-    Graph g({"cubes"});
+    Graph g(History{.previous = {"cubes"}, .kept = {}});
     const Image cubes = g.image({.name = "cubes"});
     const Image other = g.image({.name = "other"});
     EXPECT_TRUE(g.has_history(cubes));

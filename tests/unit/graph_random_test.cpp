@@ -115,6 +115,29 @@ TEST(RandomGraphs, NeedAllOfTheirMemory) {
     });
 }
 
+// What is said to be unread is lost; each other attachment is needed.
+TEST(RandomGraphs, NeedEachAttachmentThatIsStored) {
+    int unread = 0;
+    for_each_sample([&](const Sample& sample) {
+        for (std::size_t p = 0; p < sample.right.passes.size(); ++p) {
+            const PlannedPass& planned = sample.right.passes[p];
+            const Pass& pass = sample.graph.passes()[planned.pass];
+            for (std::size_t i = 0; i < pass.images.size(); ++i) {
+                const ImageUse& use = pass.images[i];
+                if (!use.write || (use.use != Use::colour && use.use != Use::depth)) continue;
+                if (planned.unread >> i & 1) {
+                    ++unread;
+                    continue;
+                }
+                Plan wrong = sample.right;
+                wrong.passes[p].unread |= 1u << i;
+                sample.expect_refused(wrong, "without attachment " + std::to_string(i));
+            }
+        }
+    });
+    EXPECT_GT(unread, 0);
+}
+
 // The random graphs are worth their name: together they do everything a plan can do.
 TEST(RandomGraphs, CoverWhatPlansDo) {
     int culled = 0, aliased = 0, kept = 0, chained = 0, changed = 0, several = 0, empty = 0;
@@ -125,7 +148,7 @@ TEST(RandomGraphs, CoverWhatPlansDo) {
         culled += plan.culled.empty() ? 0 : 1;
         empty += plan.passes.empty() ? 1 : 0;
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-            kept += plan.images[i].used && graph.is_kept(i) ? 1 : 0;
+            kept += plan.images[i].used && (graph.lifetime(i) == Lifetime::previous) ? 1 : 0;
         for (const PlannedPass& pass : plan.passes)
             for (const Barrier& b : pass.barriers) {
                 const bool read_after_read = !b.before.nothing && !b.before.write && !b.after.write;

@@ -16,7 +16,7 @@ public:
         const std::uint32_t passes = below(14) + 2;
         for (std::uint32_t p = 0; p < passes; ++p) add_pass(p);
         for (std::uint32_t i = 0; i < images_.size(); ++i)
-            if (graph_.is_kept(i)) write_all(i);
+            if ((graph_.lifetime(i) == Lifetime::previous)) write_all(i);
         want();
         return std::move(graph_);
     }

@@ -49,7 +49,7 @@ public:
         for (const PlannedPass& planned : plan_.passes) {
             where_ = "'" + graph_.passes()[planned.pass].name + "'";
             pass_barriers(planned.barriers);
-            execute(planned.pass);
+            execute(planned);
         }
         where_ = "the end";
         pass_barriers(plan_.last);
@@ -136,7 +136,7 @@ private:
     bool must_be_alone(const Cell& cell) const {
         if (cell.kind == Kind::buffer)
             return std::ranges::count(graph_.wanted_buffers(), cell.id, &Buffer::id) > 0;
-        return graph_.is_kept(cell.id) ||
+        return (graph_.lifetime(cell.id) == Lifetime::previous) ||
                std::ranges::count(graph_.wanted_images(), cell.id, &Image::id) > 0;
     }
 
@@ -146,7 +146,7 @@ private:
         const Requirements wanted = is_buffer ? sizer_.buffer(graph_.buffers()[cell.id])
                                               : sizer_.image(graph_.images()[cell.id]);
         std::uint64_t bytes = wanted.bytes;
-        if (!is_buffer && graph_.is_kept(cell.id)) {
+        if (!is_buffer && (graph_.lifetime(cell.id) == Lifetime::previous)) {
             const std::uint64_t padding = wanted.alignment - 1;
             bytes = 2 * ((bytes + padding) / wanted.alignment * wanted.alignment);
         }
@@ -192,7 +192,8 @@ private:
         }
     }
 
-    void execute(std::uint32_t index) {
+    void execute(const PlannedPass& planned) {
+        const std::uint32_t index = planned.pass;
         const Pass& pass = graph_.passes()[index];
         const std::vector<CellUse> uses = uses_of(pass);
         for (const CellUse& u : uses) check_touch(u, touch(pass, u));
@@ -200,10 +201,22 @@ private:
             for (const auto& [other, events] : events_)
                 if (u.write && share_memory(u.cell, other)) contents_.lose(other.kind, other.id);
         contents_.execute(pass, index);
+        for (std::size_t i = 0; i < pass.images.size(); ++i)
+            if (planned.unread >> i & 1) lose(pass.images[i]);
         for (const CellUse& u : uses) {
             std::vector<Event>& events = events_[u.cell];
             if (u.write) events.clear();
             events.push_back({u.cell, touch(pass, u), u.write, false, {}});
+        }
+    }
+
+    /// What a pass does not store.
+    void lose(const ImageUse& use) {
+        for (std::uint32_t l = 0; l < use.image.layer_count; ++l) {
+            const Cell cell{Kind::image, use.image.id, use.image.first_layer + l};
+            expect(use.write && (use.use == Use::colour || use.use == Use::depth), cell,
+                   "not stored, but no attachment");
+            contents_.set(cell, kGarbage);
         }
     }
 
@@ -240,11 +253,13 @@ private:
         }
         for (std::uint32_t i = 0; i < plan_.images.size(); ++i)
             for (std::uint32_t l = 0; l < graph_.images()[i].layers; ++l)
-                if (plan_.images[i].used && graph_.is_kept(i)) check_left({Kind::image, i, l});
+                if (plan_.images[i].used && (graph_.lifetime(i) == Lifetime::previous))
+                    check_left({Kind::image, i, l});
     }
 
     void check_left(const Cell& cell) {
-        const Use use = graph_.is_kept(cell.id) ? Use::sampled : Use::copy_from;
+        const Use use = (graph_.lifetime(cell.id) == Lifetime::previous) ? Use::sampled
+                                                                         : Use::copy_from;
         expect(layouts_.contains(cell) && layouts_[cell] == use, cell, "left in a wrong layout");
         expect_ordered(cell, use);
     }

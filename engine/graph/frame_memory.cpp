@@ -1,0 +1,129 @@
+#include "graph/frame_memory.hpp"
+
+#include "graph/device_memory.hpp"
+
+#include <algorithm>
+
+namespace catoptric::graph {
+
+namespace {
+
+/// Calls visit(placement) for what lies in the memory of frames: `alone` or not, and not kept.
+template <typename Visit>
+void for_each_placement(const Compiled& shape, bool alone, const Visit& visit) {
+    for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
+        const Placement& placement = shape.plan.images[i];
+        if (shape.is_owned(i) && placement.alone == alone && !shape.is_kept(i)) visit(placement);
+    }
+    for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b)
+        if (shape.is_owned(Buffer{b}) && shape.plan.buffers[b].alone == alone)
+            visit(shape.plan.buffers[b]);
+}
+
+/// Where in each heap of the plan the memory of its wanted ones begins. The plan has them behind
+/// what is shared; here they are elsewhere, at the same distance from one another.
+std::vector<std::uint64_t> begin_of_own(const Compiled& shape) {
+    const std::vector<std::uint64_t>& heaps = shape.plan.heap_bytes;
+    std::vector<std::uint64_t> begin = heaps, alignment(heaps.size(), 1);
+    for_each_placement(shape, true, [&](const Placement& p) {
+        begin[p.heap] = std::min(begin[p.heap], p.offset);
+        alignment[p.heap] = std::max(alignment[p.heap], p.alignment);
+    });
+    for (std::size_t h = 0; h < begin.size(); ++h) begin[h] -= begin[h] % alignment[h];
+    return begin;
+}
+
+/// Bytes that a shape needs of each heap.
+std::vector<std::uint64_t> claim(const Compiled& shape, bool alone) {
+    std::vector<std::uint64_t> bytes(shape.plan.heap_bytes.size(), 0);
+    const std::vector<std::uint64_t> begin = begin_of_own(shape);
+    for_each_placement(shape, alone, [&](const Placement& p) {
+        const std::uint64_t end = p.offset + p.bytes - (alone ? begin[p.heap] : 0);
+        bytes[p.heap] = std::max(bytes[p.heap], end);
+    });
+    return bytes;
+}
+
+std::vector<std::uint64_t> largest_claim(std::span<const std::shared_ptr<Compiled>> shapes,
+                                         bool alone) {
+    std::vector<std::uint64_t> largest;
+    for (const auto& shape : shapes) {
+        if (!shape->ran) continue;
+        const std::vector<std::uint64_t> bytes = claim(*shape, alone);
+        largest.resize(std::max(largest.size(), bytes.size()), 0);
+        for (std::size_t h = 0; h < bytes.size(); ++h) largest[h] = std::max(largest[h], bytes[h]);
+    }
+    return largest;
+}
+
+} // namespace
+
+void FrameMemory::allocate(Arena& arena, std::vector<std::uint64_t> bytes) {
+    arena = {}; // before more is asked for
+    for (std::size_t type = 0; type < bytes.size(); ++type)
+        arena.heaps.push_back(bytes[type]
+                                  ? device_.allocate(bytes[type], static_cast<std::uint32_t>(type),
+                                                     "images of the frame")
+                                  : gpu::UniqueMemory());
+    arena.bytes = std::move(bytes);
+}
+
+void FrameMemory::make(Compiled& shape, Resources& resources, const Arena& arena, bool alone) {
+    resources = {};
+    const std::vector<std::uint64_t> begin = begin_of_own(shape);
+    const auto offset_of = [&](const Placement& p) {
+        return p.offset - (alone ? begin[p.heap] : 0);
+    };
+    for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
+        const Placement& p = shape.plan.images[i];
+        const ImageDesc& desc = shape.outline.images()[i];
+        resources.images.emplace_back();
+        if (!shape.is_owned(i) || p.alone != alone || shape.is_kept(i)) continue;
+        resources.images.back() = make_physical(device_, desc);
+        gpu::check_vk(vkBindImageMemory(device_.handle(), resources.images.back().image,
+                                        arena.heaps[p.heap], offset_of(p)),
+                      "place image '" + desc.name + "'");
+    }
+    for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b) {
+        const Placement& p = shape.plan.buffers[b];
+        const BufferDesc& desc = shape.outline.buffers()[b];
+        resources.buffers.emplace_back();
+        if (!shape.is_owned(Buffer{b}) || p.alone != alone) continue;
+        resources.buffers.back() = make_buffer(device_, desc);
+        gpu::check_vk(vkBindBufferMemory(device_.handle(), resources.buffers.back(),
+                                         arena.heaps[p.heap], offset_of(p)),
+                      "place buffer '" + desc.name + "'");
+    }
+    resources.made = true;
+}
+
+std::uint64_t FrameMemory::bytes() const {
+    std::uint64_t sum = 0;
+    const auto add = [&](const Arena& arena) {
+        for (const std::uint64_t bytes : arena.bytes) sum += bytes;
+    };
+    add(shared_);
+    for (const Arena& arena : own_) add(arena);
+    return sum;
+}
+
+void FrameMemory::provide(Compiled& shape, std::size_t slot,
+                          std::span<const std::shared_ptr<Compiled>> shapes,
+                          const std::function<void()>& wait) {
+    shape.ran = true;
+    if (shape.shared.made && shape.own[slot].made) return;
+    if (std::vector<std::uint64_t> bytes = largest_claim(shapes, false); bytes != shared_.bytes) {
+        wait();
+        for (const auto& other : shapes) other->shared = {};
+        allocate(shared_, std::move(bytes));
+    }
+    // Nobody else uses this slot's: its last frame has ended.
+    if (std::vector<std::uint64_t> bytes = largest_claim(shapes, true); bytes != own_[slot].bytes) {
+        for (const auto& other : shapes) other->own[slot] = {};
+        allocate(own_[slot], std::move(bytes));
+    }
+    if (!shape.shared.made) make(shape, shape.shared, shared_, false);
+    if (!shape.own[slot].made) make(shape, shape.own[slot], own_[slot], true);
+}
+
+} // namespace catoptric::graph

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "graph/compiled.hpp"
+
+#include <functional>
+#include <map>
+
+namespace catoptric::graph {
+
+/// The images of a runner that outlive frames, by their names.
+class KeptImages {
+public:
+    explicit KeptImages(gpu::Device& device) : device_(device) {}
+
+    /// Finds or makes those of the shape. Calls `wait` before anything is destroyed that frames in
+    /// flight may use.
+    void provide(Compiled& shape, const std::function<void()>& wait);
+    /// The frame was submitted: kept images hold what it says that they are made from.
+    void write(const Graph& graph, const Compiled& shape);
+    /// What it wrote beside its `previous` is the last frame now.
+    void advance(const Compiled& shape);
+    /// All of it. Not while frames are in flight.
+    void forget() { all_.clear(); }
+    History history() const;
+    /// Bytes that are taken of the device.
+    std::uint64_t bytes() const;
+
+private:
+    void make(const ImageDesc& desc, Kept& kept);
+    Kept& provide(const ImageDesc& desc, Lifetime lifetime, const std::function<void()>& wait);
+
+    gpu::Device& device_;
+    std::map<std::string, Kept> all_;
+};
+
+} // namespace catoptric::graph

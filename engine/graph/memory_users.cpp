@@ -1,0 +1,69 @@
+#include "graph/memory_users.hpp"
+
+#include <bit>
+
+namespace catoptric::graph {
+
+namespace {
+
+bool is_shared(const Placement& placement) {
+    return placement.used && !placement.alone && placement.bytes > 0;
+}
+
+} // namespace
+
+MemoryUsers::MemoryUsers(const Plan& plan) : heaps_(plan.heap_bytes.size()) {
+    const auto add = [&](const std::vector<Placement>& placements) {
+        for (const Placement& placement : placements) {
+            if (!is_shared(placement)) continue;
+            std::vector<std::uint64_t>& ends = heaps_[placement.heap].ends;
+            ends.push_back(placement.offset);
+            ends.push_back(placement.offset + placement.bytes);
+        }
+    };
+    add(plan.images);
+    add(plan.buffers);
+    for (Heap& heap : heaps_) heap.size();
+}
+
+void MemoryUsers::Heap::size() {
+    std::ranges::sort(ends);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    whole.assign(2 * std::bit_ceil(ends.size()), 0);
+    below = whole;
+}
+
+std::size_t MemoryUsers::Heap::leaf(std::uint64_t offset) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(ends, offset) - ends.begin()) +
+           whole.size() / 2;
+}
+
+void MemoryUsers::leave(const Placement& placement, TouchSet touches) {
+    if (!is_shared(placement)) return;
+    Heap& heap = heaps_[placement.heap];
+    const std::size_t first = heap.leaf(placement.offset);
+    const std::size_t end = heap.leaf(placement.offset + placement.bytes);
+    for (std::size_t a = first, b = end; a < b; a /= 2, b /= 2) {
+        if (a % 2 == 1) heap.whole[a] |= touches, heap.below[a] |= touches, ++a;
+        if (b % 2 == 1) --b, heap.whole[b] |= touches, heap.below[b] |= touches;
+    }
+    for (std::size_t node = first / 2; node > 0; node /= 2) heap.below[node] |= touches;
+    for (std::size_t node = (end - 1) / 2; node > 0; node /= 2) heap.below[node] |= touches;
+}
+
+TouchSet MemoryUsers::left_in(const Placement& placement) const {
+    if (!is_shared(placement)) return 0;
+    const Heap& heap = heaps_[placement.heap];
+    const std::size_t first = heap.leaf(placement.offset);
+    const std::size_t end = heap.leaf(placement.offset + placement.bytes);
+    TouchSet touches = 0;
+    for (std::size_t a = first, b = end; a < b; a /= 2, b /= 2) {
+        if (a % 2 == 1) touches |= heap.below[a++];
+        if (b % 2 == 1) touches |= heap.below[--b];
+    }
+    for (std::size_t node = first / 2; node > 0; node /= 2) touches |= heap.whole[node];
+    for (std::size_t node = (end - 1) / 2; node > 0; node /= 2) touches |= heap.whole[node];
+    return touches;
+}
+
+} // namespace catoptric::graph

@@ -1,0 +1,99 @@
+// The runner's read-back.
+#include "graph/run.hpp"
+#include "graph/sync.hpp"
+
+namespace catoptric::graph {
+
+namespace {
+
+std::uint64_t bytes_of(const ImageDesc& desc, const Image& part) {
+    std::uint64_t texels = 0;
+    for (std::uint32_t m = part.first_mip; m < part.first_mip + part.mip_count; ++m)
+        texels += std::uint64_t{at_mip(desc.width, m)} * at_mip(desc.height, m);
+    return texels * part.layer_count * bytes_per_texel(desc.format);
+}
+
+/// Records the copy of a part that is in layout `is`, and is left in it.
+void copy_out(VkCommandBuffer commands, const Physical& source, const Image& part, VkImageLayout is,
+              VkBuffer target) {
+    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
+    barrier.oldLayout = is, barrier.newLayout = layout_of(Use::copy_from);
+    barrier.image = source.image;
+    barrier.subresourceRange = {aspect_of(source.desc.format), part.first_mip, part.mip_count,
+                                part.first_layer, part.layer_count};
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &barrier;
+    const bool moves = barrier.oldLayout != barrier.newLayout;
+    if (moves) vkCmdPipelineBarrier2(commands, &dependency);
+    std::uint64_t offset = 0;
+    for (std::uint32_t m = 0; m < part.mip_count; ++m) {
+        VkBufferImageCopy region = copy_region(source.desc, part.mip(m));
+        region.bufferOffset = offset;
+        offset += bytes_of(source.desc, part.mip(m));
+        vkCmdCopyImageToBuffer(commands, source.image, layout_of(Use::copy_from), target, 1,
+                               &region);
+    }
+    std::swap(barrier.oldLayout, barrier.newLayout);
+    if (moves) vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+} // namespace
+
+std::vector<std::byte> Runner::read(Ticket ticket, Image image) {
+    wait(ticket);
+    const Slot& slot = slot_of(ticket);
+    Compiled& shape = *slot.shape;
+    const ImageDesc& desc = shape.outline.images()[image.id];
+    const bool kept = shape.is_kept(image.id);
+    check(!kept || ticket.frame == frame_, Failure::internal, "image '", desc.name, "' of frame ",
+          ticket.frame, " is read after frame ", frame_,
+          " was submitted, which may have changed it");
+    check(!kept || shape.kept[image.id], Failure::internal, "image '", desc.name,
+          "' is read after it was forgotten");
+    // After a frame that stays, what it wrote is not the last frame.
+    image.previous = kept && !slot.stays;
+    const Physical& source = shape.physical(image, index_of(ticket.frame));
+    const std::uint64_t bytes = bytes_of(desc, image);
+    gpu::Buffer target(device_, "read-back of " + desc.name, bytes, gpu::BufferUse::read_back);
+    device_.submit_now("read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
+        copy_out(commands, source, image, layout_of(kept ? Use::sampled : Use::copy_from),
+                 target.handle());
+    });
+    std::vector<std::byte> data = target.read();
+    data.resize(bytes);
+    return data;
+}
+
+std::vector<std::byte> Runner::read(Ticket ticket, Buffer buffer) {
+    wait(ticket);
+    const Compiled& shape = *slot_of(ticket).shape;
+    const auto& [name, bytes] = shape.outline.buffers()[buffer.id];
+    const VkBuffer source = shape.buffer(buffer, index_of(ticket.frame));
+    gpu::Buffer target(device_, "read-back of " + name, bytes, gpu::BufferUse::read_back);
+    device_.submit_now("read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, 0, bytes};
+        vkCmdCopyBuffer(commands, source, target.handle(), 1, &region);
+    });
+    std::vector<std::byte> data = target.read();
+    data.resize(bytes);
+    return data;
+}
+
+std::vector<std::byte> Runner::read_history() {
+    std::vector<std::byte> history;
+    if (frame_ == 0) return history;
+    const Compiled& shape = *slot_of({frame_}).shape;
+    for (std::uint32_t id = 0; id < shape.outline.images().size(); ++id) {
+        if (!shape.is_kept(id) || shape.outline.lifetime(id) != Lifetime::previous) continue;
+        const ImageDesc& desc = shape.outline.images()[id];
+        const std::vector<std::byte> image = read(
+            Image{.id = id, .layer_count = desc.layers, .mip_count = desc.mips});
+        history.insert(history.end(), image.begin(), image.end());
+    }
+    return history;
+}
+
+} // namespace catoptric::graph

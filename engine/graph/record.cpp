@@ -1,0 +1,235 @@
+#include "graph/record.hpp"
+
+#include "graph/sync.hpp"
+
+#include <algorithm>
+
+namespace catoptric::graph {
+
+namespace {
+
+gpu::UniqueSampler make_sampler(const gpu::Device& device, Filter filter) {
+    VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    create.magFilter = create.minFilter = filter == Filter::nearest ? VK_FILTER_NEAREST
+                                                                    : VK_FILTER_LINEAR;
+    create.addressModeU = create.addressModeV = create.addressModeW =
+        VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    if (filter == Filter::mipmapped) {
+        create.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+        create.maxLod = VK_LOD_CLAMP_NONE;
+    }
+    create.compareEnable = filter == Filter::compare;
+    create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depth: not behind what is stored
+    VkSampler sampler = VK_NULL_HANDLE;
+    gpu::check_vk(vkCreateSampler(device.handle(), &create, nullptr, &sampler), "create a sampler");
+    return {device.handle(), sampler};
+}
+
+VkExtent2D extent_of(const Graph& graph, const Pass& pass) {
+    const Image& image = std::ranges::find_if(pass.images, [](const ImageUse& use) {
+                             return use.use == Use::colour || use.use == Use::depth;
+                         })->image;
+    const ImageDesc& desc = graph.images()[image.id];
+    return {at_mip(desc.width, image.first_mip), at_mip(desc.height, image.first_mip)};
+}
+
+/// Stages and accesses on both sides of a barrier.
+struct Sides {
+    Scope before, after;
+};
+
+Sides sides_of(const Barrier& barrier, bool last) {
+    Sides sides{scope_of(barrier.before), scope_of(barrier.after)};
+    for (const Touch& touch : barrier.shared) {
+        const Scope scope = scope_of(touch);
+        sides.before.stages |= scope.stages, sides.before.access |= scope.access;
+    }
+    if (last) sides.after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
+    if (last && barrier.is_buffer) { // an imported one may lie in the host's memory
+        sides.after.stages |= VK_PIPELINE_STAGE_2_HOST_BIT;
+        sides.after.access |= VK_ACCESS_2_HOST_READ_BIT;
+    }
+    // First touch of the frame: chains on to the barrier that divides it from the frame before.
+    if (sides.before.stages == VK_PIPELINE_STAGE_2_NONE) sides.before = sides.after;
+    return sides;
+}
+
+template <typename VulkanBarrier>
+void set(VulkanBarrier& barrier, const Sides& sides) {
+    barrier.srcStageMask = sides.before.stages, barrier.srcAccessMask = sides.before.access;
+    barrier.dstStageMask = sides.after.stages, barrier.dstAccessMask = sides.after.access;
+}
+
+} // namespace
+
+Recorder::Recorder(gpu::Device& device, gpu::Pipelines& pipelines)
+    : device_(device), pipelines_(pipelines) {
+    for (Filter filter : {Filter::nearest, Filter::linear, Filter::compare, Filter::mipmapped})
+        samplers_[static_cast<std::size_t>(filter)] = make_sampler(device, filter);
+    if (!device.has_labels()) return;
+    begin_label_ = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
+        vkGetDeviceProcAddr(device.handle(), "vkCmdBeginDebugUtilsLabelEXT"));
+    end_label_ = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(
+        vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
+}
+
+void Recorder::record(const Graph& graph, Compiled& shape, Slot& slot, std::size_t slot_index,
+                      Timing timing) {
+    graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index;
+    commands_ = slot.commands;
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
+    full_barrier();
+    if (timing == Timing::isolated) stamp(timing);
+    for (const PlannedPass& planned : shape.plan.passes) {
+        if (timing == Timing::pipelined) stamp(timing);
+        barriers(planned.barriers, false);
+        record_pass(planned);
+        stamp(timing);
+    }
+    barriers(shape.plan.last, true);
+    gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
+}
+
+/// Everything before is done and visible to everything after: divides frames and read-backs.
+void Recorder::full_barrier() {
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands_, &dependency);
+}
+
+/// A stamp is only true when an execution barrier follows it: without, a software driver takes it
+/// after the next pass's work.
+void Recorder::stamp(Timing timing) {
+    vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_->queries,
+                         slot_->next_query++);
+    if (timing == Timing::isolated)
+        vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                             VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 0,
+                             nullptr);
+}
+
+void Recorder::add(const Barrier& barrier, bool last) {
+    const Sides sides = sides_of(barrier, last);
+    if (barrier.is_buffer) {
+        VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
+        set(b, sides);
+        b.buffer = buffer({barrier.id});
+        b.size = VK_WHOLE_SIZE;
+        buffer_barriers_.push_back(b);
+        return;
+    }
+    VkImageMemoryBarrier2 b{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    set(b, sides);
+    b.oldLayout = barrier.before.nothing ? VK_IMAGE_LAYOUT_UNDEFINED
+                                         : layout_of(barrier.before.use);
+    b.newLayout = layout_of(barrier.after.use);
+    b.image = physical({.id = barrier.id, .previous = barrier.previous}).image;
+    b.subresourceRange = {aspect_of(graph_->images()[barrier.id].format), barrier.first_mip,
+                          barrier.mip_count, barrier.first_layer, barrier.layer_count};
+    image_barriers_.push_back(b);
+}
+
+void Recorder::barriers(const std::vector<Barrier>& list, bool last) {
+    if (list.empty()) return;
+    image_barriers_.clear(), buffer_barriers_.clear();
+    for (const Barrier& barrier : list) add(barrier, last);
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.imageMemoryBarrierCount = static_cast<std::uint32_t>(image_barriers_.size());
+    dependency.pImageMemoryBarriers = image_barriers_.data();
+    dependency.bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffer_barriers_.size());
+    dependency.pBufferMemoryBarriers = buffer_barriers_.data();
+    vkCmdPipelineBarrier2(commands_, &dependency);
+}
+
+void Recorder::record_pass(const PlannedPass& planned) {
+    const Pass& pass = graph_->passes()[planned.pass];
+    if (begin_label_) {
+        VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+        label.pLabelName = pass.name.c_str();
+        begin_label_(commands_, &label);
+    }
+    if (!pass.is_raster()) {
+        Commands commands(*this, *graph_, pass, commands_, 0, 1);
+        pass.body(commands);
+    } else if (pass.layer_count == 1 || device_.layered()) {
+        render(planned, 0, pass.layer_count);
+    } else {
+        for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer) render(planned, layer, 1);
+    }
+    if (end_label_) end_label_(commands_);
+}
+
+Physical& Recorder::physical(Image image) {
+    if (graph_->lifetime(image.id) != Lifetime::imported)
+        return shape_->physical(image, slot_index_);
+    Physical* const outside = graph_->outside(image.id);
+    check(outside && outside->desc.width == graph_->images()[image.id].width, Failure::internal,
+          "image '", graph_->images()[image.id].name, "' is imported from nowhere");
+    return *outside;
+}
+
+VkBuffer Recorder::buffer(Buffer buffer) const {
+    if (!graph_->is_imported(buffer)) return shape_->buffer(buffer, slot_index_);
+    const gpu::Buffer* const outside = graph_->outside(buffer);
+    check(outside, Failure::internal, "buffer '", graph_->buffers()[buffer.id].name,
+          "' is imported from nowhere");
+    return outside->handle();
+}
+
+void Recorder::add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
+                              std::uint32_t layer_count) {
+    const gpu::ImageShape shape = layer_count > 1 ? gpu::ImageShape::flat_array
+                                                  : gpu::ImageShape::flat;
+    VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    info.imageView = physical(use.image).view(device_, shape,
+                                              use.image.layers(first_layer, layer_count));
+    info.imageLayout = layout_of(use.use);
+    info.loadOp = use.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+    info.storeOp = !use.write ? VK_ATTACHMENT_STORE_OP_NONE
+                   : unread   ? VK_ATTACHMENT_STORE_OP_DONT_CARE
+                              : VK_ATTACHMENT_STORE_OP_STORE;
+    if (use.clear && use.use == Use::colour)
+        std::ranges::copy(*use.clear, info.clearValue.color.float32);
+    if (use.clear && use.use == Use::depth) info.clearValue.depthStencil = {(*use.clear)[0], 0};
+    if (use.use == Use::colour)
+        colours_.push_back(info);
+    else
+        depth_ = info;
+}
+
+/// One rendering scope over some layers of the pass's attachments.
+void Recorder::render(const PlannedPass& planned, std::uint32_t first_layer,
+                      std::uint32_t layer_count) {
+    const Pass& pass = graph_->passes()[planned.pass];
+    colours_.clear();
+    depth_ = {};
+    for (std::size_t i = 0; i < pass.images.size(); ++i)
+        if (pass.images[i].use == Use::colour || pass.images[i].use == Use::depth)
+            add_attachment(pass.images[i], i < 32 && (planned.unread >> i & 1), first_layer,
+                           layer_count);
+    const VkExtent2D extent = extent_of(*graph_, pass);
+    VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    rendering.renderArea = {{0, 0}, extent};
+    rendering.layerCount = layer_count;
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(colours_.size());
+    rendering.pColorAttachments = colours_.data();
+    rendering.pDepthAttachment = depth_.imageView ? &depth_ : nullptr;
+    vkCmdBeginRendering(commands_, &rendering);
+    const VkViewport viewport{
+        0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
+    const VkRect2D scissor{{0, 0}, extent};
+    vkCmdSetViewport(commands_, 0, 1, &viewport);
+    vkCmdSetScissor(commands_, 0, 1, &scissor);
+    Commands commands(*this, *graph_, pass, commands_, first_layer, layer_count);
+    pass.body(commands);
+    vkCmdEndRendering(commands_);
+}
+
+} // namespace catoptric::graph

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "gpu/pipeline.hpp"
+#include "graph/commands.hpp"
+#include "graph/slot.hpp"
+
+namespace catoptric::graph {
+
+/// Fills the command buffer of a slot with a planned frame.
+class Recorder {
+public:
+    Recorder(gpu::Device& device, gpu::Pipelines& pipelines);
+
+    /// `slot_index`: which of the shape's own images the frame writes.
+    void record(const Graph& graph, Compiled& shape, Slot& slot, std::size_t slot_index,
+                Timing timing);
+
+    // For Commands only, during a pass's body.
+    gpu::Device& device() { return device_; }
+    gpu::Pipelines& pipelines() { return pipelines_; }
+    Physical& physical(Image image);
+    VkBuffer buffer(Buffer buffer) const;
+    VkSampler sampler(Filter filter) const { return samplers_[static_cast<std::size_t>(filter)]; }
+    VkDescriptorSet descriptor_set(VkDescriptorSetLayout layout) {
+        return slot_->descriptor_set(layout);
+    }
+
+private:
+    void record_pass(const PlannedPass& planned);
+    void render(const PlannedPass& planned, std::uint32_t first_layer, std::uint32_t layer_count);
+    void add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
+                        std::uint32_t layer_count);
+    void barriers(const std::vector<Barrier>& list, bool last);
+    void add(const Barrier& barrier, bool last);
+    void full_barrier();
+    void stamp(Timing timing);
+
+    gpu::Device& device_;
+    gpu::Pipelines& pipelines_;
+    std::array<gpu::UniqueSampler, 4> samplers_;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_label_ = nullptr;
+
+    // The frame at hand.
+    const Graph* graph_ = nullptr;
+    Compiled* shape_ = nullptr;
+    Slot* slot_ = nullptr;
+    std::size_t slot_index_ = 0;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    // Lists that are filled again and again.
+    std::vector<VkImageMemoryBarrier2> image_barriers_;
+    std::vector<VkBufferMemoryBarrier2> buffer_barriers_;
+    std::vector<VkRenderingAttachmentInfo> colours_;
+    VkRenderingAttachmentInfo depth_{};
+};
+
+} // namespace catoptric::graph

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace catoptric::graph {
+
+/// A value for each of `size` cells, kept as runs: neighbours of equal value are one entry. What
+/// is asked or changed costs the runs that it meets, however many cells they have. No memory is
+/// taken until the first change.
+template <typename T>
+class Runs {
+public:
+    explicit Runs(std::uint32_t size = 0, const T& value = {}) : size_(size), initial_(value) {}
+
+    /// Calls visit(begin, end, value) for the runs of cells [first, end), from the lowest.
+    template <typename Visit>
+    void each(std::uint32_t first, std::uint32_t end, const Visit& visit) const {
+        if (first >= end) return;
+        if (runs_.empty()) return visit(first, end, initial_);
+        for (std::size_t i = find(first); i < runs_.size() && runs_[i].begin < end; ++i)
+            visit(std::max(first, runs_[i].begin), std::min(end, end_of(i)), runs_[i].value);
+    }
+    template <typename Visit>
+    void each(const Visit& visit) const {
+        each(0, size_, visit);
+    }
+
+    /// The same with values that may be changed.
+    template <typename Visit>
+    void change(std::uint32_t first, std::uint32_t end, const Visit& visit) {
+        if (first >= end) return;
+        if (runs_.empty()) runs_.push_back({0, initial_});
+        const std::size_t from = split(first), to = split(end);
+        for (std::size_t i = from; i < to; ++i) visit(runs_[i].begin, end_of(i), runs_[i].value);
+        join(from == 0 ? 0 : from - 1, std::min(to + 1, runs_.size()));
+    }
+    void set(std::uint32_t first, std::uint32_t end, const T& value) {
+        change(first, end, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
+    }
+
+    /// Whether some cell of [first, end) has the value.
+    bool any(std::uint32_t first, std::uint32_t end, const T& value) const {
+        bool found = false;
+        each(first, end, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
+        return found;
+    }
+
+    std::uint32_t size() const { return size_; }
+
+private:
+    struct Run {
+        std::uint32_t begin;
+        T value;
+    };
+
+    std::uint32_t end_of(std::size_t run) const {
+        return run + 1 < runs_.size() ? runs_[run + 1].begin : size_;
+    }
+    /// The run that holds the cell.
+    std::size_t find(std::uint32_t cell) const {
+        const auto after = std::ranges::upper_bound(runs_, cell, {}, &Run::begin);
+        return static_cast<std::size_t>(after - runs_.begin()) - 1;
+    }
+    /// Makes a run begin at the cell; returns which.
+    std::size_t split(std::uint32_t cell) {
+        if (cell >= size_) return runs_.size();
+        const std::size_t run = find(cell);
+        if (runs_[run].begin == cell) return run;
+        const Run second{cell, runs_[run].value};
+        runs_.insert(runs_.begin() + static_cast<std::ptrdiff_t>(run) + 1, second);
+        return run + 1;
+    }
+    void join(std::size_t from, std::size_t to) {
+        const auto first = runs_.begin() + static_cast<std::ptrdiff_t>(from);
+        const auto last = runs_.begin() + static_cast<std::ptrdiff_t>(to);
+        runs_.erase(
+            std::unique(first, last, [](const Run& a, const Run& b) { return a.value == b.value; }),
+            last);
+    }
+
+    std::uint32_t size_;
+    T initial_;
+    std::vector<Run> runs_; // the first begins at 0; empty: all have the initial value
+};
+
+} // namespace catoptric::graph

@@ -1,0 +1,134 @@
+#include "graph/shape.hpp"
+
+#include <algorithm>
+
+namespace catoptric::graph {
+
+namespace {
+
+/// Of what is added, in order.
+class Hash {
+public:
+    void add(std::uint64_t value) {
+        constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15u;
+        value_ = (value_ ^ value) * kOdd;
+        value_ ^= value_ >> 29;
+    }
+    void add(std::uint32_t high, std::uint32_t low) { add(std::uint64_t{high} << 32 | low); }
+    void add(std::string_view text) { add(std::hash<std::string_view>()(text)); }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0;
+};
+
+template <typename E>
+std::uint32_t number(E value) {
+    return static_cast<std::uint32_t>(value);
+}
+
+void add(Hash& hash, const ImageDesc& desc) {
+    hash.add(desc.name);
+    hash.add(desc.width, desc.height);
+    hash.add(desc.layers, number(desc.format) << 1 | desc.cube);
+    hash.add(desc.mips);
+}
+
+void add(Hash& hash, const Image& image) {
+    hash.add(image.id << 1 | image.previous, image.first_layer);
+    hash.add(image.layer_count);
+    hash.add(image.first_mip, image.mip_count);
+}
+
+void add(Hash& hash, const Pass& pass) {
+    hash.add(pass.name);
+    hash.add(number(pass.tag) << 1 | static_cast<bool>(pass.body), pass.layer_count);
+    hash.add(static_cast<std::uint32_t>(pass.images.size()),
+             static_cast<std::uint32_t>(pass.buffers.size()));
+    for (const ImageUse& use : pass.images) {
+        add(hash, use.image);
+        hash.add(number(use.use), std::uint32_t{use.write} << 1 | use.clear.has_value());
+    }
+    for (const BufferUse& use : pass.buffers)
+        hash.add(use.buffer.id, number(use.use) << 1 | use.write);
+}
+
+/// Where a kept image holds something.
+std::vector<std::uint32_t> held_ranges(const Graph& graph, std::uint32_t image) {
+    std::vector<std::uint32_t> ranges;
+    graph.held(image).each([&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
+        if (!stamp) return;
+        const bool continues = !ranges.empty() && ranges.back() == first;
+        if (continues) ranges.pop_back();
+        if (!continues) ranges.push_back(first);
+        ranges.push_back(end);
+    });
+    return ranges;
+}
+
+void add_lifetime(Hash& hash, const Graph& graph, std::uint32_t image) {
+    hash.add(number(graph.lifetime(image)));
+    if (graph.lifetime(image) == Lifetime::imported) {
+        const std::optional<Use> arrives = graph.arrives(image);
+        hash.add(arrives ? 1 + number(*arrives) : 0, number(graph.leaves(image)));
+    }
+    if (graph.lifetime(image) == Lifetime::kept)
+        for (const std::uint32_t end : held_ranges(graph, image)) hash.add(end);
+}
+
+bool same_lifetime(const Graph& a, const Graph& b, std::uint32_t image) {
+    const Lifetime lifetime = a.lifetime(image);
+    if (lifetime != b.lifetime(image)) return false;
+    if (lifetime == Lifetime::imported)
+        return a.arrives(image) == b.arrives(image) && a.leaves(image) == b.leaves(image);
+    return lifetime != Lifetime::kept || held_ranges(a, image) == held_ranges(b, image);
+}
+
+bool same(const ImageUse& a, const ImageUse& b) {
+    return a.image == b.image && a.use == b.use && a.write == b.write &&
+           a.clear.has_value() == b.clear.has_value();
+}
+
+bool same(const Pass& a, const Pass& b) {
+    return a.name == b.name && a.tag == b.tag && a.layer_count == b.layer_count &&
+           a.buffers == b.buffers &&
+           std::ranges::equal(a.images, b.images,
+                              [](const ImageUse& x, const ImageUse& y) { return same(x, y); });
+}
+
+} // namespace
+
+std::uint64_t shape_hash(const Graph& graph) {
+    Hash hash;
+    hash.add(graph.images().size());
+    for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
+        add(hash, graph.images()[i]);
+        add_lifetime(hash, graph, i);
+    }
+    for (std::uint32_t b = 0; b < graph.buffers().size(); ++b) {
+        hash.add(graph.buffers()[b].name);
+        hash.add(graph.buffers()[b].bytes << 1 | graph.is_imported({b}));
+    }
+    for (const Stamped& stamped : graph.stamps()) add(hash, stamped.part);
+    for (const Pass& pass : graph.passes()) add(hash, pass);
+    for (const Image& image : graph.wanted_images()) add(hash, image);
+    for (const Buffer& buffer : graph.wanted_buffers()) hash.add(buffer.id);
+    return hash.value();
+}
+
+bool has_shape(const Graph& graph, const Graph& known) {
+    if (graph.images() != known.images() || graph.buffers() != known.buffers() ||
+        graph.wanted_images() != known.wanted_images() ||
+        graph.wanted_buffers() != known.wanted_buffers())
+        return false;
+    for (std::uint32_t i = 0; i < graph.images().size(); ++i)
+        if (!same_lifetime(graph, known, i)) return false;
+    for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
+        if (graph.is_imported({b}) != known.is_imported({b})) return false;
+    if (!std::ranges::equal(graph.stamps(), known.stamps(), {}, &Stamped::part, &Stamped::part))
+        return false;
+    return std::ranges::equal(graph.passes(), known.passes(),
+                              [](const Pass& a, const Pass& b) { return same(a, b); });
+}
+
+} // namespace catoptric::graph

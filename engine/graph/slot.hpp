@@ -1,0 +1,42 @@
+#pragma once
+
+#include "gpu/device.hpp"
+#include "graph/compiled.hpp"
+#include "graph/frame_times.hpp"
+
+#include <chrono>
+#include <memory>
+
+namespace catoptric::graph {
+
+/// What a frame in flight has for itself: commands, stamps, descriptors. It may be filled anew once
+/// the frame has ended.
+class Slot {
+public:
+    explicit Slot(const gpu::Device& device);
+    /// Empties the descriptor pools and makes room for so many stamps.
+    void reset(std::uint32_t stamps);
+    VkDescriptorSet descriptor_set(VkDescriptorSetLayout layout);
+
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    gpu::UniqueQueryPool queries;
+    std::uint32_t next_query = 0;
+
+    // The frame that was submitted from here last.
+    std::uint64_t frame = 0; ///< from 1; 0: none yet
+    bool ended = true;       ///< it was waited for
+    bool stays = false;
+    Timing timing = Timing::isolated;
+    std::shared_ptr<Compiled> shape;
+    std::chrono::steady_clock::time_point submitted;
+    FrameTimes times;
+
+private:
+    const gpu::Device& device_;
+    gpu::UniqueCommandPool pool_;
+    std::uint32_t query_count_ = 0;
+    std::vector<gpu::UniqueDescriptorPool> descriptor_pools_;
+    std::size_t next_pool_ = 0;
+};
+
+} // namespace catoptric::graph

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "graph/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace catoptric::graph {
+
+/// A touch as a number, from 1; 0 is `nothing`.
+using TouchCode = std::uint8_t;
+constexpr TouchCode kNothing = 0;
+constexpr int kTouchCodes = 64; ///< every code is less
+
+constexpr TouchCode code_of(const Touch& touch) {
+    if (touch.nothing) return kNothing;
+    return static_cast<TouchCode>(4 * static_cast<int>(touch.use) + 2 * touch.write + touch.raster +
+                                  1);
+}
+constexpr Touch touch_of(TouchCode code) {
+    if (code == kNothing) return {};
+    const int bits = code - 1;
+    return {.nothing = false,
+            .use = static_cast<Use>(bits / 4),
+            .write = (bits & 2) != 0,
+            .raster = (bits & 1) != 0};
+}
+constexpr Use use_of(TouchCode code) { return static_cast<Use>((code - 1) / 4); }
+
+/// A few distinct touches in the order in which they came.
+class Touches {
+public:
+    Touches() = default;
+    explicit Touches(TouchCode touch) { add(touch); }
+    bool empty() const { return count_ == 0; }
+    std::size_t size() const { return count_; }
+    TouchCode front() const { return codes_[0]; }
+    TouchCode operator[](std::size_t i) const { return codes_[i]; }
+    bool contains(TouchCode touch) const {
+        return std::find(codes_.begin(), codes_.begin() + count_, touch) != codes_.begin() + count_;
+    }
+    /// Unless it is there. Reads of one thing are of at most 8 kinds: 4 uses, in raster or not.
+    void add(TouchCode touch) {
+        if (contains(touch)) return;
+        assert(count_ < codes_.size());
+        codes_[count_++] = touch;
+    }
+    void clear() { *this = {}; }
+    friend bool operator==(const Touches&, const Touches&) = default;
+
+private:
+    std::array<TouchCode, 8> codes_{};
+    std::uint8_t count_ = 0;
+};
+
+/// Any touches, in no order: bit `code`.
+using TouchSet = std::uint64_t;
+constexpr TouchSet set_of(TouchCode code) { return TouchSet{1} << code; }
+
+} // namespace catoptric::graph

@@ -1,0 +1,26 @@
+// In a source of its own: a compiler that sees both sides of these operators warns of free().
+#include "allocations/counting.hpp"
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+thread_local std::size_t taken = 0;
+
+} // namespace
+
+std::size_t test::allocations() { return taken; }
+
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): this is what malloc is for
+void* operator new(std::size_t bytes) {
+    ++taken;
+    if (void* const memory = std::malloc(bytes ? bytes : 1)) return memory;
+    throw std::bad_alloc();
+}
+void* operator new[](std::size_t bytes) { return operator new(bytes); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+// NOLINTEND(cppcoreguidelines-no-malloc)

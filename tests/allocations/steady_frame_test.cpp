@@ -1,0 +1,59 @@
+// What a frame takes of the heap: the same for each frame of a steady scene.
+#include "allocations/counting.hpp"
+#include "reflect/technique.hpp"
+#include "render/gpu_scene.hpp"
+#include "render/passes.hpp"
+#include "support/device.hpp"
+
+#include <iostream>
+#include <set>
+
+namespace {
+
+using namespace catoptric;
+
+/// Allocations of one frame of a technique's row.
+struct Taken {
+    std::size_t declaring = 0, recording = 0;
+    friend auto operator<=>(const Taken&, const Taken&) = default;
+};
+
+class SteadyFrame : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Rows, SteadyFrame,
+                         testing::Values("naive:face=16", "reuse:face=16", "parallax:face=16",
+                                         "hybrid:face=16", "raytrace:depth=2"),
+                         [](const auto& instance) {
+                             const std::string text = instance.param;
+                             return text.substr(0, text.find(':'));
+                         });
+
+TEST_P(SteadyFrame, TakesTheSameOfTheHeapEachTime) {
+    gpu::Device device({}); // the validation layer would be counted
+    gpu::Pipelines pipelines(device);
+    const scene::Scene scene = scene::cornell_mirrors();
+    render::GpuScene gpu_scene(device, scene);
+    gpu_scene.update(scene, scene.cameras.front(), {32, 32}, 0);
+    const reflect::Choice choice = reflect::parse_choice(GetParam());
+    graph::Runner runner(device, pipelines, 2);
+    std::set<Taken> seen;
+    std::size_t passes = 0;
+    for (int frame = 1; frame <= 20; ++frame) {
+        const std::size_t before = test::allocations();
+        graph::Graph graph(runner.history());
+        const render::FrameInputs inputs{gpu_scene, {32, 32}, ""};
+        graph.want(choice.technique->add(graph, inputs, choice.settings).hdr);
+        const std::size_t declared = test::allocations();
+        runner.submit(graph, graph::Timing::isolated);
+        const std::size_t recorded = test::allocations();
+        passes = runner.compiled(graph).passes.size();
+        if (frame >= 5) seen.insert({declared - before, recorded - declared});
+    }
+    EXPECT_EQ(runner.plans_made(), 1u);
+    ASSERT_EQ(seen.size(), 1u);
+    std::cout << "[ MEASURED ] " << GetParam() << ", " << passes
+              << " passes: " << seen.begin()->declaring << " allocations declaring, "
+              << seen.begin()->recording << " recording\n";
+    EXPECT_GT(seen.begin()->declaring, 0u); // or nothing is counted
+}
+
+} // namespace

@@ -1,0 +1,48 @@
+// What declaring, planning and showing a frame cost, by pass: build/ci/catoptric_plan_bench.
+#include "graph/dump.hpp"
+#include "graph/plan.hpp"
+#include "support/frames.hpp"
+
+#include <benchmark/benchmark.h>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr graph::Limits kLimits{.max_layers = 1u << 20};
+
+/// Time by pass, beside the time of a frame.
+void count(benchmark::State& state, const graph::Graph& graph) {
+    state.counters["a pass"] = benchmark::Counter(
+        static_cast<double>(state.iterations()) * static_cast<double>(graph.passes().size()),
+        benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void declare(benchmark::State& state) {
+    const auto mirrors = static_cast<std::uint32_t>(state.range(0)) - 3;
+    for (auto _ : state) benchmark::DoNotOptimize(test::reuse_frame(mirrors));
+    count(state, test::reuse_frame(mirrors));
+}
+
+void plan(benchmark::State& state) {
+    const graph::Graph graph = test::reuse_frame(static_cast<std::uint32_t>(state.range(0)) - 3);
+    const graph::Sizer sizer = graph::plain_sizer();
+    for (auto _ : state) benchmark::DoNotOptimize(graph::plan(graph, kLimits, sizer));
+    count(state, graph);
+}
+
+void dump(benchmark::State& state) {
+    const graph::Graph graph = test::reuse_frame(static_cast<std::uint32_t>(state.range(0)) - 3);
+    const graph::Plan plan = graph::plan(graph, kLimits, graph::plain_sizer());
+    for (auto _ : state) benchmark::DoNotOptimize(graph::to_text(graph, plan));
+    count(state, graph);
+}
+
+// Passes of the frame.
+BENCHMARK(declare)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
+BENCHMARK(plan)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
+BENCHMARK(dump)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
+
+} // namespace
+
+BENCHMARK_MAIN();

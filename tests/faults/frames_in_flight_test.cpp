@@ -1,0 +1,55 @@
+// A device that is lost while frames are on their way says so where one of them is waited for.
+#include "faults/faults.hpp"
+#include "graph/run.hpp"
+
+namespace {
+
+using namespace catoptric;
+
+class LostInFlight : public Faults {};
+
+graph::Graph frame() {
+    graph::Graph graph;
+    const graph::Image image = graph.image({"image", Format::rgba8_unorm, 4, 4});
+    graph.pass("clear it")
+        .writes(image, graph::Use::colour, graph::Clear{})
+        .record([](graph::Commands&) {});
+    graph.want(image);
+    return graph;
+}
+
+std::string what_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.failure == Failure::device_lost ? error.what() : "another failure";
+    }
+    return "nothing was thrown";
+}
+
+/// Three frames are submitted; the first wait fails.
+TEST_F(LostInFlight, IsToldByTheWait) {
+    const std::string said = test::in_child([&] {
+        WatchedHere here(folder / "calls");
+        std::string wrong;
+        const Fault fault{"vkWaitSemaphores", 1, VK_ERROR_DEVICE_LOST};
+        const Watched watched = here.run(fault, [&](app::Engine&) {
+            gpu::Device device({});
+            gpu::Pipelines pipelines(device);
+            graph::Runner runner(device, pipelines, 3);
+            std::vector<graph::Ticket> tickets;
+            for (int i = 0; i < 3; ++i)
+                tickets.push_back(runner.submit(frame(), graph::Timing::isolated));
+            const std::string first = what_of([&] { runner.wait(tickets[1]); });
+            if (first.find("run frame 2 (passes 'clear it')") == std::string::npos) wrong += first;
+            const std::string next = what_of(
+                [&] { runner.submit(frame(), graph::Timing::isolated); });
+            if (next != "the device was given up: " + first) wrong += next;
+            if (!device.abandoned()) wrong += "not abandoned";
+        });
+        return wrong + watched.ended.err;
+    });
+    EXPECT_EQ(said, "");
+}
+
+} // namespace

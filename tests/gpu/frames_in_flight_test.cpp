@@ -1,0 +1,199 @@
+// Several frames on their way at once hold the same as one after the other; what is asked of a
+// frame that is gone is refused.
+#include "gpu/steps.hpp"
+
+namespace {
+
+using namespace catoptric;
+using test::expect_refused;
+
+/// Each frame steps on from the last one, by way of an image of its own.
+graph::Image add_frame(graph::Graph& graph, int frame) {
+    const graph::Image kept = test::add_image(graph, "kept");
+    const graph::Image between = test::add_image(graph, "between");
+    const graph::Image out = test::add_image(graph, "out");
+    const auto number = static_cast<float>(frame);
+    test::add_step(graph, "first", graph.previous(kept), between, number);
+    test::add_step(graph, "second", between, kept, 2 * number);
+    test::add_step(graph, "third", between, out, 3 * number);
+    graph.want(out);
+    return out;
+}
+
+std::vector<float> expected_of(int frame, std::vector<float>& kept) {
+    const auto number = static_cast<float>(frame);
+    const std::vector<float> between = test::stepped(kept, number);
+    kept = test::stepped(between, 2 * number);
+    return test::stepped(between, 3 * number);
+}
+
+class InFlight : public testing::TestWithParam<std::uint32_t> {};
+INSTANTIATE_TEST_SUITE_P(Frames, InFlight, testing::Values(1u, 2u, 3u));
+
+TEST_P(InFlight, FramesHoldWhatTheyHoldOneByOne) {
+    constexpr int kFrames = 12;
+    graph::Runner runner(test::bench().device, test::bench().pipelines, GetParam());
+    std::vector<float> kept(test::kWidth * test::kHeight, 0.0f);
+    std::vector<std::pair<graph::Ticket, graph::Image>> waiting;
+    int read = 0;
+    const auto read_oldest = [&] {
+        const auto [ticket, image] = waiting.front();
+        waiting.erase(waiting.begin());
+        const std::vector<std::byte> bytes = runner.read(ticket, image);
+        std::vector<float> found(bytes.size() / sizeof(float));
+        std::memcpy(found.data(), bytes.data(), bytes.size());
+        EXPECT_EQ(found, expected_of(++read, kept)) << "frame " << read;
+    };
+    for (int frame = 1; frame <= kFrames; ++frame) {
+        if (waiting.size() == GetParam()) read_oldest();
+        graph::Graph graph(runner.history());
+        const graph::Image out = add_frame(graph, frame);
+        const auto timing = frame % 2 ? graph::Timing::pipelined : graph::Timing::isolated;
+        waiting.emplace_back(runner.submit(graph, timing), out);
+    }
+    while (!waiting.empty()) read_oldest();
+    EXPECT_EQ(read, kFrames);
+    EXPECT_EQ(runner.plans_made(), 1u);
+}
+
+TEST_P(InFlight, TimesAreThoseOfTheFrameThatIsAsked) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines, GetParam());
+    std::vector<graph::Ticket> tickets;
+    for (std::uint32_t frame = 1; frame <= GetParam(); ++frame) {
+        graph::Graph graph;
+        const graph::Image image = test::add_image(graph, "image");
+        test::add_start(graph, image, 1);
+        graph.want(image);
+        for (std::uint32_t i = 1; i < frame; ++i) { // one pass more each
+            const graph::Image next = test::add_image(graph, "image" + std::to_string(i));
+            test::add_step(graph, "step" + std::to_string(i), image, next, 1);
+            graph.want(next);
+        }
+        tickets.push_back(runner.submit(graph, graph::Timing::isolated));
+        EXPECT_EQ(tickets.back().frame, frame);
+    }
+    for (std::uint32_t frame = GetParam(); frame >= 1; --frame) { // the last one first
+        const graph::FrameTimes& times = runner.wait(tickets[frame - 1]);
+        EXPECT_EQ(times.passes.size(), frame);
+        EXPECT_GT(times.record_ms, 0);
+        EXPECT_GT(times.compile_ms, 0);
+        EXPECT_GT(times.wall_ms, 0);
+        EXPECT_EQ(&runner.wait(tickets[frame - 1]), &times);
+    }
+}
+
+TEST(InFlight, WhatIsGoneIsRefused) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines, 2);
+    std::vector<graph::Ticket> tickets;
+    graph::Image out;
+    for (int frame = 1; frame <= 3; ++frame) {
+        graph::Graph graph(runner.history());
+        out = add_frame(graph, frame);
+        tickets.push_back(runner.submit(graph, graph::Timing::pipelined));
+    }
+    expect_refused([&] { runner.wait(tickets[0]); }, Failure::internal,
+                   {"frame 1 is gone: its place was taken by frame 3, with 2 in flight"});
+    expect_refused([&] { runner.wait({4}); }, Failure::internal,
+                   {"frame 4 is asked for, but 3 were submitted"});
+    EXPECT_NO_THROW(runner.read(tickets[1], out));
+    constexpr graph::Image kKept{.id = 0, .first_layer = 0, .layer_count = 1};
+    expect_refused([&] { runner.read(tickets[1], kKept); }, Failure::internal,
+                   {"image 'kept' of frame 2 is read after frame 3 was submitted"});
+    EXPECT_NO_THROW(runner.read(tickets[2], kKept));
+}
+
+TEST(InFlight, MoreThanThreeOrNoneAreRefused) {
+    for (const std::uint32_t count : {0u, 4u})
+        expect_refused([&] { graph::Runner(test::bench().device, test::bench().pipelines, count); },
+                       Failure::usage,
+                       {"frames in flight must be 1 to 3, not " + std::to_string(count)});
+}
+
+TEST(InFlight, ARunnerWithFramesOnTheirWayCanBeDestroyed) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines, 3);
+    for (int frame = 1; frame <= 3; ++frame) {
+        graph::Graph graph(runner.history());
+        add_frame(graph, frame);
+        runner.submit(graph, graph::Timing::pipelined);
+    }
+}
+
+/// A graph whose shape depends on `kind`: so many steps, of images so large.
+graph::Image add_shape(graph::Graph& graph, int kind) {
+    graph::Image last = test::add_image(graph, "start");
+    test::add_start(graph, last, 1);
+    for (int i = 0; i < kind; ++i) {
+        const graph::Image next = test::add_image(graph, "next" + std::to_string(i));
+        test::add_step(graph, "step" + std::to_string(i), last, next, static_cast<float>(i));
+        last = next;
+    }
+    graph.want(last);
+    return last;
+}
+
+std::vector<float> expected_of_shape(int kind) {
+    std::vector<float> values = test::started(1);
+    for (int i = 0; i < kind; ++i) values = test::stepped(values, static_cast<float>(i));
+    return values;
+}
+
+TEST(Shapes, ArePlannedOnceWhileTheyAreAmongTheLastEight) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines, 2);
+    for (int round = 0; round < 4; ++round)
+        for (int kind = 0; kind < 8; ++kind) {
+            graph::Graph graph;
+            const graph::Image last = add_shape(graph, kind);
+            test::run(runner, graph);
+            EXPECT_EQ(test::read_as<float>(runner, last), expected_of_shape(kind));
+        }
+    EXPECT_EQ(runner.plans_made(), 8u);
+    graph::Graph ninth;
+    add_shape(ninth, 8);
+    test::run(runner, ninth); // instead of 0, which was used longest ago
+    graph::Graph second, first;
+    add_shape(second, 1);
+    test::run(runner, second);
+    EXPECT_EQ(runner.plans_made(), 9u);
+    add_shape(first, 0);
+    test::run(runner, first);
+    EXPECT_EQ(runner.plans_made(), 10u);
+}
+
+TEST(Shapes, AreAllThatIsDeclaredButBodiesAndClears) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    const auto frame = [&](const std::string& name, float red) {
+        graph::Graph graph;
+        const graph::Image image = graph.image({"image", Format::rgba32f, 2, 1});
+        graph.pass(name)
+            .writes(image, graph::Use::colour, graph::Clear{red, 0, 0, 1})
+            .record([](graph::Commands&) {});
+        graph.want(image);
+        runner.compiled(graph);
+        test::run(runner, graph);
+        return test::read_as<float>(runner, image)[0];
+    };
+    EXPECT_EQ(frame("clear", 1), 1);
+    EXPECT_EQ(frame("clear", 2), 2);
+    EXPECT_EQ(runner.plans_made(), 1u);
+    EXPECT_EQ(frame("cleared", 3), 3);
+    EXPECT_EQ(runner.plans_made(), 2u);
+}
+
+TEST(Shapes, AWrongGraphOfAKnownShapeIsStillRefused) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    for (const bool wrong : {false, true}) {
+        graph::Graph graph;
+        const graph::Image image = test::add_image(graph, "image");
+        graph::PassBuilder pass = graph.pass("clear").writes(image, graph::Use::colour,
+                                                             graph::Clear{});
+        if (!wrong) pass.record([](graph::Commands&) {});
+        graph.want(image);
+        if (wrong)
+            expect_refused([&] { test::run(runner, graph); }, Failure::internal,
+                           {"pass 'clear' has no body"});
+        else
+            test::run(runner, graph);
+    }
+}
+
+} // namespace

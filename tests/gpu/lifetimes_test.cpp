@@ -1,0 +1,305 @@
+// Images that stay until somebody writes them, images and buffers of somebody else's, mips,
+// attachments that are not stored: on the device, under the validation layer.
+#include "gpu/steps.hpp"
+#include "graph/device_memory.hpp"
+
+namespace {
+
+using namespace catoptric;
+using graph::Use;
+using test::add_start, test::add_step, test::expect_refused, test::started, test::stepped;
+using test::kHeight, test::kWidth;
+
+const graph::ImageDesc kDesc{"cubes", Format::r32f, kWidth, kHeight};
+
+/// A frame that makes the kept image from `stamp` unless it is there, and shows a step from it.
+/// Returns how many passes ran.
+std::size_t show(graph::Runner& runner, float stamp, std::vector<float>& shown) {
+    graph::Graph graph(runner.history());
+    const graph::Image cubes = graph.kept(kDesc);
+    const auto number = static_cast<std::uint64_t>(stamp);
+    if (!graph.holds(cubes, number)) {
+        add_start(graph, cubes, stamp);
+        graph.made_from(cubes, number);
+    }
+    const graph::Image out = test::add_image(graph, "out");
+    add_step(graph, "view", cubes, out, 1);
+    graph.want(out);
+    const std::size_t passes = test::run(runner, graph).passes.size();
+    shown = test::read_as<float>(runner, out);
+    return passes;
+}
+
+TEST(Kept, IsMadeOnceUntilItsStampChanges) {
+    for (const std::uint32_t in_flight : {1u, 3u}) {
+        graph::Runner runner(test::bench().device, test::bench().pipelines, in_flight);
+        std::vector<float> shown;
+        for (const auto& [stamp, passes] : std::vector<std::pair<float, std::size_t>>{
+                 {2, 2}, {2, 1}, {2, 1}, {3, 2}, {3, 1}, {2, 2}, {2, 1}}) {
+            EXPECT_EQ(show(runner, stamp, shown), passes);
+            EXPECT_EQ(shown, stepped(started(stamp), 1));
+        }
+        EXPECT_EQ(runner.plans_made(), 3u); // nothing there; there; there and written anew
+        runner.forget();
+        EXPECT_EQ(show(runner, 2, shown), 2u);
+        EXPECT_EQ(shown, stepped(started(2), 1));
+    }
+}
+
+TEST(Kept, StaysThroughFramesThatDoNotNameIt) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    std::vector<float> shown;
+    EXPECT_EQ(show(runner, 2, shown), 2u);
+    for (int frame = 0; frame < 3; ++frame) {
+        graph::Graph other;
+        const graph::Image image = test::add_image(other, "other" + std::to_string(frame));
+        add_start(other, image, 9);
+        other.want(image);
+        test::run(runner, other);
+    }
+    EXPECT_EQ(show(runner, 2, shown), 1u);
+    EXPECT_EQ(shown, stepped(started(2), 1));
+}
+
+TEST(Kept, LayersAreMadeOneByOne) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::ImageDesc desc = kDesc;
+    desc.layers = 3;
+    for (std::uint32_t frame = 0; frame < 5; ++frame) {
+        graph::Graph graph(runner.history());
+        const graph::Image cubes = graph.kept(desc);
+        for (std::uint32_t layer = 0; layer < 3; ++layer) {
+            const graph::Image part = cubes.layers(layer, 1);
+            EXPECT_EQ(graph.holds(part, layer), layer < frame);
+            if (layer != frame) continue;
+            graph.pass("fill").writes(part, Use::storage_write).record([=](graph::Commands& c) {
+                c.use(gpu::ComputeState{"tests/start.comp", {}});
+                c.bind("after", part);
+                c.push(static_cast<float>(layer + 1));
+                c.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
+            });
+            graph.made_from(part, layer);
+        }
+        EXPECT_EQ(graph.holds(cubes, 0), false);
+        const std::uint32_t there = std::min(frame + 1, 3u);
+        graph.want(cubes.layers(0, there));
+        test::run(runner, graph);
+        std::vector<float> expected;
+        for (std::uint32_t layer = 0; layer < there; ++layer) {
+            const std::vector<float> values = started(static_cast<float>(layer + 1));
+            expected.insert(expected.end(), values.begin(), values.end());
+        }
+        EXPECT_EQ(test::read_as<float>(runner, cubes.layers(0, there)), expected);
+    }
+}
+
+TEST(Kept, AnotherSizeStartsAnew) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    std::vector<float> shown;
+    show(runner, 2, shown);
+    graph::Graph graph(runner.history());
+    graph::ImageDesc desc = kDesc;
+    desc.width = 8;
+    EXPECT_FALSE(graph.holds(graph.kept(desc), 2));
+}
+
+TEST(Imported, ImageIsReadAndLeftAsItIsSaid) {
+    auto& [device, pipelines] = test::bench();
+    graph::ImageDesc desc = kDesc;
+    desc.name = "outside";
+    const graph::OwnedImage owned = graph::make_image(device, desc);
+    graph::Physical outside = graph::adopt(desc, owned.image.image);
+    graph::Runner runner(device, pipelines, 2);
+    for (int frame = 0; frame < 4; ++frame) {
+        graph::Graph graph;
+        const bool first = frame == 0;
+        // Written once, sampled from then on; left for the next frame in the other layout.
+        const graph::Image image = graph.import(
+            desc, &outside, first ? std::nullopt : std::optional(Use::sampled), Use::sampled);
+        const graph::Image out = test::add_image(graph, "out");
+        if (first) add_start(graph, image, 4);
+        add_step(graph, "view", image, out, 5);
+        graph.want(out);
+        const graph::Ticket ticket = runner.submit(graph, graph::Timing::pipelined);
+        std::vector<std::byte> bytes = runner.read(ticket, out);
+        std::vector<float> values(bytes.size() / sizeof(float));
+        std::memcpy(values.data(), bytes.data(), bytes.size());
+        EXPECT_EQ(values, stepped(started(4), 5));
+    }
+    EXPECT_EQ(runner.plans_made(), 2u);
+}
+
+TEST(Imported, BufferIsReadByTheHostOnceTheFrameHasEnded) {
+    auto& [device, pipelines] = test::bench();
+    constexpr std::uint32_t kFrames = 6, kSlots = 3;
+    graph::Runner runner(device, pipelines, kSlots);
+    std::vector<gpu::Buffer> targets;
+    for (std::uint32_t i = 0; i < kSlots; ++i)
+        targets.emplace_back(device, "read-back", kWidth * kHeight * sizeof(float),
+                             gpu::BufferUse::read_back);
+    std::vector<graph::Ticket> tickets;
+    const auto expect_read = [&](std::uint32_t frame) {
+        runner.wait(tickets[frame]);
+        const std::vector<std::byte> bytes = targets[frame % kSlots].read();
+        std::vector<float> values(kWidth * kHeight);
+        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
+        EXPECT_EQ(values, started(static_cast<float>(frame)));
+    };
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+        if (frame >= kSlots) expect_read(frame - kSlots);
+        graph::Graph graph;
+        const graph::Image image = test::add_image(graph, "image");
+        const gpu::Buffer& target = targets[frame % kSlots];
+        const graph::Buffer out = graph.import({target.name(), target.bytes()}, &target);
+        add_start(graph, image, static_cast<float>(frame));
+        graph.pass("copy")
+            .reads(image, Use::copy_from)
+            .writes(out, Use::copy_to)
+            .record([=](graph::Commands& commands) { commands.copy(image, out); });
+        tickets.push_back(runner.submit(graph, graph::Timing::pipelined)); // nothing is wanted
+    }
+    for (std::uint32_t frame = kFrames - kSlots; frame < kFrames; ++frame) expect_read(frame);
+    EXPECT_EQ(runner.plans_made(), 1u);
+}
+
+TEST(Imported, FromNowhereIsRefused) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::Graph graph;
+    const graph::Image image = graph.import(kDesc, nullptr, std::nullopt, Use::sampled);
+    add_start(graph, image, 1);
+    expect_refused([&] { test::run(runner, graph); }, Failure::internal,
+                   {"image 'cubes' is imported from nowhere"});
+}
+
+TEST(Mips, EachIsWrittenFromTheOneBefore) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    for (int frame = 0; frame < 2; ++frame) {
+        graph::Graph graph;
+        graph::ImageDesc desc = kDesc;
+        desc.mips = 4;
+        const graph::Image image = graph.image(desc);
+        add_start(graph, image.mip(0), 2);
+        for (std::uint32_t m = 1; m < desc.mips; ++m)
+            add_step(graph, "mip" + std::to_string(m), image.mip(m - 1), image.mip(m), 3);
+        graph.want(image);
+        test::run(runner, graph);
+        std::vector<float> expected, before;
+        for (std::uint32_t m = 0; m < desc.mips; ++m) {
+            const std::uint32_t width = graph::at_mip(kWidth, m),
+                                height = graph::at_mip(kHeight, m);
+            std::vector<float> mip;
+            for (std::uint32_t y = 0; y < height; ++y)
+                for (std::uint32_t x = 0; x < width; ++x) {
+                    const auto where = static_cast<float>(x + width * y);
+                    mip.push_back(
+                        m == 0 ? 2 * (1 + where)
+                               : std::fmod(3 * before[x + 2 * width * y] + where + 3, 1048576.0f));
+                }
+            expected.insert(expected.end(), mip.begin(), mip.end());
+            before = mip;
+        }
+        EXPECT_EQ(test::read_as<float>(runner, image), expected);
+    }
+}
+
+TEST(Mips, AreSampledTogether) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    for (const float lod : {0.0f, 1.0f, 1.5f, 2.25f, 9.0f}) {
+        graph::Graph graph;
+        const graph::Image image = graph.image({"pyramid", Format::r32f, 16, 16, 1, false, 5});
+        for (std::uint32_t m = 0; m < 5; ++m)
+            graph.pass("mip" + std::to_string(m))
+                .writes(image.mip(m), Use::colour, graph::Clear{10.0f * static_cast<float>(m)})
+                .record([](graph::Commands&) {});
+        const graph::Image out = test::add_image(graph, "out");
+        graph.pass("look")
+            .reads(image, Use::sampled)
+            .writes(out, Use::storage_write)
+            .record([=](graph::Commands& commands) {
+                commands.use(gpu::ComputeState{"tests/lod.comp", {}});
+                commands.bind("before", image, graph::Filter::mipmapped);
+                commands.bind("after", out);
+                commands.push(lod);
+                commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
+            });
+        graph.want(out);
+        test::run(runner, graph);
+        EXPECT_NEAR(test::read_as<float>(runner, out)[0], std::min(10 * lod, 40.0f), 0.1f) << lod;
+    }
+}
+
+TEST(Unread, AttachmentsDoNotChangeThePicture) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines);
+    graph::Graph graph;
+    const graph::Image colour = graph.image({"colour", Format::rgba32f, 8, 8});
+    const graph::Image depth = graph.image({"depth", Format::d32f, 8, 8});
+    graph.pass("draw")
+        .writes(colour, Use::colour, graph::Clear{1, 2, 3, 4})
+        .writes(depth, Use::depth, graph::Clear{})
+        .record([](graph::Commands&) {});
+    graph.want(colour);
+    EXPECT_EQ(runner.compiled(graph).passes[0].unread, 2u);
+    test::run(runner, graph);
+    const std::vector<float> found = test::read_as<float>(runner, colour);
+    EXPECT_EQ(std::vector<float>(found.begin(), found.begin() + 4),
+              (std::vector<float>{1, 2, 3, 4}));
+}
+
+// Two frames on their way write what nobody reads: each must wait for the one before.
+TEST(Unread, IsWrittenAgainInTheNextFrame) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines, 3);
+    for (int frame = 0; frame < 6; ++frame) {
+        graph::Graph graph;
+        const graph::Image unread = test::add_image(graph, "unread");
+        const graph::Image out = test::add_image(graph, "out");
+        graph.pass("both")
+            .writes(unread, Use::storage_write)
+            .writes(out, Use::storage_write)
+            .record([=](graph::Commands& commands) {
+                commands.use(gpu::ComputeState{"tests/start.comp", {}});
+                for (const graph::Image& after : {unread, out}) {
+                    commands.bind("after", after);
+                    commands.push(1.0f);
+                    commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
+                }
+            });
+        graph.want(out);
+        runner.submit(graph, graph::Timing::pipelined);
+    }
+}
+
+// Shapes of other sizes, kept ones among them, in turn: as much memory as the largest needs.
+TEST(Memory, IsFlatOverFramesOfManyShapes) {
+    graph::Runner runner(test::bench().device, test::bench().pipelines, 2);
+    std::uint64_t after_two_rounds = 0;
+    for (int frame = 0; frame < 2000; ++frame) {
+        const int kind = frame % 5;
+        graph::Graph graph(runner.history());
+        const graph::Image last = graph.image({"last", Format::rgba16f, 64u << kind, 64});
+        const graph::Image out = graph.image({"out", Format::rgba16f, 64u << (4 - kind), 64});
+        for (const graph::Image& image : {last, out})
+            graph.pass("clear/" + graph.images()[image.id].name)
+                .reads(graph.previous(last), Use::sampled)
+                .writes(image, Use::colour, graph::Clear{})
+                .record([](graph::Commands&) {});
+        if (kind == 3) {
+            const graph::Image kept = graph.kept({"kept", Format::rgba16f, 64, 64});
+            if (!graph.holds(kept, 1)) {
+                graph.pass("keep")
+                    .writes(kept, Use::colour, graph::Clear{})
+                    .record([](graph::Commands&) {});
+                graph.made_from(kept, 1);
+            }
+        }
+        graph.want(out);
+        runner.submit(graph, graph::Timing::pipelined);
+        if (frame == 9) after_two_rounds = runner.memory_bytes();
+        // What has a `previous` has the size of the frame at hand.
+        if (frame % 5 == 4 && frame > 9) {
+            EXPECT_EQ(runner.memory_bytes(), after_two_rounds) << frame;
+        }
+    }
+    EXPECT_EQ(runner.plans_made(), 6u);
+}
+
+} // namespace

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "support/device.hpp"
+
+#include <cmath>
+
+/// Frames of known numbers: shaders/tests/start.comp and step.comp on small images of one float.
+namespace test {
+
+using graph::Use;
+
+constexpr std::uint32_t kWidth = 40, kHeight = 24;
+
+inline graph::Image add_image(graph::Graph& graph, const std::string& name) {
+    return graph.image({name, Format::r32f, kWidth, kHeight});
+}
+
+/// after = number * (1 + where)
+inline void add_start(graph::Graph& graph, graph::Image after, float number) {
+    graph.pass("start/" + graph.images()[after.id].name)
+        .writes(after, Use::storage_write)
+        .record([=](graph::Commands& commands) {
+            commands.use(gpu::ComputeState{"tests/start.comp", {}});
+            commands.bind("after", after);
+            commands.push(number);
+            commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
+        });
+}
+
+inline void add_step(graph::Graph& graph, const std::string& name, graph::Image before,
+                     graph::Image after, float number) {
+    graph.pass(name)
+        .reads(before, Use::sampled)
+        .writes(after, Use::storage_write)
+        .record([=](graph::Commands& commands) {
+            commands.use(gpu::ComputeState{"tests/step.comp", {}});
+            commands.bind("before", before);
+            commands.bind("after", after);
+            commands.push(number);
+            commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
+        });
+}
+
+/// What start.comp makes.
+inline std::vector<float> started(float number) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < kWidth * kHeight; ++i)
+        values.push_back(number * static_cast<float>(1 + i));
+    return values;
+}
+
+/// What step.comp makes of the values.
+inline std::vector<float> stepped(std::vector<float> values, float number) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = std::fmod(3 * values[i] + static_cast<float>(i) + number, 1048576.0f);
+    return values;
+}
+
+} // namespace test

@@ -1,0 +1,386 @@
+// Kept and imported resources, mips, attachments that nobody reads: what the plan makes of them,
+// and the words with which wrong ones are refused.
+#include "core/error.hpp"
+#include "graph/dump.hpp"
+#include "graph/shape.hpp"
+
+#include <gmock/gmock.h>
+
+namespace catoptric::graph {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr Clear kBlack{};
+void nothing(Commands&) {}
+
+Plan planned(const Graph& graph) { return plan(graph, {}, plain_sizer()); }
+
+std::string refusal(const Graph& graph) {
+    try {
+        planned(graph);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::internal);
+        return error.what();
+    }
+    ADD_FAILURE() << "the graph was accepted";
+    return "";
+}
+
+/// "image 0 mips [0,1) layers [0,2) before > after", with what else is waited for counted.
+std::string text(const Barrier& b) {
+    const auto word = [](const Touch& t) {
+        return t.nothing ? "nothing" : std::string(name_of(t.use)) + (t.write ? "!" : "");
+    };
+    const std::string more = b.shared.empty() ? "" : " +" + std::to_string(b.shared.size());
+    if (b.is_buffer) return "buffer " + word(b.before) + " > " + word(b.after) + more;
+    const auto range = [](std::uint32_t first, std::uint32_t count) {
+        return "[" + std::to_string(first) + "," + std::to_string(first + count) + ")";
+    };
+    return "image " + std::to_string(b.id) + " mips " + range(b.first_mip, b.mip_count) +
+           " layers " + range(b.first_layer, b.layer_count) + " " + word(b.before) + " > " +
+           word(b.after) + more;
+}
+
+std::vector<std::string> texts(const std::vector<Barrier>& barriers) {
+    std::vector<std::string> all;
+    for (const Barrier& barrier : barriers) all.push_back(text(barrier));
+    return all;
+}
+
+const ImageDesc kDesc{.name = "cubes", .width = 8, .height = 8, .layers = 12};
+
+/// A history in which layers [first, end) of "cubes" were made from `stamp`.
+History held(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
+    Stamps stamps(12);
+    stamps.set(first, end, stamp);
+    return {.previous = {}, .kept = {{"cubes", {kDesc, stamps}}}};
+}
+
+struct View {
+    explicit View(History history = {}) : g(std::move(history)) {}
+    Graph g;
+    Image cubes = g.kept(kDesc);
+    Image out = g.image({.name = "out", .width = 8, .height = 8});
+
+    void make(Image part, std::uint64_t stamp) {
+        g.pass("make").writes(part, Use::colour, kBlack).layers(part.layer_count).record(nothing);
+        g.made_from(part, stamp);
+    }
+    void view(Image part) {
+        g.pass("view").reads(part, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+        g.want(out);
+    }
+};
+
+TEST(KeptImages, HoldWhatTheHistorySays) {
+    const View fresh;
+    EXPECT_FALSE(fresh.g.holds(fresh.cubes, 0));
+    const View later(held(0, 6, 7));
+    EXPECT_TRUE(later.g.holds(later.cubes.layers(0, 6), 7));
+    EXPECT_TRUE(later.g.holds(later.cubes.layers(2, 3), 7));
+    EXPECT_FALSE(later.g.holds(later.cubes.layers(0, 6), 8));
+    EXPECT_FALSE(later.g.holds(later.cubes, 7));
+    Graph other(held(0, 12, 7));
+    ImageDesc desc = kDesc;
+    desc.width = 16;
+    EXPECT_FALSE(other.holds(other.kept(desc), 7));
+}
+
+TEST(KeptImages, AreMadeInOneFrameAndReadWithoutABarrierInTheNext) {
+    View first;
+    first.make(first.cubes, 7);
+    first.view(first.cubes);
+    const Plan made = planned(first.g);
+    EXPECT_THAT(texts(made.passes.at(0).barriers),
+                ElementsAre("image 0 mips [0,1) layers [0,12) sampled > colour! +1"));
+    EXPECT_THAT(texts(made.last),
+                ElementsAre("image 0 mips [0,1) layers [0,12) sampled > sampled",
+                            "image 1 mips [0,1) layers [0,1) colour! > copy_from"));
+    View second(held(0, 12, 7));
+    second.view(second.cubes);
+    const Plan plan = planned(second.g);
+    EXPECT_THAT(texts(plan.passes.at(0).barriers),
+                ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
+    EXPECT_THAT(texts(plan.last),
+                ElementsAre("image 1 mips [0,1) layers [0,1) colour! > copy_from"));
+    EXPECT_TRUE(plan.images[0].alone);
+    EXPECT_EQ(plan.images[0].bytes, 12u * 8 * 8 * 8); // one copy
+    EXPECT_THAT(to_text(second.g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, kept, passes"));
+}
+
+TEST(KeptImages, MayBeWantedOfAFrameThatDoesNotTouchThem) {
+    View v(held(0, 12, 7));
+    v.g.want(v.cubes.layers(0, 6));
+    const Plan plan = planned(v.g);
+    EXPECT_THAT(plan.passes, IsEmpty());
+    EXPECT_THAT(plan.last, IsEmpty()); // it is readable as it is
+}
+
+TEST(KeptImages, AreWrittenThoughNobodyReadsThemInTheFrame) {
+    View v;
+    v.make(v.cubes.layers(6, 6), 7);
+    const Plan plan = planned(v.g);
+    ASSERT_EQ(plan.passes.size(), 1u);
+    EXPECT_EQ(plan.passes[0].unread, 0u);
+}
+
+TEST(KeptImages, LayersThatWereNeverWrittenAreNotRead) {
+    View v(held(0, 6, 7));
+    v.view(v.cubes);
+    EXPECT_EQ(refusal(v.g), "pass 'view' reads 'cubes' [0,12) as sampled before any pass writes "
+                            "layers [6,12)");
+}
+
+TEST(KeptImages, SayWhatTheyAreMadeFrom) {
+    View v;
+    v.g.pass("make").writes(v.cubes, Use::colour, kBlack).layers(12).record(nothing);
+    v.g.made_from(v.cubes.layers(0, 6), 7);
+    EXPECT_EQ(refusal(v.g),
+              "pass 'make' writes 'cubes' [0,12), which is kept, but nobody says what "
+              "layers [6,12) are made from");
+}
+
+TEST(KeptImages, AreNotMadeFromSomethingByNobody) {
+    View v(held(0, 12, 7));
+    v.view(v.cubes);
+    v.g.made_from(v.cubes.layers(0, 6), 7);
+    EXPECT_EQ(refusal(v.g), "'cubes' [0,6) is said to be made from something, but no pass writes "
+                            "layers [0,6)");
+    View w;
+    w.make(w.cubes.layers(6, 6), 1);
+    w.g.made_from(w.cubes.layers(6, 7), 1);
+    EXPECT_EQ(refusal(w.g), "'cubes' [6,13) is said to be made from something, but the image has "
+                            "layers [0,12) and 1 mip(s)");
+}
+
+TEST(KeptImages, HaveNoPrevious) {
+    View v;
+    try {
+        v.g.previous(v.cubes);
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "previous() of image 'cubes', which is kept and has one copy");
+    }
+    try {
+        v.g.made_from(v.out, 1);
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "made_from() of image 'out', which is not kept");
+    }
+}
+
+TEST(Imported, TexturesArriveReadyAndStayAsTheyAre) {
+    Graph g;
+    const Image texture = g.import(kDesc, nullptr, Use::sampled, Use::sampled);
+    const Image out = g.image({.name = "out"});
+    g.pass("view").reads(texture, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+    g.want(out);
+    const Plan plan = planned(g);
+    EXPECT_THAT(texts(plan.passes.at(0).barriers),
+                ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
+    EXPECT_EQ(plan.last.size(), 1u);
+    EXPECT_EQ(plan.images[0].bytes, 0u);
+    EXPECT_EQ(plan.bytes, planned([] {
+                              Graph alone;
+                              const Image image = alone.image({.name = "out"});
+                              alone.pass("view").writes(image, Use::colour, kBlack).record(nothing);
+                              alone.want(image);
+                              return alone;
+                          }())
+                              .bytes);
+    EXPECT_THAT(to_text(g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, imported"));
+}
+
+TEST(Imported, WindowsArriveInAnyStateAndAreLeftToBeShown) {
+    Graph g;
+    const Image window = g.import({.name = "window"}, nullptr, std::nullopt, Use::present);
+    g.pass("show").writes(window, Use::colour, kBlack).record(nothing); // nobody wants it here
+    const Plan plan = planned(g);
+    ASSERT_EQ(plan.passes.size(), 1u);
+    EXPECT_EQ(plan.passes[0].unread, 0u);
+    EXPECT_THAT(texts(plan.passes[0].barriers),
+                ElementsAre("image 0 mips [0,1) layers [0,1) nothing > colour!"));
+    EXPECT_THAT(texts(plan.last), ElementsAre("image 0 mips [0,1) layers [0,1) colour! > present"));
+}
+
+TEST(Imported, AllLayersAreLeftAsIsSaid) {
+    Graph g;
+    const Image image = g.import(kDesc, nullptr, Use::copy_from, Use::sampled);
+    g.pass("some").writes(image.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
+    EXPECT_THAT(texts(planned(g).last),
+                ElementsAre("image 0 mips [0,1) layers [0,6) colour! > sampled",
+                            "image 0 mips [0,1) layers [6,12) copy_from > sampled +1"));
+}
+
+TEST(Imported, ContentsThatDoNotMatterAreNotRead) {
+    Graph g;
+    const Image image = g.import({.name = "window"}, nullptr, std::nullopt, Use::present);
+    const Image out = g.image({.name = "out"});
+    g.pass("view").reads(image, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+    EXPECT_THAT(refusal(g), HasSubstr("pass 'view' reads 'window' [0,1) as sampled before any"));
+}
+
+TEST(Imported, IsReadWhereItComesFrom) {
+    Graph g;
+    const Image image = g.import({.name = "window"}, nullptr, Use::sampled, Use::sampled);
+    g.want(image);
+    EXPECT_EQ(refusal(g), "'window' [0,1) is wanted, but imported: read it where it comes from");
+    Graph h;
+    const Buffer buffer = h.import(BufferDesc{.name = "back", .bytes = 4}, nullptr);
+    h.want(buffer);
+    EXPECT_EQ(refusal(h), "buffer 'back' is wanted, but imported: read it where it comes from");
+}
+
+TEST(Imported, BuffersAreLeftToTheHost) {
+    Graph g;
+    const Buffer list = g.import(BufferDesc{.name = "list", .bytes = 64}, nullptr);
+    const Buffer back = g.import(BufferDesc{.name = "back", .bytes = 64}, nullptr);
+    g.pass("fill")
+        .reads(list, Use::storage_read) // nobody in this frame wrote it
+        .writes(back, Use::storage_write)
+        .record(nothing);
+    const Plan plan = planned(g);
+    ASSERT_EQ(plan.passes.size(), 1u);
+    EXPECT_THAT(plan.passes[0].barriers, IsEmpty());
+    EXPECT_THAT(texts(plan.last), ::testing::Contains("buffer storage_write! > copy_from"));
+    EXPECT_EQ(plan.bytes, 0u);
+}
+
+struct Mips : ::testing::Test {
+    Graph g;
+    Image image = g.image({.name = "pyramid", .width = 8, .height = 4, .layers = 2, .mips = 4});
+    Image out = g.image({.name = "out", .width = 8, .height = 4});
+
+    void write(std::uint32_t mip) {
+        PassBuilder pass = g.pass("mip" + std::to_string(mip));
+        if (mip > 0) pass.reads(image.mip(mip - 1), Use::sampled);
+        pass.writes(image.mip(mip), Use::storage_write).record(nothing);
+    }
+    void view(Image part) {
+        g.pass("view").reads(part, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
+        g.want(out);
+    }
+};
+
+TEST_F(Mips, HaveBarriersOfTheirOwn) {
+    for (std::uint32_t m = 0; m < 4; ++m) write(m);
+    view(image);
+    const Plan plan = planned(g);
+    EXPECT_THAT(texts(plan.passes.at(2).barriers),
+                ElementsAre("image 0 mips [1,2) layers [0,2) storage_write! > sampled",
+                            "image 0 mips [2,3) layers [0,2) nothing > storage_write!"));
+    EXPECT_THAT(texts(plan.passes.at(4).barriers),
+                ElementsAre("image 0 mips [0,3) layers [0,2) sampled > sampled",
+                            "image 0 mips [3,4) layers [0,2) storage_write! > sampled",
+                            "image 1 mips [0,1) layers [0,1) nothing > colour!"));
+    EXPECT_EQ(plan.images[0].bytes, 768u); // (32 + 8 + 2 + 1) texels, 2 layers, 8 bytes: padded
+}
+
+TEST_F(Mips, BarriersOfSomeLayersAreRectangles) {
+    for (std::uint32_t m = 0; m < 4; ++m) write(m);
+    view(image.layers(1, 1));
+    EXPECT_THAT(texts(planned(g).passes.at(4).barriers),
+                ElementsAre("image 0 mips [0,3) layers [1,2) sampled > sampled",
+                            "image 0 mips [3,4) layers [1,2) storage_write! > sampled",
+                            "image 1 mips [0,1) layers [0,1) nothing > colour!"));
+}
+
+TEST_F(Mips, AreReadOnlyWhereTheyAreWritten) {
+    write(0);
+    write(1);
+    view(image.mips(0, 3));
+    EXPECT_EQ(refusal(g), "pass 'view' reads 'pyramid' [0,2) mips [0,3) as sampled before any pass "
+                          "writes layers [0,2) of mip 2");
+}
+
+TEST_F(Mips, AreWrittenOneAtATime) {
+    g.pass("all").writes(image, Use::storage_write).record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'all' uses 'pyramid' [0,2) mips [0,4) as storage_write: one mip at "
+                          "a time");
+}
+
+TEST_F(Mips, OutOfRange) {
+    g.pass("all").writes(image.mip(4), Use::storage_write).record(nothing);
+    EXPECT_EQ(refusal(g),
+              "pass 'all' uses 'pyramid' [0,2) mip 4 as storage_write, but the image has "
+              "mips [0,4)");
+}
+
+TEST_F(Mips, MoreThanThereAre) {
+    g.image({.name = "deep", .width = 8, .height = 4, .mips = 5});
+    EXPECT_EQ(refusal(g), "image 'deep' wants 5 mips, but of 8x4 there are 1 to 4");
+}
+
+TEST_F(Mips, WantedOutOfRange) {
+    write(0);
+    g.want(image.mips(0, 5));
+    EXPECT_EQ(refusal(g), "'pyramid' [0,2) mips [0,5) is wanted, but the image has mips [0,4)");
+}
+
+TEST_F(Mips, AttachmentsAreAsLargeAsTheirMip) {
+    const Image depth = g.image({.name = "depth", .format = Format::d32f, .width = 8, .height = 4});
+    g.pass("draw")
+        .writes(image.mip(1).layers(0, 1), Use::colour, kBlack)
+        .writes(depth, Use::depth, kBlack)
+        .record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'draw' attaches 'pyramid' [0,1) mip 1 as colour (4x2) and 'depth' "
+                          "[0,1) as depth (8x4): attachments have one size");
+}
+
+TEST_F(Mips, OneMayBeReadWhileAnotherIsWritten) {
+    write(0);
+    g.pass("twice")
+        .reads(image.mip(0), Use::sampled)
+        .writes(image.mip(0), Use::storage_write)
+        .record(nothing);
+    EXPECT_EQ(refusal(g), "pass 'twice' reads 'pyramid' [0,2) mip 0 as sampled while it writes "
+                          "'pyramid' [0,2) mip 0 as storage_write, in layers [0,2) of mip 0");
+}
+
+TEST(Unread, IsWhatNobodyReadsBeforeItIsWrittenAgain) {
+    Graph g;
+    const Image depth = g.image({.name = "depth", .format = Format::d32f, .layers = 2});
+    const Image a = g.image({.name = "a", .layers = 2}), b = g.image({.name = "b", .layers = 2});
+    const auto draw = [&](const std::string& name, Image colour, std::optional<Clear> clear) {
+        g.pass(name)
+            .writes(colour, Use::colour, kBlack)
+            .writes(depth, Use::depth, clear)
+            .layers(2)
+            .record(nothing);
+    };
+    draw("first", a, kBlack); // its depth is loaded by the second
+    draw("second", b, std::nullopt);
+    draw("third", a, kBlack);
+    g.want(a);
+    g.want(b);
+    const Plan plan = planned(g);
+    ASSERT_EQ(plan.passes.size(), 3u);
+    EXPECT_EQ(plan.passes[0].unread, 1u); // its depth is loaded, its colour written again
+    EXPECT_EQ(plan.passes[1].unread, 2u); // its depth is cleared by the third
+    EXPECT_EQ(plan.passes[2].unread, 2u); // nobody follows
+}
+
+TEST(Shape, IsNotWhatPassesRecordOrClearTo) {
+    const auto graph = [](const std::string& name, float red, std::uint64_t stamp, bool there) {
+        View v(there ? held(0, 12, stamp) : History{});
+        v.g.pass(name).writes(v.out, Use::colour, Clear{red}).record(nothing);
+        if (!there) v.make(v.cubes, stamp);
+        return std::move(v.g);
+    };
+    const Graph known = graph("p", 0, 1, false);
+    const auto same = [&](const Graph& other) {
+        EXPECT_EQ(has_shape(other, known.without_bodies()), shape_hash(other) == shape_hash(known));
+        return has_shape(other, known.without_bodies());
+    };
+    EXPECT_TRUE(same(graph("p", 0, 1, false)));
+    EXPECT_TRUE(same(graph("p", 1, 1, false)));
+    EXPECT_TRUE(same(graph("p", 0, 2, false)));
+    EXPECT_FALSE(same(graph("q", 0, 1, false)));
+    EXPECT_FALSE(same(graph("p", 0, 1, true)));
+}
+
+} // namespace
+} // namespace catoptric::graph

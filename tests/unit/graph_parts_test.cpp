@@ -1,0 +1,182 @@
+// The planner's bookkeeping beside the plainest that does the same: a value for each cell, every
+// pair of placements.
+#include "graph/memory_users.hpp"
+#include "graph/runs.hpp"
+#include "support/frames.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace catoptric::graph {
+namespace {
+
+class Draw {
+public:
+    explicit Draw(unsigned seed) : random_(seed) {}
+    std::uint32_t below(std::uint32_t count) {
+        return static_cast<std::uint32_t>(random_()) % count;
+    }
+
+private:
+    std::mt19937 random_;
+};
+
+std::vector<int> cells_of(const Runs<int>& runs) {
+    std::vector<int> cells;
+    runs.each([&](std::uint32_t begin, std::uint32_t end, int value) {
+        cells.resize(cells.size() + (end - begin), value);
+    });
+    return cells;
+}
+
+TEST(Runs, HoldWhatAValueForEachCellWouldHold) {
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        Draw draw(seed);
+        const std::uint32_t size = draw.below(40) + 1;
+        Runs<int> runs(size, 7);
+        std::vector<int> cells(size, 7);
+        for (int step = 0; step < 60; ++step) {
+            const std::uint32_t first = draw.below(size),
+                                end = first + draw.below(size - first + 1);
+            const int value = static_cast<int>(draw.below(3));
+            const bool set = draw.below(2) == 0;
+            const auto change = [&](int& cell) { cell = set ? value : (cell + value) % 5; };
+            runs.change(first, end, [&](std::uint32_t, std::uint32_t, int& cell) { change(cell); });
+            for (std::uint32_t i = first; i < end; ++i) change(cells[i]);
+            ASSERT_EQ(cells_of(runs), cells) << "seed " << seed << ", step " << step;
+            const auto begin = cells.begin();
+            EXPECT_EQ(runs.any(first, end, value),
+                      std::count(begin + first, begin + end, value) > 0);
+        }
+    }
+}
+
+TEST(Runs, JoinNeighboursOfOneValue) {
+    Runs<int> runs(100, 0);
+    for (std::uint32_t i = 0; i < 100; i += 2) runs.set(i, i + 1, 1);
+    for (std::uint32_t i = 1; i < 100; i += 2) runs.set(i, i + 1, 1);
+    int count = 0;
+    runs.each([&](std::uint32_t, std::uint32_t, int) { ++count; });
+    EXPECT_EQ(count, 1);
+}
+
+Placement at(std::uint64_t offset, std::uint64_t bytes, std::uint32_t heap) {
+    return {.used = true, .heap = heap, .offset = offset, .bytes = bytes};
+}
+
+TEST(MemoryUsers, AreThoseOfEveryPieceThatOverlaps) {
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        Draw draw(seed);
+        Plan plan;
+        plan.heap_bytes = {100, 100};
+        const std::uint32_t count = draw.below(20) + 1;
+        for (std::uint32_t i = 0; i < count; ++i)
+            (i % 3 ? plan.images : plan.buffers)
+                .push_back(at(draw.below(60), draw.below(40) + 1, draw.below(2)));
+        std::vector<Placement> all = plan.images;
+        all.insert(all.end(), plan.buffers.begin(), plan.buffers.end());
+        MemoryUsers users(plan);
+        std::vector<std::pair<Placement, TouchSet>> left;
+        for (int step = 0; step < 40; ++step) {
+            const Placement& mine = all[draw.below(count)];
+            TouchSet expected = 0;
+            for (const auto& [other, touches] : left)
+                if (other.heap == mine.heap && other.offset < mine.offset + mine.bytes &&
+                    mine.offset < other.offset + other.bytes)
+                    expected |= touches;
+            ASSERT_EQ(users.left_in(mine), expected) << "seed " << seed << ", step " << step;
+            const TouchSet touches = TouchSet{1} << draw.below(kTouchCodes);
+            users.leave(mine, touches);
+            left.emplace_back(mine, touches);
+        }
+    }
+}
+
+TEST(Touches, CodesAreOneToOne) {
+    for (int use = 0; use <= static_cast<int>(Use::indirect); ++use)
+        for (const bool write : {false, true})
+            for (const bool raster : {false, true}) {
+                const Touch touch{.nothing = false,
+                                  .use = static_cast<Use>(use),
+                                  .write = write,
+                                  .raster = raster};
+                EXPECT_EQ(touch_of(code_of(touch)), touch);
+                EXPECT_EQ(use_of(code_of(touch)), touch.use);
+                EXPECT_LT(code_of(touch), kTouchCodes);
+            }
+    EXPECT_EQ(touch_of(code_of({})), Touch{});
+}
+
+/// The lowest place beside everything that is alive at the same time, found the long way.
+std::uint64_t lowest_place(const std::vector<Placement>& placed, const Placement& mine,
+                           std::uint64_t alignment) {
+    for (std::uint64_t offset = 0;; offset += alignment) {
+        bool free = true;
+        for (const Placement& other : placed)
+            free = free &&
+                   (other.last < mine.first || mine.last < other.first ||
+                    other.offset + other.bytes <= offset || offset + mine.bytes <= other.offset);
+        if (free) return offset;
+    }
+}
+
+/// Images of drawn sizes that live from one drawn pass to another.
+TEST(Places, AreTheLowestThatAreFree) {
+    constexpr std::uint32_t kPasses = 12, kImages = 30;
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        Draw draw(seed);
+        Graph g;
+        std::vector<Image> images;
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> lives;
+        for (std::uint32_t i = 0; i < kImages; ++i) {
+            images.push_back(
+                g.image({.name = "i" + std::to_string(i), .width = draw.below(9) + 1}));
+            const std::uint32_t first = draw.below(kPasses);
+            lives.emplace_back(first, first + draw.below(kPasses - first));
+        }
+        const Buffer out = g.buffer({.name = "out", .bytes = 4});
+        for (std::uint32_t p = 0; p < kPasses; ++p) {
+            PassBuilder pass = g.pass("p" + std::to_string(p));
+            pass.writes(out, p == 0 ? Use::storage_write : Use::storage);
+            for (std::uint32_t i = 0; i < kImages; ++i) {
+                if (lives[i].first == p) pass.writes(images[i], Use::storage_write);
+                if (lives[i].second == p && lives[i].first < p) pass.reads(images[i], Use::sampled);
+            }
+            pass.record([](Commands&) {});
+        }
+        g.want(out);
+        const Sizer sizer{.image =
+                              [](const ImageDesc& desc) {
+                                  return Requirements{
+                                      .bytes = desc.width, .alignment = 2, .heap = 0};
+                              },
+                          .buffer = plain_sizer().buffer};
+        const Plan found = plan(g, {}, sizer);
+        std::vector<std::uint32_t> order(kImages);
+        for (std::uint32_t i = 0; i < kImages; ++i) order[i] = i;
+        std::ranges::stable_sort(order, std::greater<>(),
+                                 [&](std::uint32_t i) { return found.images[i].bytes; });
+        std::vector<Placement> placed;
+        for (const std::uint32_t i : order) {
+            EXPECT_EQ(found.images[i].offset, lowest_place(placed, found.images[i], 2))
+                << "seed " << seed << ", image " << i;
+            placed.push_back(found.images[i]);
+        }
+    }
+}
+
+TEST(LargeFrames, ShareOneDepthImageAndWaitForItsLastUser) {
+    constexpr std::uint32_t kMirrors = 200;
+    const Graph g = test::reuse_frame(kMirrors);
+    const Plan found = plan(g, {}, plain_sizer());
+    ASSERT_EQ(found.passes.size(), kMirrors + 3);
+    for (std::uint32_t n = 0; n < kMirrors; ++n)
+        EXPECT_EQ(found.images[6 + n].offset, found.images[6].offset);
+    // Shadow, the capture's own layers of both cubes, and the shared depth.
+    for (std::uint32_t n = 1; n < kMirrors; ++n) EXPECT_EQ(found.passes[1 + n].barriers.size(), 3u);
+    EXPECT_LT(found.bytes, 2 * kMirrors * 6 * 64 * 64 * (8 + 4) + 6 * 64 * 64 * 4 + 1000000u);
+}
+
+} // namespace
+} // namespace catoptric::graph
