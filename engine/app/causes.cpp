@@ -34,7 +34,7 @@ std::string with_full_distance(const std::string& technique) {
     std::string text = choice.technique;
     char separator = ':';
     for (const auto& setting : choice.settings) {
-        if (setting.is_default || setting.name == "distance" || setting.name == "range") continue;
+        if (!setting.changed || setting.name == "distance" || setting.name == "range") continue;
         text += separator + setting.name + "=" + setting.text;
         separator = ',';
     }

@@ -6,9 +6,9 @@
 #include "core/error.hpp"
 #include "measure/difference.hpp"
 #include "measure/flip.hpp"
+#include "measure/judge.hpp"
 #include "measure/masks.hpp"
 #include "reflect/technique.hpp"
-#include "report/rows.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -46,14 +46,6 @@ bool is_set(const report::Row& row, std::string_view knob, std::string_view text
     return std::ranges::any_of(row.settings, [&](const report::Setting& setting) {
         return setting.name == knob && setting.text == text;
     });
-}
-
-std::vector<report::Setting> settings_of(const TechniqueChoice& choice) {
-    std::vector<report::Setting> settings;
-    for (const auto& [name, text, is_number, is_default] : choice.settings)
-        settings.push_back(
-            {name, text, is_number ? std::optional(std::stod(text)) : std::nullopt, !is_default});
-    return settings;
 }
 
 template <typename Value>
@@ -127,7 +119,7 @@ report::Row make_row(const std::string& text, const Part& part, const std::vecto
     report::Row row;
     row.technique = choice.technique;
     row.label = choice.label;
-    row.settings = settings_of(choice);
+    row.settings = choice.settings;
     row.image = choice.file_name;
     row.scene_passes = part.scene_passes;
     row.scene_draws = part.scene_draws;
@@ -185,9 +177,13 @@ private:
         comparison_.complete = false;
         comparison_.asked = base.techniques.size();
         comparison_.device = {device.name, device.driver, device.api, device.type, device.threads};
-        comparison_.scene = {base.scene.name, scene::triangle_count(base.scene), mirrors_,
+        comparison_.scene = {base.scene.name,
+                             scene::triangle_count(base.scene),
+                             mirrors_,
                              scene::hash(base.scene),
-                             scene::hash(base.scene) == scene::hash(scene::cornell_mirrors())};
+                             scene::hash(base.scene) == scene::hash(scene::cornell_mirrors()),
+                             {base.camera.name, base.camera.eye, base.camera.target, base.camera.up,
+                              base.camera.vertical_fov_degrees}};
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);
         comparison_.frames = base.frames;
@@ -223,7 +219,7 @@ private:
         const TechniqueChoice choice = parse_technique(request_.reference);
         comparison_.reference_technique = choice.technique;
         comparison_.reference_label = choice.label;
-        comparison_.reference_settings = settings_of(choice);
+        comparison_.reference_settings = choice.settings;
         comparison_.reference_gpu_ms = measure::summarise(truth("1").gpu_ms);
         comparison_.reference_display = truth("1").part.display;
     }
@@ -286,7 +282,7 @@ private:
         row.is_reference = same(parse_technique(text),
                                 parse_technique(reference_at(request_.reference, samples)));
         comparison_.rows.push_back(std::move(row));
-        judge_front();
+        comparison_.pareto = measure::front_of(comparison_.rows);
         tell();
     }
 
@@ -319,13 +315,6 @@ private:
                      .on_row = request_.on_row,
                      .on_finished_row = [this] { tell(); }},
                     comparison_.lag.emplace());
-    }
-
-    void judge_front() {
-        std::vector<measure::Candidate> candidates;
-        for (const report::Row& row : comparison_.rows)
-            candidates.push_back(report::candidate_of(row));
-        comparison_.pareto = measure::pareto_front(candidates);
     }
 
     Engine& engine_;

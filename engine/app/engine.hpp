@@ -2,6 +2,7 @@
 
 #include "core/format.hpp"
 #include "core/math.hpp"
+#include "core/setting.hpp"
 #include "measure/picture.hpp"
 #include "scene/load.hpp"
 #include "scene/scene.hpp"
@@ -153,12 +154,6 @@ std::vector<TechniqueInfo> techniques();
 
 /// Checks "name[:knob=value,...]"; throws `Failure::usage` with the nearest name.
 struct TechniqueChoice {
-    struct Setting {
-        std::string name, text; ///< numbers in decimal
-        bool is_number = true;  ///< false for a choice and for a special word
-        bool is_default = true;
-        bool operator==(const Setting&) const = default;
-    };
     std::string technique, label, file_name;
     std::vector<Setting> settings; ///< all knobs
 };

@@ -242,8 +242,8 @@ private:
             return true;
         };
         run_in_row(std::move(request));
-        settling.rmse_settled = measure::settled_from(settling.rmse, report::kLagBound);
-        settling.max_settled = measure::settled_from(settling.max, report::kLagBound);
+        settling.rmse_settled = measure::settled_from(settling.rmse, measure::kLagBound);
+        settling.max_settled = measure::settled_from(settling.max, measure::kLagBound);
         return settling;
     }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/engine.hpp"
-#include "report/lag.hpp"
+#include "report/comparison.hpp"
 
 namespace catoptric::app {
 
