@@ -86,7 +86,7 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
                          const std::vector<std::uint32_t>& hits) {
     std::size_t pixels = 0, black = 0, wanted_black = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (measure::first_mirror(hits[i]) == 0) continue;
+        if (!measure::first_mirror(hits[i])) continue;
         ++pixels;
         black += picture.pixels[i] == vec3(0);
         wanted_black += truth.pixels[i] == vec3(0);
@@ -107,8 +107,8 @@ void fill_errors(report::Row& row, const Part& part, const Part& truth,
     row.error_mirror_in_mirror = against(measure::mirror_in_mirror(hits));
     row.error_non_mirror = against(measure::non_mirror(hits));
     row.error_all = against(measure::all_pixels(hits));
-    for (std::uint32_t mirror = 1; mirror <= mirrors; ++mirror)
-        row.error_per_mirror.push_back(against(measure::of_mirror(hits, mirror)));
+    for (std::size_t i = 0; i < mirrors; ++i)
+        row.error_per_mirror.push_back(against(measure::of_mirror(hits, MirrorId::at(i))));
     row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
     row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
     row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
@@ -251,7 +251,7 @@ private:
         const double edge = row.auto_face ? row.auto_face->edge : face->number.value();
         measure::Mask at_edges = oracle_->at_light_edges(lookup, static_cast<std::uint32_t>(edge));
         for (std::size_t i = 0; i < at_edges.size(); ++i)
-            if (measure::first_mirror(hits_[i]) == 0) at_edges[i] = 0;
+            if (!measure::first_mirror(hits_[i])) at_edges[i] = 0;
         const measure::Difference there = measure::difference(row.hdr, truth("1").part.hdr,
                                                               at_edges, row.flip_map);
         const auto sum = [](const measure::Difference& error) {

@@ -69,7 +69,7 @@ using Pixels = std::vector<std::size_t>; // row-major
 Pixels mirror_pixels(const std::vector<std::uint32_t>& hits) {
     Pixels pixels;
     for (std::size_t i = 0; i < hits.size(); ++i)
-        if (measure::first_mirror(hits[i]) != 0) pixels.push_back(i);
+        if (measure::first_mirror(hits[i])) pixels.push_back(i);
     return pixels;
 }
 

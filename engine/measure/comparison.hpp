@@ -73,7 +73,7 @@ struct Row {
     Difference error_mirror_in_mirror; ///< ... whose reflected ray does
     Difference error_non_mirror;       ///< everything else
     Difference error_all;
-    std::vector<Difference> error_per_mirror;    ///< entry n-1 is mirror n
+    std::vector<Difference> error_per_mirror;    ///< by MirrorId::index
     std::uint64_t memory_bytes = 0;              ///< of the frame's images
     std::optional<Rays> rays;                    ///< of ray tracing, one frame
     std::optional<std::size_t> saturated_texels; ///< of captures that hold halves: cut off at 65504

@@ -1,4 +1,5 @@
 // rows.csv: RFC 4180, so lines end in CR LF. What is not there is empty.
+#include "core/mirror_id.hpp"
 #include "core/text.hpp"
 #include "measure/judge.hpp"
 #include "measure/quantity.hpp"
@@ -99,7 +100,7 @@ void add_errors(Line& line, const Row& row, std::size_t mirrors) {
     for (const measure::RowMask& mask : measure::masks())
         add(line, std::string(mask.name), row.*mask.error);
     for (std::size_t i = 0; i < mirrors; ++i)
-        add(line, "mirror_" + std::to_string(i + 1),
+        add(line, "mirror_" + std::to_string(MirrorId::at(i).number()),
             i < row.error_per_mirror.size() ? row.error_per_mirror[i] : measure::Difference{});
 }
 

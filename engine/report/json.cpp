@@ -1,5 +1,7 @@
 // report.json. Only the files json*.cpp know the JSON library; fields are only ever added.
 #include "report/json.hpp"
+
+#include "core/mirror_id.hpp"
 #include "report/report.hpp"
 #include "report/text.hpp"
 
@@ -72,7 +74,7 @@ void add_errors(Json& json, const Row& row) {
     }
     Json list = Json::array();
     for (std::size_t i = 0; i < row.error_per_mirror.size(); ++i) {
-        Json error{{"mirror", i + 1}};
+        Json error{{"mirror", MirrorId::at(i).number()}};
         add(error, row.error_per_mirror[i]);
         list.push_back(std::move(error));
     }

@@ -1,5 +1,6 @@
 #include "report/tables.hpp"
 
+#include "core/mirror_id.hpp"
 #include "measure/judge.hpp"
 #include "measure/quantity.hpp"
 #include "measure/rows.hpp"
@@ -205,8 +206,8 @@ Table mirror_table(const Comparison& comparison) {
         "Mirror by mirror", {{"Row", false}}, {}, {}, "rmse over the pixels of each mirror."};
     std::size_t mirrors = 0;
     for (const Row& row : comparison.rows) mirrors = std::max(mirrors, row.error_per_mirror.size());
-    for (std::size_t i = 1; i <= mirrors; ++i)
-        table.columns.push_back({"Mirror " + std::to_string(i)});
+    for (std::size_t i = 0; i < mirrors; ++i)
+        table.columns.push_back({"Mirror " + std::to_string(MirrorId::at(i).number())});
     for (const Row& row : comparison.rows) {
         std::vector<std::string> cells{row.label};
         for (const measure::Difference& error : row.error_per_mirror)

@@ -54,7 +54,7 @@ constexpr reflect::Technique kTechnique{.name = "testonly",
                                         .order = 1000,
                                         .knobs = kKnobs,
                                         .compared = kRows};
-const reflect::Row kTestOnly{kTechnique};
+const reflect::Registered kTestOnly{kTechnique};
 
 /// A row whose picture is `colour` all over, and its difference from black.
 measure::Row row_of(const vec3& colour) {
