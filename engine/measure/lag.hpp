@@ -53,4 +53,7 @@ struct Lag {
     bool complete = true; ///< false: interrupted, what there was so far
 };
 
+/// The instant of the largest error, seconds; NaN where there is none.
+double worst_instant(const Lag& lag, const LagAtSpeed& at);
+
 } // namespace catoptric::measure

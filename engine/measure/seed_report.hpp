@@ -32,8 +32,10 @@ inline constexpr SeedRow kSeedTable[] = {
     kSeedRayTrace,
 };
 
+/// What it puts down to clearing, milliseconds.
+inline constexpr double kSeedClearMs = kSeedPartOne.ms - kSeedPartTwo.ms;
 /// How far its part one without inter-reflections is behind part two, as a share of that.
-inline constexpr double kSeedClearGap = (kSeedPartOne.ms - kSeedPartTwo.ms) / kSeedPartTwo.ms;
+inline constexpr double kSeedClearGap = kSeedClearMs / kSeedPartTwo.ms;
 inline constexpr double kSeedRayTraceRatio = kSeedRayTrace.ms / kSeedPartThree.ms;
 
 } // namespace catoptric::measure

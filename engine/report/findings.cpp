@@ -55,8 +55,8 @@ Sentence clears(const Comparison& comparison) {
                                    "({:.1f} against {:.1f} ms), which it puts down to clearing the "
                                    "cube maps. Here part one, {}, "
                                    "is {} part two ({})",
-                                   kSeedPartOne.ms - kSeedPartTwo.ms, kSeedPartOne.ms,
-                                   kSeedPartTwo.ms, finding->one->label, order,
+                                   measure::kSeedClearMs, kSeedPartOne.ms, kSeedPartTwo.ms,
+                                   finding->one->label, order,
                                    both_times(*finding->one, *finding->two));
     if (!finding->clear_ms) return text + "; what a clear costs was not measured.";
     return text + ". Clearing the cubes of all mirrors costs " + ms_text(*finding->clear_ms) +
