@@ -35,18 +35,14 @@ void check_sizes(const Picture& a, const Picture& b, const Mask& mask, std::size
           " pixels wants a FLIP map of as many, found ", flip_size);
 }
 
-constexpr std::string_view kEach = "each";
-
 const Registered kPixels{
     {.name = "pixels",
      .unit = "pixels",
      .help = "pixels of the mask, those that are not finite included",
-     .mask = kEach,
      .order = 100,
      .get = [](const Difference& error) -> Value { return static_cast<double>(error.pixels); }}};
 const Registered kRmse{{.name = "rmse",
                         .help = "root of the mean square difference, linear RGB clamped to [0,1]",
-                        .mask = kEach,
                         .better = Better::less,
                         .order = 101,
                         .each_mask_in_table = true,
@@ -54,7 +50,6 @@ const Registered kRmse{{.name = "rmse",
                         .get = [](const Difference& error) -> Value { return error.rmse; }}};
 const Registered kMae{{.name = "mae",
                        .help = "mean absolute difference, linear RGB clamped to [0,1]",
-                       .mask = kEach,
                        .better = Better::less,
                        .order = 102,
                        .columns = {{"MAE"}},
@@ -62,7 +57,6 @@ const Registered kMae{{.name = "mae",
 const Registered kFlip{
     {.name = "flip",
      .help = "mean LDR-FLIP at 67 pixels per degree, of the pictures as displayed",
-     .mask = kEach,
      .better = Better::less,
      .order = 103,
      .columns = {{"FLIP"}},
@@ -70,7 +64,6 @@ const Registered kFlip{
 const Registered kPsnr{{.name = "psnr",
                         .unit = "dB",
                         .help = "-20 log10 rmse; none for equal pictures",
-                        .mask = kEach,
                         .better = Better::more,
                         .order = 104,
                         .columns = {{"PSNR dB", Style::fixed, 1}},
@@ -79,7 +72,6 @@ const Registered kPsnr{{.name = "psnr",
                         }}};
 const Registered kP99{{.name = "p99",
                        .help = "99th percentile of the pixels' largest channel difference",
-                       .mask = kEach,
                        .better = Better::less,
                        .order = 105,
                        .columns = {{"p99"}},
@@ -88,19 +80,16 @@ const Registered kNonfinite{
     {.name = "nonfinite",
      .unit = "pixels",
      .help = "pixels that are NaN or infinite; any makes a row fail",
-     .mask = kEach,
      .better = Better::less,
      .order = 106,
      .get = [](const Difference& error) -> Value { return static_cast<double>(error.nonfinite); }}};
 const Registered kMax{{.name = "max",
                        .help = "the largest channel difference of all",
-                       .mask = kEach,
                        .better = Better::less,
                        .order = 107,
                        .get = [](const Difference& error) -> Value { return error.max; }}};
 const Registered kMaxAt{{.name = "max_at",
                          .help = "the pixel of the largest channel difference",
-                         .mask = kEach,
                          .order = 108,
                          .get = [](const Difference& error) -> Value {
                              return Place{error.max_x, error.max_y};
@@ -108,7 +97,6 @@ const Registered kMaxAt{{.name = "max_at",
 const Registered kShareOff{
     {.name = "off",
      .help = "share of the pixels whose largest channel difference exceeds .02",
-     .mask = kEach,
      .better = Better::less,
      .order = 109,
      .get = [](const Difference& error) -> Value { return error.off; }}};

@@ -76,7 +76,6 @@ const Registered kLongestLine{
      .help =
          "length of the longest line of pixels that are off: of sets that touch when dilated by "
          "1, among those without a 4x4 square",
-     .mask = "each",
      .better = Better::less,
      .order = 110,
      .get = [](const Difference& error) -> Value { return error.longest_line; }}};

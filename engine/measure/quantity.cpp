@@ -48,7 +48,10 @@ constexpr RowMask kMasks[] = {
 
 } // namespace
 
-Registered::Registered(Quantity quantity) { table().push_back(std::move(quantity)); }
+Registered::Registered(Quantity quantity) {
+    if (!is_of_row(quantity)) quantity.mask = "each";
+    table().push_back(std::move(quantity));
+}
 
 const std::vector<Quantity>& quantities() {
     static const std::vector<Quantity> kRows = in_order();

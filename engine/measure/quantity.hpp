@@ -3,7 +3,7 @@
 #include "measure/comparison.hpp"
 
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -69,8 +69,8 @@ struct Quantity {
     std::string_view name;
     std::string_view unit = {}; ///< "ms", "bytes"; empty: a plain number
     std::string_view help;
-    /// Pixels that it is over: a name of `masks()`; "each": it stands once for each of them and for
-    /// each mirror; empty: it is of no pixels.
+    /// Pixels that it is over: a name of `masks()`; empty: it is of no pixels. A figure of a
+    /// difference stands once for each of them and for each mirror, and this becomes "each".
     std::string_view mask = {};
     Better better = Better::neither;
     int order = 1000;             ///< place in files and lists; then by name

@@ -34,7 +34,6 @@ const measure::Registered kRedness{{.name = "test_only/redness",
 const measure::Registered kGreener{
     {.name = "test_only_greener",
      .help = "pixels of the mask in which a is greener than b",
-     .mask = "each",
      .columns = {{"(test) greener", measure::Style::fixed}},
      .get = [](const measure::Compared& compared) {
          double count = 0;
