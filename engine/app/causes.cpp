@@ -76,26 +76,24 @@ Request request_for(const Request& base, const Rendering& rendering) {
     constexpr int kSettled = 16; // deeper bounces are below a rounding of the picture's halves
     Request request = base;
     const int last = base.warmup + base.frames;
-    const bool moves = (base.animate || base.clock) && !rendering.is_settled;
+    const bool moves = base.animate && !rendering.is_settled;
     if (!moves) {
-        request.time = last_time(base);
+        request.time = base.instant(last);
         request.animate = false;
-        request.clock = nullptr;
     }
     request.frames = 1;
     request.warmup = moves                  ? last - 1
                      : rendering.is_settled ? kSettled
                                             : std::min(last - 1, kSettled);
     request.techniques = {rendering.technique};
-    request.progress = nullptr;
     return request;
 }
 
 using Pictures = std::map<Rendering, measure::Picture>;
 
 /// All the pictures that the steps need, each technique and history run once.
-Pictures render(Engine& engine, const Request& base, const std::string& technique,
-                const std::vector<Step>& steps) {
+Pictures render(Session& session, const Request& base, const Watcher& watcher,
+                const std::string& technique, const std::vector<Step>& steps) {
     std::map<std::pair<std::string, bool>, std::vector<std::uint32_t>> runs;
     const auto want = [&](const Rendering& rendering) {
         std::vector<std::uint32_t>& masks = runs[{rendering.technique, rendering.is_settled}];
@@ -106,12 +104,11 @@ Pictures render(Engine& engine, const Request& base, const std::string& techniqu
     for (const Step& step : steps) want(step.in_turn), want(step.alone);
     Pictures pictures;
     for (const auto& [run, masks] : runs) {
-        Request request = request_for(base, {run.first, run.second});
-        request.mended = masks;
-        Part part = std::move(engine.run(request).parts.front());
-        pictures[{run.first, run.second}] = std::move(part.hdr);
+        std::vector<measure::Picture> made = last_pictures(
+            session, request_for(base, {run.first, run.second}), masks, watcher);
+        pictures[{run.first, run.second}] = std::move(made[0]);
         for (std::size_t i = 0; i < masks.size(); ++i)
-            pictures[{run.first, run.second, masks[i]}] = std::move(part.mended[i]);
+            pictures[{run.first, run.second, masks[i]}] = std::move(made[i + 1]);
     }
     return pictures;
 }
@@ -124,22 +121,42 @@ struct SquaredError {
 
 } // namespace
 
-CauseFinder::CauseFinder(Engine& engine, const Request& base, const measure::Picture& truth,
-                         const std::vector<std::uint32_t>& hits)
-    : engine_(engine), base_(base), truth_(truth), hits_(hits) {
+std::vector<measure::Picture> last_pictures(Session& session, const Request& request,
+                                            const std::vector<std::uint32_t>& mended,
+                                            const Watcher& watcher) {
+    std::vector<measure::Picture> pictures(1);
+    Frames frames(session, request);
+    for (int k = 1; k < request.total(); ++k) frames.next(), watcher.check_stopped();
+    FrameSpec aside = request;
+    aside.time = request.instant(request.total());
+    aside.timing = Timing::pipelined;
+    aside.is_aside = true;
+    for (const std::uint32_t causes : mended) {
+        aside.mended = causes;
+        pictures.push_back(session.frame(aside).hdr());
+        watcher.check_stopped();
+    }
+    frames.next();
+    pictures.front() = frames.frame().hdr();
+    return pictures;
+}
+
+CauseFinder::CauseFinder(Session& session, const Request& base, const measure::Picture& truth,
+                         const std::vector<std::uint32_t>& hits, const Watcher& watcher)
+    : session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher) {
     for (const std::uint32_t hit : hits)
         mirrors_ = std::max(mirrors_, measure::first_mirror(hit).number());
     // A technique that follows no ray through other mirrors names the one that it draws.
     Request request = request_for(base, {"naive:bounces=1,face=1,shadow=none"});
     request.with_lookup = true;
-    const Result result = engine.run(request);
+    const Result result = run(session, request);
     for (const vec4& pixel : result.parts.front().lookup)
         drawn_.push_back(pixel.w > 0 ? (static_cast<std::uint32_t>(pixel.w) - 1) / 8 + 1 : 0);
 }
 
 report::Causes CauseFinder::find(const std::string& technique) const {
     const std::vector<Step> steps = steps_of(technique);
-    const Pictures pictures = render(engine_, base_, technique, steps);
+    const Pictures pictures = render(session_, base_, watcher_, technique, steps);
     const std::vector<float> no_flip(truth_.pixels.size());
     const auto error_of = [&](Rendering rendering) {
         const bool drawn_as_seen = std::exchange(rendering.drawn_as_seen, false);

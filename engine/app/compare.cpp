@@ -9,6 +9,7 @@
 #include "measure/judge.hpp"
 #include "measure/masks.hpp"
 #include "reflect/technique.hpp"
+#include "scene/load.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -49,33 +50,32 @@ bool is_set(const report::Row& row, std::string_view knob, std::string_view text
 }
 
 template <typename Value>
-measure::Summary over_frames(const std::vector<Frame>& frames, Value&& value) {
+measure::Summary over_frames(const std::vector<FrameTimes>& frames, Value&& value) {
     std::vector<double> samples;
-    for (const Frame& frame : frames) samples.push_back(value(frame));
+    for (const FrameTimes& frame : frames) samples.push_back(value(frame));
     return measure::summarise(samples);
 }
 
 /// Times of the passes whose name begins with `prefix`, and of them together. Alone, the frame
 /// counts from its first to its last stamp.
-void fill_times(report::Row& row, const std::vector<Frame>& frames, const std::string& prefix) {
+void fill_times(report::Row& row, const std::vector<FrameTimes>& frames,
+                const std::string& prefix) {
     const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
-    row.gpu_ms = over_frames(frames, [&](const Frame& frame) {
+    row.gpu_ms = over_frames(frames, [&](const FrameTimes& frame) {
         if (prefix.empty()) return frame.gpu_ms;
         double sum = 0;
         for (const PassTime& pass : frame.passes) sum += mine(pass) ? pass.ms() : 0;
         return sum;
     });
-    row.cpu_record_ms = over_frames(frames, [](const Frame& frame) { return frame.record_ms; });
-    row.wall_ms = over_frames(frames, [](const Frame& frame) { return frame.wall_ms; });
-    row.closure = over_frames(frames, [](const Frame& frame) {
-        double sum = 0;
-        for (const PassTime& pass : frame.passes) sum += pass.ms();
-        return sum / frame.wall_ms;
-    });
+    row.cpu_record_ms = over_frames(frames,
+                                    [](const FrameTimes& frame) { return frame.record_ms; });
+    row.wall_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.wall_ms; });
+    row.closure = over_frames(
+        frames, [](const FrameTimes& frame) { return frame.passes_ms() / frame.wall_ms; });
     const std::vector<PassTime>& passes = frames.front().passes;
     for (std::size_t i = 0; i < passes.size(); ++i)
         if (mine(passes[i]))
-            row.passes.push_back({passes[i].name, over_frames(frames, [&](const Frame& frame) {
+            row.passes.push_back({passes[i].name, over_frames(frames, [&](const FrameTimes& frame) {
                                       return frame.passes[i].ms();
                                   })});
 }
@@ -114,7 +114,8 @@ void fill_errors(report::Row& row, const Part& part, const Part& truth,
     row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
 }
 
-report::Row make_row(const std::string& text, const Part& part, const std::vector<Frame>& frames) {
+report::Row make_row(const std::string& text, const Part& part,
+                     const std::vector<FrameTimes>& frames) {
     const TechniqueChoice choice = parse_technique(text);
     report::Row row;
     row.technique = choice.technique;
@@ -138,7 +139,8 @@ report::Row make_row(const std::string& text, const Part& part, const std::vecto
 /// Runs rows one by one or together, judges each against the reference at its sample count.
 class Comparer {
 public:
-    Comparer(Engine& engine, const CompareRequest& request) : engine_(engine), request_(request) {
+    Comparer(Engine& engine, const CompareRequest& request)
+        : engine_(engine), request_(request), session_(engine, request.base.scene) {
         if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
         check_rows(request_.base.techniques); // before any work
         check_has_mirror(request_.base.scene);
@@ -152,8 +154,7 @@ public:
             hits_ = truth("1").part.hits;
             if (hits_.empty()) hits_ = traced_hits();
             fill_reference();
-            const std::vector<double> clear = engine_.clear_ms(request_.base);
-            if (!clear.empty()) comparison_.clear_ms = measure::summarise(clear);
+            fill_clear();
             request_.together ? run_together() : run_apart();
             if (request_.lag) add_lag();
             comparison_.complete = true;
@@ -196,15 +197,34 @@ private:
         comparison_.warnings = base.scene.warnings;
     }
 
+    Result frames_of(const Request& request) {
+        Frames frames(session_, request);
+        request_.watcher.check_stopped();
+        while (frames.next()) request_.watcher.frame(frames.number(), request.total());
+        return frames.result();
+    }
+
+    /// What it costs to clear the cubes of all mirrors once and draw nothing.
+    void fill_clear() {
+        const Request& base = request_.base;
+        std::vector<double> samples;
+        for (int k = 1; k <= base.total(); ++k) {
+            const FrameTimes times = session_.clear_cubes();
+            if (k > base.warmup) samples.push_back(times.passes_ms());
+            request_.watcher.check_stopped();
+        }
+        comparison_.clear_ms = measure::summarise(samples);
+    }
+
     /// The reference, rendered once for each sample count.
     const Truth& truth(const std::string& samples) {
         const auto found = truths_.find(samples);
         if (found != truths_.end()) return found->second;
         Request request = request_.base;
         request.techniques = {reference_at(request_.reference, samples)};
-        Result result = engine_.run(request);
+        Result result = frames_of(request);
         Truth made{std::move(result.parts.front()), {}};
-        for (const Frame& frame : result.frames) made.gpu_ms.push_back(frame.gpu_ms);
+        for (const FrameTimes& frame : result.frames) made.gpu_ms.push_back(frame.gpu_ms);
         return truths_.emplace(samples, std::move(made)).first->second;
     }
 
@@ -212,7 +232,7 @@ private:
     std::vector<std::uint32_t> traced_hits() {
         Request request = request_.base;
         request.techniques = {"raytrace:depth=1"};
-        return std::move(engine_.run(request).parts.front().hits);
+        return std::move(frames_of(request).parts.front().hits);
     }
 
     void fill_reference() {
@@ -231,10 +251,10 @@ private:
         request.techniques = {text};
         request.frames = 1;
         request.warmup = 1;
-        request.time = last_time(request_.base);
+        request.time = request_.base.instant(request_.base.total());
         request.animate = false;
         request.with_lookup = true;
-        Part part = std::move(engine_.run(request).parts.front());
+        Part part = std::move(frames_of(request).parts.front());
         const bool looks = std::ranges::any_of(part.lookup,
                                                [](const vec4& pixel) { return pixel.w > 0; });
         if (!looks) part.lookup.clear();
@@ -245,7 +265,8 @@ private:
     /// Splits the row's error by cause.
     report::Causes causes_of(const std::string& text, const report::Row& row,
                              const std::vector<vec4>& lookup) {
-        if (!finder_) finder_.emplace(engine_, request_.base, truth("1").part.hdr, hits_);
+        if (!finder_)
+            finder_.emplace(session_, request_.base, truth("1").part.hdr, hits_, request_.watcher);
         report::Causes causes = finder_->find(text);
         const auto face = std::ranges::find(row.settings, "face", &report::Setting::name);
         const double edge = row.auto_face ? row.auto_face->edge : face->number.value();
@@ -262,7 +283,7 @@ private:
         return causes;
     }
 
-    void add(const std::string& text, const Part& part, const std::vector<Frame>& frames) {
+    void add(const std::string& text, const Part& part, const std::vector<FrameTimes>& frames) {
         report::Row row = make_row(text, part, frames);
         const Part looked = !part.rays || part.traced_fraction ? looked_up(text) : Part();
         const std::vector<vec4>& lookup = looked.lookup;
@@ -293,32 +314,33 @@ private:
     void run_apart() {
         const std::vector<std::string>& texts = request_.base.techniques;
         for (std::size_t i = 0; i < texts.size(); ++i) {
-            if (request_.on_row) request_.on_row(texts[i], i, texts.size());
+            request_.watcher.row(texts[i], i, texts.size());
             Request request = request_.base;
             request.techniques = {texts[i]};
-            const Result result = engine_.run(request);
+            const Result result = frames_of(request);
             add(texts[i], result.parts.front(), result.frames);
         }
     }
 
     void run_together() {
-        if (request_.on_row) request_.on_row("all rows in one frame", 0, 1);
-        const Result result = engine_.run(request_.base);
+        request_.watcher.row("all rows in one frame", 0, 1);
+        const Result result = frames_of(request_.base);
         for (std::size_t i = 0; i < result.parts.size(); ++i)
             add(request_.base.techniques[i], result.parts[i], result.frames);
     }
 
     void add_lag() {
-        measure_lag(engine_,
+        measure_lag(session_,
                     {.base = request_.base,
                      .reference = request_.reference,
-                     .on_row = request_.on_row,
+                     .watcher = request_.watcher,
                      .on_finished_row = [this] { tell(); }},
                     comparison_.lag.emplace());
     }
 
     Engine& engine_;
     CompareRequest request_;
+    Session session_; ///< of all rows
     std::size_t mirrors_ = 0;
     std::map<std::string, Truth> truths_;
     std::vector<std::uint32_t> hits_;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "app/engine.hpp"
+#include "app/run.hpp"
+#include "app/watcher.hpp"
 #include "report/comparison.hpp"
 
 namespace catoptric::app {
@@ -14,8 +15,7 @@ struct CompareRequest {
     bool causes = true;    ///< split each row's error by cause; only against the default reference
     bool lag = false; ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row
     std::vector<std::string> command; ///< for the record
-    /// Called before each row with its label, number from 0 and the count; may be empty.
-    std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
+    Watcher watcher;
     /// Called after each row, and each row of the lag, with what there is so far, not `complete`;
     /// may be empty.
     std::function<void(const report::Comparison&)> on_finished_row;

@@ -115,8 +115,8 @@ struct Still {
 
 class LagMeter {
 public:
-    LagMeter(Engine& engine, const LagRequest& request, report::Lag& lag)
-        : engine_(engine), request_(request), lag_(lag), path_(path_of(request)),
+    LagMeter(Session& session, const LagRequest& request, report::Lag& lag)
+        : session_(session), request_(request), lag_(lag), path_(path_of(request)),
           mirrors_(static_cast<int>(scene::mirrors(request.base.scene).size())) {
         check(!request_.base.techniques.empty(), Failure::usage, "lag: no technique was asked for");
         for (const std::string& text : request_.base.techniques)
@@ -146,48 +146,41 @@ private:
     };
 
     void begin(const std::string& label, std::size_t index, int frames) {
-        if (request_.on_row) request_.on_row(label, index, request_.base.techniques.size() + 1);
+        request_.watcher.row(label, index, request_.base.techniques.size() + 1);
         frames_done_ = 0;
         frames_expected_ = frames;
     }
 
-    /// Runs of one row count as one for who watches the progress.
-    void run_in_row(Request request) {
-        const int first = frames_done_, most = request.frames;
-        if (request_.base.progress)
-            request.progress = [&, first](int k, int) {
-                request_.base.progress(first + k, frames_expected_);
-            };
-        engine_.run(request);
-        frames_done_ = first + most;
+    /// Renders a frame of the row at hand.
+    Frame frame(const std::string& technique, double seconds) {
+        FrameSpec spec = request_.base;
+        spec.techniques = {technique};
+        spec.time = seconds;
+        const Frame made = session_.frame(spec);
+        request_.watcher.frame(++frames_done_, frames_expected_);
+        return made;
     }
-
-    /// A run of one technique whose frames stand where `clock` says.
-    Request moving(const std::string& technique, int frames,
-                   std::function<double(int)> clock) const {
-        Request request = request_.base;
-        request.techniques = {technique};
-        request.frames = frames;
-        request.warmup = 0;
-        request.clock = std::move(clock);
-        return request;
+    /// From cold history; what the runs before may have taken less counts as done.
+    void begin_run(int frames_before) {
+        session_.forget();
+        frames_done_ = frames_before;
     }
 
     Still still(const std::string& technique, double seconds) {
+        const int before = frames_done_;
+        begin_run(before);
         Still still;
         int unchanged = 0;
-        Request request = moving(technique, kFrameCap, [=](int) { return seconds; });
-        request.watch = [&](int k, const ReadParts& read) {
-            Part part = std::move(read().front());
+        for (int k = 1; k <= kFrameCap && !still.rests; ++k) {
+            Part part = frame(technique, seconds).read();
             unchanged = same_bytes(part.hdr, still.part.hdr) ? unchanged + 1 : 0;
             still.part = std::move(part);
             still.frames = k - unchanged;
             // What comes from one mirror to the next may be black on its way: equal for as many
             // frames.
             still.rests = !still.part.remembers || unchanged >= mirrors_;
-            return !still.rests;
-        };
-        run_in_row(std::move(request));
+        }
+        frames_done_ = before + kFrameCap;
         return still;
     }
 
@@ -209,10 +202,8 @@ private:
         for (const Instant& instant : instants_)
             if (!add_still(row, text, instant)) return lag_.without_history.push_back(label);
         row.mean_still_reference_rmse = mean_of(row.still_reference_rmse);
-        row.after_black = settle(text, 0, [this](int) { return path_.start; });
-        row.after_jump = settle(text, kFrameCap, [this](int k) {
-            return k <= kFrameCap ? lag_.jump_from : path_.start;
-        });
+        row.after_black = settle(text, 0);
+        row.after_jump = settle(text, kFrameCap);
         lag_.rows.push_back(std::move(row)); // what there is, should a signal come
         for (const double speed : request_.speeds)
             lag_.rows.back().speeds.push_back(at_speed(text, speed));
@@ -229,19 +220,17 @@ private:
         return true;
     }
 
-    /// Frames after the cut that follows frame `before`, against the still of the first instant.
-    report::Settling settle(const std::string& text, int before, std::function<double(int)> clock) {
+    /// Frames at the first instant, after `before` of them elsewhere, against its still.
+    report::Settling settle(const std::string& text, int before) {
         report::Settling settling;
-        Request request = moving(text, before + kFrameCap, std::move(clock));
-        request.watch = [&](int k, const ReadParts& read) {
-            if (k <= before) return true;
+        begin_run(frames_done_);
+        for (int k = 0; k < before; ++k) frame(text, lag_.jump_from);
+        for (int k = 0; k < kFrameCap; ++k) {
             const measure::Difference error = apart(
-                cut_out(read().front().hdr, instants_.front().pixels), stills_.front());
+                cut_out(frame(text, path_.start).hdr(), instants_.front().pixels), stills_.front());
             settling.rmse.push_back(error.rmse);
             settling.max.push_back(error.max);
-            return true;
-        };
-        run_in_row(std::move(request));
+        }
         settling.rmse_settled = measure::settled_from(settling.rmse, measure::kLagBound);
         settling.max_settled = measure::settled_from(settling.max, measure::kLagBound);
         return settling;
@@ -249,20 +238,16 @@ private:
 
     report::LagAtSpeed at_speed(const std::string& text, double speed) {
         report::LagAtSpeed lag{.speed = speed};
-        const int between = path_.frames(speed);
-        Request request = moving(text, frames_at(speed), [=, this](int k) {
-            return path_.seconds(speed, k - 1 - kWarmup);
-        });
-        request.watch = [&](int k, const ReadParts& read) {
-            const int frame = k - 1 - kWarmup;
-            if (frame < 0 || frame % between != 0) return true;
-            const auto i = static_cast<std::size_t>(frame / between);
-            const measure::Picture picture = cut_out(read().front().hdr, instants_[i].pixels);
+        const int between = path_.frames(speed), count = frames_at(speed) - kWarmup;
+        begin_run(frames_done_);
+        for (int k = -kWarmup; k < count; ++k) {
+            const Frame moving = frame(text, path_.seconds(speed, k));
+            if (k < 0 || k % between != 0) continue;
+            const auto i = static_cast<std::size_t>(k / between);
+            const measure::Picture picture = cut_out(moving.hdr(), instants_[i].pixels);
             lag.rmse.push_back(apart(picture, stills_[i]).rmse);
             lag.reference_rmse.push_back(apart(picture, instants_[i].reference).rmse);
-            return true;
-        };
-        run_in_row(std::move(request));
+        }
         lag.mean_rmse = mean_of(lag.rmse);
         lag.median_rmse = percentile_of(lag.rmse, 0.5);
         lag.max_rmse = percentile_of(lag.rmse, 1);
@@ -280,7 +265,7 @@ private:
         return frames;
     }
 
-    Engine& engine_;
+    Session& session_;
     LagRequest request_;
     report::Lag& lag_;
     Path path_;
@@ -292,9 +277,9 @@ private:
 
 } // namespace
 
-void measure_lag(Engine& engine, const LagRequest& request, report::Lag& lag) {
+void measure_lag(Session& session, const LagRequest& request, report::Lag& lag) {
     lag.complete = false;
-    LagMeter(engine, request, lag).run();
+    LagMeter(session, request, lag).run();
 }
 
 } // namespace catoptric::app

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/engine.hpp"
+#include "app/run.hpp"
 #include "bvh/bvh.hpp"
 #include "measure/lookup.hpp"
 #include "measure/picture.hpp"

@@ -3,6 +3,8 @@
 #include "core/error.hpp"
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <system_error>
@@ -14,6 +16,8 @@ namespace catoptric {
 namespace fs = std::filesystem;
 
 namespace {
+
+const std::string kPartial = ".partial-";
 
 struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -52,12 +56,29 @@ File open_new(const fs::path& temporary, const fs::path& path) {
     return file;
 }
 
+/// Temporaries of this target whose processes are gone: a second signal leaves no time to tidy.
+void remove_left_over(const fs::path& target) {
+    const std::string beginning = target.filename().string() + kPartial;
+    std::error_code error;
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(beginning)) continue;
+        int process = 0;
+        const char *first = name.data() + beginning.size(), *last = name.data() + name.size();
+        const auto [end, wrong] = std::from_chars(first, last, process);
+        if (wrong != std::errc() || end != last || process <= 0) continue;
+        if (::kill(process, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), error);
+    }
+}
+
 /// `old`: what lies at `target`, if anything.
 void replace(const fs::path& target, fs::file_status old, std::string_view content,
              const fs::path& path) {
     fs::path temporary = target;
-    temporary += ".partial-" + std::to_string(::getpid());
+    temporary += kPartial + std::to_string(::getpid());
     std::error_code error;
+    remove_left_over(target);
     fs::remove(temporary, error); // left by a dead process that had our number
     File file = open_new(temporary, path);
     try {

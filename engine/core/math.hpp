@@ -28,6 +28,7 @@ struct Bounds {
     Vec lo{std::numeric_limits<Real>::infinity()};
     Vec hi{-std::numeric_limits<Real>::infinity()};
 
+    bool operator==(const Bounds&) const = default;
     void add(const Vec& point) { lo = glm::min(lo, point), hi = glm::max(hi, point); }
     void add(const Bounds& other) { lo = glm::min(lo, other.lo), hi = glm::max(hi, other.hi); }
     bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }

@@ -123,7 +123,7 @@ void lay_out(const Device& device, const std::string& name, std::span<Stage> sta
 }
 
 /// The fixed-function part that every raster pipeline of the engine shares.
-VkPipeline make_raster(const Device& device,
+VkPipeline make_raster(const Device& device, VkPipelineCache cache,
                        std::span<const VkPipelineShaderStageCreateInfo> stages,
                        const Attachments& attachments, Winding hidden, VkPipelineLayout layout,
                        const std::string& name) {
@@ -190,9 +190,8 @@ VkPipeline make_raster(const Device& device,
     create.pDynamicState = &dynamic;
     create.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check_vk(
-        vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
-        "create pipeline '" + name + "'");
+    check_vk(vkCreateGraphicsPipelines(device.handle(), cache, 1, &create, nullptr, &pipeline),
+             "create pipeline '" + name + "'");
     return pipeline;
 }
 
@@ -221,8 +220,8 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
     lay_out(device_, key, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
     for (Stage& stage : stages) infos.push_back(stage.info());
-    pipeline.pipeline = {device_.handle(), make_raster(device_, infos, attachments, state.hidden,
-                                                       pipeline.layout, key)};
+    pipeline.pipeline = {device_.handle(), make_raster(device_, cache_.handle(), infos, attachments,
+                                                       state.hidden, pipeline.layout, key)};
     device_.set_name(VK_OBJECT_TYPE_PIPELINE,
                      reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), key);
     return made_.emplace(key, std::move(pipeline)).first->second;
@@ -241,7 +240,7 @@ const Pipeline& Pipelines::compute(const ComputeState& state) {
     create.layout = pipeline.layout;
     VkPipeline handle = VK_NULL_HANDLE;
     check_vk(
-        vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &handle),
+        vkCreateComputePipelines(device_.handle(), cache_.handle(), 1, &create, nullptr, &handle),
         "create pipeline '" + key + "'");
     pipeline.pipeline = {device_.handle(), handle};
     device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), key);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gpu/device.hpp"
+#include "gpu/pipeline_cache.hpp"
 #include "gpu/shader.hpp"
 
 #include <map>
@@ -52,15 +53,19 @@ class Pipelines {
 public:
     /// `variants`: shaders to use in place of others ("raytrace.comp" -> "raytrace.comp#naive"),
     /// for benchmarks that compare two builds of one shader.
-    explicit Pipelines(Device& device, std::map<std::string, std::string> variants = {})
-        : device_(device), variants_(std::move(variants)) {}
+    /// `cache`: a folder to keep compiled pipelines in; empty: none.
+    explicit Pipelines(Device& device, std::map<std::string, std::string> variants = {},
+                       const std::filesystem::path& cache = {})
+        : device_(device), variants_(std::move(variants)), cache_(device, cache) {}
     const Pipeline& raster(const RasterState& state, const Attachments& attachments);
     const Pipeline& compute(const ComputeState& state);
+    const PipelineCache& cache() const { return cache_; }
 
 private:
     const std::string& variant_of(const std::string& shader) const;
     Device& device_;
     std::map<std::string, std::string> variants_;
+    PipelineCache cache_;
     std::map<std::string, Pipeline> made_;
 };
 

@@ -57,6 +57,7 @@ using UniqueImage = Unique<VkImage, vkDestroyImage>;
 using UniqueImageView = Unique<VkImageView, vkDestroyImageView>;
 using UniqueMemory = Unique<VkDeviceMemory, vkFreeMemory>;
 using UniquePipeline = Unique<VkPipeline, vkDestroyPipeline>;
+using UniquePipelineCache = Unique<VkPipelineCache, vkDestroyPipelineCache>;
 using UniquePipelineLayout = Unique<VkPipelineLayout, vkDestroyPipelineLayout>;
 using UniqueQueryPool = Unique<VkQueryPool, vkDestroyQueryPool>;
 using UniqueSampler = Unique<VkSampler, vkDestroySampler>;

@@ -42,6 +42,8 @@ public:
 
     /// What the next Graph must be told about the last frame.
     History history() const;
+    /// The next frame begins without history.
+    void forget();
     Limits limits() const;
     Sizer sizer() const;
     Plan plan(const Graph& graph) const { return graph::plan(graph, limits(), sizer()); }

@@ -68,6 +68,11 @@ History Runner::history() const {
     return names;
 }
 
+void Runner::forget() {
+    kept_.clear(), kept_ids_.clear();
+    image_descs_.clear(), buffer_descs_.clear(), offsets_.clear();
+}
+
 Physical& Runner::physical(Image image) {
     if (!kept_ids_.contains(image.id)) return images_[image.id];
     Kept& kept = kept_.at(image_descs_[image.id].name);

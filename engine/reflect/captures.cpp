@@ -81,16 +81,7 @@ render::MirrorLook view_look(const Feedback& captured, const Settings& settings,
 Outputs add_view_of(graph::Graph& graph, const render::FrameInputs& inputs,
                     const Feedback& captured, const render::MirrorLook& look) {
     const render::View view = render::add_view(graph, inputs, captured.lighting, look);
-    return {view.hdr,
-            {},
-            {},
-            view.lookup,
-            captured.cubes ? half_colour(*captured.cubes, captured.options) : std::nullopt};
-}
-
-std::optional<graph::Image> half_colour(const render::Cubes& cubes,
-                                        const render::CaptureOptions& options) {
-    return options.colour == Format::rgba16f ? std::optional(cubes.colour) : std::nullopt;
+    return {view.hdr, {}, {}, view.lookup, captured.cubes};
 }
 
 } // namespace catoptric::reflect

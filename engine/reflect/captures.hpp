@@ -125,10 +125,6 @@ render::MirrorLook view_look(const Feedback& captured, const Settings& settings,
 Outputs add_view_of(graph::Graph& graph, const render::FrameInputs& inputs,
                     const Feedback& captured, const render::MirrorLook& look);
 
-/// Their colours, where captures store them as halves.
-std::optional<graph::Image> half_colour(const render::Cubes& cubes,
-                                        const render::CaptureOptions& options);
-
 /// R = N + 2 with one light.
 inline int feedback_passes(int mirrors, int lights, const Settings& settings) {
     return mirrors + shadow_passes(lights, settings) + 1;

@@ -95,7 +95,7 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
             {},
             list.counters,
             inputs.with_lookup ? view.lookup : std::nullopt,
-            half_colour(*captured.cubes, captured.options)};
+            captured.cubes};
 }
 
 constexpr std::string_view kCompared[] = {"hybrid"};

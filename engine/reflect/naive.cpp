@@ -30,7 +30,7 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     }
     const std::optional<render::Cubes>& last = options.look.cubes;
     const render::View view = render::add_view(graph, inputs, lighting, options.look);
-    return {view.hdr, {}, {}, view.lookup, last ? half_colour(*last, options) : std::nullopt};
+    return {view.hdr, {}, {}, view.lookup, last};
 }
 
 constexpr std::string_view kCompared[] = {"naive:bounces=0", "naive:bounces=1", "naive:bounces=2",

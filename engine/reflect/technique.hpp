@@ -19,8 +19,7 @@ struct Outputs {
         hits; ///< r32ui: mirror of the first hit, second hit << 16 (0: none)
     std::optional<graph::Buffer> counters; ///< shared::Counters
     std::optional<graph::Image> lookup; ///< rgba32f: where mirrors looked, if the inputs ask for it
-    std::optional<graph::Image>
-        captures; ///< rgba16f: colours of the captures that the view looks into
+    std::optional<render::Cubes> captures; ///< that the view looks into
 };
 
 struct Technique {

@@ -1,8 +1,6 @@
 #include "render/captured.hpp"
 
 #include "core/half.hpp"
-#include "graph/run.hpp"
-#include "render/passes.hpp"
 
 #include <cstring>
 
@@ -31,27 +29,6 @@ float Captured::distance(std::uint32_t mirror, int cube_face, std::uint32_t x, s
     float value;
     std::memcpy(&value, distance_bytes.data() + 4 * i, 4);
     return value;
-}
-
-Captured capture(gpu::Device& device, gpu::Pipelines& pipelines, const scene::Scene& scene,
-                 std::uint32_t face, Format distance, double range_world) {
-    GpuScene gpu_scene(device, scene);
-    gpu_scene.update(scene,
-                     scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front(),
-                     {16, 16}, 0);
-    graph::Runner runner(device, pipelines);
-    graph::Graph graph;
-    const FrameInputs inputs{gpu_scene, {16, 16}, ""};
-    CaptureOptions options;
-    options.face = face;
-    options.distance = distance;
-    if (distance == Format::r8_unorm) options.stored_unit = gpu_scene.space().length(range_world);
-    const Cubes cubes = declare_cubes(graph, inputs, options);
-    add_captures(graph, inputs, options, cubes);
-    graph.want(cubes.colour);
-    graph.want(*cubes.distance);
-    runner.run(graph, runner.plan(graph), graph::Timing::isolated);
-    return {face, runner.read(cubes.colour), runner.read(*cubes.distance), gpu_scene.space()};
 }
 
 } // namespace catoptric::render

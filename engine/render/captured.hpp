@@ -6,11 +6,6 @@
 #include <cstddef>
 #include <vector>
 
-namespace catoptric::gpu {
-class Device;
-class Pipelines;
-} // namespace catoptric::gpu
-
 namespace catoptric::render {
 
 /// Cube captures of every mirror of a scene, as numbers. Faces +X -X +Y -Y +Z -Z, texel (0, 0) top
@@ -30,10 +25,5 @@ struct Captured {
 private:
     std::size_t index(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y) const;
 };
-
-/// Captures every mirror once, without shadows and ambient light; the other mirrors are black.
-/// `range_world`: of r8_unorm.
-Captured capture(gpu::Device& device, gpu::Pipelines& pipelines, const scene::Scene& scene,
-                 std::uint32_t face, Format distance, double range_world = 1);
 
 } // namespace catoptric::render

@@ -35,6 +35,8 @@ public:
     /// is not in the picture. Found at the first update and kept: cubes that change their size lose
     /// what the frame before left.
     const std::vector<double>& face_needs() const { return face_needs_; }
+    /// They are found anew at the next update.
+    void forget_face_needs() { face_needs_.clear(); }
     /// One edge for all: the largest need, as far as the device allows.
     std::uint32_t common_face() const;
     /// Push constants that draw an object into the views from `first_view` on.

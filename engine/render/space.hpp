@@ -13,6 +13,7 @@ struct Space {
     double scale = 1;   ///< scene units per world unit, a power of two
     Bounds<float> core; ///< scene units; things may lie outside
 
+    bool operator==(const Space&) const = default;
     vec3 point(const dvec3& world) const { return vec3((world - origin_world) * scale); }
     float length(double world) const { return static_cast<float>(world * scale); }
 };

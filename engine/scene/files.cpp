@@ -24,7 +24,7 @@ bool lies_below(const fs::path& real, const fs::path& folder) {
                folder.end();
 }
 
-/// Empty when nothing is there, or links lead nowhere.
+/// Empty when nothing is there or can be reached; errno says why.
 fs::path real_path(const fs::path& path) {
     const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
                                                            std::free);
@@ -102,10 +102,12 @@ fs::path Files::find(const std::string& name, const std::string& place) {
           Failure::bad_data, place, ": wanted the name of a file, found ", in_quotes(name));
     const fs::path path = folder_ / name;
     fs::path real = real_path(path);
+    const int why = errno;
     check_place(real.empty() ? path.lexically_normal() : real, name, place);
     if (real.empty()) {
         const fs::path parent = real_path(path.parent_path());
         if (!parent.empty()) check_place(parent / path.filename(), name, place);
+        errno = why;
         return {};
     }
     std::error_code error;
@@ -119,7 +121,11 @@ fs::path Files::find(const std::string& name, const std::string& place) {
 
 fs::path Files::get(const std::string& name, const std::string& place) {
     fs::path real = find(name, place);
-    check(!real.empty(), Failure::missing_input, place, ": ", in_quotes(name), " is not there");
+    const int error = errno; // of realpath(3), where it found nothing
+    check(!real.empty(), Failure::missing_input, place, ": ", in_quotes(name),
+          error == ENOENT || error == ENOTDIR
+              ? " is not there"
+              : " cannot be reached: " + std::generic_category().message(error));
     return real;
 }
 

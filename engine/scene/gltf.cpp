@@ -166,6 +166,8 @@ void Builder::add_camera(std::size_t node, const Placed& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     const std::string place = node_place(node);
     if (!cameras[std::size_t(from.camera)]) return;
+    if (!std::holds_alternative<std::monostate>(placed.motion))
+        context.notes.add("cameras that move, standing still", context.document.label(node));
     Camera camera = *cameras[std::size_t(from.camera)];
     if (!from.name.empty()) camera.name = from.name;
     context.account.name_bytes.add(camera.name.size(), place);
@@ -212,8 +214,13 @@ Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
     builder.cameras = read_cameras(document);
     builder.parts = read_parts(builder.scene.materials, builder.context);
     const std::vector<Placed> placed = place(document, read_motions(builder.context), notes);
-    for (std::size_t i = 0; i < placed.size(); ++i)
-        if (placed[i].reached) builder.add_node(i, placed[i]);
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const tinygltf::Node& node = document.model.nodes[i];
+        if (placed[i].reached)
+            builder.add_node(i, placed[i]);
+        else if (node.mesh >= 0 || node.camera >= 0)
+            notes.add("nodes outside the scene that is shown, left out", document.label(i));
+    }
     builder.check_unshown();
     finish(builder.scene, file, notes);
     builder.scene.files = files.found();

@@ -63,7 +63,12 @@ void read_animation(const tinygltf::Animation& animation, const std::string& pla
         if (!samplers[index])
             samplers[index] = std::make_shared<const Keys>(keys_of(
                 animation.samplers[index], place + ": " + label_of("samplers", index), context));
-        motions[std::size_t(channel.target_node)] = samplers[index];
+        // As viewers that play one animation do, the first one counts.
+        auto& motion = motions[std::size_t(channel.target_node)];
+        if (motion)
+            context.notes.add("translations of nodes that move already, left out", place);
+        else
+            motion = samplers[index];
     }
 }
 

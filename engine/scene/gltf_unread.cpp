@@ -5,6 +5,7 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
+constexpr std::size_t kLongestName = 1024; // of an attribute, which messages say in full
 constexpr std::string_view kLights = "KHR_lights_punctual";
 
 /// What glTF allows by the beginning of an attribute's name.
@@ -77,6 +78,9 @@ void check_camera(const Item& camera, Notes& notes) {
 void check_attributes(const Item& attributes, const Item& root) {
     const std::size_t count = root.size("accessors");
     for (const auto& [name, value] : attributes.json().items()) {
+        attributes.require(name.size() <= kLongestName, "attribute ", in_quotes(name),
+                           ": wanted a name of at most ", kLongestName, " bytes, found ",
+                           name.size());
         const std::string type =
             root.at("accessors", attributes.needed_index(name, count)).text("type");
         for (const Semantic& semantic : kSemantics)
@@ -107,7 +111,7 @@ void check_animation(const Item& animation, Notes& notes) {
         channel.require(target.has_value(), "wanted a target, found none");
         const std::string path = target->text("path");
         if (target->has("node") && path != "translation")
-            notes.add("animation channels of '" + path + "', left out", channel.label());
+            notes.add("animation channels of " + in_quotes(path) + ", left out", channel.label());
     });
 }
 

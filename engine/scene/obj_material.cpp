@@ -47,12 +47,15 @@ void add_statement(Library& library, const Line& line, Unread& unread, Context& 
         (library.statements += line.keyword).append(rest) += '\n';
     };
     if (line.keyword == "newmtl") {
-        context.account.materials.add(1, *line.file);
+        context.account.materials.add(1, line.where());
         say(" " + std::to_string(library.names.size()));
         library.names.emplace_back(line.rest);
+        library.two_sided.push_back(false);
         is_in_material = true;
     } else if (!is_in_material) {
-        return; // nothing to say it of
+        context.notes.add("statements before the first newmtl, left out", line.where());
+    } else if (line.keyword == "#two_sided") {
+        library.two_sided.back() = true;
     } else if (line.keyword == "Kd" || line.keyword == "Ks" || line.keyword == "Ke") {
         if (line.keyword == "Ke") check_radiance(line);
         say(vector_text(line));
@@ -104,7 +107,8 @@ std::vector<Material> materials_of(const Library& library,
                              .albedo = reflectance(from.diffuse),
                              .emission = glm::make_vec3(from.emission),
                              .mirror = is_mirror,
-                             .reflectance = is_mirror ? reflectance(from.specular) : vec3(1)});
+                             .reflectance = is_mirror ? reflectance(from.specular) : vec3(1),
+                             .two_sided = library.two_sided[materials.size()]});
     }
     return materials;
 }

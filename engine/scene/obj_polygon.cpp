@@ -32,8 +32,8 @@ double turn(const dvec2& a, const dvec2& b, const dvec2& c) {
 /// Takes off one corner after another that no other corner's notch reaches into.
 class Ears {
 public:
-    Ears(const std::vector<dvec2>& points, Total& comparisons, const std::string& place)
-        : points_(points), comparisons_(comparisons), place_(place), next_(points.size()),
+    Ears(const std::vector<dvec2>& points, Total& comparisons, const Line& line)
+        : points_(points), comparisons_(comparisons), line_(line), next_(points.size()),
           previous_(points.size()), left_(points.size()) {
         for (std::size_t i = 0; i < left_; ++i) {
             next_[i] = (i + 1) % left_, previous_[i] = (i + left_ - 1) % left_;
@@ -58,7 +58,7 @@ public:
             std::erase_if(notches_, [&](std::size_t i) {
                 return i == corner || ((i == before || i == after) && !is_notch(i));
             });
-            comparisons_.add(notches_.size(), place_);
+            comparisons_.add(notches_.size(), *line_.file, ":", line_.number);
             corner = after;
         }
     }
@@ -68,7 +68,7 @@ private:
         return turn(points_[previous_[i]], points_[i], points_[next_[i]]) < 0;
     }
     bool is_ear(std::size_t i) {
-        comparisons_.add(notches_.size() + 1, place_);
+        comparisons_.add(notches_.size() + 1, *line_.file, ":", line_.number);
         const dvec2 &a = points_[previous_[i]], &b = points_[i], &c = points_[next_[i]];
         if (!(turn(a, b, c) > 0)) return false;
         return std::ranges::none_of(notches_, [&](std::size_t k) {
@@ -80,7 +80,7 @@ private:
 
     const std::vector<dvec2>& points_;
     Total& comparisons_;
-    const std::string& place_;
+    const Line& line_;
     std::vector<std::size_t> next_, previous_, notches_;
     std::size_t left_;
 };
@@ -88,13 +88,13 @@ private:
 } // namespace
 
 void cut(std::span<const Corner> polygon, const std::vector<dvec3>& positions, Total& comparisons,
-         const std::string& place, std::vector<Corner>& triangles) {
+         const Line& line, std::vector<Corner>& triangles) {
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         triangles.insert(triangles.end(), {polygon[a], polygon[b], polygon[c]});
     };
     if (polygon.size() == 3) return add(0, 1, 2);
     const std::vector<dvec2> points = flattened(polygon, positions);
-    Ears ears(points, comparisons, place);
+    Ears ears(points, comparisons, line);
     if (!ears.is_convex()) return ears.take(add);
     const auto apart = [&](std::size_t a, std::size_t b) {
         return glm::distance(positions[polygon[a].position], positions[polygon[b].position]);

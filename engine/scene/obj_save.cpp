@@ -104,6 +104,7 @@ std::string materials_text(const std::vector<Material>& materials,
         if (material.mirror) text += "Ks " + text_of(material.reflectance) + "\n";
         if (material.emission != vec3(0)) text += "Ke " + text_of(material.emission) + "\n";
         text += material.mirror ? "illum 3\n" : "illum 1\n";
+        if (material.two_sided) text += "# catoptric two_sided\n";
     }
     return text;
 }

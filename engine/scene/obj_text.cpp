@@ -137,7 +137,7 @@ void Reader::face(const Line& line) {
     polygon_.clear(), triangles_.clear();
     std::string_view rest = line.rest;
     for (std::size_t i = 0; i < count; ++i) polygon_.push_back(corner(line, take_word(rest)));
-    cut(polygon_, text_.positions, context_.account.cuts, file_, triangles_);
+    cut(polygon_, text_.positions, context_.account.cuts, line, triangles_);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const auto [position, normal] = triangles_[i];
         (text_.statements += i % 3 == 0 ? "f " : " ") += std::to_string(position + 1);

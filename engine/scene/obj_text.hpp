@@ -69,6 +69,7 @@ private:
 /// Ks, Ke and `illum 3`, checked.
 struct Library {
     std::string statements;
+    std::vector<bool> two_sided;    ///< by number
     std::vector<std::string> names; ///< by number: tinyobjloader would end a line at a '\r' in one
 };
 
@@ -130,8 +131,8 @@ Text read_text(const std::string& file, Context& context);
 /// Cuts a polygon into triangles and appends their corners: a convex quad along its shorter
 /// diagonal, other convex ones into a fan, concave ones by their ears. At most corners - 2.
 /// `comparisons` counts the work, which may grow with the cube of the corners; it throws `bad_data`
-/// naming `place` over the budget.
+/// naming the line over the budget.
 void cut(std::span<const Corner> polygon, const std::vector<dvec3>& positions, Total& comparisons,
-         const std::string& place, std::vector<Corner>& triangles);
+         const Line& line, std::vector<Corner>& triangles);
 
 } // namespace catoptric::scene::obj

@@ -82,6 +82,7 @@ struct Camera {
     dvec3 target{0, 0, 1};
     dvec3 up{0, 1, 0};
     double vertical_fov_degrees = 45;
+    bool operator==(const Camera&) const = default;
 };
 
 /// One light as the shading formula sees it: a point with a one-sided cosine.

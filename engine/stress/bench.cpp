@@ -43,7 +43,14 @@ app::Request Bench::asked(const scene::Scene& scene, const std::string& techniqu
 }
 
 app::Part Bench::render(const app::Request& request) {
-    return std::move(engine_.run(request).parts.front());
+    app::Session session(engine_, request.scene);
+    app::Frames frames(session, request);
+    while (frames.next()) watcher_.check_stopped();
+    return frames.frame().read();
+}
+
+void Bench::plan(const app::Request& request) {
+    app::Session(engine_, request.scene).plan(request, app::PlanFormat::text);
 }
 
 void Bench::add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,

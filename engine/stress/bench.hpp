@@ -1,6 +1,7 @@
 #pragma once
 
-#include "app/engine.hpp"
+#include "app/run.hpp"
+#include "app/watcher.hpp"
 #include "core/error.hpp"
 #include "report/stress.hpp"
 
@@ -11,8 +12,9 @@ namespace catoptric::stress {
 /// What a property judges with: pictures of scenes, and the row that its figures go to.
 class Bench {
 public:
-    Bench(app::Engine& engine, uvec2 size, std::uint64_t seed, report::StressRow& row)
-        : engine_(engine), size_(size), random_(seed), row_(row) {}
+    Bench(app::Engine& engine, const app::Watcher& watcher, uvec2 size, std::uint64_t seed,
+          report::StressRow& row)
+        : engine_(engine), watcher_(watcher), size_(size), random_(seed), row_(row) {}
 
     /// Seen by the scene's first camera; the picture after `frames` frames at rest. Fields of
     /// `request` that a property needs otherwise are set by it: `asked` is this bench's default for
@@ -20,6 +22,13 @@ public:
     app::Request asked(const scene::Scene& scene, const std::string& technique,
                        int frames = 4) const;
     app::Part render(const app::Request& request);
+    /// One frame of a property's own loop.
+    app::Frame frame(app::Session& session, const app::FrameSpec& spec) {
+        watcher_.check_stopped();
+        return session.frame(spec);
+    }
+    /// Compiles the plan of the request's frame and renders nothing.
+    void plan(const app::Request& request);
     app::Part render(const scene::Scene& scene, const std::string& technique, int frames = 4) {
         return render(asked(scene, technique, frames));
     }
@@ -56,6 +65,7 @@ public:
 
 private:
     app::Engine& engine_;
+    const app::Watcher& watcher_;
     uvec2 size_;
     std::mt19937_64 random_;
     report::StressRow& row_;

@@ -121,9 +121,8 @@ void judge_faces(Bench& bench) {
     for (const char* face : {"4096", "16384"})
         for (const std::string technique : {"naive:bounces=1,face=", "parallax:face="}) {
             const app::Request request = bench.asked(scene, technique + face, 1);
-            if (!bench.add_done_or_refused(technique + face + " planned", [&] {
-                    bench.engine().plan(request, app::PlanFormat::text);
-                }))
+            if (!bench.add_done_or_refused(technique + face + " planned",
+                                           [&] { bench.plan(request); }))
                 continue;
             if (std::stoi(face) > 4096) continue; // 10 GiB and more
             const app::Part large = bench.render(request);
@@ -138,21 +137,20 @@ void judge_faces(Bench& bench) {
 
 /// Ball 4 through its whole path.
 void judge_path(Bench& bench) {
-    app::Request request = bench.asked(scene::cornell_mirrors(), "parallax:face=128", 1);
     constexpr int kWarm = 8, kFrames = 120;
-    request.warmup = kWarm;
-    request.frames = kFrames;
-    request.clock = [](int frame) { return 4.0 * (frame - 1) / kFrames; };
+    constexpr double kPeriod = 4;
+    app::Request request = bench.asked(scene::cornell_mirrors(), "parallax:face=128", 1);
+    app::Session session(bench.engine(), request.scene);
     std::vector<double> steps;
     measure::Picture last;
-    request.watch = [&](int frame, const app::ReadParts& read) {
-        if (frame < kWarm) return true;
-        measure::Picture now = std::move(read().front().display);
-        if (frame > kWarm) steps.push_back(measure::flip_mean(measure::flip(now, last)));
+    for (int k = 1; k <= kWarm + kFrames; ++k) {
+        request.time = kPeriod * (k - 1) / kFrames;
+        const app::Frame frame = bench.frame(session, request);
+        if (k < kWarm) continue;
+        measure::Picture now = frame.read().display;
+        if (k > kWarm) steps.push_back(measure::flip_mean(measure::flip(now, last)));
         last = std::move(now);
-        return true;
-    };
-    bench.engine().run(request);
+    }
     const double most = *std::ranges::max_element(steps), median = measure::summarise(steps).median;
     bench.add("largest FLIP from frame to frame over the median", most / median, 3);
 }

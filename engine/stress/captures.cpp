@@ -31,6 +31,18 @@ scene::Scene room_with(std::size_t mirror) {
     return scene;
 }
 
+/// Every mirror's cubes, without shadows and ambient light; other mirrors are black.
+render::Captured captured(Bench& bench, const scene::Scene& scene, std::uint32_t edge,
+                          Format format) {
+    app::Request request = bench.asked(
+        scene, fmt::format("parallax:shadow=none,face={},distance={}", edge, name_of(format)));
+    request.size = {16, 16};
+    request.ambient = 0;
+    request.with_captures = true;
+    app::Session session(bench.engine(), scene);
+    return bench.frame(session, request).captures();
+}
+
 void judge_distances(Bench& bench) {
     constexpr std::uint32_t kEdge = 128;
     constexpr double kClamp = 200; // of the report's eight bits
@@ -42,18 +54,17 @@ void judge_distances(Bench& bench) {
             const scene::Scene scene = room_with(mirror);
             const dvec3 centre =
                 scene::bounds(scene, scene.objects[scene::mirrors(scene).front()]).centre();
-            const render::Captured captured = bench.engine().capture(scene, kEdge, format);
+            const render::Captured cubes = captured(bench, scene, kEdge, format);
             std::size_t off = 0, clamped = 0, far = 0, judged = 0;
-            for_texels(kEdge,
-                       [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-                           const double wanted = tracer.distance(centre, normalize(direction));
-                           const double found = captured.distance(0, face, x, y, format) /
-                                                captured.space.scale;
-                           ++judged, far += wanted > 2 * kClamp;
-                           off += !(std::isinf(wanted) ? std::isinf(found)
-                                                       : std::abs(found / wanted - 1) <= 0x1p-10);
-                           clamped += wanted > 1.01 * kClamp && !(found > kClamp);
-                       });
+            for_texels(
+                kEdge, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+                    const double wanted = tracer.distance(centre, normalize(direction));
+                    const double found = cubes.distance(0, face, x, y, format) / cubes.space.scale;
+                    ++judged, far += wanted > 2 * kClamp;
+                    off += !(std::isinf(wanted) ? std::isinf(found)
+                                                : std::abs(found / wanted - 1) <= 0x1p-10);
+                    clamped += wanted > 1.01 * kClamp && !(found > kClamp);
+                });
             const std::string what = fmt::format("ball {}, {}", mirror + 1, name_of(format));
             bench.add(what + ": share of texels off by more than 2^-10",
                       double(off) / double(judged), .001);
@@ -72,13 +83,13 @@ void judge_near_wall(Bench& bench) {
         (face % 2 ? lo : hi)[face / 2] = face % 2 ? -kGap : kGap;
         for (int wall = 0; wall < 6; ++wall)
             scene.meshes[static_cast<std::size_t>(wall)] = scene::wall(wall, lo, hi);
-        const render::Captured captured = bench.engine().capture(scene, kEdge, Format::r32f);
-        const double found = captured.distance(0, face, kEdge / 2, kEdge / 2, Format::r32f) /
-                             captured.space.scale;
+        const render::Captured cubes = captured(bench, scene, kEdge, Format::r32f);
+        const double found = cubes.distance(0, face, kEdge / 2, kEdge / 2, Format::r32f) /
+                             cubes.space.scale;
         bench.add(fmt::format("face {}: central texel off {} by a share of", face, kGap),
                   std::abs(found / kGap - 1), .01);
         bench.add(fmt::format("face {}: central texel shows no wall", face),
-                  captured.colour(0, face, kEdge / 2, kEdge / 2) == vec3(1) ? 0 : 1, 0);
+                  cubes.colour(0, face, kEdge / 2, kEdge / 2) == vec3(1) ? 0 : 1, 0);
     }
 }
 
@@ -86,14 +97,14 @@ void judge_glyphs(Bench& bench) {
     constexpr std::uint32_t kEdge = 64;
     constexpr double kSnap = .001; // of a wall: how far a rasteriser may move its edges
     const GlyphRoom room;
-    const render::Captured captured = bench.engine().capture(room.scene(), kEdge, Format::r32f);
+    const render::Captured cubes = captured(bench, room.scene(), kEdge, Format::r32f);
     std::array<std::size_t, 6> wrong{}, judged{}, inked{};
     for_texels(kEdge, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
         const GlyphRoom::Seen seen = room.look(direction);
         if (seen.margin < kSnap) return; // the texel's centre lies on an edge
         const auto wall = static_cast<std::size_t>(seen.face);
         ++judged[wall], inked[wall] += seen.glyph;
-        wrong[wall] += captured.colour(0, face, x, y) != GlyphRoom::colour(seen);
+        wrong[wall] += cubes.colour(0, face, x, y) != GlyphRoom::colour(seen);
     });
     for (std::size_t wall = 0; wall < 6; ++wall) {
         bench.add(fmt::format("wall {}: texels of another colour", wall), double(wrong[wall]), 0);

@@ -23,20 +23,23 @@ double saturated(Bench& bench, const scene::Scene& scene, const std::string& tec
 constexpr int kWith = 4, kSoon = kWith + 2, kLate = kWith + 20;
 
 void judge_removal(Bench& bench, const scene::Scene& lit, const scene::Scene& dark,
-                   const std::string& technique, const std::string& what) {
-    app::Request request = bench.asked(lit, technique, kLate);
-    request.changed = [&](int frame) { return frame <= kWith ? lit : dark; };
-    app::Part soon;
-    request.watch = [&](int frame, const app::ReadParts& read) {
-        if (frame == kWith) bench.add_nonfinite(what + ", with it", read().front());
-        if (frame == kSoon) soon = std::move(read().front());
-        return true;
-    };
-    const app::Part late = bench.render(request);
-    app::Request untouched = bench.asked(lit, technique, kLate); // whose units are the same
-    untouched.changed = [&](int) { return dark; };
+                   std::size_t lamp, const std::string& technique, const std::string& what) {
+    const app::Request request = bench.asked(lit, technique);
+    const scene::Edit out = scene::set_material(lamp, dark.materials[lamp]);
+    app::Session session(bench.engine(), lit);
+    app::Part soon, late;
+    for (int k = 1; k <= kLate; ++k) {
+        if (k == kWith + 1) session.change(out);
+        const app::Frame frame = bench.frame(session, request);
+        if (k == kWith) bench.add_nonfinite(what + ", with it", frame.read());
+        if (k == kSoon) soon = frame.read();
+        if (k == kLate) late = frame.read();
+    }
+    app::Session untouched(bench.engine(), dark);
+    measure::Picture wanted;
+    for (int k = 1; k <= kLate; ++k) wanted = bench.frame(untouched, request).hdr();
     bench.add(what + ", frame 20 without it: pixels unlike a run that never had it",
-              double(different_pixels(late.hdr, bench.render(untouched).hdr)), 0);
+              double(different_pixels(late.hdr, wanted)), 0);
     const std::string early = what + ", frame 2 without it: pixels unlike frame 20";
     const double unlike = double(different_pixels(soon.hdr, late.hdr));
     // Between mirrors that look into last frame's captures light goes on for a frame a mirror.
@@ -55,7 +58,7 @@ void judge_emission(Bench& bench) {
         lit.materials[lamp].emission = vec3(1e30f);
         for (const std::string technique :
              {"raytrace", "reuse:face=128", "parallax:face=128", "pyramid:face=128"})
-            judge_removal(bench, lit, dark, technique,
+            judge_removal(bench, lit, dark, lamp, technique,
                           fmt::format("emission 1e30, {} balls, {}", balls, technique));
         for (const std::string technique : {"reuse:face=64", "hybrid:face=64"}) {
             const double full = saturated(bench, lit, technique);

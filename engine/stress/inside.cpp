@@ -68,18 +68,18 @@ void judge_motion(Bench& bench, scene::Scene scene) {
     for (const std::string technique : {"raytrace", "parallax"}) {
         app::Request request = bench.asked(scene, technique, kFrames);
         request.camera = camera;
-        request.clock = [](int frame) { return double(frame - 1) / kFrames; };
+        app::Session session(bench.engine(), scene);
         int wrong = 0, inside = 0;
-        request.watch = [&](int frame, const app::ReadParts& read) {
-            const scene::Scene now = scene::at(scene, request.clock(frame));
+        for (int k = 0; k < kFrames; ++k) {
+            request.time = double(k) / kFrames;
+            const app::Frame frame = bench.frame(session, request);
+            const scene::Scene now = scene::at(scene, request.time);
             const double depth = 1 - length(camera.eye - now.objects.back().sphere->centre) /
                                          object.sphere->radius;
-            if (std::abs(depth) < .01) return true; // between the mesh and its sphere
+            if (std::abs(depth) < .01) continue; // between the mesh and its sphere
             inside += depth > 0;
-            wrong += (brightest(read().front().hdr) == 0) != (depth > 0);
-            return true;
-        };
-        bench.engine().run(request);
+            wrong += (brightest(frame.hdr()) == 0) != (depth > 0);
+        }
         bench.add(fmt::format(
                       "a ball moves over the eye, {}: frames that are black outside or lit inside",
                       technique),

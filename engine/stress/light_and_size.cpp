@@ -63,8 +63,7 @@ void judge_light(Bench& bench) {
 int largest_shadow_map(Bench& bench, const scene::Scene& scene) {
     int edge = 16384;
     while (edge > 1 && !bench.add_done_or_refused(fmt::format("edge {} planned", edge), [&] {
-        bench.engine().plan(bench.asked(scene, fmt::format("reuse:shadow_map={}", edge), 1),
-                            app::PlanFormat::text);
+        bench.plan(bench.asked(scene, fmt::format("reuse:shadow_map={}", edge), 1));
     }))
         edge /= 2;
     return edge;
@@ -117,13 +116,13 @@ void judge_sizes(Bench& bench) {
                           [&] {
                               app::Request request = bench.asked(scene, "raytrace");
                               request.size = size;
-                              bench.engine().plan(request, app::PlanFormat::text);
+                              bench.plan(request);
                           });
     for (const std::string technique : {"raytrace", "parallax:face=32"}) {
         app::Request request = bench.asked(scene, technique, 1);
         request.size = {16384, 16384};
         bench.add_done_or_refused("16384x16384, " + technique + ", planned",
-                                  [&] { bench.engine().plan(request, app::PlanFormat::text); });
+                                  [&] { bench.plan(request); });
     }
     app::Request large = bench.asked(scene, "raytrace", 1);
     large.size = {4096, 4096};

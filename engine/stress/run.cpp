@@ -32,7 +32,7 @@ report::StressRow judged(app::Engine& engine, const StressRequest& request,
                           {},
                           0};
     const auto start = std::chrono::steady_clock::now();
-    Bench bench(engine, request.size, request.seed, row);
+    Bench bench(engine, request.watcher, request.size, request.seed, row);
     try {
         property.judge(bench);
         row.verdict = verdict_of(row);
@@ -65,7 +65,7 @@ report::Stress run(app::Engine& engine, const StressRequest& request) {
                           {}};
     try {
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            if (request.on_row) request.on_row(std::string(chosen[i]->id), i, chosen.size());
+            request.watcher.row(std::string(chosen[i]->id), i, chosen.size());
             stress.rows.push_back(judged(engine, request, *chosen[i]));
             if (request.on_finished_row) request.on_finished_row(stress);
         }

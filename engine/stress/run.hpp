@@ -1,6 +1,7 @@
 #pragma once
 
-#include "app/engine.hpp"
+#include "app/run.hpp"
+#include "app/watcher.hpp"
 #include "report/stress.hpp"
 
 namespace catoptric::stress {
@@ -10,8 +11,7 @@ struct StressRequest {
     uvec2 size{256, 256};
     std::uint64_t seed = 1; ///< of the scenes, which are made for the run
     std::vector<std::string> command;
-    /// Called before each property with its id, number from 0 and the count; may be empty.
-    std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
+    app::Watcher watcher; ///< a property is a row
     /// Called after each with what there is so far, not `complete`; may be empty.
     std::function<void(const report::Stress&)> on_finished_row;
 };

@@ -6,7 +6,7 @@
 #include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
-#include "signals.hpp"
+#include "scene/load.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
 
@@ -98,27 +98,25 @@ int run(const Options& options) {
     const Manners& manners = options.common.manners;
     require_given(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
     check_folder_can_be_made(options.folder);
+    check_folder_can_be_made(std::filesystem::path(options.folder) / "images");
     app::CompareRequest request = make_compare_request(options);
     check_places(options, request.base);
     const std::size_t row_count = options.techniques.empty() ? app::default_techniques().size()
                                                              : options.techniques.size();
-    app::Engine engine(engine_options(options.common));
-    detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
+    app::Engine engine(engine_options(options.common.device, options.common.validate));
+    introduce(engine, options.common.manners);
     report::create_folder(options.folder);
 
-    stop_on_signals();
     Progress progress(manners);
     progress.row("reference " + request.reference, 0, row_count);
-    request.on_row = [&](const std::string& label, std::size_t index, std::size_t count) {
-        progress.row(label, index, count);
-    };
+    request.watcher = watcher_of(progress);
     report::Writer writer(options.folder);
     request.on_finished_row = [&](const report::Comparison& so_far) { writer.write(so_far); };
-    request.base.progress = [&](int number, int total) { progress.frame(number, total); };
     const report::Comparison comparison = app::compare(engine, request);
     progress.clear();
 
-    writer.write(comparison);
+    // Where no row came to its end, a report of before is worth more.
+    if (!comparison.rows.empty()) writer.write(comparison);
     show(options, comparison);
     const int code = exit_code(options, comparison);
     if (options.common.validate) engine.check_validation();

@@ -1,5 +1,5 @@
 // catoptric graph: the compiled plan of a frame.
-#include "app/engine.hpp"
+#include "app/session.hpp"
 #include "core/error.hpp"
 #include "options.hpp"
 #include "parse.hpp"
@@ -44,8 +44,9 @@ int run(const Options& options) {
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
     check_apart({kStdout}, request.scene.files);
-    app::Engine engine(engine_options(options.common));
-    std::string plan = engine.plan(request, format);
+    app::Engine engine(engine_options(options.common.device, options.common.validate));
+    introduce(engine, options.common.manners);
+    std::string plan = app::Session(engine, request.scene).plan(request, format);
     if (!plan.ends_with('\n')) plan += '\n';
     put(plan);
     if (options.common.validate) engine.check_validation();

@@ -34,13 +34,13 @@ Json to_json(const app::DeviceInfo& device) {
 }
 
 template <typename Value>
-Json over_frames(const std::vector<app::Frame>& frames, Value&& value) {
+Json over_frames(const std::vector<app::FrameTimes>& frames, Value&& value) {
     std::vector<double> samples;
-    for (const app::Frame& frame : frames) samples.push_back(value(frame));
+    for (const app::FrameTimes& frame : frames) samples.push_back(value(frame));
     return to_json(measure::summarise(samples));
 }
 
-Json passes_json(const std::vector<app::Frame>& frames) {
+Json passes_json(const std::vector<app::FrameTimes>& frames) {
     Json passes = Json::array();
     for (std::size_t i = 0; i < frames.front().passes.size(); ++i)
         passes.push_back(
@@ -124,7 +124,7 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     return written(document);
 }
 
-std::string trace_json(const app::Frame& frame, const std::string& process) {
+std::string trace_json(const app::FrameTimes& frame, const std::string& process) {
     Json events = Json::array();
     const auto name_of = [&](const char* what, const std::string& name) {
         events.push_back(

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/engine.hpp"
+#include "app/run.hpp"
 #include "measure/difference.hpp"
 
 #include <optional>
@@ -25,7 +25,7 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
                         const app::Result& result, const std::string& output);
 
 /// Chrome's trace-event format (chrome://tracing, Perfetto): the passes of one frame.
-std::string trace_json(const app::Frame& frame, const std::string& process);
+std::string trace_json(const app::FrameTimes& frame, const std::string& process);
 
 std::string devices_json(const std::vector<app::DeviceInfo>& devices);
 std::string techniques_json(const std::vector<app::TechniqueInfo>& techniques);

@@ -5,6 +5,7 @@
 #include "core/knob.hpp"
 #include "core/text.hpp"
 #include "parse.hpp"
+#include "scene/load.hpp"
 
 #include <algorithm>
 
@@ -187,8 +188,13 @@ app::Request make_request(const Common& common,
     return request;
 }
 
-app::EngineOptions engine_options(const Common& common) {
-    return {.device = common.device, .validate = common.validate};
+app::EngineOptions engine_options(const std::string& device, bool validate) {
+    return {.device = device, .validate = validate, .cache = app::cache_folder()};
+}
+
+void introduce(const app::Engine& engine, const Manners& manners) {
+    detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
+    if (!engine.warning().empty()) warn(engine.warning());
 }
 
 scene::Camera parse_camera(const std::string& text, const scene::Scene& scene) {

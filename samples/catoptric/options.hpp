@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/engine.hpp"
+#include "app/run.hpp"
 #include "command_line.hpp"
 #include "output.hpp"
 
@@ -46,7 +46,9 @@ void require_given(bool given, const std::string& verb, const std::string& optio
 /// `check`, where given, refuses the scene before anything else is said of it.
 app::Request make_request(const Common& common,
                           const std::function<void(const scene::Scene&)>& check = {});
-app::EngineOptions engine_options(const Common& common);
+app::EngineOptions engine_options(const std::string& device, bool validate);
+/// The device, and what the engine warns of, on stderr.
+void introduce(const app::Engine& engine, const Manners& manners);
 
 /// The camera that the user named: a name, an index from 0, or "EX,EY,EZ:TX,TY,TZ:FOV".
 scene::Camera parse_camera(const std::string& text, const scene::Scene& scene);

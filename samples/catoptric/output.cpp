@@ -80,6 +80,7 @@ void fail_incomplete(const Error& stopped, std::size_t rows, std::size_t asked,
                      const std::string& where, const fs::path& folder) {
     fail(stopped.failure, stopped.what(), ", after ", rows, " of ", asked, " rows", where,
          folder.empty() ? ""
+         : rows == 0    ? "; nothing was written"
                         : "; what there is lies in " + folder.string() + ", marked incomplete");
 }
 

@@ -1,5 +1,7 @@
 #include "progress.hpp"
 
+#include "signals.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,6 +29,13 @@ std::size_t terminal_columns() {
 }
 
 } // namespace
+
+app::Watcher watcher_of(Progress& progress) {
+    return {.on_row = [&](const std::string& label, std::size_t index,
+                          std::size_t count) { progress.row(label, index, count); },
+            .on_frame = [&](int number, int total) { progress.frame(number, total); },
+            .stop = &stop_on_signals()};
+}
 
 std::string duration_text(double seconds) {
     const auto whole = std::llround(std::clamp(seconds, 0.0, 3.6e8));

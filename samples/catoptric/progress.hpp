@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/watcher.hpp"
 #include "output.hpp"
 
 #include <chrono>
@@ -37,6 +38,10 @@ private:
     Clock::time_point start_ = Clock::now();
     Clock::time_point shown_at_{};
 };
+
+/// Shows every row and frame, and stops the work at the first signal (signals.hpp). `progress` must
+/// outlive it.
+app::Watcher watcher_of(Progress& progress);
 
 /// "0:07", "12:40", "3:02:10".
 std::string duration_text(double seconds);

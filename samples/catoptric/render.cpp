@@ -1,5 +1,5 @@
 // catoptric render: one picture.
-#include "app/engine.hpp"
+#include "app/run.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "json.hpp"
@@ -9,7 +9,6 @@
 #include "options.hpp"
 #include "places.hpp"
 #include "progress.hpp"
-#include "signals.hpp"
 #include "verbs.hpp"
 
 #include <fmt/format.h>
@@ -87,7 +86,7 @@ void write_picture(const Options& options, const app::Part& part) {
 
 std::vector<double> gpu_times(const app::Result& result) {
     std::vector<double> ms;
-    for (const app::Frame& frame : result.frames) ms.push_back(frame.gpu_ms);
+    for (const app::FrameTimes& frame : result.frames) ms.push_back(frame.gpu_ms);
     return ms;
 }
 
@@ -125,14 +124,17 @@ int run(const Options& options) {
     check_output(options);
     app::Request request = make_render_request(options);
     check_places(options, request.scene);
-    app::Engine engine(engine_options(options.common));
-    detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
+    app::Engine engine(engine_options(options.common.device, options.common.validate));
+    introduce(engine, options.common.manners);
 
-    stop_on_signals();
     Progress progress(manners);
-    progress.row(choice.label, 0, 1);
-    request.progress = [&](int number, int total) { progress.frame(number, total); };
-    const app::Result result = engine.run(request);
+    const app::Watcher watcher = watcher_of(progress);
+    watcher.row(choice.label, 0, 1);
+    app::Session session(engine, request.scene);
+    app::Frames frames(session, request);
+    watcher.check_stopped();
+    while (frames.next()) watcher.frame(frames.number(), request.total());
+    const app::Result result = frames.result();
     progress.clear();
 
     warn_of_nonfinite(result.parts.front().hdr);

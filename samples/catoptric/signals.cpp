@@ -1,7 +1,5 @@
 #include "signals.hpp"
 
-#include "app/engine.hpp"
-
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -14,6 +12,7 @@ namespace {
 
 constexpr std::int64_t kRepeat = 1'000'000'000; // nanoseconds
 
+std::atomic<int> number_of_signal{0};
 std::atomic<std::int64_t> first_at{0}; ///< nanoseconds of the steady clock; 0: not yet
 
 static_assert(std::atomic<int>::is_always_lock_free &&
@@ -30,7 +29,7 @@ void on_signal(int number) {
     const int error = errno;
     std::int64_t never = 0;
     if (first_at.compare_exchange_strong(never, now())) {
-        app::stop_signal.store(number);
+        number_of_signal.store(number);
     } else if (now() - first_at.load() > kRepeat) {
         std::signal(number, SIG_DFL);
         std::raise(number); // when this returns
@@ -40,7 +39,7 @@ void on_signal(int number) {
 
 } // namespace
 
-void stop_on_signals() {
+const std::atomic<int>& stop_on_signals() {
     struct sigaction action {};
     action.sa_handler = on_signal;
     action.sa_flags = SA_RESTART;
@@ -51,6 +50,7 @@ void stop_on_signals() {
         sigaction(signal, nullptr, &old);
         if (old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
     }
+    return number_of_signal;
 }
 
 } // namespace catoptric::cli

@@ -8,7 +8,6 @@
 #include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
-#include "signals.hpp"
 #include "stress/property.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
@@ -54,29 +53,32 @@ std::string table_of(const report::Stress& stress) {
 int run(const Options& options) {
     for (const std::string& id : options.only) stress::find_property(id); // before any work
     if (!options.folder.empty()) {
-        check_folder_can_be_made(options.folder);
         const std::filesystem::path folder = options.folder;
-        check_apart({kStdout, folder / "stress.json", folder / "stress.html", folder / "stress.md"},
-                    {});
+        check_folder_can_be_made(folder);
+        check_folder_can_be_made(folder / "images");
+        std::vector<std::filesystem::path> outputs{kStdout, folder / "stress.json",
+                                                   folder / "stress.html", folder / "stress.md"};
+        std::error_code none_yet; // pictures of what fails may replace any that are there
+        for (const auto& entry : std::filesystem::directory_iterator(folder / "images", none_yet))
+            outputs.push_back(entry.path());
+        check_apart(outputs, {});
     }
-    app::Engine engine({.device = options.device, .validate = options.validate});
+    app::Engine engine(engine_options(options.device, options.validate));
+    introduce(engine, options.manners);
     if (!options.folder.empty()) report::create_folder(options.folder);
-    stop_on_signals();
     Progress progress(options.manners);
     report::StressWriter writer(options.folder);
     const auto write = [&](const report::Stress& so_far) {
         if (!options.folder.empty()) writer.write(so_far);
     };
-    const report::Stress found = stress::run(
-        engine, {.only = options.only,
-                 .size = options.size,
-                 .seed = options.seed,
-                 .command = options.command,
-                 .on_row = [&](const std::string& id, std::size_t index,
-                               std::size_t count) { progress.row(id, index, count); },
-                 .on_finished_row = write});
+    const report::Stress found = stress::run(engine, {.only = options.only,
+                                                      .size = options.size,
+                                                      .seed = options.seed,
+                                                      .command = options.command,
+                                                      .watcher = watcher_of(progress),
+                                                      .on_finished_row = write});
     progress.clear();
-    write(found);
+    if (!found.rows.empty()) write(found); // else a table of before is worth more
     put(options.manners.json ? report::to_json(found) : table_of(found));
     if (found.stopped)
         fail_incomplete(*found.stopped, found.rows.size(), found.asked, "", options.folder);

@@ -1,8 +1,9 @@
 // The engine as a library: the built-in scene, one technique, one picture.
-#include <catoptric/app/engine.hpp>
+#include <catoptric/app/run.hpp>
 #include <catoptric/measure/difference.hpp>
 #include <catoptric/measure/picture_file.hpp>
 #include <catoptric/measure/statistics.hpp>
+#include <catoptric/scene/load.hpp>
 
 #include <cstdio>
 #include <exception>
@@ -17,10 +18,10 @@ int main() try {
     request.size = {256, 256};
 
     app::Engine engine({});
-    const app::Result result = engine.run(request);
+    const app::Result result = app::run(engine, request);
 
     std::vector<double> gpu_ms;
-    for (const app::Frame& frame : result.frames) gpu_ms.push_back(frame.gpu_ms);
+    for (const app::FrameTimes& frame : result.frames) gpu_ms.push_back(frame.gpu_ms);
     const app::Part& part = result.parts.front();
     const measure::Mean mean = measure::mean_of(part.hdr, measure::Range::clamped);
     std::printf("%s on %s: mean %.4f, %.2f ms a frame\n", part.label.c_str(),

@@ -87,20 +87,23 @@ float looked_at() { return 0.0; }
 void look_at(float distance) {}
 #endif
 
-// Where the ray meets a mirror, or may meet it: an exact sphere, the bounds of any other.
-bool may_meet(Probe probe, Ray ray, out float t) {
-    if (probe.radius > 0.0) return sphere_test(probe.sphere, probe.radius, ray, kLargest, t);
-    return slab_test(probe.lowest, probe.highest, box_ray(ray, probe.lowest, probe.highest), kLargest, t);
-}
-
-// Whether the ray ends, as capture `mirror` has it, behind the mirror that this capture leaves out.
-bool is_behind_own_mirror(uint mirror, Path path, Lookup lookup) {
-    float t;
-    if (!may_meet(probes[mirror], Ray(path.at, path.direction, 0u), t)) return false;
-    if (lookup.state == kMiss) return true;
+// Whether the ray, which ends as capture `mirror` has it, meets another mirror before, or may: an exact sphere, or the
+// bounds of any other shape.
+bool may_meet_mirror_before(uint mirror, Path path, Lookup lookup) {
+    Ray ray = Ray(path.at, path.direction, 0u);
     float distance = looked_at() > 0.0 ? looked_at() : captured_distance(mirror, lookup.direction);
     vec3 end = probes[mirror].centre + lookup.direction * distance;
-    return !(dot(end - path.at, path.direction) < t);
+    float t_end = lookup.state == kMiss ? kLargest : dot(end - path.at, path.direction);
+    for (uint i = 0u; i < frame.value.mirror_count; ++i) {
+        if (i == path.mirror) continue;
+        Probe probe = probes[i];
+        float t;
+        bool meets = probe.radius > 0.0
+                         ? sphere_test(probe.sphere, probe.radius, ray, kLargest, t)
+                         : slab_test(probe.lowest, probe.highest, box_ray(ray, probe.lowest, probe.highest), kLargest, t);
+        if (meets && !(t_end < t)) return true;
+    }
+    return false;
 }
 
 // Where another capture knows how the ray ends, if one does. What a mirror shows there is for another eye.
@@ -109,7 +112,7 @@ void ask_others(inout Path path, inout Lookup lookup) {
     for (uint i = 0u; i < frame.value.mirror_count; ++i) {
         if (i == path.mirror) continue;
         Lookup other = search(i, path.at - probes[i].centre, path.direction);
-        if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction)) || is_behind_own_mirror(i, path, other))
+        if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction)) || may_meet_mirror_before(i, path, other))
             continue;
         path.mirror = i;
         path.centre = probes[i].centre;

@@ -16,7 +16,7 @@ struct Arc {
     float height;    // of the ray above the centre
 };
 
-// Below this bend, a texel of the largest cube, the arc is one direction.
+// Below this angle, a texel of the largest cube, the arc is one direction.
 const float kOneDirection = kPi / 2.0 / 16384.0;
 
 // False: the ray goes straight away from the centre, or through it; then only its own direction is of use.

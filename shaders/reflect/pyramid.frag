@@ -29,7 +29,7 @@ const int kRefinements = 3;
 const int kBelowTop = 3; // where it begins; measured, one level more or less costs little
 // Distances and bounds are each off by a few roundings.
 const float kOutwards = 1.0 + 1.0 / 1048576.0;
-// Below this bend, a texel of the largest cube, the arc is one direction.
+// Below this bend, a texel of the largest cube on its face, the arc is one direction.
 const float kOneDirection = 1.0 / 16384.0;
 const float kNever = 2.0; // after the arc's end
 

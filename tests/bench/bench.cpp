@@ -3,9 +3,10 @@
 //   catoptric_bench [ROUNDS]        the shapes of shaders and passes that the engine chose
 //   catoptric_bench rules [ROUNDS]  what each rule of robustness costs: the table of
 //   docs/robustness.md
-#include "app/engine.hpp"
+#include "app/run.hpp"
 #include "measure/statistics.hpp"
 #include "render/geometry.hpp"
+#include "scene/load.hpp"
 #include "scene/repair.hpp"
 
 #include <chrono>
@@ -28,7 +29,8 @@ double one_frame_ms(Side& side, const app::Request& base) {
     app::Request request = base;
     request.techniques = {side.technique};
     std::vector<double> samples;
-    for (const app::Frame& frame : side.engine.run(request).frames) samples.push_back(frame.gpu_ms);
+    for (const app::FrameTimes& frame : app::run(side.engine, request).frames)
+        samples.push_back(frame.gpu_ms);
     return measure::summarise(samples).median;
 }
 

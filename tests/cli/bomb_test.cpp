@@ -23,6 +23,7 @@ protected:
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         for (const std::string& part : parts) EXPECT_THAT(ended.err, testing::HasSubstr(part));
         EXPECT_LE(ended.peak_bytes, 1ull << 30);
+        EXPECT_LE(ended.seconds, 10) << "the longest takes 1.2 where nothing else runs";
         EXPECT_LE(ended.err.size(), 300u) << ended.err;
         EXPECT_EQ(ended.out, "");
         std::string said = ended.err.substr(0, ended.err.find('\n'));

@@ -15,5 +15,6 @@ report=$work/out/demo/report.html
 for word in parallax raytrace '</html>'; do
     grep -qF "$word" "$report" || { echo "clone: $report does not hold '$word'" >&2; exit 1; }
 done
-diff <(git -C "$source" status --porcelain) <(git status --porcelain) >&2 ||
+untracked() { git -C "$1" ls-files --others --exclude-standard; }
+diff <(untracked "$source") <(untracked .) >&2 ||
     { echo "clone: wanted the demo to leave nothing that git does not ignore, found the above" >&2; exit 1; }

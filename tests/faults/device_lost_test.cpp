@@ -100,7 +100,7 @@ TEST_F(DeviceLost, AnotherEngineCanBeMade) {
             std::string wrong;
             const auto failure_of = [&](catoptric::app::Engine& engine) {
                 try {
-                    engine.run(request);
+                    catoptric::app::run(engine, request);
                 } catch (const catoptric::Error& error) {
                     if (error.failure != failure) wrong += "another failure; ";
                     return std::string(error.what());
@@ -120,7 +120,7 @@ TEST_F(DeviceLost, AnotherEngineCanBeMade) {
             std::vector<catoptric::measure::Picture> pictures;
             for (int i = 0; i < 2; ++i) {
                 const Watched next = here.run(std::nullopt, [&](catoptric::app::Engine& engine) {
-                    pictures.push_back(engine.run(request).parts.front().hdr);
+                    pictures.push_back(catoptric::app::run(engine, request).parts.front().hdr);
                 });
                 wrong += next.ended.err + next.leaks();
             }

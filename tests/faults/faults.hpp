@@ -1,7 +1,8 @@
 #pragma once
 
-#include "app/engine.hpp"
+#include "app/run.hpp"
 #include "cli/program.hpp"
+#include "scene/load.hpp"
 
 #include <functional>
 #include <optional>

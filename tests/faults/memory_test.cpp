@@ -116,7 +116,9 @@ protected:
 /// next engine of the same process works.
 TEST_F(Memory, EveryCallOfARun) {
     const catoptric::app::Request request = request_of("hybrid:face=16,shadow_map=16", {16, 16}, 0);
-    const auto render = [&](catoptric::app::Engine& engine) { engine.run(request); };
+    const auto render = [&](catoptric::app::Engine& engine) {
+        catoptric::app::run(engine, request);
+    };
     const auto every = [](int calls) {
         std::vector<int> all(static_cast<std::size_t>(calls));
         std::iota(all.begin(), all.end(), 1);
@@ -209,9 +211,10 @@ TEST_F(Memory, InUseIsWhatThePlanAnnounces) {
                 const catoptric::app::Request request = request_of(technique, size, 1);
                 std::uint64_t announced = 0;
                 const Watched watched = here.run(std::nullopt, [&](catoptric::app::Engine& engine) {
-                    const std::string plan = engine.plan(request, catoptric::app::PlanFormat::json);
+                    const std::string plan = catoptric::app::Session(engine, request.scene)
+                                                 .plan(request, catoptric::app::PlanFormat::json);
                     announced = nlohmann::json::parse(plan).at("bytes").get<std::uint64_t>();
-                    engine.run(request);
+                    catoptric::app::run(engine, request);
                 });
                 const std::uint64_t known = announced + std::uint64_t{16} * size.x * size.y;
                 const std::uint64_t rest = watched.most_bytes - known;

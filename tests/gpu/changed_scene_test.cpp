@@ -10,14 +10,19 @@ constexpr uvec2 kSize{64, 64};
 
 /// The last picture of a room whose first lamp is out after so many frames.
 measure::Picture picture(int lit_frames, int frames) {
-    const scene::Scene lit = test::room(2, 2);
-    scene::Scene dark = lit;
-    const auto lamp = std::ranges::find(dark.objects, "lamp1", &scene::Object::name);
-    lamp->material = test::add_material(dark, {.name = "out"});
-    app::Request request = test::request(lit, {"reuse:face=32"}, kSize);
-    request.warmup = frames - 1;
-    request.changed = [&](int frame) { return frame <= lit_frames ? lit : dark; };
-    return test::engine().run(request).parts.front().hdr;
+    scene::Scene scene = test::room(2, 2);
+    const std::size_t out = test::add_material(scene, {.name = "out"});
+    const auto lamp = std::ranges::find(scene.objects, "lamp1", &scene::Object::name);
+    const scene::Edit put_out = scene::paint(static_cast<std::size_t>(lamp - scene.objects.begin()),
+                                             out);
+    app::Session session(test::engine(), scene);
+    const app::FrameSpec spec = test::request(scene, {"reuse:face=32"}, kSize);
+    measure::Picture last;
+    for (int k = 1; k <= frames; ++k) {
+        if (k == lit_frames + 1) session.change(put_out);
+        last = session.frame(spec).hdr();
+    }
+    return last;
 }
 
 TEST(ChangedScene, FramesBeforeAndAfterAreThoseOfTheOneAndTheOther) {

@@ -18,8 +18,8 @@ INSTANTIATE_TEST_SUITE_P(Techniques, Layered,
 TEST_P(Layered, EqualsSixSinglePasses) {
     app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {96, 96});
     request.frames = 3;
-    const app::Part at_once = std::move(test::engine(true).run(request).parts.front());
-    const app::Part one_by_one = std::move(test::engine(false).run(request).parts.front());
+    const app::Part at_once = std::move(app::run(test::engine(true), request).parts.front());
+    const app::Part one_by_one = std::move(app::run(test::engine(false), request).parts.front());
     EXPECT_TRUE(test::same_bytes(at_once.hdr, one_by_one.hdr));
     EXPECT_TRUE(test::same_bytes(at_once.display, one_by_one.display));
     EXPECT_EQ(at_once.scene_passes, one_by_one.scene_passes);

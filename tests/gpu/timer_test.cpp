@@ -9,7 +9,7 @@ namespace {
 
 using namespace catoptric;
 
-void expect_in_order(const app::Frame& frame) {
+void expect_in_order(const app::FrameTimes& frame) {
     ASSERT_FALSE(frame.passes.empty());
     double last = 0;
     for (const app::PassTime& pass : frame.passes) {
@@ -30,10 +30,10 @@ INSTANTIATE_TEST_SUITE_P(Frames, Closing, testing::Values("raytrace", "reuse"),
 TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
     app::Request request = test::request(scene::cornell_mirrors(), {GetParam()}, {384, 384});
     request.warmup = 2, request.frames = 7;
-    const app::Result result = test::engine().run(request);
+    const app::Result result = app::run(test::engine(), request);
     const bool cpu = test::engine().device().type == "cpu";
     std::vector<double> shares, walls;
-    for (const app::Frame& frame : result.frames) {
+    for (const app::FrameTimes& frame : result.frames) {
         expect_in_order(frame);
         double sum = 0;
         for (const app::PassTime& pass : frame.passes) sum += pass.ms();
@@ -53,7 +53,7 @@ TEST(Timing, PipelinedSpansAreInOrderToo) {
     app::Request request = test::request(test::room(2, 1), {"reuse"}, {64, 64});
     request.timing = app::Timing::pipelined;
     request.frames = 3;
-    for (const app::Frame& frame : test::engine().run(request).frames)
+    for (const app::FrameTimes& frame : app::run(test::engine(), request).frames)
         for (const app::PassTime& pass : frame.passes) {
             EXPECT_GE(pass.begin_ms, 0) << pass.name;
             EXPECT_GE(pass.ms(), 0) << pass.name;

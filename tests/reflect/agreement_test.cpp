@@ -94,7 +94,7 @@ double share_off(const app::Part& raster, const app::Part& traced) {
         if (traced.hits[i] != 0) continue;
         const vec3 apart = abs(clamp(raster.hdr.pixels[i], 0.0f, 1.0f) -
                                clamp(traced.hdr.pixels[i], 0.0f, 1.0f));
-        off += !(std::max({apart.x, apart.y, apart.z}) <= .02f);
+        off += !(std::max({apart.x, apart.y, apart.z}) <= static_cast<float>(measure::kOff));
     }
     return static_cast<double>(off) / static_cast<double>(traced.hits.size());
 }
@@ -118,7 +118,7 @@ TEST(ShadowMap, ReceiversOfRasterAndRaysAreTheSameFromAnyCamera) {
                                                   .vertical_fov_degrees = 50}
                                   : drawn_camera(random, i % 5);
         request.time = i == 0 ? 1.9 : i == 1 ? 0 : .7 * (i % 6);
-        const app::Result result = test::engine().run(request);
+        const app::Result result = app::run(test::engine(), request);
         const double off = share_off(result.parts[0], result.parts[1]);
         EXPECT_LE(off, 1e-4) << "eye " << request.camera.eye.x << "," << request.camera.eye.y << ","
                              << request.camera.eye.z;

@@ -28,9 +28,11 @@ struct Split {
 Split split(const app::Request& request, const std::string& technique) {
     app::Request reference = request;
     reference.techniques = {app::kReference};
-    if (request.animate) reference.time = app::last_time(request), reference.animate = false;
-    const app::Part truth = std::move(test::engine().run(reference).parts.front());
-    return {app::CauseFinder(test::engine(), request, truth.hdr, truth.hits).find(technique)};
+    if (request.animate)
+        reference.time = request.instant(request.total()), reference.animate = false;
+    const app::Part truth = std::move(app::run(test::engine(), reference).parts.front());
+    app::Session session(test::engine(), request.scene);
+    return {app::CauseFinder(session, request, truth.hdr, truth.hits).find(technique)};
 }
 
 Split split(const scene::Scene& scene, const std::string& technique, uvec2 size = kSize) {

@@ -103,7 +103,7 @@ TEST(Captures, ThatDoNotAnswerChangeNothing) {
         app::Request request = test::request(
             scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"}, kSize);
         request.with_lookup = true;
-        const app::Result result = test::engine().run(request);
+        const app::Result result = app::run(test::engine(), request);
         const app::Part &own = result.parts[0], &all = result.parts[1];
         std::size_t unknown = 0, changed = 0;
         for (std::size_t i = 0; i < own.lookup.size(); ++i) {
@@ -139,7 +139,7 @@ TEST(Show, PaintsWhatTheSearchSaysOfItself) {
     app::Request request = test::request(scene::cornell_mirrors(),
                                          {"pyramid:face=64,captures=own,show=state"}, kSize);
     request.with_lookup = true;
-    const app::Part part = std::move(test::engine().run(request).parts.front());
+    const app::Part part = std::move(app::run(test::engine(), request).parts.front());
     const std::array<vec3, 3> paint{
         {{.1f, .6f, .2f}, {.9f, .3f, .1f}, {.1f, .2f, .8f}}}; // hit, unknown, miss
     std::array<std::size_t, 3> count{};
@@ -151,7 +151,7 @@ TEST(Show, PaintsWhatTheSearchSaysOfItself) {
     }
     for (const std::size_t pixels : count) EXPECT_GT(pixels, 10u);
     request.techniques = {"pyramid:face=64,show=residual"};
-    const app::Part residual = std::move(test::engine().run(request).parts.front());
+    const app::Part residual = std::move(app::run(test::engine(), request).parts.front());
     for (std::size_t i = 0; i < residual.lookup.size(); ++i) {
         const float code = residual.lookup[i].w;
         if (!(code > 0)) continue;

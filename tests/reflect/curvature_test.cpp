@@ -49,7 +49,7 @@ double need(const scene::Mesh& mesh, double eye, const dmat4& world_from_object 
         {.eye = {0, 0, eye}, .target = {0, 0, 0}, .vertical_fov_degrees = kFov});
     app::Request request = test::request(scene, {"reuse:face=auto,shadow=none"},
                                          {kHeight, kHeight});
-    return test::engine().run(request).parts.front().auto_face->needs.front();
+    return app::run(test::engine(), request).parts.front().auto_face->needs.front();
 }
 
 /// By the mirror equation: neighbouring pixels look on 1 + 2 distance curvature of their angle

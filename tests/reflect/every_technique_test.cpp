@@ -46,7 +46,7 @@ double dark_share(const scene::Scene& furnace, const std::string& technique, int
     app::Request request = test::request(furnace, {technique}, kSize);
     request.warmup = frames - 1;
     request.ambient = 0;
-    const measure::Picture picture = test::engine().run(request).parts.front().hdr;
+    const measure::Picture picture = app::run(test::engine(), request).parts.front().hdr;
     std::size_t dark = 0, bright = 0;
     for (const vec3& pixel : picture.pixels) {
         dark += !glm::all(glm::greaterThanEqual(pixel, test::kFurnace * (1 - kSlack)));
@@ -137,8 +137,8 @@ TEST_P(EveryTechnique, MakesTheSameBytesTwice) {
     for (const bool animate : {false, true}) {
         request.animate = animate;
         request.frames = 3;
-        const app::Part first = std::move(test::engine().run(request).parts.front());
-        const app::Part second = std::move(test::engine().run(request).parts.front());
+        const app::Part first = std::move(app::run(test::engine(), request).parts.front());
+        const app::Part second = std::move(app::run(test::engine(), request).parts.front());
         EXPECT_TRUE(test::same_bytes(first.hdr, second.hdr));
         EXPECT_TRUE(test::same_bytes(first.display, second.display));
         EXPECT_EQ(first.hits, second.hits);
@@ -158,8 +158,9 @@ TEST_P(EveryTechnique, ShowsMoreInASecondFrameIfAndOnlyIfItRemembers) {
 TEST_P(EveryTechnique, HasOneTimeForEachPassAndNoneBesides) {
     app::Request request = test::request(test::room(2, 2), {small()}, kSize);
     request.frames = 3;
-    const auto plan = nlohmann::json::parse(test::engine().plan(request, app::PlanFormat::json));
-    for (const app::Frame& frame : test::engine().run(request).frames) {
+    const auto plan = nlohmann::json::parse(
+        app::Session(test::engine(), request.scene).plan(request, app::PlanFormat::json));
+    for (const app::FrameTimes& frame : app::run(test::engine(), request).frames) {
         ASSERT_EQ(frame.passes.size(), plan["passes"].size());
         double time = 0;
         for (std::size_t i = 0; i < frame.passes.size(); ++i) {

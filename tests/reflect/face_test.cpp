@@ -60,9 +60,9 @@ TEST(AutoFace, StaysTheSameWhileTheSceneMoves) {
     app::Request asked = test::request(scene::cornell_mirrors(), {"secant:face=auto"}, {64, 64});
     asked.animate = true;
     asked.frames = 3;
-    const app::Part moving = std::move(test::engine().run(asked).parts.front());
+    const app::Part moving = std::move(app::run(test::engine(), asked).parts.front());
     asked.techniques = {"secant:face=" + std::to_string(moving.auto_face->edge)};
-    EXPECT_TRUE(test::same_bytes(moving.hdr, test::engine().run(asked).parts.front().hdr));
+    EXPECT_TRUE(test::same_bytes(moving.hdr, app::run(test::engine(), asked).parts.front().hdr));
 }
 
 std::uint32_t auto_edge(const test::Look& look) {
@@ -70,7 +70,7 @@ std::uint32_t auto_edge(const test::Look& look) {
                                        test::kContractSize);
     asked.camera = look.camera;
     asked.time = look.time;
-    return test::engine().run(asked).parts.front().auto_face->edge;
+    return app::run(test::engine(), asked).parts.front().auto_face->edge;
 }
 
 std::vector<std::string> with_faces(const std::vector<std::uint32_t>& faces) {

@@ -26,9 +26,10 @@ TEST_P(Shipped, RendersAsTheBuiltInScene) {
         for (const double time : {0.0, 0.7}) {
             app::Request request = test::request(built_in, {technique}, {256, 256});
             request.time = time, request.frames = 3;
-            const measure::Picture wanted = test::engine().run(request).parts.front().hdr;
+            const measure::Picture wanted = app::run(test::engine(), request).parts.front().hdr;
             request.scene = loaded, request.camera = loaded.cameras.at(0);
-            const double error = test::rmse(test::engine().run(request).parts.front().hdr, wanted);
+            const double error = test::rmse(app::run(test::engine(), request).parts.front().hdr,
+                                            wanted);
             std::cout << "[ MEASURED ] ." << GetParam() << ", " << technique << " at " << time
                       << " s: rmse " << error << "\n";
             EXPECT_LE(error, 1e-3);
@@ -91,7 +92,7 @@ TEST_F(Nested, RendersBelowAThousandNodes) {
             const auto display = [&](const scene::Scene& scene) {
                 app::Request request = test::request(scene, {technique}, {256, 256});
                 request.time = time, request.frames = 3;
-                return test::engine().run(request).parts.front().display;
+                return app::run(test::engine(), request).parts.front().display;
             };
             const double flip = measure::flip_mean(measure::flip(display(nested), display(flat)));
             std::cout << "[ MEASURED ] 1000 nodes, " << technique << " at " << time << " s: FLIP "

@@ -14,7 +14,7 @@ constexpr std::uint32_t kUnknown = 1;
 app::Part hybrid(const scene::Scene& scene, const std::string& technique, uvec2 size) {
     app::Request request = test::request(scene, {technique}, size);
     request.with_lookup = true;
-    return std::move(test::engine().run(request).parts.front());
+    return std::move(app::run(test::engine(), request).parts.front());
 }
 
 struct Counted {

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <iostream>
 
 namespace {
@@ -20,9 +21,14 @@ app::LagRequest lag_request(const scene::Scene& scene, const std::vector<std::st
             .most_instants = most_instants};
 }
 
+void measure_lag_of(const app::LagRequest& request, report::Lag& lag) {
+    app::Session session(test::engine(), request.base.scene);
+    app::measure_lag(session, request, lag);
+}
+
 report::Lag measure(const app::LagRequest& request) {
     report::Lag lag;
-    app::measure_lag(test::engine(), request, lag);
+    measure_lag_of(request, lag);
     return lag;
 }
 
@@ -114,9 +120,10 @@ TEST(Lag, IsWhatAnAnimationShows) {
     app::Request still = test::request(scene, {"naive:face=32,bounces=8"}, kSize),
                  traced = test::request(scene, {"raytrace"}, kSize);
     still.time = traced.time = instant;
-    const measure::Mask mirrors = measure::mirrors(test::engine().run(traced).parts.front().hits);
-    const double rmse = test::rmse(test::engine().run(moving).parts.front().hdr,
-                                   test::engine().run(still).parts.front().hdr, mirrors);
+    const measure::Mask mirrors = measure::mirrors(
+        app::run(test::engine(), traced).parts.front().hits);
+    const double rmse = test::rmse(app::run(test::engine(), moving).parts.front().hdr,
+                                   app::run(test::engine(), still).parts.front().hdr, mirrors);
     EXPECT_GT(rmse, 0);
     EXPECT_NEAR(lag.rows[0].speeds[0].rmse[1], rmse, 1e-6);
 }
@@ -184,16 +191,16 @@ TEST(Lag, RefusesWhatCannotBeMeasured) {
 TEST(Lag, KeepsWhatThereIsWhenStopped) {
     app::LagRequest request = lag_request(test::room(2, 1), {"reuse:face=32", "parallax:face=32"},
                                           {1, 2});
-    request.on_row = [](const std::string& label, std::size_t, std::size_t count) {
+    std::atomic<int> signal{0};
+    request.watcher.stop = &signal;
+    request.watcher.on_row = [&](const std::string& label, std::size_t, std::size_t count) {
         EXPECT_EQ(count, 3u) << "the reference and two rows";
-        if (label == "lag of parallax:face=32") app::stop_signal = 2;
+        if (label == "lag of parallax:face=32") signal = 2;
     };
     int finished = 0;
     request.on_finished_row = [&] { ++finished; };
     report::Lag lag;
-    test::expect_refused([&] { app::measure_lag(test::engine(), request, lag); },
-                         Failure::interrupted, {"signal 2"});
-    app::stop_signal = 0;
+    test::expect_refused([&] { measure_lag_of(request, lag); }, Failure::interrupted, {"signal 2"});
     EXPECT_EQ(finished, 1);
     EXPECT_FALSE(lag.complete);
     ASSERT_EQ(lag.rows.size(), 1u);

@@ -1,5 +1,6 @@
 // Each cause of error that can be taken away, alone and with others, where it is known what must be
 // left: nothing, wherever the rest is right.
+#include "app/causes.hpp"
 #include "shared.h"
 #include "support/paths.hpp"
 
@@ -19,10 +20,9 @@ std::vector<test::Compared> mended(const scene::Scene& scene, const std::string&
     const app::Part truth = test::render(scene, "raytrace:depth=16,shadow=" + shadow, kSize);
     app::Request request = test::request(scene, {technique}, kSize);
     request.warmup = frames - 1;
-    request.mended = masks;
-    const app::Part part = std::move(test::engine().run(request).parts.front());
-    std::vector<test::Compared> result{test::compared(part.hdr, truth)};
-    for (const measure::Picture& picture : part.mended)
+    app::Session session(test::engine(), scene);
+    std::vector<test::Compared> result;
+    for (const measure::Picture& picture : app::last_pictures(session, request, masks))
         result.push_back(test::compared(picture, truth));
     std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": of " << result[0].pixels
               << " off: none mended " << result[0].off;
@@ -68,11 +68,11 @@ TEST(Mended, WithoutTextureNothingDependsOnItsSize) {
     std::vector<measure::Picture> pictures;
     for (const std::string face : {"2", "64"}) {
         app::Request request = test::request(box({}), {"parallax:shadow=none,face=" + face}, kSize);
-        request.mended = {kMendDistance | kMendTexels, kMendTexels};
-        const app::Part part = std::move(test::engine().run(request).parts.front());
-        pictures.push_back(part.mended[0]);
+        app::Session session(test::engine(), request.scene);
+        pictures.push_back(
+            app::last_pictures(session, request, {kMendDistance | kMendTexels, kMendTexels})[1]);
         // Parallax's one step is no exact one.
-        EXPECT_LE(test::compared(part.mended[0], truth).share(), .02);
+        EXPECT_LE(test::compared(pictures.back(), truth).share(), .02);
     }
     EXPECT_TRUE(test::same_bytes(pictures[0], pictures[1]));
 }

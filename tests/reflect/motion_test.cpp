@@ -12,11 +12,11 @@ TEST(Motion, FrameKStandsWhereItShould) {
         moving.animate = true, moving.time = .5, moving.warmup = 3, moving.frames = 4;
         app::Request still = test::request(scene::cornell_mirrors(), {technique}, {64, 64});
         still.time = .5 + 6 / 60.0;
-        const measure::Picture last = test::engine().run(moving).parts.front().hdr;
-        EXPECT_TRUE(test::same_bytes(last, test::engine().run(still).parts.front().hdr))
+        const measure::Picture last = app::run(test::engine(), moving).parts.front().hdr;
+        EXPECT_TRUE(test::same_bytes(last, app::run(test::engine(), still).parts.front().hdr))
             << technique;
         still.time = .5;
-        EXPECT_FALSE(test::same_bytes(last, test::engine().run(still).parts.front().hdr))
+        EXPECT_FALSE(test::same_bytes(last, app::run(test::engine(), still).parts.front().hdr))
             << technique;
     }
 }
@@ -24,43 +24,39 @@ TEST(Motion, FrameKStandsWhereItShould) {
 TEST(Motion, WithoutAnimationEveryFrameIsTheSame) {
     app::Request request = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"},
                                          {64, 64});
-    const measure::Picture one = test::engine().run(request).parts.front().hdr;
+    const measure::Picture one = app::run(test::engine(), request).parts.front().hdr;
     request.frames = 5;
-    EXPECT_TRUE(test::same_bytes(one, test::engine().run(request).parts.front().hdr));
+    EXPECT_TRUE(test::same_bytes(one, app::run(test::engine(), request).parts.front().hdr));
 }
 
-TEST(Motion, AClockSaysWhereEachFrameStands) {
-    app::Request request = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"},
-                                         {64, 64});
+TEST(Motion, ASessionGoesToAnyInstant) {
+    const app::Request still = test::request(scene::cornell_mirrors(), {"naive:bounces=1,face=64"},
+                                             {64, 64});
+    app::Session session(test::engine(), still.scene);
     std::vector<measure::Picture> seen;
-    request.frames = 3, request.time = 7;
-    request.clock = [](int k) { return k == 2 ? .5 : 1.5; };
-    request.watch = [&](int k, const app::ReadParts& read) {
-        EXPECT_EQ(static_cast<std::size_t>(k), seen.size() + 1);
-        seen.push_back(read().front().hdr);
-        return true;
-    };
-    const measure::Picture last = test::engine().run(request).parts.front().hdr;
-    app::Request still = test::request(scene::cornell_mirrors(), request.techniques, {64, 64});
-    still.time = .5;
-    ASSERT_EQ(seen.size(), 3u);
-    EXPECT_TRUE(test::same_bytes(seen[1], test::engine().run(still).parts.front().hdr));
+    for (const double time : {1.5, .5, 1.5}) {
+        app::FrameSpec spec = still;
+        spec.time = time;
+        seen.push_back(session.frame(spec).hdr());
+    }
+    app::Request half = still;
+    half.time = .5;
+    EXPECT_TRUE(test::same_bytes(seen[1], app::run(test::engine(), half).parts.front().hdr));
     EXPECT_FALSE(test::same_bytes(seen[1], seen[2]));
     EXPECT_TRUE(test::same_bytes(seen[0], seen[2]));
-    EXPECT_TRUE(test::same_bytes(last, seen[2]));
 }
 
-TEST(Motion, WhoHasSeenEnoughEndsTheRun) {
+TEST(Motion, FramesCountFromOneToTheLast) {
     app::Request request = test::request(test::room(2, 1), {"reuse:face=32"}, {32, 32});
-    request.warmup = 1, request.frames = 9;
-    int progressed = 0;
-    request.progress = [&](int k, int total) {
-        progressed = k;
-        EXPECT_EQ(total, 10);
-    };
-    request.watch = [](int k, const app::ReadParts&) { return k < 4; };
-    const app::Result result = test::engine().run(request);
-    EXPECT_EQ(progressed, 4);
+    request.warmup = 1, request.frames = 3;
+    app::Session session(test::engine(), request.scene);
+    app::Frames frames(session, request);
+    for (int k = 1; k <= 4; ++k) {
+        ASSERT_TRUE(frames.next());
+        EXPECT_EQ(frames.number(), k);
+    }
+    EXPECT_FALSE(frames.next());
+    const app::Result result = frames.result();
     EXPECT_EQ(result.frames.size(), 3u) << "the measured ones of four";
     EXPECT_TRUE(test::same_bytes(result.parts.front().hdr,
                                  test::render(test::room(2, 1), "reuse:face=32", {32, 32}, 4).hdr));
@@ -70,9 +66,10 @@ TEST(Samples, OnlyAnIrregularNumberDependsOnTheSeed) {
     for (const auto& [samples, depends] : {std::pair{"4", false}, {"5", true}}) {
         app::Request request = test::request(
             test::room(1, 1), {std::string("raytrace:samples=") + samples}, {48, 48});
-        const measure::Picture first = test::engine().run(request).parts.front().hdr;
+        const measure::Picture first = app::run(test::engine(), request).parts.front().hdr;
         request.seed = 2;
-        EXPECT_EQ(test::same_bytes(first, test::engine().run(request).parts.front().hdr), !depends)
+        EXPECT_EQ(test::same_bytes(first, app::run(test::engine(), request).parts.front().hdr),
+                  !depends)
             << samples;
     }
 }

@@ -43,7 +43,7 @@ TEST(Parallax, TheVoidIsNoLargerInCoarseCaptures) {
         app::Request request = test::request(scene, {technique}, {192, 192});
         request.with_lookup = true;
         double mirror = 0, miss = 0;
-        const app::Result result = test::engine().run(request);
+        const app::Result result = app::run(test::engine(), request);
         for (const vec4& pixel : result.parts.front().lookup) {
             if (!(pixel.w > 0)) continue;
             ++mirror;

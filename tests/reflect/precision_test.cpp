@@ -84,7 +84,7 @@ TEST(Precision, TexelsThatHalvesCutOffAreCounted) {
     const auto counted = [&](const std::string& technique) {
         app::Request asked = test::request(room, {technique}, {32, 32});
         asked.with_lookup = true;
-        return test::engine().run(asked).parts.front().saturated;
+        return app::run(test::engine(), asked).parts.front().saturated;
     };
     for (const std::string technique : {"naive:bounces=1,", "reuse:", "layered:", "hybrid:"})
         EXPECT_EQ(counted(technique + "face=64"), 0u) << technique;

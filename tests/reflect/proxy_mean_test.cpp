@@ -75,7 +75,7 @@ double radius_of(const Room& room, std::size_t mirror, const std::string& settin
     app::Request request = test::request(scene, {"proxy:shape=sphere,shadow=none," + settings},
                                          kSize);
     request.with_lookup = true;
-    const app::Part part = std::move(test::engine().run(request).parts.front());
+    const app::Part part = std::move(app::run(test::engine(), request).parts.front());
     const shared::View view = render::camera_view(request.camera, {}, kSize, 0);
     std::vector<double> radii;
     for (std::size_t i = 0; i < part.lookup.size(); ++i) {

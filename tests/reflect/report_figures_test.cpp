@@ -41,7 +41,7 @@ app::Part rendered(const std::string& technique) {
     app::Request request = test::request(bright_hall(), {technique}, kSize);
     request.frames = kFrames, request.warmup = kWarmup;
     request.exposure = kStops;
-    return std::move(test::engine().run(request).parts.front());
+    return std::move(app::run(test::engine(), request).parts.front());
 }
 
 /// Which pixels a figure is about, by the first two mirrors that a ray meets; 0: none.

@@ -15,11 +15,9 @@ TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
     app::Request request = test::request(scene, {"reuse:face=128"}, {256, 256});
     request.frames = 8;
     std::vector<app::Part> reused;
-    request.watch = [&](int, const app::ReadParts& read) {
-        reused.push_back(std::move(read().front()));
-        return true;
-    };
-    test::engine().run(request);
+    app::Session session(test::engine(), scene);
+    for (app::Frames frames(session, request); frames.next();)
+        reused.push_back(frames.frame().read());
     ASSERT_EQ(reused.size(), 8u);
     for (std::size_t k = 1; k <= reused.size(); ++k) {
         const app::Part& reuse = reused[k - 1];

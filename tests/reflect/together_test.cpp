@@ -15,11 +15,11 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
     app::Request request = test::request(scene::cornell_mirrors(), techniques, {96, 80});
     request.warmup = 1, request.frames = 2;
     request.animate = true;
-    const app::Result together = test::engine().run(request);
+    const app::Result together = app::run(test::engine(), request);
     ASSERT_EQ(together.parts.size(), techniques.size());
     for (std::size_t i = 0; i < techniques.size(); ++i) {
         request.techniques = {techniques[i]};
-        const app::Part alone = std::move(test::engine().run(request).parts.front());
+        const app::Part alone = std::move(app::run(test::engine(), request).parts.front());
         const app::Part& part = together.parts[i];
         EXPECT_TRUE(test::same_bytes(part.hdr, alone.hdr)) << techniques[i];
         EXPECT_TRUE(test::same_bytes(part.display, alone.display)) << techniques[i];
@@ -35,7 +35,7 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
 TEST(Together, AllPassesLieOnOneTimeline) {
     app::Request request = test::request(scene::cornell_mirrors(), {"reuse:face=64", "raytrace"},
                                          {64, 64});
-    const app::Result result = test::engine().run(request);
+    const app::Result result = app::run(test::engine(), request);
     ASSERT_EQ(result.frames.size(), 1u);
     std::set<std::string> names;
     double time = 0;
@@ -56,8 +56,8 @@ TEST(Together, AllPassesLieOnOneTimeline) {
 TEST(Together, TheSameTechniqueTwiceIsRefused) {
     test::expect_refused(
         [] {
-            test::engine().run(
-                test::request(test::room(1, 1), {"reuse", "reuse:face=256"}, {16, 16}));
+            app::run(test::engine(),
+                     test::request(test::room(1, 1), {"reuse", "reuse:face=256"}, {16, 16}));
         },
         Failure::usage, {"'reuse:face=256'", "asked for twice"});
 }

@@ -20,11 +20,28 @@ namespace test {
 
 using render::Captured;
 
-/// Captures every mirror once, without shadows; the other mirrors are black.
+/// Captures every mirror once, without shadows; the other mirrors are black. `range_world`: of
+/// r8_unorm.
 inline Captured capture(const scene::Scene& scene, std::uint32_t face, Format distance,
                         double range_world = 1, bool staged = false) {
     auto& [device, pipelines] = bench(staged);
-    return render::capture(device, pipelines, scene, face, distance, range_world);
+    render::GpuScene gpu_scene(device, scene);
+    gpu_scene.update(scene,
+                     scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front(),
+                     {16, 16}, 0);
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
+    render::CaptureOptions options;
+    options.face = face;
+    options.distance = distance;
+    if (distance == Format::r8_unorm) options.stored_unit = gpu_scene.space().length(range_world);
+    const render::Cubes cubes = render::declare_cubes(graph, inputs, options);
+    render::add_captures(graph, inputs, options, cubes);
+    graph.want(cubes.colour);
+    graph.want(*cubes.distance);
+    run(runner, graph);
+    return {face, runner.read(cubes.colour), runner.read(*cubes.distance), gpu_scene.space()};
 }
 
 /// Both layers around every mirror, without shadows; other mirrors are black. Eight bits range over

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/engine.hpp"
+#include "app/run.hpp"
 #include "core/error.hpp"
 #include "graph/run.hpp"
 

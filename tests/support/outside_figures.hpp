@@ -15,7 +15,7 @@ inline app::Part trace(int depth, int samples) {
         {"raytrace:depth=" + std::to_string(depth) + ",samples=" + std::to_string(samples)},
         {512, 512});
     asked.ambient = 0;
-    return std::move(engine().run(asked).parts.front());
+    return std::move(app::run(engine(), asked).parts.front());
 }
 
 /// Expects `found` within a share of `wanted`, and prints both.

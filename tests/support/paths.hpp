@@ -49,7 +49,7 @@ inline void add_glowing_board(scene::Scene& scene, vec3 emission, dvec3 centre, 
                  centre + half_along + up, centre - half_along + up);
 }
 
-/// Pixels of mirrors, and how many of them differ by more than .02 in some channel.
+/// Pixels of mirrors, and how many of them are off.
 struct Compared {
     std::size_t pixels = 0, off = 0;
     double share() const { return static_cast<double>(off) / static_cast<double>(pixels); }
@@ -57,7 +57,7 @@ struct Compared {
 
 inline bool is_off(const vec3& a, const vec3& b) {
     for (int i = 0; i < 3; ++i)
-        if (!(std::abs(a[i] - b[i]) <= .02f)) return true; // NaN too
+        if (!(std::abs(a[i] - b[i]) <= static_cast<float>(measure::kOff))) return true; // NaN too
     return false;
 }
 

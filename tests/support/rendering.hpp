@@ -25,19 +25,20 @@ namespace test {
 /// One measured frame without warm-up, seen by the scene's first camera.
 inline app::Request request(const scene::Scene& scene, const std::vector<std::string>& techniques,
                             uvec2 size) {
-    return {.scene = scene,
-            .techniques = techniques,
-            .camera = scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front(),
-            .size = size,
-            .frames = 1,
-            .warmup = 0};
+    app::Request asked;
+    asked.scene = scene;
+    asked.techniques = techniques;
+    asked.camera = scene.cameras.empty() ? scene::default_camera(scene) : scene.cameras.front();
+    asked.size = size;
+    asked.frames = 1, asked.warmup = 0;
+    return asked;
 }
 
 inline app::Part render(const scene::Scene& scene, const std::string& technique, uvec2 size,
                         int frames = 1) {
     app::Request asked = request(scene, {technique}, size);
     asked.warmup = frames - 1;
-    return std::move(engine().run(asked).parts.front());
+    return std::move(app::run(engine(), asked).parts.front());
 }
 
 /// "name:knob=value,..." of those wanted settings that the technique has a knob for.

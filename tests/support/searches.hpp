@@ -83,7 +83,7 @@ inline Judged judge(const scene::Scene& scene, const Look& look, const std::stri
     app::Request asked = request_from(scene, look, technique);
     asked.warmup = kConvergedFrames - 1;
     asked.with_lookup = true;
-    const app::Part part = std::move(engine().run(asked).parts.front());
+    const app::Part part = std::move(app::run(engine(), asked).parts.front());
     const Judged error{rmse(part.hdr, truth.part.hdr, measure::mirrors(truth.part.hits)),
                        rmse(part.hdr, truth.part.hdr, measure::first_order(truth.part.hits)),
                        rmse(part.hdr, truth.part.hdr, measure::mirror_in_mirror(truth.part.hits)),
@@ -110,8 +110,8 @@ inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look,
     const std::string place = scene.name + ", " + look.camera.name + ", " + reference;
     if (!truths.contains(place)) {
         const app::Request asked = detail::request_from(scene, look, reference);
-        truths.emplace(
-            place, detail::Truth{std::move(engine().run(asked).parts.front()), app::Oracle(asked)});
+        truths.emplace(place, detail::Truth{std::move(app::run(engine(), asked).parts.front()),
+                                            app::Oracle(asked)});
     }
     std::vector<Judged> judged;
     for (const std::string& technique : techniques) {
@@ -132,7 +132,7 @@ inline std::vector<measure::Difference> seen_in_mirrors(const scene::Scene& scen
     asked.camera = look.camera;
     asked.time = look.time;
     asked.warmup = 1;
-    const std::vector<app::Part> parts = engine().run(asked).parts;
+    const std::vector<app::Part> parts = app::run(engine(), asked).parts;
     const app::Part& truth = parts.back();
     std::vector<measure::Difference> seen;
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
@@ -150,7 +150,7 @@ inline std::vector<measure::LookedUp> looked_up(const scene::Scene& scene,
                                                 const std::string& technique, uvec2 size) {
     app::Request asked = request(scene, {technique}, size);
     asked.with_lookup = true;
-    return app::Oracle(asked).judge(engine().run(asked).parts.front().lookup);
+    return app::Oracle(asked).judge(app::run(engine(), asked).parts.front().lookup);
 }
 
 } // namespace test

@@ -7,6 +7,9 @@
 
 #include <fstream>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,6 +41,21 @@ TEST_F(File, ComesBackByteForByteAndReplaces) {
     catoptric::write_file(folder / "x", std::string_view());
     EXPECT_EQ(catoptric::read_file(folder / "x"), "");
     EXPECT_EQ(entries(), 1);
+}
+
+/// Who ended in the middle of writing left a part behind; whoever is still at it keeps theirs.
+TEST_F(File, TidiesUpAfterTheDead) {
+    const pid_t dead = ::fork();
+    if (dead == 0) ::_exit(0);
+    ::waitpid(dead, nullptr, 0);
+    for (const std::string& name :
+         {"x.partial-" + std::to_string(dead), // left behind
+          "x.partial-" + std::to_string(::getppid()), std::string("x.partial-1k"),
+          std::string("y.partial-") + std::to_string(dead)})
+        std::ofstream(folder / name) << "part";
+    catoptric::write_file(folder / "x", "whole");
+    EXPECT_FALSE(fs::exists(folder / ("x.partial-" + std::to_string(dead))));
+    EXPECT_EQ(entries(), 4) << "x, a living process's, no process's, and another file's";
 }
 
 /// Neither wider, where it was private, nor narrower; and the mode is there before the bytes are.

@@ -166,7 +166,8 @@ TEST_F(LoadBudget, PolygonsThatAreHardToCut) {
         face += " " + std::to_string(i + 1);
     }
     EXPECT_THAT(over("x.obj", text + face + "\n"),
-                HasSubstr("wanted at most 100000000 comparisons to cut concave polygons"));
+                HasSubstr("x.obj:20001: wanted at most 100000000 comparisons to cut concave "
+                          "polygons"));
 }
 
 TEST_F(LoadBudget, FilesLongerThanTheirBudget) {

@@ -142,12 +142,14 @@ TEST_F(Load, ShippedGlbIsTheBuiltInSceneWithinFloats) {
     }
 }
 
-TEST_F(Load, ALightsTwoSidesAreGltfsDoubleSided) {
+TEST_F(Load, ALightsTwoSidesAreInBothFormats) {
     Scene scene = cornell_mirrors();
     for (const bool two_sided : {false, true}) {
         scene.materials[3].two_sided = two_sided;
         save_glb(scene, folder / "x.glb");
         expect_same_materials(load((folder / "x.glb").string()), scene);
+        save_obj(scene, folder / "x.obj");
+        expect_same_materials(load((folder / "x.obj").string()), scene);
         // What is no light has two sides whatever the file says; ours says so to other programs.
         const std::string file = read_file(folder / "x.glb");
         std::size_t count = 0;

@@ -112,6 +112,57 @@ TEST_F(LoadUnread, TheRestOfGltf) {
     EXPECT_THAT(load((folder / "x.glb").string()).cameras, testing::IsEmpty());
 }
 
+TEST_F(LoadUnread, MotionThatIsNotShownAndNodesThatAreNotThere) {
+    Gltf gltf = small();
+    const std::size_t times = gltf.add<float>({0, 1}, "SCALAR", 5126),
+                      here = gltf.add<float>({0, 0, 0, 1, 0, 0}, "VEC3", 5126),
+                      there = gltf.add<float>({0, 0, 0, 0, 9, 0}, "VEC3", 5126);
+    gltf.root["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    gltf.root["nodes"].push_back({{"camera", 0}, {"name", "riding"}});
+    gltf.root["nodes"][0]["children"] = {1};
+    gltf.root["nodes"].push_back({{"mesh", 0}, {"name", "elsewhere"}});
+    gltf.root["nodes"].push_back({{"name", "nothing"}});
+    const auto moves = [&](std::size_t output) {
+        return Json{
+            {"samplers", {{{"input", times}, {"output", output}}}},
+            {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}};
+    };
+    gltf.root["animations"] = {moves(here), moves(there)};
+    EXPECT_THAT(
+        warnings("x.glb", gltf.glb()),
+        testing::UnorderedElementsAre(
+            "translations of nodes that move already, left out: 1 (first: " +
+                (folder / "x.glb").string() + ": animations[1])",
+            "cameras that move, standing still: 1 (first: nodes[1] 'riding')",
+            "nodes outside the scene that is shown, left out: 1 (first: nodes[2] 'elsewhere')",
+            kDark));
+    const Scene moved = at(load((folder / "x.glb").string()), 1);
+    EXPECT_EQ(dvec3(moved.objects[0].world_from_object[3]), dvec3(1, 0, 0)) << "the first counts";
+}
+
+TEST_F(LoadUnread, StatementsBeforeTheFirstMaterial) {
+    write("m.mtl", "Kd 1 0 0\nKe 1 1 1\nnewmtl a\nKd 0 1 0\n");
+    const std::string file = fs::canonical(folder).string() + "/m.mtl";
+    EXPECT_THAT(
+        warnings("x.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"),
+        testing::UnorderedElementsAre(
+            "statements before the first newmtl, left out: 2 (first: " + file + ":1)", kDark));
+}
+
+TEST_F(LoadUnread, ALongNameOfAnAttributeIsRefusedInFewWords) {
+    Gltf gltf = small();
+    gltf.root["meshes"][0]["primitives"][0]["attributes"]["POSITION" + std::string(5000, 'x')] = 0;
+    write("x.glb", gltf.glb());
+    try {
+        load((folder / "x.glb").string());
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("wanted a name of at most 1024 bytes, found 5008"));
+        EXPECT_LE(std::string(error.what()).size(), 400u);
+    }
+}
+
 TEST_F(LoadUnread, ObjAndMtl) {
     write("m.mtl", "newmtl a\nNs 10\nKa 0 0 0\nmap_Kd wood.png\nillum 2\n"
                    "newmtl b\nNs 10\nillum 4\nnewmtl c\nillum 2\nd .5\n");

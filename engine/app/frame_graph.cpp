@@ -1,0 +1,148 @@
+// What a frame's graph holds, and what is read of it.
+#include "app/frame_graph.hpp"
+
+#include "core/error.hpp"
+#include "core/half.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace catoptric::app {
+
+namespace {
+
+/// Scene passes and draws of the part whose passes begin with `prefix`.
+void count_scene_passes(const graph::Graph& graph, const graph::Plan& plan, Part& part) {
+    for (const graph::PlannedPass& planned : plan.passes) {
+        const graph::Pass& pass = graph.passes()[planned.pass];
+        if (pass.tag != graph::Tag::scene || !pass.name.starts_with(part.prefix)) continue;
+        ++part.scene_passes;
+        part.scene_draws += static_cast<int>(pass.layer_count);
+    }
+}
+
+measure::Picture to_picture(const std::vector<std::byte>& texels, uvec2 size, Format format) {
+    measure::Picture picture(static_cast<int>(size.x), static_cast<int>(size.y));
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        if (format == Format::rgba32f) {
+            std::memcpy(&picture.pixels[i], texels.data() + 16 * i, 12);
+        } else {
+            const auto byte = [&](std::size_t c) {
+                return static_cast<float>(texels[4 * i + c]) / 255.0f;
+            };
+            picture.pixels[i] = {byte(0), byte(1), byte(2)};
+        }
+    }
+    return picture;
+}
+
+template <typename Value>
+std::vector<Value> values_of(const std::vector<std::byte>& bytes) {
+    std::vector<Value> values(bytes.size() / sizeof(Value));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+}
+
+void read_counters(const std::vector<std::byte>& bytes, Part& part) {
+    shared::Counters counters;
+    std::memcpy(&counters, bytes.data(), sizeof counters);
+    check(counters.exhausted == 0, Failure::exhausted, "'", part.label, "': ", counters.exhausted,
+          " pixels met more triangles and boxes than one invocation may (", counters.longest_walk,
+          " steps); lower the depth");
+    part.rays = RayCounts{counters.primary_rays, counters.mirror_rays, counters.shadow_rays,
+                          counters.longest_walk};
+    if (counters.mirror_pixels > 0)
+        part.traced_fraction = static_cast<double>(counters.listed) / counters.mirror_pixels;
+}
+
+bool holds_halves(const graph::Graph& graph, const render::Cubes& cubes) {
+    return graph.images()[cubes.colour.id].format == Format::rgba16f;
+}
+
+/// Texels of four halves with a colour at or above the largest half.
+std::size_t saturated_texels(const std::vector<std::byte>& bytes) {
+    const std::vector<std::uint16_t> halves = values_of<std::uint16_t>(bytes);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 3 < halves.size(); i += 4)
+        count += std::any_of(&halves[i], &halves[i] + 3, [](std::uint16_t half) {
+            return (half & 0x7fff) >= kLargestHalfBits;
+        });
+    return count;
+}
+
+} // namespace
+
+std::vector<reflect::Choice> parse_choices(const std::vector<std::string>& techniques) {
+    check(!techniques.empty(), Failure::usage, "no technique was asked for");
+    std::vector<reflect::Choice> choices;
+    for (const std::string& text : techniques) {
+        choices.push_back(reflect::parse_choice(text));
+        for (std::size_t i = 0; i + 1 < choices.size(); ++i)
+            check(!choices[i].same_as(choices.back()), Failure::usage, "technique '", text,
+                  "' is asked for twice");
+    }
+    return choices;
+}
+
+FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Choice>& choices,
+                   const render::GpuScene& scene, graph::History history) {
+    FrameGraph frame{graph::Graph(std::move(history)), {}};
+    for (const reflect::Choice& choice : choices) {
+        const std::string prefix = choices.size() > 1 ? choice.file_name() + "/" : "";
+        const render::FrameInputs inputs{scene,     spec.size,   prefix,
+                                         spec.seed, spec.mended, spec.with_lookup};
+        reflect::Outputs outputs = choice.technique->add(frame.graph, inputs, choice.settings);
+        const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr,
+                                                         spec.exposure);
+        frame.graph.want(outputs.hdr);
+        frame.graph.want(display);
+        if (outputs.hits) frame.graph.want(*outputs.hits);
+        if (outputs.counters) frame.graph.want(*outputs.counters);
+        if (outputs.lookup) frame.graph.want(*outputs.lookup);
+        if (outputs.captures && (spec.with_lookup || spec.with_captures)) {
+            frame.graph.want(outputs.captures->colour);
+            if (spec.with_captures && outputs.captures->distance)
+                frame.graph.want(*outputs.captures->distance);
+        }
+        frame.parts.push_back({choice, prefix, outputs, display});
+    }
+    return frame;
+}
+
+bool reads_previous(const FrameGraph& frame, const graph::Plan& plan, const std::string& prefix) {
+    return std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
+        const graph::Pass& pass = frame.graph.passes()[planned.pass];
+        return pass.name.starts_with(prefix) &&
+               std::ranges::any_of(pass.images,
+                                   [](const graph::ImageUse& use) { return use.image.previous; });
+    });
+}
+
+measure::Picture read_hdr(graph::Runner& runner, const Declared& declared, uvec2 size) {
+    return to_picture(runner.read(declared.outputs.hdr), size, Format::rgba32f);
+}
+
+Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan,
+               std::size_t index, const render::GpuScene& scene, const FrameSpec& spec) {
+    const Declared& declared = frame.parts[index];
+    const reflect::Outputs& outputs = declared.outputs;
+    Part part;
+    part.label = declared.choice.label;
+    part.prefix = declared.prefix;
+    part.memory_bytes = plan.bytes;
+    part.remembers = reads_previous(frame, plan, part.prefix);
+    count_scene_passes(frame.graph, plan, part);
+    const Settings& settings = declared.choice.settings;
+    if (settings.has("face") && settings.is_special("face"))
+        part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
+    if (outputs.counters) read_counters(runner.read(*outputs.counters), part);
+    part.hdr = read_hdr(runner, declared, spec.size);
+    part.display = to_picture(runner.read(declared.display), spec.size, Format::rgba8_unorm);
+    if (outputs.hits) part.hits = values_of<std::uint32_t>(runner.read(*outputs.hits));
+    if (spec.with_lookup && outputs.captures && holds_halves(frame.graph, *outputs.captures))
+        part.saturated = saturated_texels(runner.read(outputs.captures->colour));
+    if (outputs.lookup) part.lookup = values_of<vec4>(runner.read(*outputs.lookup));
+    return part;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "app/session.hpp"
+#include "graph/plan.hpp"
+#include "graph/run.hpp"
+#include "reflect/technique.hpp"
+
+#include <vector>
+
+/// A frame between its specification and what is read of it. Internal: names Vulkan.
+namespace catoptric::app {
+
+/// One technique's share of a frame's graph.
+struct Declared {
+    reflect::Choice choice;
+    std::string prefix;
+    reflect::Outputs outputs;
+    graph::Image display;
+};
+
+struct FrameGraph {
+    graph::Graph graph;
+    std::vector<Declared> parts;
+};
+
+/// Throws `usage` for none, for an unknown one and for one that is there twice.
+std::vector<reflect::Choice> parse_choices(const std::vector<std::string>& techniques);
+
+/// Every technique's passes and its compose, and what is wanted of them.
+FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Choice>& choices,
+                   const render::GpuScene& scene, graph::History history);
+
+/// Whether a pass whose name begins with `prefix` reads what the frame before left.
+bool reads_previous(const FrameGraph& frame, const graph::Plan& plan, const std::string& prefix);
+
+measure::Picture read_hdr(graph::Runner& runner, const Declared& declared, uvec2 size);
+/// `part`: index into the frame's parts. Throws `exhausted` where rays gave up.
+Part read_part(graph::Runner& runner, const FrameGraph& frame, const graph::Plan& plan,
+               std::size_t part, const render::GpuScene& scene, const FrameSpec& spec);
+
+} // namespace catoptric::app

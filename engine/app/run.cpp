@@ -1,0 +1,45 @@
+#include "app/run.hpp"
+
+#include "core/error.hpp"
+
+#include <utility>
+
+namespace catoptric::app {
+
+Frames::Frames(Session& session, const Request& request) : session_(session), request_(request) {
+    check(request.frames > 0 && request.warmup >= 0, Failure::usage,
+          "frames must be at least 1 and warm-up at least 0, not ", request.frames, " and ",
+          request.warmup);
+    session.forget();
+}
+
+bool Frames::next() {
+    if (settled_ || number_ == request_.total()) return false;
+    ++number_;
+    FrameSpec spec = request_;
+    spec.time = request_.instant(number_);
+    frame_ = session_.frame(spec);
+    if (number_ > request_.warmup) times_.push_back(frame_->times());
+    if (request_.until_settled) {
+        std::vector<std::byte> state = frame_->state();
+        settled_ = state.empty() || state == state_;
+        state_ = std::move(state);
+    }
+    return true;
+}
+
+Result Frames::result() const { return {frame_->read_all(), times_, settled_}; }
+
+Result run(Session& session, const Request& request) {
+    Frames frames(session, request);
+    while (frames.next()) {
+    }
+    return frames.result();
+}
+
+Result run(Engine& engine, const Request& request) {
+    Session session(engine, request.scene);
+    return run(session, request);
+}
+
+} // namespace catoptric::app

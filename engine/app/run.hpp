@@ -1,0 +1,61 @@
+#pragma once
+
+#include "app/session.hpp"
+
+#include <vector>
+
+namespace catoptric::app {
+
+/// A run of frames: what the first shows, in which scene, and how many follow.
+struct Request : FrameSpec {
+    scene::Scene scene; ///< at rest
+    int frames = 20;    ///< measured
+    int warmup = 8;     ///< before them; frames count from 1 at cold history, these included
+    /// End with the first frame that cannot change any more: at once where nothing is remembered,
+    /// else when a frame's linear pictures and all captures equal those of the frame before, byte
+    /// for byte.
+    bool until_settled = false;
+    bool animate = false; ///< frame k at time + (k-1)/60 s; otherwise all at `time`
+
+    int total() const { return warmup + frames; }
+    /// Seconds into the scene's motion of frame k, from 1.
+    double instant(int k) const { return time + (animate ? (k - 1) / 60.0 : 0.0); }
+};
+
+struct Result {
+    std::vector<Part> parts;        ///< one per technique, of the last frame
+    std::vector<FrameTimes> frames; ///< the measured ones; fewer than asked for where they settled
+    bool settled = false;           ///< with `until_settled`: any further frame would show the same
+};
+
+/// The frames of a request, one after the other, from cold history:
+/// `for (Frames frames(session, request); frames.next();) ...`
+class Frames {
+public:
+    /// Throws `usage`. The session shows the request's scene; both must outlive this.
+    Frames(Session& session, const Request& request);
+
+    /// Renders the next one; false after the last.
+    bool next();
+    int number() const { return number_; } ///< of the frame that was rendered last, from 1
+    const Frame& frame() const { return *frame_; }
+    bool settled() const { return settled_; }
+    /// What there is after the frame that was rendered last.
+    Result result() const;
+
+private:
+    Session& session_;
+    const Request& request_;
+    int number_ = 0;
+    bool settled_ = false;
+    std::optional<Frame> frame_;
+    std::vector<FrameTimes> times_;
+    std::vector<std::byte> state_; ///< of the frame before, with `until_settled`
+};
+
+/// All frames of a request in a session of its scene.
+Result run(Session& session, const Request& request);
+/// The same in a session of its own.
+Result run(Engine& engine, const Request& request);
+
+} // namespace catoptric::app

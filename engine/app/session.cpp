@@ -1,0 +1,239 @@
+#include "app/session.hpp"
+
+#include "app/engine_impl.hpp"
+#include "app/frame_graph.hpp"
+#include "core/error.hpp"
+#include "graph/dump.hpp"
+#include "render/captured.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace catoptric::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// What the device's copy of a scene was made for.
+struct Standing {
+    double time = 0;
+    scene::Camera camera;
+    uvec2 size{0, 0};
+    double ambient = 0;
+    bool operator==(const Standing&) const = default;
+};
+
+FrameTimes to_times(const graph::FrameTimes& times) {
+    FrameTimes frame{{}, times.span_ms, times.record_ms, times.wall_ms, {}};
+    for (const graph::PassTime& pass : times.passes)
+        frame.passes.push_back({pass.name, pass.begin_ms, pass.end_ms});
+    return frame;
+}
+
+bool same(const std::vector<reflect::Choice>& a, const std::vector<reflect::Choice>& b) {
+    return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return x.same_as(y); });
+}
+
+void check_spec(const FrameSpec& spec) {
+    check(spec.size.x > 0 && spec.size.y > 0, Failure::usage, "the size must be at least 1x1, not ",
+          spec.size.x, "x", spec.size.y);
+}
+
+} // namespace
+
+struct Session::Impl {
+    Impl(Engine::Impl& shared, scene::Scene at_rest)
+        : engine(shared), scene(std::move(at_rest)),
+          resident(std::make_unique<render::GpuScene>(shared.device, scene)),
+          runner(shared.device, shared.pipelines) {}
+
+    /// Writes what the specification asks for and the device does not have yet.
+    void stand(const FrameSpec& spec);
+    /// The techniques' texts read; only once for as long as they stay.
+    const std::vector<reflect::Choice>& choices_of(const std::vector<std::string>& techniques);
+
+    Engine::Impl& engine;
+    scene::Scene scene;
+    std::unique_ptr<render::GpuScene> resident;
+    graph::Runner runner;
+    std::optional<Standing> standing;
+    std::vector<std::string> texts;
+    std::vector<reflect::Choice> choices;    ///< of `texts`
+    std::vector<reflect::Choice> remembered; ///< whose history the runner has
+    Counts counts;
+};
+
+struct Frame::Impl {
+    std::shared_ptr<Session::Impl> session;
+    std::uint64_t number = 0; ///< of the session's frames, from 1
+    FrameSpec spec;
+    FrameGraph frame;
+    graph::Plan plan;
+    FrameTimes times;
+
+    graph::Runner& runner() const {
+        check(number == session->counts.frames, Failure::internal, "frame ", number,
+              " is read after frame ", session->counts.frames, " has been rendered over it");
+        return session->runner;
+    }
+    const Declared& part(std::size_t index) const { return frame.parts.at(index); }
+};
+
+void Session::Impl::stand(const FrameSpec& spec) {
+    const Standing wanted{spec.time, spec.camera, spec.size, spec.ambient};
+    if (standing == wanted) return;
+    if (standing && standing->size != wanted.size) resident->forget_face_needs();
+    resident->update(scene::at(scene, spec.time), spec.camera, spec.size, spec.ambient);
+    standing = wanted;
+    ++counts.updates;
+}
+
+const std::vector<reflect::Choice>&
+Session::Impl::choices_of(const std::vector<std::string>& techniques) {
+    if (choices.empty() || texts != techniques) {
+        choices = parse_choices(techniques);
+        texts = techniques;
+    }
+    return choices;
+}
+
+Session::Session(Engine& engine, scene::Scene scene)
+    : impl_(std::make_shared<Impl>(*engine.impl_, std::move(scene))) {}
+Session::~Session() = default;
+
+const scene::Scene& Session::scene() const { return impl_->scene; }
+const Counts& Session::counts() const { return impl_->counts; }
+
+Frame Session::frame(const FrameSpec& spec) {
+    Impl& self = *impl_;
+    check_spec(spec);
+    const std::vector<reflect::Choice>& choices = self.choices_of(spec.techniques);
+    if (!spec.is_aside && !same(self.remembered, choices)) {
+        self.runner.forget();
+        self.remembered = choices;
+    }
+    HostTimes host;
+    auto start = Clock::now();
+    self.stand(spec);
+    host.update = milliseconds_since(start);
+    start = Clock::now();
+    FrameGraph frame = declare(spec, choices, *self.resident, self.runner.history());
+    graph::Plan plan = self.runner.plan(frame.graph);
+    host.compile = milliseconds_since(start);
+    FrameTimes times = to_times(self.runner.run(
+        frame.graph, plan,
+        spec.timing == Timing::isolated ? graph::Timing::isolated : graph::Timing::pipelined,
+        spec.is_aside));
+    host.record = times.record_ms;
+    times.host = host;
+    return Frame(std::make_shared<Frame::Impl>(Frame::Impl{
+        impl_, ++self.counts.frames, spec, std::move(frame), std::move(plan), std::move(times)}));
+}
+
+void Session::change(const scene::Edit& edit) {
+    Impl& self = *impl_;
+    scene::Scene edited = self.scene;
+    scene::apply(edited, edit);
+    // Units are those of the scene as it stands; where they stay, so does all that is resident.
+    if (render::space_of(edited) != render::space_of(self.scene))
+        self.resident = std::make_unique<render::GpuScene>(self.engine.device, edited);
+    self.scene = std::move(edited);
+    self.standing.reset();
+}
+
+void Session::forget() {
+    impl_->runner.forget();
+    impl_->resident->forget_face_needs();
+    impl_->standing.reset();
+}
+
+std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
+    Impl& self = *impl_;
+    check_spec(spec);
+    const std::vector<reflect::Choice>& choices = self.choices_of(spec.techniques);
+    self.stand(spec);
+    graph::History history; // what the first frame would leave
+    const FrameGraph first = declare(spec, choices, *self.resident, {});
+    for (std::uint32_t i = 0; i < first.graph.images().size(); ++i)
+        if (first.graph.is_kept(i)) history.insert(first.graph.images()[i].name);
+    const FrameGraph frame = declare(spec, choices, *self.resident, history);
+    const graph::Plan plan = self.runner.plan(frame.graph);
+    switch (format) {
+    case PlanFormat::dot: return graph::to_dot(frame.graph, plan);
+    case PlanFormat::json: return graph::to_json(frame.graph, plan);
+    case PlanFormat::text: break;
+    }
+    return graph::to_text(frame.graph, plan);
+}
+
+FrameTimes Session::clear_cubes() {
+    constexpr std::uint32_t kEdge = 256;
+    const auto mirrors = static_cast<std::uint32_t>(scene::mirrors(impl_->scene).size());
+    graph::Graph graph;
+    std::optional<graph::Image> cubes;
+    if (mirrors > 0)
+        cubes = graph.image({"cubes.colour", Format::rgba16f, kEdge, kEdge, 6 * mirrors, true});
+    for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
+        const std::string name = "clear/" + std::to_string(mirror + 1);
+        const graph::Image depth = graph.image(
+            {name + ".depth", Format::d32f, kEdge, kEdge, 6, true});
+        graph.pass(name)
+            .writes(cubes->layers(6 * mirror, 6), graph::Use::colour, graph::Clear{0, 0, 0, 1})
+            .writes(depth, graph::Use::depth, graph::Clear{0, 0, 0, 0})
+            .layers(6)
+            .record([](graph::Commands&) {});
+    }
+    if (cubes) graph.want(*cubes);
+    ++impl_->counts.frames;
+    return to_times(impl_->runner.run(graph, impl_->runner.plan(graph), graph::Timing::isolated));
+}
+
+const FrameTimes& Frame::times() const { return impl_->times; }
+std::size_t Frame::size() const { return impl_->frame.parts.size(); }
+
+bool Frame::remembers(std::size_t part) const {
+    return reads_previous(impl_->frame, impl_->plan, impl_->part(part).prefix);
+}
+
+measure::Picture Frame::hdr(std::size_t part) const {
+    return read_hdr(impl_->runner(), impl_->part(part), impl_->spec.size);
+}
+
+Part Frame::read(std::size_t part) const {
+    return read_part(impl_->runner(), impl_->frame, impl_->plan, part, *impl_->session->resident,
+                     impl_->spec);
+}
+
+std::vector<Part> Frame::read_all() const {
+    std::vector<Part> parts;
+    for (std::size_t i = 0; i < size(); ++i) parts.push_back(read(i));
+    return parts;
+}
+
+render::Captured Frame::captures(std::size_t part) const {
+    const std::optional<render::Cubes>& cubes = impl_->part(part).outputs.captures;
+    check(impl_->spec.with_captures && cubes && cubes->distance, Failure::internal, "'",
+          impl_->part(part).choice.label,
+          "': wanted captures with distances that the frame was asked for, found none");
+    graph::Runner& runner = impl_->runner();
+    return {impl_->frame.graph.images()[cubes->colour.id].width, runner.read(cubes->colour),
+            runner.read(*cubes->distance), impl_->session->resident->space()};
+}
+
+std::vector<std::byte> Frame::state() const {
+    graph::Runner& runner = impl_->runner();
+    std::vector<std::byte> bytes = runner.read_history();
+    if (bytes.empty()) return bytes;
+    for (const Declared& part : impl_->frame.parts) {
+        const std::vector<std::byte> picture = runner.read(part.outputs.hdr);
+        bytes.insert(bytes.end(), picture.begin(), picture.end());
+    }
+    return bytes;
+}
+
+} // namespace catoptric::app

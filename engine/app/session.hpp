@@ -1,0 +1,181 @@
+#pragma once
+
+#include "app/engine.hpp"
+#include "core/math.hpp"
+#include "measure/picture.hpp"
+#include "scene/edit.hpp"
+#include "scene/scene.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace catoptric::render {
+struct Captured;
+} // namespace catoptric::render
+
+namespace catoptric::app {
+
+/// isolated: passes do not overlap and their times add up. pipelined: believe the span only.
+enum class Timing { isolated, pipelined };
+
+/// What one frame shows and how it is made.
+struct FrameSpec {
+    /// "name[:knob=value,...]" each. Several are rendered in one frame: one command buffer, one
+    /// submit, one timeline; their pictures equal those of separate frames.
+    std::vector<std::string> techniques;
+    scene::Camera camera;
+    uvec2 size{512, 512};
+    double time = 0; ///< seconds into the scene's motion
+    double ambient = 0.05;
+    double exposure = 0;    ///< stops
+    std::uint64_t seed = 1; ///< of sample patterns that are not a regular grid
+    Timing timing = Timing::isolated;
+    /// Causes of error that mirrors are drawn without: a sum of shared::kMend...
+    /// (shaders/shared.h).
+    std::uint32_t mended = 0;
+    bool with_lookup = false;   ///< also say where mirrors looked (Part::lookup); costs time
+    bool with_captures = false; ///< captures can be read back (Frame::captures)
+    bool is_aside =
+        false; ///< beside the sequence: the next frame has the history that this one had
+};
+
+struct PassTime {
+    std::string name;
+    double begin_ms = 0, end_ms = 0; ///< from the frame's first stamp
+    double ms() const { return end_ms - begin_ms; }
+};
+
+/// What the processor did for a frame before the device could begin, milliseconds each.
+struct HostTimes {
+    double update = 0;    ///< what moved: buffers written, views and lights found
+    double hierarchy = 0; ///< trees for tracing, built or refitted
+    double compile = 0;   ///< passes declared, and planned where their shape is new
+    double record = 0;    ///< filling the command buffer
+    double sum() const { return update + hierarchy + compile + record; }
+};
+
+/// One frame on the clock. On a cpu device "gpu" time is time of the driver's threads.
+struct FrameTimes {
+    std::vector<PassTime> passes;
+    double gpu_ms = 0;    ///< first to last stamp
+    double record_ms = 0; ///< filling the command buffer
+    double wall_ms = 0;   ///< submit until done, without recording and read-back
+    HostTimes host;
+    double passes_ms() const {
+        double sum = 0;
+        for (const PassTime& pass : passes) sum += pass.ms();
+        return sum;
+    }
+    /// Host and device work, which do not overlap; waiting is no work.
+    double frame_ms() const { return host.sum() + gpu_ms; }
+};
+
+struct RayCounts {
+    std::uint64_t primary = 0, mirror = 0, shadow = 0; ///< in one frame
+    std::uint32_t longest_walk = 0; ///< hierarchy steps of the busiest invocation
+};
+
+/// The cube edge that face=auto stands for.
+struct AutoFace {
+    std::uint32_t edge = 0; ///< used for every mirror's capture, texels
+    std::vector<double>
+        needs; ///< texels along an edge, entry n-1 of mirror n; 0: it is not in view
+};
+
+/// What one technique made in a frame.
+struct Part {
+    std::string label;  ///< as it was asked for
+    std::string prefix; ///< of its passes' names; empty when it was alone
+    int scene_passes = 0;
+    int scene_draws = 0;            ///< scene passes times the layers that each renders
+    bool remembers = false;         ///< a pass of it reads what the frame before left
+    std::uint64_t memory_bytes = 0; ///< of the whole frame's images
+    measure::Picture hdr;           ///< linear radiance
+    measure::Picture display;       ///< what the screen shows: multiples of 1/255
+    /// With `with_lookup`, techniques whose captures hold halves: their texels that are brighter
+    /// than 65504 and cut off there.
+    std::optional<std::size_t> saturated;
+    std::vector<vec4>
+        lookup; ///< with `with_lookup`, techniques that search: see shaders/lib/mirror.glsl
+    std::vector<std::uint32_t> hits; ///< ray tracing only: first mirror | second mirror << 16
+    std::optional<RayCounts> rays;   ///< ray tracing only
+    std::optional<double>
+        traced_fraction; ///< of its mirror pixels, where a search leaves some to tracing
+    std::optional<AutoFace> auto_face; ///< where it was left to choose the cube edge (face=auto)
+};
+
+/// A frame that a session has submitted. What it made can be read until the session's next frame;
+/// later that throws `internal`. Throws `device_lost` and `exhausted` where it waits.
+class Frame {
+public:
+    /// Waits for the device.
+    const FrameTimes& times() const;
+    /// Techniques in it.
+    std::size_t size() const;
+    /// Whether a pass of a technique reads what the frame before left.
+    bool remembers(std::size_t part = 0) const;
+    /// Linear radiance; the cheapest thing to read.
+    measure::Picture hdr(std::size_t part = 0) const;
+    /// Everything that one technique made.
+    Part read(std::size_t part = 0) const;
+    std::vector<Part> read_all() const;
+    /// Colours and distances around every mirror, of a technique that keeps both; with
+    /// `with_captures`, else `internal`.
+    render::Captured captures(std::size_t part = 0) const;
+    /// All that the next frame can see of this one, and the linear pictures, as bytes: a still
+    /// scene whose frames agree in it changes no more. Empty where nothing is remembered.
+    std::vector<std::byte> state() const;
+
+private:
+    friend class Session;
+    struct Impl;
+    explicit Frame(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
+    std::shared_ptr<Impl> impl_;
+};
+
+/// How the compiled plan of a frame is written.
+enum class PlanFormat { text, dot, json };
+
+/// What a session has done so far.
+struct Counts {
+    std::uint64_t frames = 0;
+    std::uint64_t updates = 0; ///< times that something of the scene was written to the device
+};
+
+/// A scene on a device, for as many frames as one likes: what is uploaded, compiled or remembered
+/// stays from frame to frame. One thread at a time. A device error ends it, and its engine.
+class Session {
+public:
+    /// The scene at rest. Throws `exhausted` where it is beyond what the device allows.
+    Session(Engine& engine, scene::Scene scene);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    const scene::Scene& scene() const;
+    /// Renders a frame. Other techniques than those of the frame before begin without history.
+    /// Throws `usage` for a specification that means nothing.
+    Frame frame(const FrameSpec& spec);
+    /// Edits the scene; seen from the next frame on, whose history stays. Throws `usage` for an
+    /// object or material that is not there.
+    void change(const scene::Edit& edit);
+    /// A cut: the next frame begins without history.
+    void forget();
+    /// The plan of a frame that has a frame before it, written out.
+    std::string plan(const FrameSpec& spec, PlanFormat format);
+    /// A frame that clears the cubes of every mirror, 256 texels an edge, and draws nothing: what
+    /// any capture costs before it shows something. History stays.
+    FrameTimes clear_cubes();
+    const Counts& counts() const;
+
+private:
+    friend class Frame;
+    struct Impl;
+    std::shared_ptr<Impl> impl_;
+};
+
+} // namespace catoptric::app

@@ -1,0 +1,118 @@
+#include "gpu/pipeline_cache.hpp"
+
+#include "core/file.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+#include <vector>
+
+namespace catoptric::gpu {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kMagic = "catoptric pipelines 1\n";
+
+/// Drivers trust what they are given: half a file must not reach them. 64-bit FNV-1a.
+std::uint64_t checksum(std::string_view data) {
+    std::uint64_t sum = 0xcbf29ce484222325;
+    for (const char byte : data) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+    return sum;
+}
+
+std::string wrapped(const std::string& data) {
+    const std::uint64_t sum = checksum(data);
+    std::string file(kMagic);
+    file.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+    return file + data;
+}
+
+/// Empty where the file is not whole.
+std::string unwrapped(const std::string& file) {
+    std::uint64_t sum = 0;
+    const std::size_t head = kMagic.size() + sizeof sum;
+    if (file.size() < head || !file.starts_with(kMagic)) return {};
+    std::memcpy(&sum, file.data() + kMagic.size(), sizeof sum);
+    const std::string data = file.substr(head);
+    return checksum(data) == sum ? data : std::string();
+}
+
+/// Device, driver and its build: what pipelines of one are to another is not defined.
+std::string file_name(const Device& device) {
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(device.physical(), &properties);
+    char text[64];
+    std::snprintf(text, sizeof text, "pipelines-%08x-%08x-%08x-", properties.vendorID,
+                  properties.deviceID, properties.driverVersion);
+    std::string name = text;
+    for (const std::uint8_t byte : properties.pipelineCacheUUID) {
+        std::snprintf(text, sizeof text, "%02x", byte);
+        name += text;
+    }
+    return name;
+}
+
+} // namespace
+
+PipelineCache::PipelineCache(Device& device, const fs::path& folder) : device_(device) {
+    if (!folder.empty()) {
+        std::error_code error;
+        fs::create_directories(folder, error);
+        file_ = folder / file_name(device);
+        known_ = loaded();
+    }
+    VkPipelineCacheCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    create.initialDataSize = known_.size();
+    create.pInitialData = known_.data();
+    VkPipelineCache cache = VK_NULL_HANDLE;
+    check_vk(vkCreatePipelineCache(device.handle(), &create, nullptr, &cache),
+             "create a pipeline cache");
+    cache_ = {device.handle(), cache};
+}
+
+PipelineCache::~PipelineCache() {
+    if (file_.empty() || device_.abandoned()) return;
+    try {
+        save();
+    } catch (...) { // it is only a cache
+    }
+}
+
+/// What the file holds; empty where there is none. A first file is made at once, so that one that
+/// cannot be made is known now.
+std::string PipelineCache::loaded() {
+    std::error_code error;
+    const bool is_there = fs::exists(file_, error);
+    try {
+        if (!is_there) {
+            write_file(file_, wrapped({}));
+            return {};
+        }
+        const std::string file = read_file(file_);
+        std::string data = unwrapped(file);
+        if (data.empty() && file != wrapped({}))
+            warning_ = file_.string() +
+                       ": wanted a whole pipeline cache, found something else; it is made anew";
+        return data;
+    } catch (const Error& failed) {
+        warning_ = std::string(failed.what()) +
+                   "; pipelines are compiled anew by every run (XDG_CACHE_HOME says where they "
+                   "could be kept)";
+        file_.clear();
+        return {};
+    }
+}
+
+void PipelineCache::save() const {
+    std::size_t size = 0;
+    if (vkGetPipelineCacheData(device_.handle(), cache_, &size, nullptr) != VK_SUCCESS) return;
+    std::string data(size, '\0');
+    if (vkGetPipelineCacheData(device_.handle(), cache_, &size, data.data()) != VK_SUCCESS) return;
+    data.resize(size);
+    if (data != known_) write_file(file_, wrapped(data));
+}
+
+} // namespace catoptric::gpu

@@ -1,0 +1,67 @@
+// Compiled pipelines kept from run to run: a convenience, whose failure costs a sentence.
+#include "cli/program.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Cache : public Cli {
+protected:
+    /// A picture with this cache folder; what it says is in `err`.
+    test::Ended render(const std::string& cache_home) const {
+        test::Start asked = start({"render", "--technique", "naive:bounces=1,face=8,shadow=none",
+                                   "--size", "16x16", "-o", "a.png", "-q"});
+        asked.environment = {{"XDG_CACHE_HOME", cache_home}, {"HOME", folder.string()}};
+        return test::run_process(asked);
+    }
+    std::string picture() const { return read("a.png"); }
+    static std::vector<fs::path> files_in(const fs::path& where) {
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(where)) files.push_back(entry.path());
+        return files;
+    }
+};
+
+TEST_F(Cache, IsMadeWhereTheUserKeepsCaches) {
+    ASSERT_EQ(render((folder / "mine").string()).err, "");
+    ASSERT_EQ(files_in(folder / "mine" / "catoptric").size(), 1u);
+    ASSERT_EQ(render("").err, "");
+    EXPECT_EQ(files_in(folder / ".cache" / "catoptric").size(), 1u) << "XDG_CACHE_HOME is empty";
+    ASSERT_EQ(render("relative").err, "");
+    EXPECT_FALSE(fs::exists(folder / "relative")) << "no absolute path counts as none";
+}
+
+TEST_F(Cache, ThatIsBrokenIsSaidOnceAndMadeAnew) {
+    ASSERT_EQ(render(folder.string()).exit_code, 0);
+    const std::string wanted = picture();
+    const std::vector<fs::path> files = files_in(folder / "catoptric");
+    ASSERT_EQ(files.size(), 1u);
+    const std::string whole = read_path(files[0]);
+    for (const std::string& broken :
+         {std::string(), std::string("rubbish"), whole.substr(0, whole.size() - 1), whole + "x",
+          std::string(whole.size(), '\xff')}) {
+        std::ofstream(files[0], std::ios::binary) << broken;
+        const test::Ended said = render(folder.string());
+        EXPECT_EQ(said.exit_code, 0);
+        EXPECT_THAT(said.err, testing::AllOf(testing::HasSubstr(files[0].string()),
+                                             testing::HasSubstr("wanted a whole pipeline cache")));
+        EXPECT_EQ(std::ranges::count(said.err, '\n'), 1) << said.err;
+        EXPECT_EQ(picture(), wanted);
+        EXPECT_EQ(render(folder.string()).err, "") << "it was made anew";
+    }
+}
+
+TEST_F(Cache, ThatCannotBeWrittenIsSaidAndNothingMore) {
+    std::ofstream(folder / "file") << "not a folder";
+    const test::Ended said = render((folder / "file").string());
+    EXPECT_EQ(said.exit_code, 0);
+    EXPECT_THAT(said.err, testing::AllOf(testing::HasSubstr("cannot be created"),
+                                         testing::HasSubstr("XDG_CACHE_HOME")));
+    EXPECT_EQ(std::ranges::count(said.err, '\n'), 1) << said.err;
+    EXPECT_EQ(read("file"), "not a folder");
+}
+
+} // namespace
