@@ -1,12 +1,12 @@
 cmake_policy(VERSION 3.25)
-# Refuses an include of a layer that is not in USES. Run by layer() whenever a source changes.
+# Refuses an include of a layer that is not in USES. Run by arrows() whenever a source changes.
 string(REPLACE "," ";" uses "${USES}")
 file(GLOB files ${FOLDER}/*.cpp ${FOLDER}/*.hpp)
 foreach(file IN LISTS files)
-    file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]+[\"<]([a-z]+)/[a-z_]+\\.hpp[\">]")
+    file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]+[\"<](catoptric/)?([a-z]+)/[a-z_]+\\.hpp[\">]")
     foreach(line IN LISTS lines)
-        string(REGEX REPLACE ".*[\"<]([a-z]+)/.*" "\\1" other "${line}")
-        if(IS_DIRECTORY ${FOLDER}/../${other} AND NOT other IN_LIST uses)
+        string(REGEX REPLACE ".*[\"<](catoptric/)?([a-z]+)/.*" "\\2" other "${line}")
+        if(IS_DIRECTORY ${ENGINE}/${other} AND NOT other IN_LIST uses)
             message(FATAL_ERROR "${file}: layer '${LAYER}' includes '${other}', "
                 "but may only include: ${uses}\n  ${line}")
         endif()

@@ -3,6 +3,19 @@
 # (cmake/check_arrows.cmake). Headers are in a file set, so that CMake proves that each compiles alone.
 include(CMakeParseArguments)
 
+# arrows(NAME FOLDER STAMP USES): a file, to be made with the target, that is there only when no source in the folder
+# includes a layer that is not in USES.
+function(arrows name folder stamp uses)
+    file(GLOB files CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*.hpp)
+    set(made ${PROJECT_BINARY_DIR}/arrows/${name}.stamp)
+    string(REPLACE ";" "," uses "${uses}")
+    add_custom_command(OUTPUT ${made}
+        COMMAND ${CMAKE_COMMAND} -DLAYER=${name} "-DUSES=${uses}" -DFOLDER=${folder} -DENGINE=${PROJECT_SOURCE_DIR}/engine
+                -DSTAMP=${made} -P ${PROJECT_SOURCE_DIR}/cmake/check_arrows.cmake
+        DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/check_arrows.cmake VERBATIM)
+    set(${stamp} ${made} PARENT_SCOPE)
+endfunction()
+
 function(layer name)
     cmake_parse_arguments(arg "" "" "USES;LINK" ${ARGN})
     set(folder ${PROJECT_SOURCE_DIR}/engine/${name})
@@ -10,12 +23,7 @@ function(layer name)
     file(GLOB headers CONFIGURE_DEPENDS ${folder}/*.hpp)
     set(target catoptric_${name})
 
-    set(stamp ${PROJECT_BINARY_DIR}/arrows/${name}.stamp)
-    string(REPLACE ";" "," uses "${name};${arg_USES}")
-    add_custom_command(OUTPUT ${stamp}
-        COMMAND ${CMAKE_COMMAND} -DLAYER=${name} "-DUSES=${uses}" -DFOLDER=${folder} -DSTAMP=${stamp}
-                -P ${PROJECT_SOURCE_DIR}/cmake/check_arrows.cmake
-        DEPENDS ${sources} ${headers} ${PROJECT_SOURCE_DIR}/cmake/check_arrows.cmake VERBATIM)
+    arrows(${name} ${folder} stamp "${name};${arg_USES}")
 
     if(NOT sources)
         message(STATUS "layer ${name}: no sources yet")

@@ -34,7 +34,7 @@ std::string with_full_distance(const std::string& technique) {
     std::string text = choice.technique;
     char separator = ':';
     for (const auto& setting : choice.settings) {
-        if (setting.is_default || setting.name == "distance" || setting.name == "range") continue;
+        if (!setting.changed || setting.name == "distance" || setting.name == "range") continue;
         text += separator + setting.name + "=" + setting.text;
         separator = ',';
     }
@@ -144,7 +144,8 @@ std::vector<measure::Picture> last_pictures(Session& session, const Request& req
 CauseFinder::CauseFinder(Session& session, const Request& base, const measure::Picture& truth,
                          const std::vector<std::uint32_t>& hits, const Watcher& watcher)
     : session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher) {
-    for (const std::uint32_t hit : hits) mirrors_ = std::max(mirrors_, measure::first_mirror(hit));
+    for (const std::uint32_t hit : hits)
+        mirrors_ = std::max(mirrors_, measure::first_mirror(hit).number());
     // A technique that follows no ray through other mirrors names the one that it draws.
     Request request = request_for(base, {"naive:bounces=1,face=1,shadow=none"});
     request.with_lookup = true;
@@ -161,14 +162,15 @@ report::Causes CauseFinder::find(const std::string& technique) const {
         const bool drawn_as_seen = std::exchange(rendering.drawn_as_seen, false);
         measure::Picture picture = pictures.at(rendering);
         for (std::size_t i = 0; drawn_as_seen && i < drawn_.size(); ++i)
-            if (drawn_[i] != measure::first_mirror(hits_[i])) picture.pixels[i] = truth_.pixels[i];
+            if (drawn_[i] != measure::first_mirror(hits_[i]).number())
+                picture.pixels[i] = truth_.pixels[i];
         const auto squared = [&](const measure::Mask& mask) {
             const double rmse = measure::difference(picture, truth_, mask, no_flip).rmse;
             return rmse * rmse;
         };
         SquaredError error{squared(measure::mirrors(hits_)), {}};
         for (std::uint32_t mirror = 1; mirror <= mirrors_; ++mirror)
-            error.per_mirror.push_back(squared(measure::of_mirror(hits_, mirror)));
+            error.per_mirror.push_back(squared(measure::of_mirror(hits_, MirrorId(mirror))));
         return error;
     };
     const auto fall = [](const SquaredError& from, const SquaredError& to) {

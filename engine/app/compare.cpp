@@ -6,9 +6,9 @@
 #include "core/error.hpp"
 #include "measure/difference.hpp"
 #include "measure/flip.hpp"
+#include "measure/judge.hpp"
 #include "measure/masks.hpp"
 #include "reflect/technique.hpp"
-#include "report/rows.hpp"
 #include "scene/load.hpp"
 
 #include <algorithm>
@@ -49,14 +49,6 @@ bool is_set(const report::Row& row, std::string_view knob, std::string_view text
     });
 }
 
-std::vector<report::Setting> settings_of(const TechniqueChoice& choice) {
-    std::vector<report::Setting> settings;
-    for (const auto& [name, text, is_number, is_default] : choice.settings)
-        settings.push_back(
-            {name, text, is_number ? std::optional(std::stod(text)) : std::nullopt, !is_default});
-    return settings;
-}
-
 template <typename Value>
 measure::Summary over_frames(const std::vector<FrameTimes>& frames, Value&& value) {
     std::vector<double> samples;
@@ -94,7 +86,7 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
                          const std::vector<std::uint32_t>& hits) {
     std::size_t pixels = 0, black = 0, wanted_black = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (measure::first_mirror(hits[i]) == 0) continue;
+        if (!measure::first_mirror(hits[i])) continue;
         ++pixels;
         black += picture.pixels[i] == vec3(0);
         wanted_black += truth.pixels[i] == vec3(0);
@@ -115,8 +107,8 @@ void fill_errors(report::Row& row, const Part& part, const Part& truth,
     row.error_mirror_in_mirror = against(measure::mirror_in_mirror(hits));
     row.error_non_mirror = against(measure::non_mirror(hits));
     row.error_all = against(measure::all_pixels(hits));
-    for (std::uint32_t mirror = 1; mirror <= mirrors; ++mirror)
-        row.error_per_mirror.push_back(against(measure::of_mirror(hits, mirror)));
+    for (std::size_t i = 0; i < mirrors; ++i)
+        row.error_per_mirror.push_back(against(measure::of_mirror(hits, MirrorId::at(i))));
     row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
     row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
     row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
@@ -128,7 +120,7 @@ report::Row make_row(const std::string& text, const Part& part,
     report::Row row;
     row.technique = choice.technique;
     row.label = choice.label;
-    row.settings = settings_of(choice);
+    row.settings = choice.settings;
     row.image = choice.file_name;
     row.scene_passes = part.scene_passes;
     row.scene_draws = part.scene_draws;
@@ -186,9 +178,13 @@ private:
         comparison_.complete = false;
         comparison_.asked = base.techniques.size();
         comparison_.device = {device.name, device.driver, device.api, device.type, device.threads};
-        comparison_.scene = {base.scene.name, scene::triangle_count(base.scene), mirrors_,
+        comparison_.scene = {base.scene.name,
+                             scene::triangle_count(base.scene),
+                             mirrors_,
                              scene::hash(base.scene),
-                             scene::hash(base.scene) == scene::hash(scene::cornell_mirrors())};
+                             scene::hash(base.scene) == scene::hash(scene::cornell_mirrors()),
+                             {base.camera.name, base.camera.eye, base.camera.target, base.camera.up,
+                              base.camera.vertical_fov_degrees}};
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);
         comparison_.frames = base.frames;
@@ -243,7 +239,7 @@ private:
         const TechniqueChoice choice = parse_technique(request_.reference);
         comparison_.reference_technique = choice.technique;
         comparison_.reference_label = choice.label;
-        comparison_.reference_settings = settings_of(choice);
+        comparison_.reference_settings = choice.settings;
         comparison_.reference_gpu_ms = measure::summarise(truth("1").gpu_ms);
         comparison_.reference_display = truth("1").part.display;
     }
@@ -276,7 +272,7 @@ private:
         const double edge = row.auto_face ? row.auto_face->edge : face->number.value();
         measure::Mask at_edges = oracle_->at_light_edges(lookup, static_cast<std::uint32_t>(edge));
         for (std::size_t i = 0; i < at_edges.size(); ++i)
-            if (measure::first_mirror(hits_[i]) == 0) at_edges[i] = 0;
+            if (!measure::first_mirror(hits_[i])) at_edges[i] = 0;
         const measure::Difference there = measure::difference(row.hdr, truth("1").part.hdr,
                                                               at_edges, row.flip_map);
         const auto sum = [](const measure::Difference& error) {
@@ -307,7 +303,7 @@ private:
         row.is_reference = same(parse_technique(text),
                                 parse_technique(reference_at(request_.reference, samples)));
         comparison_.rows.push_back(std::move(row));
-        judge_front();
+        comparison_.pareto = measure::front_of(comparison_.rows);
         tell();
     }
 
@@ -340,13 +336,6 @@ private:
                      .watcher = request_.watcher,
                      .on_finished_row = [this] { tell(); }},
                     comparison_.lag.emplace());
-    }
-
-    void judge_front() {
-        std::vector<measure::Candidate> candidates;
-        for (const report::Row& row : comparison_.rows)
-            candidates.push_back(report::candidate_of(row));
-        comparison_.pareto = measure::pareto_front(candidates);
     }
 
     Engine& engine_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/setting.hpp"
+
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -39,12 +41,6 @@ std::vector<TechniqueInfo> techniques();
 
 /// Checks "name[:knob=value,...]"; throws `Failure::usage` with the nearest name.
 struct TechniqueChoice {
-    struct Setting {
-        std::string name, text; ///< numbers in decimal
-        bool is_number = true;  ///< false for a choice and for a special word
-        bool is_default = true;
-        bool operator==(const Setting&) const = default;
-    };
     std::string technique, label, file_name;
     std::vector<Setting> settings; ///< all knobs
 };

@@ -69,7 +69,7 @@ using Pixels = std::vector<std::size_t>; // row-major
 Pixels mirror_pixels(const std::vector<std::uint32_t>& hits) {
     Pixels pixels;
     for (std::size_t i = 0; i < hits.size(); ++i)
-        if (measure::first_mirror(hits[i]) != 0) pixels.push_back(i);
+        if (measure::first_mirror(hits[i])) pixels.push_back(i);
     return pixels;
 }
 
@@ -231,8 +231,8 @@ private:
             settling.rmse.push_back(error.rmse);
             settling.max.push_back(error.max);
         }
-        settling.rmse_settled = measure::settled_from(settling.rmse, report::kLagBound);
-        settling.max_settled = measure::settled_from(settling.max, report::kLagBound);
+        settling.rmse_settled = measure::settled_from(settling.rmse, measure::kLagBound);
+        settling.max_settled = measure::settled_from(settling.max, measure::kLagBound);
         return settling;
     }
 

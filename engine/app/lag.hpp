@@ -2,7 +2,7 @@
 
 #include "app/run.hpp"
 #include "app/watcher.hpp"
-#include "report/lag.hpp"
+#include "report/comparison.hpp"
 
 namespace catoptric::app {
 

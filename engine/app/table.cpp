@@ -27,10 +27,14 @@ TechniqueChoice parse_technique(const std::string& text) {
     TechniqueChoice result{
         std::string(choice.technique->name), choice.label, choice.file_name(), {}};
     const Settings defaults(choice.technique->knobs);
-    for (const catoptric::Knob& knob : choice.technique->knobs)
-        result.settings.push_back({std::string(knob.name), choice.settings.text(knob.name),
-                                   knob.choices.empty() && !choice.settings.is_special(knob.name),
-                                   choice.settings.text(knob.name) == defaults.text(knob.name)});
+    for (const catoptric::Knob& knob : choice.technique->knobs) {
+        const bool is_number = knob.choices.empty() && !choice.settings.is_special(knob.name);
+        const std::string value = choice.settings.text(knob.name);
+        result.settings.push_back(
+            {std::string(knob.name), value,
+             is_number ? std::optional(choice.settings.number(knob.name)) : std::nullopt,
+             value != defaults.text(knob.name)});
+    }
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "measure/lines.hpp"
+#include "measure/quantity.hpp"
 #include "measure/statistics.hpp"
 
 #include <algorithm>
@@ -34,12 +35,91 @@ void check_sizes(const Picture& a, const Picture& b, const Mask& mask, std::size
           " pixels wants a FLIP map of as many, found ", flip_size);
 }
 
+const Registered kPixels{
+    {.name = "pixels",
+     .unit = "pixels",
+     .help = "pixels of the mask, those that are not finite included",
+     .order = 100,
+     .get = [](const Difference& error) -> Value { return static_cast<double>(error.pixels); }}};
+const Registered kRmse{{.name = "rmse",
+                        .help = "root of the mean square difference, linear RGB clamped to [0,1]",
+                        .better = Better::less,
+                        .order = 101,
+                        .each_mask_in_table = true,
+                        .columns = {{"rmse"}},
+                        .get = [](const Difference& error) -> Value { return error.rmse; }}};
+const Registered kMae{{.name = "mae",
+                       .help = "mean absolute difference, linear RGB clamped to [0,1]",
+                       .better = Better::less,
+                       .order = 102,
+                       .columns = {{"MAE"}},
+                       .get = [](const Difference& error) -> Value { return error.mae; }}};
+const Registered kFlip{
+    {.name = "flip",
+     .help = "mean LDR-FLIP at 67 pixels per degree, of the pictures as displayed",
+     .better = Better::less,
+     .order = 103,
+     .columns = {{"FLIP"}},
+     .get = [](const Difference& error) -> Value { return error.flip; }}};
+const Registered kPsnr{{.name = "psnr",
+                        .unit = "dB",
+                        .help = "-20 log10 rmse; none for equal pictures",
+                        .better = Better::more,
+                        .order = 104,
+                        .columns = {{"PSNR dB", Style::fixed, 1}},
+                        .get = [](const Difference& error) -> Value {
+                            return error.psnr.value_or(Difference::kNone);
+                        }}};
+const Registered kP99{{.name = "p99",
+                       .help = "99th percentile of the pixels' largest channel difference",
+                       .better = Better::less,
+                       .order = 105,
+                       .columns = {{"p99"}},
+                       .get = [](const Difference& error) -> Value { return error.p99; }}};
+const Registered kNonfinite{
+    {.name = "nonfinite",
+     .unit = "pixels",
+     .help = "pixels that are NaN or infinite; any makes a row fail",
+     .better = Better::less,
+     .order = 106,
+     .get = [](const Difference& error) -> Value { return static_cast<double>(error.nonfinite); }}};
+const Registered kMax{{.name = "max",
+                       .help = "the largest channel difference of all",
+                       .better = Better::less,
+                       .order = 107,
+                       .get = [](const Difference& error) -> Value { return error.max; }}};
+const Registered kMaxAt{{.name = "max_at",
+                         .help = "the pixel of the largest channel difference",
+                         .order = 108,
+                         .get = [](const Difference& error) -> Value {
+                             return Place{error.max_x, error.max_y};
+                         }}};
+const Registered kShareOff{
+    {.name = "off",
+     .help = "share of the pixels whose largest channel difference exceeds .02",
+     .better = Better::less,
+     .order = 109,
+     .get = [](const Difference& error) -> Value { return error.off; }}};
+
+const Registered kMean{{.name = "mean",
+                        .help = "mean of the whole picture by channel, linear",
+                        .mask = "all",
+                        .order = 280,
+                        .get = [](const Row& row) -> Value { return row.mean.rgb; }}};
+const Registered kMeanClamped{
+    {.name = "mean_clamped",
+     .help = "the same of values clamped to [0,1]",
+     .mask = "all",
+     .order = 281,
+     .get = [](const Row& row) -> Value { return row.mean_clamped.rgb; }}};
+
 } // namespace
 
 Difference difference(const Picture& a, const Picture& b, const Mask& mask,
                       std::span<const float> flip_map) {
     check_sizes(a, b, mask, flip_map.size());
     Difference result;
+    result.others = other_figures({a, b, mask, flip_map});
     std::vector<double> largest; // of each judged pixel
     Mask off(a.pixels.size());
     std::size_t off_count = 0;

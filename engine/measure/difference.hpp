@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace catoptric::measure {
 
@@ -29,7 +30,8 @@ struct Difference {
     int max_y = -1;
     double off = kNone; ///< share of the judged pixels that are off (kOff), 0..1
     double longest_line =
-        kNone; ///< of these pixels, in pixels: `longest_line` of measure/lines.hpp
+        kNone;                  ///< of these pixels, in pixels: `longest_line` of measure/lines.hpp
+    std::vector<double> others; ///< figures that others compute (Quantity::OfPictures)
 };
 
 /// `flip_map` is `flip` of the two whole pictures as displayed: computed once, averaged over each

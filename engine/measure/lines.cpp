@@ -1,5 +1,7 @@
 #include "measure/lines.hpp"
 
+#include "measure/quantity.hpp"
+
 #include <algorithm>
 
 namespace catoptric::measure {
@@ -67,6 +69,16 @@ Set take_set(const Grid& grid, const Mask& corners, Mask& left, int x, int y) {
     }
     return set;
 }
+
+const Registered kLongestLine{
+    {.name = "longest_line",
+     .unit = "pixels",
+     .help =
+         "length of the longest line of pixels that are off: of sets that touch when dilated by "
+         "1, among those without a 4x4 square",
+     .better = Better::less,
+     .order = 110,
+     .get = [](const Difference& error) -> Value { return error.longest_line; }}};
 
 } // namespace
 

@@ -1,5 +1,6 @@
 #include "measure/lookup.hpp"
 
+#include "measure/quantity.hpp"
 #include "measure/statistics.hpp"
 
 #include <algorithm>
@@ -8,6 +9,80 @@
 #include <vector>
 
 namespace catoptric::measure {
+
+namespace {
+
+constexpr std::string_view kFirstOrder = "first_order";
+
+template <double LookupError::*Figure>
+Value figure(const Row& row) {
+    return row.lookup ? (*row.lookup).*Figure : NAN;
+}
+
+const Registered kPixels{{.name = "lookup/pixels",
+                          .unit = "pixels",
+                          .help = "mirror pixels whose reflected ray meets no second mirror",
+                          .mask = kFirstOrder,
+                          .order = 260,
+                          .columns = {{"Pixels", Style::fixed, 0, InTable::lookup}},
+                          .get = [](const Row& row) -> Value {
+                              return row.lookup ? static_cast<double>(row.lookup->pixels) : NAN;
+                          }}};
+const Registered kMean{{.name = "lookup/mean_degrees",
+                        .unit = "degrees",
+                        .help = "angle between the looked-up and the true direction, mean",
+                        .mask = kFirstOrder,
+                        .better = Better::less,
+                        .order = 261,
+                        .columns = {{"Mean, degrees", Style::fixed, 3, InTable::lookup}},
+                        .get = figure<&LookupError::mean_degrees>}};
+const Registered kP95{{.name = "lookup/p95_degrees",
+                       .unit = "degrees",
+                       .help = "the same, 95th percentile",
+                       .mask = kFirstOrder,
+                       .better = Better::less,
+                       .order = 262,
+                       .columns = {{"95 %", Style::fixed, 2, InTable::lookup}},
+                       .get = figure<&LookupError::p95_degrees>}};
+const Registered kP99{{.name = "lookup/p99_degrees",
+                       .unit = "degrees",
+                       .help = "the same, 99th percentile",
+                       .mask = kFirstOrder,
+                       .better = Better::less,
+                       .order = 263,
+                       .columns = {{"99 %", Style::fixed, 2, InTable::lookup}},
+                       .get = figure<&LookupError::p99_degrees>}};
+const Registered kWrongObject{
+    {.name = "lookup/wrong_object",
+     .help = "share of the pixels in whose looked-up direction the capture shows another object",
+     .mask = kFirstOrder,
+     .better = Better::less,
+     .order = 264,
+     .columns = {{"Wrong object, %", Style::percent, 2, InTable::lookup}},
+     .get = figure<&LookupError::wrong_object>}};
+const Registered kUnknown{{.name = "lookup/unknown",
+                           .help = "share of the pixels whose search says that it does not know",
+                           .mask = kFirstOrder,
+                           .better = Better::less,
+                           .order = 265,
+                           .columns = {{"Unknown, %", Style::percent, 2, InTable::lookup}},
+                           .get = figure<&LookupError::unknown>}};
+const Registered kMiss{{.name = "lookup/miss",
+                        .help = "share of the pixels whose search says that nothing is there",
+                        .mask = kFirstOrder,
+                        .order = 266,
+                        .columns = {{"Miss, %", Style::percent, 2, InTable::lookup}},
+                        .get = figure<&LookupError::miss>}};
+const Registered kResidual{
+    {.name = "lookup/p95_residual",
+     .help =
+         "relative distance between what the search found and what was captured there, 95th percentile of hits",
+     .mask = kFirstOrder,
+     .better = Better::less,
+     .order = 267,
+     .get = figure<&LookupError::p95_residual>}};
+
+} // namespace
 
 LookupError lookup_error(std::span<const LookedUp> pixels) {
     LookupError error;

@@ -20,26 +20,24 @@ Mask all_pixels(std::span<const std::uint32_t> hits) {
 }
 
 Mask mirrors(std::span<const std::uint32_t> hits) {
-    return where(hits, [](std::uint32_t hit) { return first_mirror(hit) != 0; });
+    return where(hits, [](std::uint32_t hit) { return bool(first_mirror(hit)); });
 }
 
 Mask first_order(std::span<const std::uint32_t> hits) {
-    return where(
-        hits, [](std::uint32_t hit) { return first_mirror(hit) != 0 && second_mirror(hit) == 0; });
+    return where(hits, [](std::uint32_t hit) { return first_mirror(hit) && !second_mirror(hit); });
 }
 
 Mask mirror_in_mirror(std::span<const std::uint32_t> hits) {
-    return where(
-        hits, [](std::uint32_t hit) { return first_mirror(hit) != 0 && second_mirror(hit) != 0; });
+    return where(hits, [](std::uint32_t hit) { return first_mirror(hit) && second_mirror(hit); });
 }
 
-Mask of_mirror(std::span<const std::uint32_t> hits, std::uint32_t number) {
-    return where(
-        hits, [number](std::uint32_t hit) { return number != 0 && first_mirror(hit) == number; });
+Mask of_mirror(std::span<const std::uint32_t> hits, MirrorId mirror) {
+    return where(hits,
+                 [mirror](std::uint32_t hit) { return mirror && first_mirror(hit) == mirror; });
 }
 
 Mask non_mirror(std::span<const std::uint32_t> hits) {
-    return where(hits, [](std::uint32_t hit) { return first_mirror(hit) == 0; });
+    return where(hits, [](std::uint32_t hit) { return !first_mirror(hit); });
 }
 
 std::size_t pixel_count(const Mask& mask) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/mirror_id.hpp"
 #include "measure/picture.hpp"
 
 #include <cstdint>
@@ -10,8 +11,8 @@
 // mirror that the ray reflected there meets next, or 0.
 namespace catoptric::measure {
 
-constexpr std::uint32_t first_mirror(std::uint32_t hit) { return hit & 0xFFFFU; }
-constexpr std::uint32_t second_mirror(std::uint32_t hit) { return hit >> 16; }
+constexpr MirrorId first_mirror(std::uint32_t hit) { return MirrorId(hit & 0xFFFFU); }
+constexpr MirrorId second_mirror(std::uint32_t hit) { return MirrorId(hit >> 16); }
 
 /// Every mask has one entry (0 or 255) for each hit; with nothing chosen it is all 0, which is not
 /// the empty mask "every pixel".
@@ -22,8 +23,8 @@ Mask mirrors(std::span<const std::uint32_t> hits);
 Mask first_order(std::span<const std::uint32_t> hits);
 /// First hit a mirror whose reflected ray meets another, or the same again.
 Mask mirror_in_mirror(std::span<const std::uint32_t> hits);
-/// First hit is mirror `number`, from 1.
-Mask of_mirror(std::span<const std::uint32_t> hits, std::uint32_t number);
+/// First hit is this mirror; nothing for none.
+Mask of_mirror(std::span<const std::uint32_t> hits, MirrorId mirror);
 /// First hit no mirror, or nothing.
 Mask non_mirror(std::span<const std::uint32_t> hits);
 

@@ -84,7 +84,7 @@ void add_trace(graph::Graph& graph, const render::FrameInputs& inputs, const Set
 }
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
+    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
     render::MirrorLook look = view_look(captured, settings, kSearch);
     if (!captured.cubes) return add_view_of(graph, inputs, captured, look);
     look.images.emplace_back("bounds", add_pyramid(graph, inputs, captured));
@@ -108,7 +108,7 @@ constexpr Technique kHybrid{
     .compared = kCompared,
     .scene_passes = feedback_passes,
     .add = add};
-const Row kRow{kHybrid};
+const Registered kRow{kHybrid};
 
 } // namespace
 

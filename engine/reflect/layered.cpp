@@ -1,6 +1,6 @@
 // Captures of two layers (Umenhoffer, Patow, Szirmay-Kalos, GPU Gems 3, chapter 17): what a ray
 // meets behind something that hides it from the capture's centre is in the second.
-#include "reflect/knobs.hpp"
+#include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
 
@@ -14,7 +14,7 @@ constexpr auto kKnobs = search_knobs(
                     .value = 16}});
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag", true);
+    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag", true);
     render::MirrorLook look = view_look(captured, settings, "reflect/layered.frag");
     look.constants.emplace_back("steps", static_cast<std::uint32_t>(settings.integer("steps")));
     if (const auto& cubes = captured.cubes)
@@ -39,7 +39,7 @@ constexpr Technique kLayered{.name = "layered",
                                      return feedback_passes(2 * mirrors, lights, settings);
                                  },
                              .add = add};
-const Row kRow{kLayered};
+const Registered kRow{kLayered};
 
 } // namespace
 

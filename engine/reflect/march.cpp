@@ -1,6 +1,6 @@
 // A march along the reflected ray in steps of equal angle, then refinement: finds the first
 // crossing, where the secant finds any.
-#include "reflect/knobs.hpp"
+#include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
 
@@ -14,7 +14,7 @@ constexpr auto kKnobs = search_knobs(
                     .value = 16}});
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
+    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
     render::MirrorLook look = view_look(captured, settings, "reflect/march.frag");
     look.constants.emplace_back("steps", static_cast<std::uint32_t>(settings.integer("steps")));
     return add_view_of(graph, inputs, captured, look);
@@ -31,7 +31,7 @@ constexpr Technique kMarch{
     .compared = kCompared,
     .scene_passes = feedback_passes,
     .add = add};
-const Row kRow{kMarch};
+const Registered kRow{kMarch};
 
 } // namespace
 

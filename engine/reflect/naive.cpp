@@ -2,7 +2,7 @@
 // Bounce k looks into the cubes of bounce k-1, so with i bounces R = N i + 2. The two cube images
 // that the report swaps by hand fall out of lifetimes: bounce k+1's cubes lie where bounce k-1's
 // were.
-#include "reflect/knobs.hpp"
+#include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
 
@@ -48,7 +48,7 @@ constexpr Technique kNaive{.name = "naive",
                                           shadow_passes(lights, settings) + 1;
                                },
                            .add = add};
-const Row kRow{kNaive};
+const Registered kRow{kNaive};
 
 } // namespace
 

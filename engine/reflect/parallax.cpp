@@ -1,7 +1,7 @@
 // Part three of the report: captures hold the distance too, and the reflected direction is
 // corrected by one step. distance=unorm8 stores it as the report did, clamped at `range` in eight
 // bits.
-#include "reflect/knobs.hpp"
+#include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
 
@@ -32,13 +32,13 @@ constexpr Technique kParallax{
     .compared = kCompared,
     .scene_passes = feedback_passes,
     .add = [](graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-        const Captured captured = add_feedback(graph, inputs, settings, kFragment);
+        const Feedback captured = add_feedback(graph, inputs, settings, kFragment);
         render::MirrorLook look = view_look(captured, settings, kFragment);
         if (captured.cubes && settings.choice("without") == "void_test")
             look.constants.emplace_back("tests_void", 0u);
         return add_view_of(graph, inputs, captured, look);
     }};
-const Row kRow{kParallax};
+const Registered kRow{kParallax};
 
 } // namespace
 

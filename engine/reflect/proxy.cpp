@@ -1,6 +1,6 @@
 // The oldest correction: the surroundings are taken for one box (Lagarde and Zanuttini 2012) or one
 // sphere (Brennan 2002). Nobody places it: it is derived from the captured distances of each frame.
-#include "reflect/knobs.hpp"
+#include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
 
@@ -19,7 +19,7 @@ constexpr std::uint64_t kProxyBytes = 28; // Proxy of shaders/reflect/proxy.glsl
 
 /// One proxy a mirror.
 graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs,
-                          const Captured& captured) {
+                          const Feedback& captured) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
     const graph::Image distance = *captured.cubes->distance;
     const graph::Buffer proxies = graph.buffer({inputs.prefix + "proxies", kProxyBytes * mirrors});
@@ -39,7 +39,7 @@ graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs
 }
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
+    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
     render::MirrorLook look = view_look(captured, settings, "reflect/proxy.frag");
     if (captured.cubes) look.buffers.emplace_back("Proxies", add_proxies(graph, inputs, captured));
     look.constants.emplace_back("shape", static_cast<std::uint32_t>(settings.integer("shape")));
@@ -54,7 +54,7 @@ constexpr Technique kProxy{
     .knobs = kKnobs,
     .scene_passes = feedback_passes,
     .add = add};
-const Row kRow{kProxy};
+const Registered kRow{kProxy};
 
 } // namespace
 

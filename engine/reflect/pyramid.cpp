@@ -21,7 +21,7 @@ std::uint32_t level_edge(std::uint32_t face, std::uint32_t level) {
 } // namespace
 
 graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                         const Captured& captured) {
+                         const Feedback& captured) {
     const std::uint32_t face = captured.options.face, layers = 6 * inputs.scene.mirror_count(),
                         top = top_level(face);
     const graph::Image distance = *captured.cubes->distance;
@@ -48,7 +48,7 @@ graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
 namespace {
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
+    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
     render::MirrorLook look = view_look(captured, settings, "reflect/pyramid.frag");
     if (captured.cubes) look.images.emplace_back("bounds", add_pyramid(graph, inputs, captured));
     return add_view_of(graph, inputs, captured, look);
@@ -65,7 +65,7 @@ constexpr Technique kPyramid{
     .compared = kCompared,
     .scene_passes = feedback_passes,
     .add = add};
-const Row kRow{kPyramid};
+const Registered kRow{kPyramid};
 
 } // namespace
 

@@ -1,7 +1,7 @@
 // The reference: Whitted ray tracing in a compute shader over a hierarchy that needs no ray-tracing
 // extension. One dispatch a sample, added up in the picture: a software driver ends all loops of an
 // invocation after 65,535 iterations, and one sample of a deep path must stay below that.
-#include "reflect/knobs.hpp"
+#include "reflect/captures.hpp"
 
 #include <cmath>
 #include <random>
@@ -131,7 +131,7 @@ constexpr Technique kRaytrace{
     .scene_passes = [](int, int lights,
                        const Settings& settings) { return shadow_passes(lights, settings); },
     .add = add};
-const Row kRow{kRaytrace};
+const Registered kRow{kRaytrace};
 
 } // namespace
 

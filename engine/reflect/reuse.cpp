@@ -1,6 +1,6 @@
 // Part two of the report: one capture a mirror and frame; deeper bounces arrive from last frame's
 // captures, so frame k shows k of them. R = N + 2.
-#include "reflect/knobs.hpp"
+#include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
 
@@ -19,10 +19,10 @@ constexpr Technique kReuse{
     .compared = kCompared,
     .scene_passes = feedback_passes,
     .add = [](graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-        const Captured captured = add_feedback(graph, inputs, settings, kFragment);
+        const Feedback captured = add_feedback(graph, inputs, settings, kFragment);
         return add_view_of(graph, inputs, captured, view_look(captured, settings, kFragment));
     }};
-const Row kRow{kReuse};
+const Registered kRow{kReuse};
 
 } // namespace
 

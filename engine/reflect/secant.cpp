@@ -1,6 +1,6 @@
 // The search that the report's one step begins: it goes on until the reflected ray meets what was
 // captured. steps=0 is `parallax`.
-#include "reflect/knobs.hpp"
+#include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
 
@@ -14,7 +14,7 @@ constexpr auto kKnobs = search_knobs(
                     .value = 2}});
 
 Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Captured captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
+    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
     if (settings.integer("steps") == 0 && captured.cubes) // parallax has no other knobs
         return add_view_of(graph, inputs, captured,
                            look_into("reflect/parallax.frag", *captured.cubes, captured.options));
@@ -33,7 +33,7 @@ constexpr Technique kSecant{.name = "secant",
                             .compared = kCompared,
                             .scene_passes = feedback_passes,
                             .add = add};
-const Row kRow{kSecant};
+const Registered kRow{kSecant};
 
 } // namespace
 

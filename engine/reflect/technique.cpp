@@ -15,7 +15,7 @@ std::vector<const Technique*>& table() {
 
 } // namespace
 
-Row::Row(const Technique& technique) { table().push_back(&technique); }
+Registered::Registered(const Technique& technique) { table().push_back(&technique); }
 
 std::vector<const Technique*> techniques() {
     std::vector<const Technique*> rows = table();

@@ -36,9 +36,9 @@ struct Technique {
                    const Settings& settings) = nullptr;
 };
 
-/// A namespace-scope Row puts its technique into the table.
-struct Row {
-    explicit Row(const Technique& technique);
+/// A namespace-scope Registered puts its technique into the table while the program starts.
+struct Registered {
+    explicit Registered(const Technique& technique);
 };
 
 /// Every technique by `order`.

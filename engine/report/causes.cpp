@@ -1,4 +1,3 @@
-#include "report/rows.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 

@@ -9,12 +9,12 @@ namespace catoptric::report {
 
 /// The pictures of a comparison as PNG, each encoded once however often the page is written.
 struct EncodedPictures {
-    struct Row {
+    struct OfRow {
         std::string picture; ///< as shown
         std::string error;   ///< heat map of its FLIP error; empty: it has none
     };
     std::string reference; ///< empty: it was not rendered
-    std::vector<Row> rows;
+    std::vector<OfRow> rows;
 };
 
 /// Encodes what has come since the last time: rows are only ever added.

@@ -1,5 +1,5 @@
 // What was measured where, and what to keep in mind.
-#include "report/rows.hpp"
+#include "measure/judge.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 
@@ -52,7 +52,7 @@ std::vector<std::string> cautions(const Comparison& comparison) {
     if (comparison.together)
         list.push_back("All rows ran in one command buffer: a row's ms is the sum of its passes.");
     for (const Row& row : comparison.rows)
-        if (failed(row))
+        if (measure::failed(row))
             list.push_back(
                 fmt::format("{} failed: {} pixels are no finite numbers, and its figures "
                             "leave them out.",

@@ -1,8 +1,8 @@
 #include "report/findings.hpp"
 
+#include "measure/findings.hpp"
+#include "measure/seed_report.hpp"
 #include "report/lag_tables.hpp"
-#include "report/rows.hpp"
-#include "report/seed_table.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
@@ -16,74 +16,65 @@ namespace {
 
 using Sentence = std::optional<std::string>;
 
-/// One step of an 8-bit picture.
-constexpr double kStep = 1.0 / 255;
-
-double ms_of(const Row& row) { return row.gpu_ms.median; }
-
 std::string percent(double share) { return fixed(100 * share, share < 0.1 ? 1 : 0) + " %"; }
 
-/// "1.2 against 3.4 ms", and that no more can be said where the bands of the times overlap.
+std::string rmse_text(const Row& row) { return error_text(row.error.rmse); }
+
 std::string both_times(const Row& a, const Row& b) {
-    return ms_text(ms_of(a)) + " against " + ms_text(ms_of(b)) + " ms";
+    return ms_text(a.gpu_ms.median) + " against " + ms_text(b.gpu_ms.median) + " ms";
 }
-bool is_tie(const Row& a, const Row& b) { return !is_faster(a, b) && !is_faster(b, a); }
+/// Where no more can be said.
 constexpr const char* kTie = ": their bands overlap, they are not told apart";
 
-/// What a clear would do to our part one, which renders and clears no cube without
-/// inter-reflections.
-std::string clear_verdict(double clear, const Row& one, const Row& two) {
-    if (is_faster(two, one))
+std::string clear_verdict(const measure::ClearFinding& finding) {
+    using Verdict = measure::ClearFinding::Verdict;
+    switch (finding.verdict) {
+    case Verdict::slower_without:
         return "part one is slower without any clear, so clearing alone does not explain the order "
                "on "
                "this device";
-    if (!(one.gpu_ms.p05 + clear > two.gpu_ms.p95))
+    case Verdict::too_little:
         return "added to part one that still leaves it no slower than part two, so clearing alone "
                "does "
                "not explain the report's order on this device";
-    const double gap = (ms_of(one) + clear - ms_of(two)) / ms_of(two);
-    const double seed_gap = (kSeedPartOne.ms - kSeedPartTwo.ms) / kSeedPartTwo.ms;
+    case Verdict::explains: break;
+    }
     return fmt::format(
         "added to part one that would put it {} behind part two (the report: {}), so "
         "clearing alone does explain the order on this device",
-        percent(gap), percent(seed_gap));
+        percent(finding.gap), percent(measure::kSeedClearGap));
 }
 
 Sentence clears(const Comparison& comparison) {
-    const Row* one = find_naive(comparison, 0);
-    const Row* two = find_row(comparison, "reuse");
-    if (one == nullptr || two == nullptr) return {};
-    const char* order = is_faster(*two, *one) ? "slower than" : "not slower than";
+    using measure::kSeedPartOne, measure::kSeedPartTwo;
+    const auto finding = measure::find_clears(comparison);
+    if (!finding) return {};
+    const char* order = finding->one_is_slower ? "slower than" : "not slower than";
     std::string text = fmt::format("Clears: the report's part one without inter-reflections took "
                                    "{:.1f} ms more than its part two "
                                    "({:.1f} against {:.1f} ms), which it puts down to clearing the "
                                    "cube maps. Here part one, {}, "
                                    "is {} part two ({})",
-                                   kSeedPartOne.ms - kSeedPartTwo.ms, kSeedPartOne.ms,
-                                   kSeedPartTwo.ms, one->label, order, both_times(*one, *two));
-    if (!comparison.clear_ms) return text + "; what a clear costs was not measured.";
-    const double clear = comparison.clear_ms->median;
-    return text + ". Clearing the cubes of all mirrors costs " + ms_text(clear) +
-           " ms: " + clear_verdict(clear, *one, *two) + ".";
+                                   measure::kSeedClearMs, kSeedPartOne.ms, kSeedPartTwo.ms,
+                                   finding->one->label, order,
+                                   both_times(*finding->one, *finding->two));
+    if (!finding->clear_ms) return text + "; what a clear costs was not measured.";
+    return text + ". Clearing the cubes of all mirrors costs " + ms_text(*finding->clear_ms) +
+           " ms: " + clear_verdict(*finding) + ".";
 }
 
 Sentence stored_distance(const Comparison& comparison) {
-    const auto eight_bits = [&](std::string_view range) {
-        const Wanted wanted[] = {{"distance", "unorm8"}, {"range", range}};
-        return find_row(comparison, "parallax", wanted);
-    };
-    const Row* plain = find_row(comparison, "reuse");
-    const Row* full = find_parallax(comparison);
-    const Row* near = eight_bits("200");
-    const Row* far = eight_bits("1000");
-    if (!judged(plain) || !judged(full) || (!judged(near) && !judged(far))) return {};
-    const auto rmse = [](const Row* row) { return error_text(row->error.rmse); };
-    std::string text = "Stored distance: rmse over the mirrors is " + rmse(plain) +
-                       " without correction, " + rmse(full) + " corrected with 32-bit distances";
-    if (judged(near)) text += ", " + rmse(near) + " with 8 bits up to 200 units as in the report";
-    if (judged(far)) text += ", " + rmse(far) + " with 8 bits up to 1000 units";
-    if (!judged(near)) return text + ".";
-    if (near->error.rmse > plain->error.rmse)
+    const auto finding = measure::find_stored_distance(comparison);
+    if (!finding) return {};
+    std::string text = "Stored distance: rmse over the mirrors is " + rmse_text(*finding->plain) +
+                       " without correction, " + rmse_text(*finding->full) +
+                       " corrected with 32-bit distances";
+    if (finding->near != nullptr)
+        text += ", " + rmse_text(*finding->near) + " with 8 bits up to 200 units as in the report";
+    if (finding->far != nullptr)
+        text += ", " + rmse_text(*finding->far) + " with 8 bits up to 1000 units";
+    if (finding->near == nullptr) return text + ".";
+    if (finding->near_is_worse)
         return text +
                ". With the report's range the correction makes the picture worse than none, so "
                "its figure 7 cannot have been made that way in these units.";
@@ -93,66 +84,60 @@ Sentence stored_distance(const Comparison& comparison) {
 }
 
 Sentence inter_reflections(const Comparison& comparison) {
-    std::vector<const Row*> steps;
-    for (int i = 1; judged(find_naive(comparison, i)); ++i)
-        steps.push_back(find_naive(comparison, i));
-    if (steps.size() < 2) return {};
+    const auto finding = measure::find_bounces(comparison);
+    if (!finding) return {};
     std::vector<std::string> figures;
-    for (const Row* row : steps) figures.push_back(error_text(row->error.rmse));
+    for (const Row* row : finding->steps) figures.push_back(rmse_text(*row));
     std::string text = fmt::format(
         "Inter-reflections: with i = 1 to {} the rmse of part one over the mirrors is {}. ",
-        steps.size(), joined(figures, ", "));
-    const double fall = steps.front()->error.rmse - steps.back()->error.rmse;
-    if (fall > kStep)
+        finding->steps.size(), joined(figures, ", "));
+    if (finding->helps)
         return text + "More inter-reflections bring it closer to the reference, by " +
-               error_text(fall) + " in all.";
+               error_text(finding->fall) + " in all.";
     text +=
         "From i = 1 on, more of them bring it no closer to the reference by as much as one 8-bit "
         "step (1/255)";
-    // Parallax dominates where correcting it takes away more than half of the squared error.
-    const Row* corrected = find_parallax(comparison);
-    const double rest = steps.back()->error.rmse;
-    if (judged(corrected) && 2 * corrected->error.rmse * corrected->error.rmse < rest * rest)
+    if (finding->dominated_by != nullptr)
         text +=
             ": parallax dominates what is left, and no number of inter-reflections repairs it (" +
-            error_text(corrected->error.rmse) + " once corrected)";
+            rmse_text(*finding->dominated_by) + " once corrected)";
     return text + ".";
 }
 
 Sentence price_of_correction(const Comparison& comparison) {
-    const Row* two = find_row(comparison, "reuse");
-    const Row* three = find_parallax(comparison);
-    if (two == nullptr || three == nullptr || !(ms_of(*two) > 0)) return {};
-    const double more = ms_of(*three) / ms_of(*two) - 1;
+    const auto finding = measure::find_price(comparison);
+    if (!finding) return {};
     std::string text = fmt::format(
         "Price of the correction: the report calls the code's complexity its only drawback ({:.1f} "
         "against {:.1f} ms). Here part three takes ",
-        kSeedPartThree.ms, kSeedPartTwo.ms);
-    if (is_tie(*two, *three))
-        text += "as long as part two (" + both_times(*three, *two) + kTie + ")";
+        measure::kSeedPartThree.ms, measure::kSeedPartTwo.ms);
+    const std::string times = both_times(*finding->three, *finding->two);
+    if (finding->tie)
+        text += "as long as part two (" + times + kTie + ")";
     else
-        text += percent(std::abs(more)) + (more < 0 ? " less" : " more") + " time than part two (" +
-                both_times(*three, *two) + ")";
-    if (three->memory_bytes > two->memory_bytes)
+        text += percent(std::abs(finding->more)) + (finding->more < 0 ? " less" : " more") +
+                " time than part two (" + times + ")";
+    if (finding->more_bytes > 0)
         text += fmt::format(" and {} MiB more memory for the distances",
-                            mebibytes(three->memory_bytes - two->memory_bytes));
+                            mebibytes(finding->more_bytes));
     return text + ".";
 }
 
 Sentence ray_tracing(const Comparison& comparison) {
-    const Row* three = find_parallax(comparison);
-    const Row* traced = find_ray_traced(comparison);
-    if (three == nullptr || traced == nullptr || !(ms_of(*three) > 0)) return {};
+    using measure::kSeedPartThree, measure::kSeedRayTrace;
+    const auto finding = measure::find_tracing(comparison);
+    if (!finding) return {};
+    const Row &three = *finding->three, &traced = *finding->traced;
     std::string text = fmt::format("Ray tracing: in the report it takes {:.1f} times as long as "
                                    "part three ({:.1f} against {:.1f} "
                                    "ms); here {} takes ",
-                                   kSeedRayTrace.ms / kSeedPartThree.ms, kSeedRayTrace.ms,
-                                   kSeedPartThree.ms, traced->label);
-    if (is_tie(*three, *traced))
-        text += "as long as " + three->label + " (" + both_times(*traced, *three) + kTie + ")";
+                                   measure::kSeedRayTraceRatio, kSeedRayTrace.ms, kSeedPartThree.ms,
+                                   traced.label);
+    const std::string times = both_times(traced, three);
+    if (finding->tie)
+        text += "as long as " + three.label + " (" + times + kTie + ")";
     else
-        text += ms_text(ms_of(*traced) / ms_of(*three)) + " times as long as " + three->label +
-                " (" + both_times(*traced, *three) + ")";
+        text += ms_text(finding->ratio) + " times as long as " + three.label + " (" + times + ")";
     return text + ".";
 }
 

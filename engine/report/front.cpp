@@ -1,11 +1,9 @@
 // The Pareto front in words, without favour.
+#include "measure/judge.hpp"
 #include "report/findings.hpp"
-#include "report/rows.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace catoptric::report {
 
@@ -16,85 +14,50 @@ std::string figures(const Row& row) {
                        error_text(row.error.flip), row.mirrors_black ? ", its mirrors black" : "");
 }
 
-std::vector<const Row*> front_rows(const Comparison& comparison) {
-    std::vector<const Row*> rows;
-    for (const std::size_t index : comparison.pareto)
-        if (index < comparison.rows.size()) rows.push_back(&comparison.rows[index]);
-    return rows;
+std::string figures_of(const std::vector<const Row*>& rows) {
+    std::vector<std::string> texts;
+    for (const Row* row : rows) texts.push_back(figures(*row));
+    return joined(texts, "; ");
 }
 
-/// The first row on the front that beats this one; null when none does.
-const Row* winner_over(const std::vector<const Row*>& front, const Row& loser) {
-    const auto found = std::ranges::find_if(front,
-                                            [&](const Row* row) { return beats(*row, loser); });
-    return found == front.end() ? nullptr : *found;
+std::string labels_of(const std::vector<const Row*>& rows, std::string_view between) {
+    std::vector<std::string> labels;
+    for (const Row* row : rows) labels.push_back(row->label);
+    return joined(labels, between);
 }
 
-/// One sentence for each row on the front that is the first to beat others; rows that were not
-/// judged, and those that only rows beat that are beaten themselves.
-std::vector<std::string> losers(const Comparison& comparison,
-                                const std::vector<const Row*>& front) {
-    std::vector<std::string> sentences;
-    for (const Row* winner : front) {
-        std::vector<std::string> names;
-        for (const Row& row : comparison.rows)
-            if (!on_front(comparison, row) && winner_over(front, row) == winner)
-                names.push_back(figures(row));
-        if (!names.empty())
-            sentences.push_back(winner->label + " beats " + joined(names, "; ") + ".");
-    }
-    std::vector<std::string> beaten, not_judged;
-    for (const Row& row : comparison.rows) {
-        if (!judged(&row))
-            not_judged.push_back(row.label);
-        else if (!on_front(comparison, row) && winner_over(front, row) == nullptr)
-            beaten.push_back(figures(row));
-    }
-    if (!beaten.empty())
-        sentences.push_back(
-            "Beaten only by rows that are beaten themselves: " + joined(beaten, "; ") + ".");
-    if (!not_judged.empty()) sentences.push_back("Not judged: " + joined(not_judged, "; ") + ".");
-    return sentences;
-}
-
-/// Whether tracing rays beats everything else.
-std::string verdict(const Comparison& comparison) {
-    std::size_t others = 0;
-    std::vector<std::string> unbeaten;
-    for (const Row& row : comparison.rows) {
-        if (is_ray_traced(row) || !judged(&row) || row.mirrors_black) continue;
-        ++others;
-        if (std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_ray_traced(other) && beats(other, row);
-            }))
-            unbeaten.push_back(row.label);
-    }
-    if (others == 0 || std::ranges::none_of(comparison.rows, is_ray_traced)) return "";
-    if (unbeaten.size() == others)
+/// Whether tracing rays beats everything else; nothing where that is no question.
+std::string tracing_in_words(const measure::TracingVerdict& verdict) {
+    if (verdict.others == 0 || !verdict.any_traced) return "";
+    if (verdict.unbeaten.size() == verdict.others)
         return "No ray-traced row beats any of the others on this device.";
-    if (!unbeaten.empty())
+    if (!verdict.unbeaten.empty())
         return fmt::format("Ray tracing beats {} of the {} other rows on this device: all but {}.",
-                           others - unbeaten.size(), others, joined(unbeaten, ", "));
+                           verdict.others - verdict.unbeaten.size(), verdict.others,
+                           labels_of(verdict.unbeaten, ", "));
     return fmt::format("Ray tracing wins on this device: each of the {} other rows is beaten by a "
                        "ray-traced one.",
-                       others);
+                       verdict.others);
 }
 
 } // namespace
 
 std::vector<std::string> front_in_words(const Comparison& comparison) {
-    const std::vector<const Row*> front = front_rows(comparison);
-    if (front.empty()) return {"No row could be judged, so there is no front."};
-    std::vector<std::string> names;
-    for (const Row* row : front) names.push_back(figures(*row));
+    const measure::Standing standing = measure::standing(comparison);
+    if (standing.front.empty()) return {"No row could be judged, so there is no front."};
     std::vector<std::string> words{
-        "On the front, by median time: " + joined(names, "; ") +
+        "On the front, by median time: " + figures_of(standing.front) +
         ". A row beats another where it is faster (their bands from the 5th to the 95th percentile "
         "do not "
         "overlap) and no farther off, or closer and not slower; bands that overlap are a tie."};
-    const std::vector<std::string> beaten = losers(comparison, front);
-    words.insert(words.end(), beaten.begin(), beaten.end());
-    const std::string who = verdict(comparison);
+    for (const auto& [winner, losers] : standing.wins)
+        words.push_back(winner->label + " beats " + figures_of(losers) + ".");
+    if (!standing.beaten_by_beaten.empty())
+        words.push_back("Beaten only by rows that are beaten themselves: " +
+                        figures_of(standing.beaten_by_beaten) + ".");
+    if (!standing.not_judged.empty())
+        words.push_back("Not judged: " + labels_of(standing.not_judged, "; ") + ".");
+    const std::string who = tracing_in_words(measure::tracing_verdict(comparison));
     if (!who.empty()) words.push_back(who);
     return words;
 }

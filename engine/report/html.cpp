@@ -1,11 +1,11 @@
 // report.html: one page that needs nothing else and runs nothing.
 #include "measure/heat.hpp"
+#include "measure/judge.hpp"
 #include "report/findings.hpp"
 #include "report/html_text.hpp"
 #include "report/lag_tables.hpp"
 #include "report/plot.hpp"
 #include "report/report.hpp"
-#include "report/rows.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 
@@ -61,33 +61,16 @@ std::string headline(const std::string& name, const std::string& figure, const s
                        html_escaped(of));
 }
 
-/// Rows that are in no other's shadow by time, mirrors drawn: one, or several that are not told
-/// apart.
-std::vector<const Row*> fastest_rows(const Comparison& comparison) {
-    const auto counts = [](const Row& row) { return judged(&row) && !row.mirrors_black; };
-    std::vector<const Row*> fastest;
-    for (const Row& row : comparison.rows)
-        if (counts(row) && std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return counts(other) && is_faster(other, row);
-            }))
-            fastest.push_back(&row);
-    return fastest;
-}
-
 /// Fastest, closest but for the reference itself, the front, the reference.
 std::string headlines(const Comparison& comparison) {
-    const Row* closest = nullptr;
-    for (const Row& row : comparison.rows) {
-        if (row.is_reference || !judged(&row)) continue;
-        if (closest == nullptr || row.error.flip < closest->error.flip) closest = &row;
-    }
     std::string html = "<dl class=\"headline\">";
-    if (const std::vector<const Row*> fastest = fastest_rows(comparison); fastest.size() == 1)
+    if (const std::vector<const Row*> fastest = measure::fastest_rows(comparison);
+        fastest.size() == 1)
         html += headline("Fastest", ms_text(fastest.front()->gpu_ms.median) + " ms",
                          fastest.front()->label);
     else if (!fastest.empty())
         html += headline("Fastest", std::to_string(fastest.size()) + " rows", "not told apart");
-    if (closest != nullptr)
+    if (const Row* closest = measure::closest_row(comparison); closest != nullptr)
         html += headline("Closest", "FLIP " + error_text(closest->error.flip), closest->label);
     html += headline("On the front", std::to_string(comparison.pareto.size()),
                      fmt::format("of {} rows", comparison.rows.size()));
@@ -142,8 +125,8 @@ std::string article(const Comparison& comparison, const EncodedPictures& encoded
     std::string html = fmt::format("<article id=\"row-{}\"><div class=\"title\"><h3>{}</h3>", index,
                                    html_escaped(row.label));
     for (const auto& [holds, name] :
-         {std::pair(on_front(comparison, row), "on the front"),
-          std::pair(row.is_reference, "the reference"), std::pair(failed(row), "failed")})
+         {std::pair(measure::on_front(comparison, row), "on the front"),
+          std::pair(row.is_reference, "the reference"), std::pair(measure::failed(row), "failed")})
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
     html += "</div><div class=\"pair\">" +
             figure(row.display, encoded.rows[index].picture, "Picture by " + row.label, "Picture") +

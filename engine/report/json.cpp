@@ -1,7 +1,8 @@
 // report.json. Only the files json*.cpp know the JSON library; fields are only ever added.
 #include "report/json.hpp"
+
+#include "core/mirror_id.hpp"
 #include "report/report.hpp"
-#include "report/rows.hpp"
 #include "report/text.hpp"
 
 #include <cmath>
@@ -18,11 +19,6 @@ Json number(double value) {
 
 namespace {
 
-template <typename Value>
-Json number_or_null(const std::optional<Value>& value) {
-    return value ? number(*value) : Json(nullptr);
-}
-
 Json to_json(const measure::Summary& summary) {
     if (summary.n == 0) return nullptr; // never measured
     Json samples = Json::array();
@@ -35,35 +31,80 @@ Json to_json(const measure::Summary& summary) {
             {"samples", std::move(samples)}};
 }
 
-/// The figures, without saying of which pixels.
-void add(Json& json, const measure::Difference& error) {
-    json["pixels"] = error.pixels;
-    json["rmse"] = number(error.rmse);
-    json["mae"] = number(error.mae);
-    json["flip"] = number(error.flip);
-    json["psnr"] = number_or_null(error.psnr);
-    json["p99"] = number(error.p99);
-    json["nonfinite"] = error.nonfinite;
-    json["max"] = number(error.max);
-    json["max_at"] = error.max_x < 0 ? Json(nullptr) : Json({error.max_x, error.max_y});
-    json["off"] = number(error.off);
-    json["longest_line"] = number(error.longest_line);
-}
-
-Json to_json(const measure::Difference& error, const char* mask) {
-    Json json{{"mask", mask}};
-    add(json, error);
+Json to_json(const std::vector<measure::Parts>& list) {
+    Json json = Json::array();
+    for (const measure::Parts& parts : list) {
+        Json one{{parts.kind, parts.name}};
+        for (const auto& [name, value] : parts.values) one[std::string(name)] = value_json(value);
+        json.push_back(std::move(one));
+    }
     return json;
 }
 
-Json per_mirror(const Row& row) {
+struct Writes {
+    Json operator()(std::monostate) const { return nullptr; }
+    Json operator()(bool mark) const { return mark; }
+    Json operator()(double value) const { return number(value); }
+    Json operator()(const dvec3& colour) const {
+        return Json::array({number(colour.x), number(colour.y), number(colour.z)});
+    }
+    Json operator()(const measure::Place& place) const {
+        return place.x < 0 ? Json(nullptr) : Json::array({place.x, place.y});
+    }
+    Json operator()(const measure::Summary& times) const { return to_json(times); }
+    Json operator()(const std::vector<double>& list) const {
+        Json json = Json::array();
+        for (const double value : list) json.push_back(number(value));
+        return json;
+    }
+    Json operator()(const std::vector<measure::Parts>& list) const { return to_json(list); }
+};
+
+/// The figures, without saying of which pixels.
+void add(Json& json, const measure::Difference& error) {
+    for (const measure::Quantity& quantity : measure::difference_quantities())
+        json[std::string(quantity.name)] = value_json(measure::value_of(quantity, error));
+}
+
+void add_errors(Json& json, const Row& row) {
+    for (const measure::RowMask& mask : measure::masks()) {
+        Json error{{"mask", mask.name}};
+        add(error, row.*mask.error);
+        json[std::string(mask.field)] = std::move(error);
+    }
     Json list = Json::array();
     for (std::size_t i = 0; i < row.error_per_mirror.size(); ++i) {
-        Json json{{"mirror", i + 1}};
-        add(json, row.error_per_mirror[i]);
-        list.push_back(std::move(json));
+        Json error{{"mirror", MirrorId::at(i).number()}};
+        add(error, row.error_per_mirror[i]);
+        list.push_back(std::move(error));
     }
-    return list;
+    json["error_per_mirror"] = std::move(list);
+}
+
+/// A figure of an object of figures, which is null as long as none of them says anything.
+void add_to_object(Json& json, const measure::Quantity& quantity, const measure::Value& value) {
+    const std::size_t slash = quantity.name.find('/');
+    Json& object = json[std::string(quantity.name.substr(0, slash))];
+    if (object.is_null() && measure::is_nothing(value)) return;
+    if (object.is_null() && !quantity.mask.empty()) object["mask"] = quantity.mask;
+    object[std::string(quantity.name.substr(slash + 1))] = value_json(value);
+}
+
+/// Every figure of the table, those of differences where their first stands.
+void add_figures(Json& json, const Row& row) {
+    for (const measure::Quantity& quantity : measure::quantities()) {
+        if (quantity.mask == "each") {
+            if (!json.contains("error")) add_errors(json, row);
+            continue;
+        }
+        const measure::Value value = measure::value_of(quantity, row);
+        const bool* mark = std::get_if<bool>(&value);
+        if (quantity.only_where_true && mark != nullptr && !*mark) continue;
+        if (quantity.name.find('/') != std::string_view::npos)
+            add_to_object(json, quantity, value);
+        else
+            json[std::string(quantity.name)] = value_json(value);
+    }
 }
 
 Json to_json(const std::vector<Setting>& settings) {
@@ -73,98 +114,26 @@ Json to_json(const std::vector<Setting>& settings) {
     return json;
 }
 
-Json to_json(const std::vector<PassFacts>& passes) {
-    Json list = Json::array();
-    for (const PassFacts& pass : passes)
-        list.push_back({{"name", pass.name}, {"gpu_ms", to_json(pass.gpu_ms)}});
-    return list;
-}
-
-Json to_json(const std::optional<Rays>& rays) {
-    if (!rays) return nullptr;
-    return {{"primary", rays->primary}, {"mirror", rays->mirror}, {"shadow", rays->shadow}};
-}
-
-Json to_json(const std::optional<measure::LookupError>& lookup) {
-    if (!lookup) return nullptr;
-    return {{"mask", "first_order"},
-            {"pixels", lookup->pixels},
-            {"mean_degrees", number(lookup->mean_degrees)},
-            {"p95_degrees", number(lookup->p95_degrees)},
-            {"p99_degrees", number(lookup->p99_degrees)},
-            {"wrong_object", number(lookup->wrong_object)},
-            {"unknown", number(lookup->unknown)},
-            {"miss", number(lookup->miss)},
-            {"p95_residual", number(lookup->p95_residual)}};
-}
-
-Json numbers(const std::vector<double>& values) {
-    Json list = Json::array();
-    for (const double value : values) list.push_back(number(value));
-    return list;
-}
-
-Json to_json(const std::optional<Causes>& causes) {
-    if (!causes) return nullptr;
-    Json json{{"mask", "mirrors"},
-              {"squared_error", number(causes->squared_error)},
-              {"squared_error_per_mirror", numbers(causes->squared_error_per_mirror)},
-              {"rest_rmse", number(causes->rest_rmse)},
-              {"at_light_edges", number(causes->at_light_edges)}};
-    for (const Cause& cause : causes->list)
-        json["list"].push_back({{"cause", cause.name},
-                                {"in_turn", number(cause.in_turn)},
-                                {"alone", number(cause.alone)},
-                                {"in_turn_per_mirror", numbers(cause.in_turn_per_mirror)},
-                                {"alone_per_mirror", numbers(cause.alone_per_mirror)}});
-    return json;
-}
-
-Json to_json(const std::optional<AutoFace>& face) {
-    if (!face) return nullptr;
-    Json needs = Json::array();
-    for (const double need : face->needs) needs.push_back(number(need));
-    return {{"edge", face->edge}, {"needs", std::move(needs)}};
-}
-
-Json to_json(const measure::Mean& mean) {
-    return Json::array({number(mean.rgb.x), number(mean.rgb.y), number(mean.rgb.z)});
-}
-
-void add_errors(Json& json, const Row& row) {
-    json["error"] = to_json(row.error, "mirrors");
-    json["error_first_order"] = to_json(row.error_first_order, "first_order");
-    json["error_mirror_in_mirror"] = to_json(row.error_mirror_in_mirror, "mirror_in_mirror");
-    json["error_non_mirror"] = to_json(row.error_non_mirror, "non_mirror");
-    json["error_all"] = to_json(row.error_all, "all");
-    json["error_per_mirror"] = per_mirror(row);
-}
-
 Json to_json(const Row& row) {
     Json json{{"technique", row.technique}, {"settings", to_json(row.settings)}};
     json["label"] = row.label;
     json["model"] = row.model;
-    json["scene_passes"] = row.scene_passes;
-    json["scene_draws"] = row.scene_draws;
-    json["gpu_ms"] = to_json(row.gpu_ms);
-    json["cpu_record_ms"] = to_json(row.cpu_record_ms);
-    json["wall_ms"] = to_json(row.wall_ms);
-    json["passes"] = to_json(row.passes);
-    json["closure"] = to_json(row.closure);
-    add_errors(json, row);
-    if (failed(row)) json["failed"] = true;
-    json["memory_bytes"] = row.memory_bytes;
-    json["traced_fraction"] = number_or_null(row.traced_fraction);
-    json["auto_face"] = to_json(row.auto_face);
-    json["rays"] = to_json(row.rays);
-    json["saturated_texels"] = row.saturated_texels ? Json(*row.saturated_texels) : Json(nullptr);
-    json["lookup"] = to_json(row.lookup);
-    json["causes"] = to_json(row.causes);
-    json["mean"] = to_json(row.mean);
-    json["mean_clamped"] = to_json(row.mean_clamped);
+    add_figures(json, row);
     json["image"] = "images/" + row.image + ".png";
     json["is_reference"] = row.is_reference;
     return json;
+}
+
+Json to_json(const dvec3& point) {
+    return Json::array({number(point.x), number(point.y), number(point.z)});
+}
+
+Json to_json(const measure::CameraFacts& camera) {
+    return {{"name", camera.name},
+            {"eye", to_json(camera.eye)},
+            {"target", to_json(camera.target)},
+            {"up", to_json(camera.up)},
+            {"vertical_fov_degrees", number(camera.vertical_fov_degrees)}};
 }
 
 void add_circumstances(Json& json, const Comparison& comparison) {
@@ -178,7 +147,8 @@ void add_circumstances(Json& json, const Comparison& comparison) {
     json["scene"] = {{"name", scene.name},
                      {"triangles", scene.triangles},
                      {"mirrors", scene.mirrors},
-                     {"hash", scene.hash}};
+                     {"hash", scene.hash},
+                     {"camera", to_json(scene.camera)}};
     json["size"] = Json::array({comparison.width, comparison.height});
     json["frames"] = comparison.frames;
     json["warmup"] = comparison.warmup;
@@ -191,6 +161,8 @@ void add_circumstances(Json& json, const Comparison& comparison) {
 }
 
 } // namespace
+
+Json value_json(const measure::Value& value) { return std::visit(Writes{}, value); }
 
 std::string to_json(const Comparison& comparison) {
     Json json{{"schema", "catoptric/compare/1"},

@@ -1,16 +1,19 @@
 #pragma once
 
-#include "report/lag.hpp"
+#include "measure/quantity.hpp"
+#include "report/comparison.hpp"
 
 #include <nlohmann/json.hpp>
 
-// The parts of report.json; for the files json*.cpp only.
+// The parts of JSON files; for those who write them only.
 namespace catoptric::report {
 
 using Json = nlohmann::ordered_json;
 
 /// Whole numbers without a fraction, null for what JSON has no number for.
 Json number(double value);
+/// What a quantity came to; null where it says nothing.
+Json value_json(const measure::Value& value);
 /// The field "lag".
 Json to_json(const Lag& lag);
 

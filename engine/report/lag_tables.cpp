@@ -4,20 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace catoptric::report {
 
 namespace {
 
 std::string speed_text(double speed) { return fmt::format("{:g}x", speed); }
-
-/// The instant of the largest error, seconds.
-std::string worst_instant(const Lag& lag, const LagAtSpeed& at) {
-    const auto found = std::ranges::find(at.rmse, at.max_rmse);
-    if (found == at.rmse.end()) return std::string(kNothing);
-    return fixed(lag.seconds[static_cast<std::size_t>(found - at.rmse.begin())], 2);
-}
 
 std::string count_text(const std::optional<int>& frames, int cap) {
     return frames ? std::to_string(*frames) : fmt::format("over {}", cap);
@@ -78,7 +69,7 @@ Table lag_table(const Comparison& comparison) {
         for (const LagAtSpeed& at : row.speeds)
             table.rows.push_back({row.label, speed_text(at.speed), error_text(at.mean_rmse),
                                   error_text(at.median_rmse), error_text(at.max_rmse),
-                                  worst_instant(*comparison.lag, at),
+                                  fixed(measure::worst_instant(*comparison.lag, at), 2),
                                   error_text(at.mean_reference_rmse),
                                   error_text(row.mean_still_reference_rmse)});
     return table;

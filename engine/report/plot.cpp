@@ -1,7 +1,8 @@
 #include "report/plot.hpp"
 
+#include "measure/judge.hpp"
+#include "measure/rows.hpp"
 #include "report/html_text.hpp"
-#include "report/rows.hpp"
 #include "report/svg.hpp"
 #include "report/text.hpp"
 
@@ -69,7 +70,7 @@ std::string mark(const Point& point) {
     const std::string title = fmt::format(
         "<title>{}: {} ms, FLIP {}</title>", html_escaped(point.row->label),
         ms_text(point.row->gpu_ms.median), error_text(point.row->error.flip));
-    if (is_ray_traced(*point.row))
+    if (measure::is_ray_traced(*point.row))
         return fmt::format(
             R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9">{}</rect>)", kind,
             point.x - 4.5, point.y - 4.5, title);
@@ -127,7 +128,7 @@ std::string plot(const Comparison& comparison) {
         if (can_be_placed(row))
             points.push_back({x(row.gpu_ms.median),
                               row.error.flip > 0 ? y(row.error.flip) : (kLane + kBottom) / 2, &row,
-                              on_front(comparison, row)});
+                              measure::on_front(comparison, row)});
     std::string svg = fmt::format(
         R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of GPU time )"
         R"(against FLIP; the figures are in the table of every row">)",

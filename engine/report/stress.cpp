@@ -8,21 +8,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 namespace catoptric::report {
 
 namespace {
-
-/// How much of its limit a case takes: above 1 it does not hold.
-double load(const StressCase& one) {
-    if (std::isnan(one.measured)) return std::numeric_limits<double>::infinity();
-    if (one.limit > 0) return one.measured / one.limit;
-    return one.holds() ? 0 : std::numeric_limits<double>::infinity();
-}
 
 std::string figure(double value) { return fmt::format("{:.3g}", value); }
 
@@ -60,31 +48,8 @@ std::string lead_of(const Stress& stress) {
 
 } // namespace
 
-std::string name_of(Verdict verdict) {
-    switch (verdict) {
-    case Verdict::pass: return "pass";
-    case Verdict::fail: return "fail";
-    case Verdict::quality_warning: return "quality-warning";
-    case Verdict::unsupported: return "unsupported";
-    case Verdict::waived: return "waived";
-    }
-    return "";
-}
-
-const StressCase* StressRow::worst() const {
-    const auto found = std::ranges::max_element(cases, {}, [](const StressCase& one) {
-        return std::pair(!one.holds() && !one.is_quality, load(one));
-    });
-    return found == cases.end() ? nullptr : &*found;
-}
-
 std::string incomplete_text(const Stress& stress) {
     return stress.complete ? "" : incomplete_text(stress.rows.size(), stress.asked, stress.stopped);
-}
-
-bool Stress::failed() const {
-    return std::ranges::any_of(rows,
-                               [](const StressRow& row) { return row.verdict == Verdict::fail; });
 }
 
 std::string to_html(const Stress& stress) {

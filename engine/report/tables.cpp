@@ -1,11 +1,13 @@
 #include "report/tables.hpp"
 
-#include "report/rows.hpp"
-#include "report/seed_table.hpp"
+#include "core/mirror_id.hpp"
+#include "measure/judge.hpp"
+#include "measure/quantity.hpp"
+#include "measure/rows.hpp"
+#include "measure/seed_report.hpp"
 #include "report/text.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace catoptric::report {
 
@@ -17,14 +19,14 @@ std::string range_text(const measure::Summary& times, int decimals) {
     return fixed(times.p05, decimals) + "–" + fixed(times.p95, decimals);
 }
 
-const Row* ours(const Comparison& comparison, const SeedRow& seed) {
-    if (seed.inter_reflections >= 0) return find_naive(comparison, seed.inter_reflections);
-    if (seed.technique == "parallax") return find_parallax(comparison);
-    if (seed.technique == "raytrace") return find_ray_traced(comparison);
-    return find_row(comparison, seed.technique);
+const Row* ours(const Comparison& comparison, const measure::SeedRow& seed) {
+    if (seed.inter_reflections >= 0) return measure::find_naive(comparison, seed.inter_reflections);
+    if (seed.technique == "parallax") return measure::find_parallax(comparison);
+    if (seed.technique == "raytrace") return measure::find_ray_traced(comparison);
+    return measure::find_row(comparison, seed.technique);
 }
 
-std::vector<std::string> theirs(const SeedRow& seed) {
+std::vector<std::string> theirs(const measure::SeedRow& seed) {
     const bool counted = seed.inter_reflections >= 0;
     return {std::string(seed.implementation),
             counted ? std::to_string(seed.inter_reflections) : nothing(),
@@ -54,7 +56,7 @@ std::string seed_note(const Comparison& comparison) {
         "FLIP "
         "against the reference over the pixels whose first hit is a mirror; first order leaves out "
         "mirrors seen in mirrors.";
-    if (comparison.scene.mirrors != kSeedMirrors)
+    if (comparison.scene.mirrors != measure::kSeedMirrors)
         note += " This scene has " + std::to_string(comparison.scene.mirrors) +
                 " mirrors, so R cannot be the report's.";
     return note;
@@ -62,33 +64,87 @@ std::string seed_note(const Comparison& comparison) {
 
 std::string remark(const Comparison& comparison, const Row& row) {
     std::vector<std::string> remarks;
-    if (failed(row)) remarks.push_back("failed");
+    if (measure::failed(row)) remarks.push_back("failed");
     if (row.is_reference) remarks.push_back("reference");
-    if (on_front(comparison, row)) remarks.push_back("front");
+    if (measure::on_front(comparison, row)) remarks.push_back("front");
     if (row.model != "everything") remarks.push_back("model " + row.model);
     return joined(remarks, ", ");
 }
 
-std::vector<std::string> every_figure(const Comparison& comparison, const Row& row, int decimals) {
-    const measure::Difference& error = row.error;
-    return {row.label,
-            std::to_string(row.scene_passes),
-            std::to_string(row.scene_draws),
-            fixed(row.gpu_ms.median, decimals),
-            range_text(row.gpu_ms, decimals),
-            fixed(row.wall_ms.median, decimals),
-            ms_text(row.cpu_record_ms.median),
-            error_text(error.rmse),
-            error_text(error.mae),
-            error_text(error.flip),
-            error.psnr ? fixed(*error.psnr, 1) : nothing(),
-            error_text(error.p99),
-            error_text(row.error_first_order.rmse),
-            error_text(row.error_mirror_in_mirror.rmse),
-            error_text(row.error_non_mirror.rmse),
-            error_text(row.error_all.rmse),
-            mebibytes(row.memory_bytes),
-            remark(comparison, row)};
+/// A cell of a quantity's column; `decimals`: of times in the whole table.
+std::string cell(const measure::Column& column, const measure::Value& value, int decimals) {
+    using measure::Style;
+    if (measure::is_nothing(value)) return nothing();
+    if (const auto* times = std::get_if<measure::Summary>(&value)) {
+        if (column.style == Style::time_range) return range_text(*times, decimals);
+        return column.style == Style::times ? fixed(times->median, decimals)
+                                            : ms_text(times->median);
+    }
+    if (const auto* mark = std::get_if<bool>(&value)) return *mark ? "yes" : "no";
+    const auto* number = std::get_if<double>(&value);
+    if (number == nullptr) return nothing(); // has more than one
+    switch (column.style) {
+    case Style::fixed: return fixed(*number, column.decimals);
+    case Style::percent: return fixed(100 * *number, column.decimals);
+    case Style::mebibytes: return mebibytes(static_cast<std::uint64_t>(*number));
+    case Style::times: return fixed(*number, decimals);
+    case Style::own_times: return ms_text(*number);
+    default: return error_text(*number);
+    }
+}
+
+/// A column of the table of quantities; of a difference, over one mask.
+struct FigureColumn {
+    const measure::Quantity* quantity;
+    measure::Column column;
+    const measure::RowMask* mask = nullptr;
+
+    int order() const { return column.order != 0 ? column.order : quantity->order; }
+    measure::Value value(const Row& row) const {
+        return mask == nullptr ? measure::value_of(*quantity, row)
+                               : measure::value_of(*quantity, row.*mask->error);
+    }
+    std::string title() const {
+        const std::string words(column.title);
+        return mask == nullptr || mask->title.empty() ? words
+                                                      : words + ", " + std::string(mask->title);
+    }
+};
+
+/// The columns that quantities have in a table, by order; those over other masks than the mirrors
+/// after all that are over these.
+std::vector<FigureColumn> figure_columns(measure::InTable table) {
+    std::vector<FigureColumn> columns;
+    int last = 0; // of differences
+    for (const measure::Quantity& quantity : measure::difference_quantities())
+        if (quantity.order < measure::kAfterDifferences) last = quantity.order;
+    for (const measure::Quantity& quantity : measure::quantities())
+        for (const measure::Column& column : quantity.columns) {
+            if (column.table != table) continue;
+            if (quantity.mask != "each") {
+                columns.push_back({&quantity, column});
+                continue;
+            }
+            for (const measure::RowMask& mask : measure::masks()) {
+                if (!mask.title.empty() && !quantity.each_mask_in_table) continue;
+                columns.push_back({&quantity, column, &mask});
+                if (!mask.title.empty()) columns.back().column.order = last;
+            }
+        }
+    std::ranges::stable_sort(columns, {}, &FigureColumn::order);
+    return columns;
+}
+
+void add_columns(Table& table, const std::vector<FigureColumn>& columns) {
+    for (const FigureColumn& column : columns) table.columns.push_back({column.title()});
+}
+
+std::vector<std::string> cells_of(const Row& row, const std::vector<FigureColumn>& columns,
+                                  int decimals) {
+    std::vector<std::string> cells{row.label};
+    for (const FigureColumn& column : columns)
+        cells.push_back(cell(column.column, column.value(row), decimals));
+    return cells;
 }
 
 } // namespace
@@ -113,7 +169,7 @@ Table seed_table(const Comparison& comparison) {
                 {},
                 seed_note(comparison)};
     const int decimals = ms_decimals(comparison);
-    for (const SeedRow& seed : kSeedTable) {
+    for (const measure::SeedRow& seed : measure::kSeedTable) {
         std::vector<std::string> cells = theirs(seed);
         const Row* row = ours(comparison, seed);
         std::vector<std::string> right{"not in this run"};
@@ -127,33 +183,20 @@ Table seed_table(const Comparison& comparison) {
 
 Table rows_table(const Comparison& comparison) {
     Table table{"Every row",
-                {{"Row", false},
-                 {"R"},
-                 {"Draws"},
-                 {"ms"},
-                 {"5–95 %"},
-                 {"wall ms"},
-                 {"record ms"},
-                 {"rmse"},
-                 {"MAE"},
-                 {"FLIP"},
-                 {"PSNR dB"},
-                 {"p99"},
-                 {"rmse, first order"},
-                 {"rmse, mirror in mirror"},
-                 {"rmse, not a mirror"},
-                 {"rmse, all"},
-                 {"MiB"},
-                 {"Remark", false}},
+                {{"Row", false}},
                 {},
                 {},
                 "A row's name leaves out knobs that nobody set. Without another word, errors "
                 "are over the pixels whose first hit is a mirror. wall: submit to fence; "
                 "record: filling the command buffer; MiB: the frame's images."};
+    const std::vector<FigureColumn> columns = figure_columns(measure::InTable::rows);
+    add_columns(table, columns);
+    table.columns.push_back({"Remark", false});
     const int decimals = ms_decimals(comparison);
     for (const Row& row : comparison.rows) {
-        table.rows.push_back(every_figure(comparison, row, decimals));
-        table.marked.push_back(on_front(comparison, row));
+        table.rows.push_back(cells_of(row, columns, decimals));
+        table.rows.back().push_back(remark(comparison, row));
+        table.marked.push_back(measure::on_front(comparison, row));
     }
     return table;
 }
@@ -163,8 +206,8 @@ Table mirror_table(const Comparison& comparison) {
         "Mirror by mirror", {{"Row", false}}, {}, {}, "rmse over the pixels of each mirror."};
     std::size_t mirrors = 0;
     for (const Row& row : comparison.rows) mirrors = std::max(mirrors, row.error_per_mirror.size());
-    for (std::size_t i = 1; i <= mirrors; ++i)
-        table.columns.push_back({"Mirror " + std::to_string(i)});
+    for (std::size_t i = 0; i < mirrors; ++i)
+        table.columns.push_back({"Mirror " + std::to_string(MirrorId::at(i).number())});
     for (const Row& row : comparison.rows) {
         std::vector<std::string> cells{row.label};
         for (const measure::Difference& error : row.error_per_mirror)
@@ -177,15 +220,7 @@ Table mirror_table(const Comparison& comparison) {
 
 Table lookup_table(const Comparison& comparison) {
     Table table{"Where mirrors looked",
-                {{"Row", false},
-                 {"Pixels"},
-                 {"Mean, degrees"},
-                 {"95 %"},
-                 {"99 %"},
-                 {"Wrong object, %"},
-                 {"Unknown, %"},
-                 {"Miss, %"},
-                 {"Traced, %"}},
+                {{"Row", false}},
                 {},
                 {},
                 "Angle between the looked-up and the true direction from the centre of the capture "
@@ -195,16 +230,11 @@ Table lookup_table(const Comparison& comparison) {
                 "the capture shows another one there; unknown and miss: what the search says of "
                 "itself; traced: of "
                 "all mirror pixels."};
-    const auto percent = [](double share) { return fmt::format("{:.2f}", 100 * share); };
-    for (const Row& row : comparison.rows) {
-        if (!row.lookup) continue;
-        const measure::LookupError& error = *row.lookup;
-        table.rows.push_back(
-            {row.label, std::to_string(error.pixels), fmt::format("{:.3f}", error.mean_degrees),
-             fmt::format("{:.2f}", error.p95_degrees), fmt::format("{:.2f}", error.p99_degrees),
-             percent(error.wrong_object), percent(error.unknown), percent(error.miss),
-             row.traced_fraction ? percent(*row.traced_fraction) : nothing()});
-    }
+    const std::vector<FigureColumn> columns = figure_columns(measure::InTable::lookup);
+    add_columns(table, columns);
+    const int decimals = ms_decimals(comparison);
+    for (const Row& row : comparison.rows)
+        if (row.lookup) table.rows.push_back(cells_of(row, columns, decimals));
     return table;
 }
 

@@ -75,4 +75,15 @@ Scene cornell_mirrors_closed() {
     return scene;
 }
 
+namespace {
+
+const RegisteredScene kOpen{{"cornell-mirrors",
+                             "Cornell box with four mirror balls, one of them moving; front open",
+                             cornell_mirrors, 0}};
+const RegisteredScene kClosed{{"cornell-mirrors-closed",
+                               "the same with a white front wall that camera rays ignore",
+                               cornell_mirrors_closed, 1}};
+
+} // namespace
+
 } // namespace catoptric::scene

@@ -11,6 +11,11 @@ namespace catoptric::scene {
 
 namespace {
 
+std::vector<BuiltIn>& table() {
+    static std::vector<BuiltIn> scenes; // filled while the program starts
+    return scenes;
+}
+
 std::string lower_case_extension(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     std::ranges::transform(extension, extension.begin(),
@@ -31,13 +36,15 @@ std::string lower_case_extension(const std::filesystem::path& path) {
 
 } // namespace
 
+RegisteredScene::RegisteredScene(BuiltIn scene) { table().push_back(std::move(scene)); }
+
 const std::vector<BuiltIn>& built_in_scenes() {
-    static const std::vector<BuiltIn> kScenes = {
-        {"cornell-mirrors", "Cornell box with four mirror balls, one of them moving; front open",
-         cornell_mirrors},
-        {"cornell-mirrors-closed", "the same with a white front wall that camera rays ignore",
-         cornell_mirrors_closed},
-    };
+    static const std::vector<BuiltIn> kScenes = [] {
+        std::vector<BuiltIn> scenes = table();
+        std::ranges::sort(scenes, {},
+                          [](const BuiltIn& scene) { return std::pair(scene.order, scene.name); });
+        return scenes;
+    }();
     return kScenes;
 }
 

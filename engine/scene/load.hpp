@@ -9,12 +9,19 @@
 
 namespace catoptric::scene {
 
-/// Names and one-line descriptions of the built-in scenes.
+/// A scene that needs no file. It is one row in the .cpp that makes it, which registers itself;
+/// nothing else lists it.
 struct BuiltIn {
     std::string name;
-    std::string summary;
-    Scene (*make)();
+    std::string summary; ///< one line for `list`
+    Scene (*make)();     ///< its name is `name`
+    int order = 1000;    ///< place in lists; then by name
 };
+/// A namespace-scope RegisteredScene puts its row into the table while the program starts.
+struct RegisteredScene {
+    explicit RegisteredScene(BuiltIn scene);
+};
+/// Every built-in scene by `order`, then name.
 const std::vector<BuiltIn>& built_in_scenes();
 
 struct LoadOptions {

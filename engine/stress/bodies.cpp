@@ -170,22 +170,23 @@ void judge_correction(Bench& bench) {
     };
     for (std::uint32_t ball = 1; ball <= 4; ++ball)
         bench.add(fmt::format("ball {}: rmse over uncorrected", ball),
-                  share(measure::of_mirror(truth.hits, ball)), .65);
+                  share(measure::of_mirror(truth.hits, MirrorId(ball))), .65);
     bench.add("together: rmse over uncorrected", share(measure::mirrors(truth.hits)), .5);
 }
 
-const Row kCorrection{{"N12", "parallax against ray tracing, contract camera, 512x512",
-                       "better than uncorrected for every ball", judge_correction}};
-const Row kContact{{"C1", "balls that touch wall and floor, each other, overlap, are concentric",
-                    "no dark ring, no blow-up in 100 frames", judge_contact}};
-const Row kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened",
-                      "the others are untouched (FLIP)", judge_vanishing}};
-const Row kMany{{"C9", "0, 1, 2, 16, 64, 1000 mirrors",
-                 "0: no capture; 1000: runs, or a budget message", judge_many}};
-const Row kFaces{{"C10", "face 1, 2, 3, 4096, 16384, 32769",
-                  "runs, or says the bytes, or is refused", judge_faces,
-                  "rendering at 16384, which is planned only"}};
-const Row kPath{
+const Registered kCorrection{{"N12", "parallax against ray tracing, contract camera, 512x512",
+                              "better than uncorrected for every ball", judge_correction}};
+const Registered kContact{{"C1",
+                           "balls that touch wall and floor, each other, overlap, are concentric",
+                           "no dark ring, no blow-up in 100 frames", judge_contact}};
+const Registered kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened",
+                             "the others are untouched (FLIP)", judge_vanishing}};
+const Registered kMany{{"C9", "0, 1, 2, 16, 64, 1000 mirrors",
+                        "0: no capture; 1000: runs, or a budget message", judge_many}};
+const Registered kFaces{{"C10", "face 1, 2, 3, 4096, 16384, 32769",
+                         "runs, or says the bytes, or is refused", judge_faces,
+                         "rendering at 16384, which is planned only"}};
+const Registered kPath{
     {"C13", "ball 4 through its whole path, 120 frames", "no single-frame pop", judge_path}};
 
 } // namespace

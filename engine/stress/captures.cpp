@@ -183,14 +183,15 @@ void judge_cube_edges(Bench& bench) {
     bench.add("directions within two texels of an edge: fewer than 1e5", near < 100000 ? 1 : 0, 0);
 }
 
-const Row kDistances{{"N11", "distance cubes of the room's four mirrors, r32f and r16f",
-                      "equal the analytic distance, nothing is clamped at 200", judge_distances}};
-const Row kNearWall{{"C3", "a ball with a wall .6 units from its centre",
-                     "the wall is in the capture, at its distance", judge_near_wall}};
-const Row kCubeEdges{{"C11", "a room of one colour, 1e5 directions near cube edges", "continuous",
-                      judge_cube_edges}};
-const Row kGlyphs{{"C12", "six coloured walls with a letter each",
-                   "each face sees its wall, letters read right", judge_glyphs}};
+const Registered kDistances{{"N11", "distance cubes of the room's four mirrors, r32f and r16f",
+                             "equal the analytic distance, nothing is clamped at 200",
+                             judge_distances}};
+const Registered kNearWall{{"C3", "a ball with a wall .6 units from its centre",
+                            "the wall is in the capture, at its distance", judge_near_wall}};
+const Registered kCubeEdges{{"C11", "a room of one colour, 1e5 directions near cube edges",
+                             "continuous", judge_cube_edges}};
+const Registered kGlyphs{{"C12", "six coloured walls with a letter each",
+                          "each face sees its wall, letters read right", judge_glyphs}};
 
 } // namespace
 

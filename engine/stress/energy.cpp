@@ -171,14 +171,17 @@ void judge_passes(Bench& bench) {
     }
 }
 
-const Row kFurnace{{"N6", "white furnace, bounces 0..8, every technique",
-                    "energy is never created; complete at depth 16", judge_furnace}};
-const Row kCorridor{{"N7", "parallel mirrors, reflectance .8, depth 1..12",
-                     "k mirrors show .8^k, nothing after the depth", judge_corridor}};
-const Row kBounces{{"N8", "naive, bounces 0..6",
-                    "no mirror darkens, steps fall by 2.5 and more up to bounce 4", judge_bounces}};
-const Row kReuse{{"N9", "static scene, reuse frame k", "equals naive with k bounces", judge_reuse}};
-const Row kPasses{{"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2", judge_passes}};
+const Registered kFurnace{{"N6", "white furnace, bounces 0..8, every technique",
+                           "energy is never created; complete at depth 16", judge_furnace}};
+const Registered kCorridor{{"N7", "parallel mirrors, reflectance .8, depth 1..12",
+                            "k mirrors show .8^k, nothing after the depth", judge_corridor}};
+const Registered kBounces{{"N8", "naive, bounces 0..6",
+                           "no mirror darkens, steps fall by 2.5 and more up to bounce 4",
+                           judge_bounces}};
+const Registered kReuse{
+    {"N9", "static scene, reuse frame k", "equals naive with k bounces", judge_reuse}};
+const Registered kPasses{
+    {"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2", judge_passes}};
 
 } // namespace
 

@@ -101,7 +101,7 @@ void judge_extents(Bench& bench) {
     judge_tiny(bench);
 }
 
-const Row kExtents{
+const Registered kExtents{
     {"N5", "a stray triangle to 1e9 away, a sky and a ground of 1e6, a ball of 1e-3 in 1e3",
      "what is looked at keeps its precision (FLIP)", judge_extents}};
 

@@ -118,8 +118,8 @@ void judge_eye(Bench& bench) {
     }
 }
 
-const Row kEye{{"N24", "camera 1e-3 above the floor; field of view .01 and 179.9",
-                "finite; as a reference in doubles", judge_eye}};
+const Registered kEye{{"N24", "camera 1e-3 above the floor; field of view .01 and 179.9",
+                       "finite; as a reference in doubles", judge_eye}};
 
 } // namespace
 

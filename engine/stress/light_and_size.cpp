@@ -196,17 +196,18 @@ void judge_triangles(Bench& bench) {
     });
 }
 
-const Row kLight{{"L1", "light inside a ball, on the ceiling, at the camera, facing away",
-                  "finite; unlit where it faces away", judge_light}};
-const Row kShadowMap{
+const Registered kLight{{"L1", "light inside a ball, on the ceiling, at the camera, facing away",
+                         "finite; unlit where it faces away", judge_light}};
+const Registered kShadowMap{
     {"L2", "shadow map edge 1, 16, 1024, the largest up to 16384; scene times 1e-6, 1, 1e6",
      "no acne on an open plane", judge_shadow_map}};
-const Row kSizes{{"Z1", "picture 1x1, 1x16384, 16384x1, 4096x4096, 16384x16384, 0x0, 65536x65536",
-                  "works, or is refused with the limit", judge_sizes,
-                  "rendering 16384x16384, which is planned only"}};
-const Row kTriangles{{"Z2", "empty scene, one triangle, a million, ten million",
-                      "background; finite; a million in 30 s; runs or names the limit",
-                      judge_triangles}};
+const Registered kSizes{{"Z1",
+                         "picture 1x1, 1x16384, 16384x1, 4096x4096, 16384x16384, 0x0, 65536x65536",
+                         "works, or is refused with the limit", judge_sizes,
+                         "rendering 16384x16384, which is planned only"}};
+const Registered kTriangles{{"Z2", "empty scene, one triangle, a million, ten million",
+                             "background; finite; a million in 30 s; runs or names the limit",
+                             judge_triangles}};
 
 } // namespace
 

@@ -81,17 +81,17 @@ void judge_wide(Bench& bench) {
     }
 }
 
-const Row kScale{
+const Registered kScale{
     {"N1", "scene times 1e-6, 1e-3, 1e3, 1e6", "the picture is that at 1 (FLIP)", judge_scale}};
-const Row kPlace{
+const Registered kPlace{
     {"N2", "scene moved by 1e5 and 1e7", "the picture is that at 0 (FLIP)", judge_place}};
-const Row kTurn{
+const Registered kTurn{
     {"N3", "scene and camera turned by an odd angle", "the picture stays (FLIP)", judge_turn}};
-const Row kNegative{{"N4", "negative scale at the root",
-                     "the picture is mirrored, no face is missing (FLIP)", judge_negative,
-                     "a thousand nested nodes, which a test of files judges"}};
-const Row kWide{{"N13", "room 1e5 and 1e6 units wide around a ball of 1",
-                 "finite; the correction tends to none (FLIP)", judge_wide}};
+const Registered kNegative{{"N4", "negative scale at the root",
+                            "the picture is mirrored, no face is missing (FLIP)", judge_negative,
+                            "a thousand nested nodes, which a test of files judges"}};
+const Registered kWide{{"N13", "room 1e5 and 1e6 units wide around a ball of 1",
+                        "finite; the correction tends to none (FLIP)", judge_wide}};
 
 } // namespace
 

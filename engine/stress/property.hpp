@@ -17,9 +17,9 @@ struct Property {
     std::string_view not_covered = {}; ///< what of the property this does not look at
 };
 
-/// A namespace-scope Row puts its property into the table.
-struct Row {
-    explicit Row(const Property& property);
+/// A namespace-scope Registered puts its property into the table while the program starts.
+struct Registered {
+    explicit Registered(const Property& property);
 };
 
 /// Every property in the order of its id: letter, then number.

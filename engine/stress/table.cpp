@@ -15,7 +15,7 @@ std::vector<Property>& table() {
 
 } // namespace
 
-Row::Row(const Property& property) { table().push_back(property); }
+Registered::Registered(const Property& property) { table().push_back(property); }
 
 std::vector<const Property*> properties() {
     std::vector<const Property*> rows;

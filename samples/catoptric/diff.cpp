@@ -5,12 +5,14 @@
 #include "json.hpp"
 #include "measure/flip.hpp"
 #include "measure/picture_file.hpp"
+#include "measure/quantity.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "verbs.hpp"
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -76,18 +78,22 @@ std::string mean_text(const char* name, const measure::Mean& mean, const measure
                        clamped.rgb.z);
 }
 
+std::string value_text(const measure::Value& value) {
+    if (measure::is_nothing(value)) return "none";
+    if (const auto* place = std::get_if<measure::Place>(&value))
+        return fmt::format("({}, {})", place->x, place->y);
+    const double number = std::get<double>(value);
+    return number == std::trunc(number) ? fmt::format("{:.0f}", number)
+                                        : fmt::format("{:.6f}", number);
+}
+
 std::string text_of(const DiffFacts& facts) {
-    const measure::Difference& d = facts.difference;
-    const std::string psnr = d.psnr        ? fmt::format("{:.3f} dB", *d.psnr)
-                             : d.rmse == 0 ? "none, equal"
-                                           : "none";
-    return fmt::format(
-               "rmse    {:.6f}\nmae     {:.6f}\nflip    {:.6f}\npsnr    {}\np99     {:.6f}\n",
-               d.rmse, d.mae, d.flip, psnr, d.p99) +
-           fmt::format("off     {:.6f}, the longest line {:.0f} pixels\n", d.off, d.longest_line) +
-           fmt::format("max     {:.6f} at ({}, {})\npixels  {}, {} of them not finite\n", d.max,
-                       d.max_x, d.max_y, d.pixels, d.nonfinite) +
-           mean_text("A", facts.a_mean, facts.a_clamped) +
+    std::string text;
+    for (const measure::Quantity& quantity : measure::difference_quantities())
+        text += fmt::format("{:<12}  {}{}{}\n", quantity.name,
+                            value_text(measure::value_of(quantity, facts.difference)),
+                            quantity.unit.empty() ? "" : " ", quantity.unit);
+    return text + mean_text("A", facts.a_mean, facts.a_clamped) +
            mean_text("B", facts.b_mean, facts.b_clamped);
 }
 

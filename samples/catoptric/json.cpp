@@ -1,6 +1,7 @@
 #include "json.hpp"
 
-#include "measure/statistics.hpp"
+#include "measure/quantity.hpp"
+#include "report/json.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -8,7 +9,7 @@ namespace catoptric::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using report::Json;
 
 std::string written(const Json& document) {
     return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
@@ -51,30 +52,31 @@ Json passes_json(const std::vector<app::FrameTimes>& frames) {
 Json settings_json(const app::TechniqueChoice& choice) {
     Json settings = Json::object();
     for (const auto& setting : choice.settings)
-        settings[setting.name] = setting.is_number ? Json(std::stoll(setting.text))
-                                                   : Json(setting.text);
+        settings[setting.name] = setting.number ? Json(std::stoll(setting.text))
+                                                : Json(setting.text);
     return settings;
+}
+
+/// What is better, in a word; null where neither is.
+Json better_json(measure::Better better) {
+    switch (better) {
+    case measure::Better::less: return "less";
+    case measure::Better::more: return "more";
+    case measure::Better::neither: break;
+    }
+    return nullptr;
 }
 
 } // namespace
 
 std::string diff_json(const DiffFacts& facts) {
-    const measure::Difference& d = facts.difference;
     Json document{{"schema", "catoptric/diff/1"}, {"a", facts.a}, {"b", facts.b}};
     document["mask"] = facts.mask.empty() ? Json() : Json(facts.mask);
     document["size"] = {facts.size.x, facts.size.y};
     document["exposure"] = facts.exposure;
-    document["pixels"] = d.pixels;
-    document["nonfinite"] = d.nonfinite;
-    document["rmse"] = d.rmse;
-    document["mae"] = d.mae;
-    document["flip"] = d.flip;
-    document["psnr"] = d.psnr ? Json(*d.psnr) : Json();
-    document["p99"] = d.p99;
-    document["max"] = d.max;
-    document["max_at"] = {d.max_x, d.max_y};
-    document["off"] = d.off;
-    document["longest_line"] = d.longest_line;
+    for (const measure::Quantity& quantity : measure::difference_quantities())
+        document[std::string(quantity.name)] = report::value_json(
+            measure::value_of(quantity, facts.difference));
     document["mean"] = {{"a", to_json(facts.a_mean.rgb)}, {"b", to_json(facts.b_mean.rgb)}};
     document["mean_clamped"] = {{"a", to_json(facts.a_clamped.rgb)},
                                 {"b", to_json(facts.b_clamped.rgb)}};
@@ -171,6 +173,17 @@ std::string named_json(const std::string& kind, const std::vector<Named>& named)
     Json rows = Json::array();
     for (const Named& row : named) rows.push_back({{"name", row.name}, {"summary", row.summary}});
     return written({{"schema", "catoptric/list/1"}, {kind, rows}});
+}
+
+std::string metrics_json() {
+    Json rows = Json::array();
+    for (const measure::Quantity& quantity : measure::quantities())
+        rows.push_back({{"name", quantity.name},
+                        {"summary", quantity.help},
+                        {"unit", quantity.unit},
+                        {"mask", quantity.mask},
+                        {"better", better_json(quantity.better)}});
+    return written({{"schema", "catoptric/list/1"}, {"metrics", rows}});
 }
 
 std::string info_json(const InfoFacts& facts) {

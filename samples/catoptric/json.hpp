@@ -36,6 +36,9 @@ struct Named {
 /// {"schema": "catoptric/list/1", KIND: [{"name", "summary"}]}
 std::string named_json(const std::string& kind, const std::vector<Named>& rows);
 
+/// The table of quantities: {"name", "summary", "unit", "mask", "better"}.
+std::string metrics_json();
+
 struct InfoFacts {
     std::optional<app::DeviceInfo> device;
     std::string why_no_device;

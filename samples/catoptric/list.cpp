@@ -1,6 +1,7 @@
 // catoptric list: what there is.
 #include "app/engine.hpp"
 #include "json.hpp"
+#include "measure/quantity.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "scene/load.hpp"
@@ -20,19 +21,6 @@ constexpr const char* kExamples = R"(Examples:
   catoptric list devices --json)";
 
 const std::vector<std::string> kKinds{"techniques", "scenes", "devices", "metrics"};
-
-const std::vector<Named> kMetrics{
-    {"rmse", "root of the mean square difference, linear RGB clamped to [0,1]"},
-    {"mae", "mean absolute difference, linear RGB clamped to [0,1]"},
-    {"flip", "mean LDR-FLIP at 67 pixels per degree, of the pictures as displayed"},
-    {"psnr", "-20 log10 rmse in dB; none for equal pictures"},
-    {"p99", "99th percentile of the pixels' largest channel difference"},
-    {"max", "the largest channel difference and its pixel"},
-    {"off", "share of the pixels whose largest channel difference exceeds .02"},
-    {"longest_line", "length in pixels of the longest line of pixels that are off: of sets that "
-                     "touch when dilated by 1, among those without a 4x4 square"},
-    {"nonfinite", "pixels that are NaN or infinite; any makes a row fail"},
-};
 
 std::string knob_text(const app::Knob& knob) {
     const std::string range = knob.choices.empty()
@@ -75,13 +63,34 @@ std::vector<Named> scenes() {
     return rows;
 }
 
+/// Unit, pixels and what is better, as far as there is something to say.
+std::string facts_of(const measure::Quantity& quantity) {
+    std::vector<std::string> facts;
+    if (!quantity.unit.empty()) facts.emplace_back(quantity.unit);
+    if (quantity.mask == "each")
+        facts.emplace_back("over each mask and mirror");
+    else if (!quantity.mask.empty())
+        facts.push_back("over " + std::string(quantity.mask));
+    if (quantity.better != measure::Better::neither)
+        facts.emplace_back(quantity.better == measure::Better::less ? "less is better"
+                                                                    : "more is better");
+    return facts.empty() ? "" : " (" + join(facts) + ")";
+}
+
+std::string metrics_text() {
+    std::string text;
+    for (const measure::Quantity& quantity : measure::quantities())
+        text += fmt::format("{:<32} {}{}\n", quantity.name, quantity.help, facts_of(quantity));
+    return text;
+}
+
 std::string listing(const std::string& kind, bool json) {
     if (kind == "techniques")
         return json ? techniques_json(app::techniques()) : techniques_text(app::techniques());
     if (kind == "devices")
         return json ? devices_json(app::devices()) : devices_text(app::devices());
-    const std::vector<Named> rows = kind == "scenes" ? scenes() : kMetrics;
-    return json ? named_json(kind, rows) : named_text(rows);
+    if (kind == "metrics") return json ? metrics_json() : metrics_text();
+    return json ? named_json(kind, scenes()) : named_text(scenes());
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #define CATOPTRIC_MEND_GLSL
 
 #include "lib/bindings.glsl"
+#include "lib/constants.glsl"
 
 // A mirror that rays pass through, from 1: a capture does not show its own. 0: none.
 uint left_out;
@@ -17,8 +18,8 @@ uint shadow_by;
 #define SHADOW_BY shadow_by
 #include "lib/whitted.glsl"
 
-layout(constant_id = 13) const uint picture_width = 1u;
-layout(constant_id = 14) const uint picture_height = 1u;
+layout(constant_id = PICTURE_WIDTH_CONSTANT) const uint picture_width = 1u;
+layout(constant_id = PICTURE_HEIGHT_CONSTANT) const uint picture_height = 1u;
 
 // What stands nearer to a capture's centre by no more than this part is not in the way.
 const float kInTheWay = 1.0 / 16384.0;

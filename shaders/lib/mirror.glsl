@@ -6,18 +6,19 @@
 #ifndef CATOPTRIC_MIRROR_GLSL
 #define CATOPTRIC_MIRROR_GLSL
 
+#include "lib/constants.glsl"
 #include "lib/probe.glsl"
 #include "lib/surface.glsl"
 
 // Other mirrors that the reflected ray is followed through. Exact spheres are met before the search, where a
 // test of the ray costs no fetch; those of any other shape where a search ends on them.
-layout(constant_id = 3) const uint hops = 0u;
+layout(constant_id = HOPS_CONSTANT) const uint hops = 0u;
 // 1: captures keep number and normal of their surfaces; always where some mirror is no exact sphere.
-layout(constant_id = 7) const uint has_surfaces = 0u;
+layout(constant_id = HAS_SURFACES_CONSTANT) const uint has_surfaces = 0u;
 // 1: where a mirror's own capture does not know, those of the others are asked.
-layout(constant_id = 8) const uint asks_others = 0u;
+layout(constant_id = ASKS_OTHERS_CONSTANT) const uint asks_others = 0u;
 const uint kShowColour = 0u, kShowState = 1u, kShowResidual = 2u;
-layout(constant_id = 9) const uint show = kShowColour;
+layout(constant_id = SHOW_CONSTANT) const uint show = kShowColour;
 
 // The reflected ray that is looked up: it leaves mirror `mirror` (from 0) at `at`.
 struct Path {

@@ -3,12 +3,13 @@
 #ifndef CATOPTRIC_PLAIN_GLSL
 #define CATOPTRIC_PLAIN_GLSL
 
+#include "lib/constants.glsl"
 #include "lib/math.glsl"
 
 // In the order of raytrace's knob.
 const uint kWatertight = 1u, kBoxSlack = 2u, kSpawnBound = 3u, kShadowEnd = 4u, kStableSphere = 5u;
-layout(constant_id = 15) const uint without = 0u;
-layout(constant_id = 16) const float fixed_offset = 0.0; // scene units, in place of kSpawnBound
+layout(constant_id = WITHOUT_CONSTANT) const uint without = 0u;
+layout(constant_id = FIXED_OFFSET_CONSTANT) const float fixed_offset = 0.0; // scene units, in place of kSpawnBound
 
 bool keeps(uint rule) { return without != rule; }
 

@@ -3,9 +3,10 @@
 #define CATOPTRIC_PROBE_GLSL
 
 #include "lib/bindings.glsl"
+#include "lib/constants.glsl"
 
 // Scene units of a stored 1: 1 for float formats, the range for unorm8.
-layout(constant_id = 2) const float stored_unit = 1.0;
+layout(constant_id = STORED_UNIT_CONSTANT) const float stored_unit = 1.0;
 
 // A hit: the search ended on a captured surface. Unknown: the ray went behind something that hides
 // the rest of it from the capture's centre. A miss: the ray leaves without meeting anything captured.
@@ -24,7 +25,7 @@ struct Lookup {
 const float kLeaves = 1.0;
 
 // 1: colours are mixed only from texels of one object.
-layout(constant_id = 6) const uint by_object = 0u;
+layout(constant_id = BY_OBJECT_CONSTANT) const uint by_object = 0u;
 
 vec3 bilinear_colour(uint mirror, vec3 direction) { return textureLod(colour_cubes, vec4(direction, mirror), 0).rgb; }
 
@@ -62,7 +63,7 @@ float exact_distance(uint mirror, vec3 direction);
 #endif
 
 // 0: only for measuring what the test costs and what it is worth (docs/robustness.md).
-layout(constant_id = 18) const uint tests_void = 1u;
+layout(constant_id = TESTS_VOID_CONSTANT) const uint tests_void = 1u;
 
 // Distance from the capture's centre, bilinear. Where one of the four texels holds nothing
 // (+infinity), the sum is not finite and the nearest texel decides.

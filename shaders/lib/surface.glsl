@@ -3,6 +3,7 @@
 #define CATOPTRIC_SURFACE_GLSL
 
 #include "lib/bindings.glsl"
+#include "lib/constants.glsl"
 
 layout(push_constant, scalar) uniform Push { Draw draw; };
 layout(location = 0) flat in vec3 eye;
@@ -26,13 +27,14 @@ float surface_error(vec3 n) {
 }
 
 // 1 stores scene units; unorm8 stores distance / range.
-layout(constant_id = 0) const float distance_scale = 1.0;
+layout(constant_id = DISTANCE_SCALE_CONSTANT) const float distance_scale = 1.0;
 
-layout(constant_id = 5) const uint keeps_surface = 0u;
+layout(constant_id = KEEPS_SURFACE_CONSTANT) const uint keeps_surface = 0u;
 
 #ifdef PEEL
 layout(location = 3) flat in uint view_layer;
-layout(constant_id = 1) const float half_step = 0.0; // rounding of a stored distance, beside the relative one
+// Rounding of a stored distance, beside the relative one.
+layout(constant_id = HALF_STEP_CONSTANT) const float half_step = 0.0;
 layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_layer; // distances of this capture
 
 // Depth peeling keeps only what faces the capture's centre behind the first layer. 2^-10 lies above the
@@ -49,7 +51,7 @@ float surface_number() {
 }
 
 // Of the format. Colour saturates there, so that no capture ever holds an infinity.
-layout(constant_id = 17) const float largest_colour = 3.402823466e38;
+layout(constant_id = LARGEST_COLOUR_CONSTANT) const float largest_colour = 3.402823466e38;
 
 void write_surface(vec3 colour) {
     out_colour = vec4(min(colour, vec3(largest_colour)), 1);

@@ -6,6 +6,7 @@
 #define CATOPTRIC_WHITTED_GLSL
 
 #include "lib/bindings.glsl"
+#include "lib/constants.glsl"
 #include "lib/trace.glsl"
 #ifdef SHADOW_MAP
 #include "lib/shadow.glsl"
@@ -22,9 +23,9 @@ layout(set = 0, binding = NORMALS_BINDING) uniform samplerBuffer normals;
 #define NORMAL(i) texelFetch(normals, int(i)).xyz
 #endif
 
-layout(constant_id = 10) const uint max_depth = 8u;
-layout(constant_id = 11) const uint shadow = 2u; // kShadowNone, kShadowMap, kShadowRay
-layout(constant_id = 12) const uint exact_spheres = 0u;
+layout(constant_id = MAX_DEPTH_CONSTANT) const uint max_depth = 8u;
+layout(constant_id = SHADOW_CONSTANT) const uint shadow = 2u; // kShadowNone, kShadowMap, kShadowRay
+layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
 #ifndef SHADOW_BY // what shadows are made by, where that changes
 #define SHADOW_BY shadow
 #endif

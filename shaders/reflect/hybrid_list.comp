@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#include "lib/constants.glsl"
 #include "lib/probe.glsl"
 #include "reflect/hybrid.glsl"
 
@@ -13,7 +14,7 @@ layout(set = 0, binding = LIST_BINDING, scalar) writeonly buffer List { uint lis
 layout(set = 0, binding = ARGUMENTS_BINDING, scalar) buffer Arguments { uvec3 groups; } arguments;
 layout(push_constant, scalar) uniform Push { uvec2 size; };
 
-layout(constant_id = 0) const uint every_mirror = 0u; // 1: no answer is believed
+layout(constant_id = OWN_CONSTANTS) const uint every_mirror = 0u; // 1: no answer is believed
 
 uvec2 groups_for(uint pixels) {
     uint groups = (pixels + kListGroup - 1u) / kListGroup;

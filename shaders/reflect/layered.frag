@@ -8,10 +8,11 @@
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
 #define OWN_LOOKUP_COLOUR
+#include "lib/constants.glsl"
 #include "lib/probe.glsl"
 #include "reflect/arc.glsl"
 
-layout(constant_id = 4) const uint steps = 16u;
+layout(constant_id = OWN_CONSTANTS) const uint steps = 16u;
 layout(set = 0, binding = 20) uniform sampler2DArray distance1;
 layout(set = 0, binding = 21) uniform sampler2DArray distance2;
 layout(set = 0, binding = 22) uniform sampler2DArray colour1;

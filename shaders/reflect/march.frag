@@ -7,11 +7,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
+#include "lib/constants.glsl"
 #include "lib/probe.glsl"
 const float kEdge = 1.0 / 8.0;
 #include "reflect/crossing.glsl"
 
-layout(constant_id = 4) const uint steps = 16u;
+layout(constant_id = OWN_CONSTANTS) const uint steps = 16u;
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     Arc arc;

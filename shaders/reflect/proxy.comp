@@ -3,15 +3,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindings.glsl"
+#include "lib/constants.glsl"
 #include "reflect/proxy.glsl"
 
 layout(local_size_x = 256) in;
 layout(set = 0, binding = 20) uniform sampler2DArray distance_faces;
 layout(set = 0, binding = 21, scalar) writeonly buffer Proxies { Proxy proxies[]; };
 
-layout(constant_id = 0) const float stored_unit = 1.0;
+layout(constant_id = STORED_UNIT_CONSTANT) const float stored_unit = 1.0;
 // With unorm8 a stored 1 is the end of the range, whatever lies there.
-layout(constant_id = 1) const uint range_ends = 0u;
+layout(constant_id = OWN_CONSTANTS) const uint range_ends = 0u;
 const uint kAcross = 64u;
 
 shared vec3 lows[gl_WorkGroupSize.x];

@@ -4,12 +4,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
+#include "lib/constants.glsl"
 #include "lib/probe.glsl"
 #include "reflect/proxy.glsl"
 
 layout(set = 0, binding = 20, scalar) readonly buffer Proxies { Proxy proxies[]; };
 const uint kBox = 0u, kSphere = 1u;
-layout(constant_id = 4) const uint shape = kBox;
+layout(constant_id = OWN_CONSTANTS) const uint shape = kBox;
 // A captured surface further than this from the proxy is something else.
 const float kTolerance = 0.05;
 

@@ -2,12 +2,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindings.glsl"
+#include "lib/constants.glsl"
 #include "reflect/pyramid.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 21, r32ui) uniform uimage2DArray bounds;
 layout(push_constant, scalar) uniform Push { int level; };
-layout(constant_id = 0) const uint from_cells = 0u;
+layout(constant_id = OWN_CONSTANTS) const uint from_cells = 0u;
 
 // Least and largest of no distance at all.
 vec2 no_bounds() { return vec2(uintBitsToFloat(0x7f800000u), 0); }

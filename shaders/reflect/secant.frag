@@ -8,11 +8,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define CONTINUE
+#include "lib/constants.glsl"
 #include "lib/probe.glsl"
 const float kEdge = 1.0 / 2.0;
 #include "reflect/crossing.glsl"
 
-layout(constant_id = 4) const uint steps = 2u;
+layout(constant_id = OWN_CONSTANTS) const uint steps = 2u;
 
 const uint kHalves = 6u;
 

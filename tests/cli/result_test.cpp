@@ -1,5 +1,6 @@
 // What comes out when all is well.
 #include "cli/program.hpp"
+#include "measure/quantity.hpp"
 
 namespace {
 
@@ -14,6 +15,34 @@ TEST_F(Cli, ListsParse) {
         const std::string text = cli({"list", kind}).out;
         for (const json& row : document[kind])
             EXPECT_THAT(text, testing::HasSubstr(row["name"].get<std::string>()));
+    }
+}
+
+/// `list metrics` is the table of quantities; `diff` gives each that two pictures have.
+TEST_F(Cli, ListsEveryQuantity) {
+    std::vector<std::string> names, of_differences;
+    for (const auto& quantity : catoptric::measure::quantities()) names.emplace_back(quantity.name);
+    for (const auto& quantity : catoptric::measure::difference_quantities())
+        of_differences.emplace_back(quantity.name);
+    std::vector<std::string> found;
+    const json metrics = json::parse(cli({"list", "metrics", "--json"}).out)["metrics"];
+    for (const json& row : metrics) {
+        found.push_back(row["name"]);
+        EXPECT_FALSE(row["summary"].get<std::string>().empty()) << row["name"];
+    }
+    EXPECT_EQ(found, names);
+    EXPECT_THAT(names, testing::IsSupersetOf({"gpu_ms", "rmse", "flip", "lookup/miss"}));
+    const json flip = *std::ranges::find(metrics, json("flip"),
+                                         [](const json& row) { return row["name"]; });
+    EXPECT_EQ(flip["mask"], "each");
+    EXPECT_EQ(flip["better"], "less");
+
+    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.exr"})).exit_code, 0);
+    const json document = json::parse(cli({"diff", "a.exr", "a.exr", "--json"}).out);
+    const std::string text = cli({"diff", "a.exr", "a.exr"}).out;
+    for (const std::string& name : of_differences) {
+        EXPECT_TRUE(document.contains(name)) << name;
+        EXPECT_THAT(text, testing::HasSubstr(name));
     }
 }
 
@@ -172,7 +201,7 @@ TEST_F(Cli, DiffOfEqualAndOtherPictures) {
     EXPECT_GT(other["off"], 0.0);
     EXPECT_GT(other["longest_line"], 0.0);
     EXPECT_THAT(cli({"diff", "a.exr", "b.exr"}).out,
-                testing::AllOf(testing::HasSubstr("rmse"), testing::HasSubstr("the longest line")));
+                testing::AllOf(testing::HasSubstr("rmse"), testing::HasSubstr("longest_line")));
     const test::Ended flip = cli({"diff", "a.exr", "b.exr", "--max-flip", "0.0001"});
     EXPECT_EQ(flip.exit_code, 1);
     EXPECT_THAT(flip.err, testing::HasSubstr("over --max-flip 0.0001"));

@@ -41,11 +41,10 @@ Behind behind(const scene::Scene& scene, const app::Part& truth, const std::stri
         test::render(scene, search + ":face=128,shadow=none,continue=8", kSize).hdr;
     const Behind found{test::compared(picture, truth,
                                       [](std::uint32_t hit, const vec3& colour) {
-                                          return measure::second_mirror(hit) == 0 &&
-                                                 colour.x < .01f;
+                                          return !measure::second_mirror(hit) && colour.x < .01f;
                                       }),
                        test::compared(picture, truth, [](std::uint32_t hit, const vec3&) {
-                           return measure::second_mirror(hit) != 0;
+                           return bool(measure::second_mirror(hit));
                        })};
     std::cout << "[ MEASURED ] " << search << ": board " << found.board << ", other ball "
               << found.ball << "\n";
@@ -134,7 +133,7 @@ TEST(Claims, WhatTheSecondLayerShowsBehindAMirrorIsNoMirror) {
     const measure::Picture picture =
         test::render(scene, "layered:face=128,shadow=none,continue=8", kSize).hdr;
     const test::Compared once = test::compared(picture, truth, [](std::uint32_t hit, const vec3&) {
-        return measure::first_mirror(hit) == 1 && measure::second_mirror(hit) == 0;
+        return measure::first_mirror(hit) == MirrorId(1) && !measure::second_mirror(hit);
     });
     std::cout << "[ MEASURED ] no second mirror: " << once << "\n";
     EXPECT_GT(once.pixels, 1000u);
@@ -181,11 +180,11 @@ Answers answers(const scene::Scene& scene, const std::string& search, const std:
     };
     Answers found;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (measure::first_mirror(truth.hits[i]) == 0) continue;
+        if (!measure::first_mirror(truth.hits[i])) continue;
         if (!is_unknown(0, i) || is_unknown(1, i)) continue;
         const vec3 own = result.parts[0].hdr.pixels[i], all = result.parts[1].hdr.pixels[i];
         const bool is_off = test::is_off(all, truth.hdr.pixels[i]),
-                   meets = measure::second_mirror(truth.hits[i]) != 0;
+                   meets = bool(measure::second_mirror(truth.hits[i]));
         ++found.all, found.off += is_off;
         found.mirrors += meets, found.mirrors_off += meets && is_off;
         found.black += all == vec3(0) && own != vec3(0);

@@ -26,7 +26,8 @@ TEST(Parallax, HalvesTheErrorOfTheUncorrectedDirection) {
     };
     expect_share("all mirrors", measure::mirrors(truth.hits), .50);
     for (std::uint32_t ball = 1; ball <= 4; ++ball)
-        expect_share("ball " + std::to_string(ball), measure::of_mirror(truth.hits, ball), .65);
+        expect_share("ball " + std::to_string(ball), measure::of_mirror(truth.hits, MirrorId(ball)),
+                     .65);
 }
 
 // Beside the void one infinite texel of four does not make the other three void: the nearest

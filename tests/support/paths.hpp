@@ -74,7 +74,7 @@ template <typename Counts>
 Compared compared(const measure::Picture& picture, const app::Part& truth, Counts&& counts) {
     Compared result;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (measure::first_mirror(truth.hits[i]) == 0) continue;
+        if (!measure::first_mirror(truth.hits[i])) continue;
         if (!counts(truth.hits[i], truth.hdr.pixels[i])) continue;
         ++result.pixels;
         result.off += is_off(picture.pixels[i], truth.hdr.pixels[i]);

@@ -22,8 +22,8 @@ TEST(Masks, ChooseByTheFirstTwoHits) {
     EXPECT_EQ(mirrors(kHits), (Mask{0, 255, 255, 255, 255, 0}));
     EXPECT_EQ(first_order(kHits), (Mask{0, 255, 0, 0, 255, 0}));
     EXPECT_EQ(mirror_in_mirror(kHits), (Mask{0, 0, 255, 255, 0, 0}));
-    EXPECT_EQ(of_mirror(kHits, 1), (Mask{0, 255, 0, 255, 0, 0}));
-    EXPECT_EQ(of_mirror(kHits, 65535), (Mask{0, 0, 0, 0, 255, 0}));
+    EXPECT_EQ(of_mirror(kHits, catoptric::MirrorId(1)), (Mask{0, 255, 0, 255, 0, 0}));
+    EXPECT_EQ(of_mirror(kHits, catoptric::MirrorId(65535)), (Mask{0, 0, 0, 0, 255, 0}));
     EXPECT_EQ(non_mirror(kHits), (Mask{255, 0, 0, 0, 0, 255}));
 }
 
@@ -31,15 +31,16 @@ TEST(Masks, PartitionThePicture) {
     EXPECT_EQ(pixel_count(mirrors(kHits)) + pixel_count(non_mirror(kHits)), kHits.size());
     EXPECT_EQ(pixel_count(first_order(kHits)) + pixel_count(mirror_in_mirror(kHits)),
               pixel_count(mirrors(kHits)));
-    EXPECT_EQ(pixel_count(of_mirror(kHits, 1)) + pixel_count(of_mirror(kHits, 2)) +
-                  pixel_count(of_mirror(kHits, 65535)),
+    EXPECT_EQ(pixel_count(of_mirror(kHits, catoptric::MirrorId(1))) +
+                  pixel_count(of_mirror(kHits, catoptric::MirrorId(2))) +
+                  pixel_count(of_mirror(kHits, catoptric::MirrorId(65535))),
               pixel_count(mirrors(kHits)));
 }
 
 TEST(Masks, NothingChosenIsNotTheEmptyMask) {
-    EXPECT_EQ(of_mirror(kHits, 9), Mask(6, 0));
-    EXPECT_EQ(of_mirror(kHits, 0), Mask(6, 0)); // numbers count from 1
-    EXPECT_EQ(pixel_count(of_mirror(kHits, 9)), 0U);
+    EXPECT_EQ(of_mirror(kHits, catoptric::MirrorId(9)), Mask(6, 0));
+    EXPECT_EQ(of_mirror(kHits, catoptric::MirrorId(0)), Mask(6, 0)); // numbers count from 1
+    EXPECT_EQ(pixel_count(of_mirror(kHits, catoptric::MirrorId(9))), 0U);
 }
 
 } // namespace

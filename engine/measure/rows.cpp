@@ -1,10 +1,9 @@
-#include "report/rows.hpp"
+#include "measure/rows.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
-namespace catoptric::report {
+namespace catoptric::measure {
 
 namespace {
 
@@ -49,27 +48,6 @@ const Row* find_naive(const Comparison& comparison, int bounces) {
     return find_row(comparison, "naive", wanted);
 }
 
-bool failed(const Row& row) { return row.error.nonfinite > 0 || row.error_all.nonfinite > 0; }
-
-bool judged(const Row* row) {
-    return row != nullptr && !failed(*row) && std::isfinite(row->error.rmse);
-}
-
 bool is_ray_traced(const Row& row) { return row.technique == "raytrace"; }
 
-bool on_front(const Comparison& comparison, const Row& row) {
-    return std::ranges::any_of(comparison.pareto, [&](std::size_t index) {
-        return index < comparison.rows.size() && &comparison.rows[index] == &row;
-    });
-}
-
-measure::Candidate candidate_of(const Row& row) {
-    if (failed(row)) return {NAN, NAN, NAN, NAN};
-    return {row.gpu_ms.median, row.gpu_ms.p05, row.gpu_ms.p95, row.error.flip};
-}
-
-bool beats(const Row& a, const Row& b) { return measure::beats(candidate_of(a), candidate_of(b)); }
-
-bool is_faster(const Row& a, const Row& b) { return a.gpu_ms.p95 < b.gpu_ms.p05; }
-
-} // namespace catoptric::report
+} // namespace catoptric::measure

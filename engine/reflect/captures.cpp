@@ -1,4 +1,4 @@
-#include "reflect/knobs.hpp"
+#include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
 
@@ -46,9 +46,9 @@ render::MirrorLook look_into(std::string fragment, const render::Cubes& cubes,
     return look;
 }
 
-Captured add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
+Feedback add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
                       const Settings& settings, const std::string& fragment, bool second_layer) {
-    Captured captured;
+    Feedback captured;
     captured.lighting = add_lighting(graph, inputs, settings);
     captured.options = capture_options(inputs, settings, captured.lighting);
     captured.options.second_layer = second_layer;
@@ -62,7 +62,7 @@ Captured add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
     return captured;
 }
 
-render::MirrorLook view_look(const Captured& captured, const Settings& settings,
+render::MirrorLook view_look(const Feedback& captured, const Settings& settings,
                              const std::string& fragment) {
     if (!captured.cubes) return {};
     render::MirrorLook look = look_into(fragment, *captured.cubes, captured.options);
@@ -79,7 +79,7 @@ render::MirrorLook view_look(const Captured& captured, const Settings& settings,
 }
 
 Outputs add_view_of(graph::Graph& graph, const render::FrameInputs& inputs,
-                    const Captured& captured, const render::MirrorLook& look) {
+                    const Feedback& captured, const render::MirrorLook& look) {
     const render::View view = render::add_view(graph, inputs, captured.lighting, look);
     return {view.hdr, {}, {}, view.lookup, captured.cubes};
 }

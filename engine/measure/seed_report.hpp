@@ -3,7 +3,7 @@
 #include <string_view>
 
 // Table 1 of the seed report (section 4.2): frames per second in a browser on a GeForce GTX 770.
-namespace catoptric::report {
+namespace catoptric::measure {
 
 struct SeedRow {
     std::string_view implementation;
@@ -32,4 +32,10 @@ inline constexpr SeedRow kSeedTable[] = {
     kSeedRayTrace,
 };
 
-} // namespace catoptric::report
+/// What it puts down to clearing, milliseconds.
+inline constexpr double kSeedClearMs = kSeedPartOne.ms - kSeedPartTwo.ms;
+/// How far its part one without inter-reflections is behind part two, as a share of that.
+inline constexpr double kSeedClearGap = kSeedClearMs / kSeedPartTwo.ms;
+inline constexpr double kSeedRayTraceRatio = kSeedRayTrace.ms / kSeedPartThree.ms;
+
+} // namespace catoptric::measure

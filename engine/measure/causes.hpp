@@ -6,7 +6,7 @@
 
 /// A row's error by cause: what goes when one thing after another is replaced by the reference's
 /// own.
-namespace catoptric::report {
+namespace catoptric::measure {
 
 /// Squared errors are means over mirror pixels and channels, linear, both pictures clamped to
 /// [0,1]; entry n-1 of a vector is mirror n. What goes is negative where mending one thing uncovers
@@ -27,4 +27,4 @@ struct Causes {
     double at_light_edges = 0;
 };
 
-} // namespace catoptric::report
+} // namespace catoptric::measure

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 
-/// Knobs that the techniques with cube maps share, and what they mean for the shared passes.
+/// What the techniques with captures share: their knobs, what these mean for the shared passes, and
+/// captures that show last frame's captures.
 namespace catoptric::reflect {
 
 inline constexpr std::array<std::string_view, 3> kDistanceChoices{"r32f", "r16f", "unorm8"};
@@ -104,8 +105,8 @@ render::CaptureOptions capture_options(const render::FrameInputs& inputs, const 
 render::MirrorLook look_into(std::string fragment, const render::Cubes& cubes,
                              const render::CaptureOptions& options);
 
-/// The captures of part two and its followers.
-struct Captured {
+/// The captures of part two and its followers, fed by those of the frame before.
+struct Feedback {
     render::Lighting lighting;
     render::CaptureOptions options;
     std::optional<render::Cubes> cubes; ///< none without mirrors
@@ -113,16 +114,16 @@ struct Captured {
 
 /// Shadow pass, then every mirror captured once (twice with a second layer). In a capture the other
 /// mirrors look into last frame's captures with `fragment`.
-Captured add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
+Feedback add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
                       const Settings& settings, const std::string& fragment,
                       bool second_layer = false);
 
 /// The view of what was captured, mirrors drawn with `fragment`; hops are set where there is a
 /// `continue`.
-render::MirrorLook view_look(const Captured& captured, const Settings& settings,
+render::MirrorLook view_look(const Feedback& captured, const Settings& settings,
                              const std::string& fragment);
 Outputs add_view_of(graph::Graph& graph, const render::FrameInputs& inputs,
-                    const Captured& captured, const render::MirrorLook& look);
+                    const Feedback& captured, const render::MirrorLook& look);
 
 /// R = N + 2 with one light.
 inline int feedback_passes(int mirrors, int lights, const Settings& settings) {

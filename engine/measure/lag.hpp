@@ -6,7 +6,7 @@
 
 // How far rows that read last frame's captures are behind a moving scene, as plain data. Every
 // error is an rmse over the pixels whose first hit is a mirror, on linear colours clamped to [0,1].
-namespace catoptric::report {
+namespace catoptric::measure {
 
 /// A picture that changes too little to be seen: one step of 8 bits, linear.
 inline constexpr double kLagBound = 1.0 / 255;
@@ -53,4 +53,7 @@ struct Lag {
     bool complete = true; ///< false: interrupted, what there was so far
 };
 
-} // namespace catoptric::report
+/// The instant of the largest error, seconds; NaN where there is none.
+double worst_instant(const Lag& lag, const LagAtSpeed& at);
+
+} // namespace catoptric::measure

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+
+namespace catoptric {
+
+/// Which mirror of a scene, wherever somebody sees it: 1, 2, ... in the order of the file; 0: none.
+class MirrorId {
+public:
+    constexpr MirrorId() = default;
+    constexpr explicit MirrorId(std::uint32_t number) : number_(number) {}
+    /// Of the mirror at `index` of a list with an entry for each.
+    static constexpr MirrorId at(std::size_t index) {
+        return MirrorId(static_cast<std::uint32_t>(index) + 1);
+    }
+
+    constexpr std::uint32_t number() const { return number_; }
+    /// Its place in such a list; of none there is no such place.
+    constexpr std::size_t index() const { return number_ - 1; }
+    constexpr explicit operator bool() const { return number_ != 0; }
+    constexpr auto operator<=>(const MirrorId&) const = default;
+
+private:
+    std::uint32_t number_ = 0;
+};
+
+} // namespace catoptric

@@ -1,0 +1,120 @@
+#pragma once
+
+#include "core/error.hpp"
+#include "core/setting.hpp"
+#include "measure/causes.hpp"
+#include "measure/difference.hpp"
+#include "measure/lag.hpp"
+#include "measure/lookup.hpp"
+#include "measure/picture.hpp"
+#include "measure/statistics.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// What `compare` found, as plain data: filled by the application, judged here, written by report/.
+namespace catoptric::measure {
+
+struct DeviceFacts {
+    std::string name, driver, api, type;
+    int threads = 0; ///< of a cpu device
+};
+
+/// Where the picture was taken from, world units.
+struct CameraFacts {
+    std::string name; ///< empty: none
+    dvec3 eye{0}, target{0}, up{0};
+    double vertical_fov_degrees = 0;
+};
+
+struct SceneFacts {
+    std::string name;
+    std::size_t triangles = 0;
+    std::size_t mirrors = 0;
+    std::string hash;
+    bool is_seed = false; ///< the scene of the seed report, beside whose figures its own may stand
+    CameraFacts camera;
+};
+
+struct PassFacts {
+    std::string name;
+    Summary gpu_ms;
+};
+
+struct Rays {
+    std::uint64_t primary = 0, mirror = 0, shadow = 0;
+};
+
+/// What face=auto stood for.
+struct AutoFace {
+    std::uint32_t edge = 0;    ///< of every mirror's cube, texels
+    std::vector<double> needs; ///< entry n-1: what mirror n alone needs; 0: not in view
+};
+
+/// One technique with its settings: what it cost and what it got wrong.
+struct Row {
+    std::string technique;         ///< "naive"
+    std::string label;             ///< as it was asked for: "naive:bounces=1"
+    std::vector<Setting> settings; ///< all knobs
+    std::string model = "everything";
+    int scene_passes =
+        0; ///< counted in the executed plan; a cube counts once, as in the seed report
+    int scene_draws = 0; ///< the same with every cube face counted
+    Summary gpu_ms, cpu_record_ms, wall_ms;
+    std::vector<PassFacts> passes; ///< in order of execution
+    /// Sum of all the frame's passes over wall_ms, frame by frame: near 1 where stamps tell the
+    /// truth.
+    Summary closure;
+    Difference error;                  ///< over the pixels whose first hit is a mirror
+    Difference error_first_order;      ///< ... whose reflected ray meets no second mirror
+    Difference error_mirror_in_mirror; ///< ... whose reflected ray does
+    Difference error_non_mirror;       ///< everything else
+    Difference error_all;
+    std::vector<Difference> error_per_mirror;    ///< by MirrorId::index
+    std::uint64_t memory_bytes = 0;              ///< of the frame's images
+    std::optional<Rays> rays;                    ///< of ray tracing, one frame
+    std::optional<std::size_t> saturated_texels; ///< of captures that hold halves: cut off at 65504
+    std::optional<LookupError> lookup;           ///< first-order pixels: where mirrors looked
+    std::optional<Causes> causes;                ///< of rows that look into captures
+    std::optional<double> traced_fraction;
+    std::optional<AutoFace> auto_face;
+    Mean mean, mean_clamped;
+    Picture hdr;                 ///< the last frame, linear
+    Picture display;             ///< the same as shown
+    std::vector<float> flip_map; ///< against the reference, row-major
+    std::string image;           ///< file name without folder and ending: "naive-bounces1"
+    bool is_reference = false;   ///< same technique and settings as the reference
+    bool mirrors_black = false;  ///< it draws nothing in them: a floor for time, no technique
+};
+
+struct Comparison {
+    std::string version, commit;
+    std::vector<std::string> command;
+    bool complete = true;         ///< false: the rows so far, of a run that goes on or was stopped
+    std::size_t asked = 0;        ///< rows that it is to have
+    std::optional<Error> stopped; ///< what ended it early
+    DeviceFacts device;
+    SceneFacts scene;
+    int width = 0, height = 0;
+    int frames = 0, warmup = 0;
+    double time = 0, ambient = 0.05, exposure = 0;
+    std::string timing = "isolated";
+    std::string model = "everything";
+    bool together = false; ///< all rows were one frame, one command buffer
+    std::string reference_technique;
+    std::string reference_label;
+    std::vector<Setting> reference_settings;
+    Summary reference_gpu_ms;
+    Picture reference_display;
+    /// Clearing the cubes of all mirrors once and drawing nothing, at the default face size.
+    std::optional<Summary> clear_ms;
+    std::vector<Row> rows;
+    std::vector<std::size_t> pareto; ///< rows on the front of gpu_ms.median against error.flip
+    std::optional<Lag> lag;          ///< of the rows that remember, when it was asked for
+    std::vector<std::string> warnings;
+};
+
+} // namespace catoptric::measure

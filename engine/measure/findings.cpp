@@ -1,0 +1,73 @@
+#include "measure/findings.hpp"
+
+#include "measure/judge.hpp"
+#include "measure/rows.hpp"
+
+namespace catoptric::measure {
+
+std::optional<ClearFinding> find_clears(const Comparison& comparison) {
+    using Verdict = ClearFinding::Verdict;
+    const Row* one = find_naive(comparison, 0);
+    const Row* two = find_row(comparison, "reuse");
+    if (one == nullptr || two == nullptr) return {};
+    ClearFinding finding{one, two, is_faster(*two, *one)};
+    if (!comparison.clear_ms) return finding;
+    const double clear = comparison.clear_ms->median;
+    finding.clear_ms = clear;
+    finding.gap = (one->gpu_ms.median + clear - two->gpu_ms.median) / two->gpu_ms.median;
+    if (finding.one_is_slower)
+        finding.verdict = Verdict::slower_without;
+    else if (!(one->gpu_ms.p05 + clear > two->gpu_ms.p95))
+        finding.verdict = Verdict::too_little;
+    return finding;
+}
+
+std::optional<StoredDistanceFinding> find_stored_distance(const Comparison& comparison) {
+    const auto eight_bits = [&](std::string_view range) -> const Row* {
+        const Wanted wanted[] = {{"distance", "unorm8"}, {"range", range}};
+        const Row* row = find_row(comparison, "parallax", wanted);
+        return judged(row) ? row : nullptr;
+    };
+    StoredDistanceFinding finding{find_row(comparison, "reuse"), find_parallax(comparison),
+                                  eight_bits("200"), eight_bits("1000")};
+    if (!judged(finding.plain) || !judged(finding.full)) return {};
+    if (finding.near == nullptr && finding.far == nullptr) return {};
+    finding.near_is_worse = finding.near != nullptr &&
+                            finding.near->error.rmse > finding.plain->error.rmse;
+    return finding;
+}
+
+std::optional<BounceFinding> find_bounces(const Comparison& comparison) {
+    BounceFinding finding;
+    for (int i = 1; judged(find_naive(comparison, i)); ++i)
+        finding.steps.push_back(find_naive(comparison, i));
+    if (finding.steps.size() < 2) return {};
+    const double rest = finding.steps.back()->error.rmse;
+    finding.fall = finding.steps.front()->error.rmse - rest;
+    finding.helps = finding.fall > kStep;
+    const Row* corrected = find_parallax(comparison);
+    if (judged(corrected) && 2 * corrected->error.rmse * corrected->error.rmse < rest * rest)
+        finding.dominated_by = corrected;
+    return finding;
+}
+
+std::optional<PriceFinding> find_price(const Comparison& comparison) {
+    const Row* two = find_row(comparison, "reuse");
+    const Row* three = find_parallax(comparison);
+    if (two == nullptr || three == nullptr || !(two->gpu_ms.median > 0)) return {};
+    PriceFinding finding{two, three, is_tie(*two, *three)};
+    finding.more = three->gpu_ms.median / two->gpu_ms.median - 1;
+    if (three->memory_bytes > two->memory_bytes)
+        finding.more_bytes = three->memory_bytes - two->memory_bytes;
+    return finding;
+}
+
+std::optional<TracingFinding> find_tracing(const Comparison& comparison) {
+    const Row* three = find_parallax(comparison);
+    const Row* traced = find_ray_traced(comparison);
+    if (three == nullptr || traced == nullptr || !(three->gpu_ms.median > 0)) return {};
+    return TracingFinding{three, traced, is_tie(*three, *traced),
+                          traced->gpu_ms.median / three->gpu_ms.median};
+}
+
+} // namespace catoptric::measure

@@ -1,0 +1,132 @@
+// Figures of the frames that a row rendered: what they cost and what they were made of.
+#include "measure/quantity.hpp"
+
+#include <cmath>
+
+namespace catoptric::measure {
+
+namespace {
+
+double or_nothing(const std::optional<double>& value) { return value.value_or(NAN); }
+
+Value times_of_passes(const Row& row) {
+    std::vector<Parts> list;
+    for (const PassFacts& pass : row.passes)
+        list.push_back({"name", pass.name, {{"gpu_ms", pass.gpu_ms}}});
+    return list;
+}
+
+/// A count of rays; nothing where none are traced.
+template <std::uint64_t Rays::*Kind>
+Value count_of(const Row& row) {
+    return row.rays ? static_cast<double>((*row.rays).*Kind) : NAN;
+}
+
+const Registered kScenePasses{
+    {.name = "scene_passes",
+     .help = "scene renders in the executed plan, a cube counted once: the seed report's R",
+     .better = Better::less,
+     .order = 10,
+     .columns = {{"R", Style::fixed}},
+     .get = [](const Row& row) -> Value { return static_cast<double>(row.scene_passes); }}};
+const Registered kSceneDraws{
+    {.name = "scene_draws",
+     .help = "the same with every face of a cube counted",
+     .better = Better::less,
+     .order = 11,
+     .columns = {{"Draws", Style::fixed}},
+     .get = [](const Row& row) -> Value { return static_cast<double>(row.scene_draws); }}};
+const Registered kGpuTime{{.name = "gpu_ms",
+                           .unit = "ms",
+                           .help = "a frame on the device, first to last stamp",
+                           .better = Better::less,
+                           .order = 20,
+                           .columns = {{"ms", Style::times}, {"5–95 %", Style::time_range}},
+                           .get = [](const Row& row) -> Value { return row.gpu_ms; }}};
+const Registered kRecordTime{
+    {.name = "cpu_record_ms",
+     .unit = "ms",
+     .help = "filling the command buffer",
+     .better = Better::less,
+     .order = 21,
+     .columns = {{.title = "record ms", .style = Style::own_times, .order = 23}},
+     .get = [](const Row& row) -> Value { return row.cpu_record_ms; }}};
+const Registered kWallTime{{.name = "wall_ms",
+                            .unit = "ms",
+                            .help = "submit to fence, without recording and read-back",
+                            .better = Better::less,
+                            .order = 22,
+                            .columns = {{"wall ms", Style::times}},
+                            .get = [](const Row& row) -> Value { return row.wall_ms; }}};
+const Registered kPasses{{.name = "passes",
+                          .unit = "ms",
+                          .help = "each pass of the frame on the device, in order of execution",
+                          .better = Better::less,
+                          .order = 30,
+                          .get = times_of_passes}};
+const Registered kClosure{
+    {.name = "closure",
+     .help = "sum of all passes over wall_ms: near 1 where stamps tell the truth",
+     .order = 40,
+     .get = [](const Row& row) -> Value { return row.closure; }}};
+const Registered kMemory{
+    {.name = "memory_bytes",
+     .unit = "bytes",
+     .help = "the frame's images",
+     .better = Better::less,
+     .order = 210,
+     .columns = {{"MiB", Style::mebibytes}},
+     .get = [](const Row& row) -> Value { return static_cast<double>(row.memory_bytes); }}};
+const Registered kTraced{
+    {.name = "traced_fraction",
+     .help = "share of the mirror pixels that a search left to tracing",
+     .mask = "mirrors",
+     .better = Better::less,
+     .order = 220,
+     .columns = {{"Traced, %", Style::percent, 2, InTable::lookup, 999}},
+     .get = [](const Row& row) -> Value { return or_nothing(row.traced_fraction); }}};
+const Registered kAutoEdge{{.name = "auto_face/edge",
+                            .unit = "texels",
+                            .help = "cube edge that face=auto stood for",
+                            .order = 230,
+                            .get = [](const Row& row) -> Value {
+                                return row.auto_face ? static_cast<double>(row.auto_face->edge)
+                                                     : NAN;
+                            }}};
+const Registered kAutoNeeds{{.name = "auto_face/needs",
+                             .unit = "texels",
+                             .help = "what each mirror alone needs; 0: not in view",
+                             .order = 231,
+                             .get = [](const Row& row) -> Value {
+                                 return row.auto_face ? row.auto_face->needs
+                                                      : std::vector<double>();
+                             }}};
+const Registered kPrimaryRays{{.name = "rays/primary",
+                               .unit = "rays",
+                               .help = "camera rays of one frame",
+                               .order = 240,
+                               .get = count_of<&Rays::primary>}};
+const Registered kMirrorRays{{.name = "rays/mirror",
+                              .unit = "rays",
+                              .help = "reflected rays of one frame",
+                              .order = 241,
+                              .get = count_of<&Rays::mirror>}};
+const Registered kShadowRays{{.name = "rays/shadow",
+                              .unit = "rays",
+                              .help = "shadow rays of one frame",
+                              .order = 242,
+                              .get = count_of<&Rays::shadow>}};
+const Registered kSaturated{{.name = "saturated_texels",
+                             .unit = "texels",
+                             .help = "texels of captures that hold halves and are cut off at 65504",
+                             .better = Better::less,
+                             .order = 250,
+                             .get = [](const Row& row) -> Value {
+                                 return row.saturated_texels
+                                            ? static_cast<double>(*row.saturated_texels)
+                                            : NAN;
+                             }}};
+
+} // namespace
+
+} // namespace catoptric::measure

@@ -1,0 +1,112 @@
+#include "measure/judge.hpp"
+
+#include "measure/quantity.hpp"
+#include "measure/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::measure {
+
+namespace {
+
+/// The first row on the front that beats this one; null when none does.
+const Row* winner_over(const std::vector<const Row*>& front, const Row& loser) {
+    const auto found = std::ranges::find_if(front,
+                                            [&](const Row* row) { return beats(*row, loser); });
+    return found == front.end() ? nullptr : *found;
+}
+
+const Registered kFailed{
+    {.name = "failed",
+     .help = "its picture holds pixels that are NaN or infinite: no figure of it is judged",
+     .order = 200,
+     .only_where_true = true,
+     .get = [](const Row& row) -> Value { return failed(row); }}};
+
+} // namespace
+
+bool failed(const Row& row) { return row.error.nonfinite > 0 || row.error_all.nonfinite > 0; }
+
+bool judged(const Row* row) {
+    return row != nullptr && !failed(*row) && std::isfinite(row->error.rmse);
+}
+
+Candidate candidate_of(const Row& row) {
+    if (failed(row)) return {NAN, NAN, NAN, NAN};
+    return {row.gpu_ms.median, row.gpu_ms.p05, row.gpu_ms.p95, row.error.flip};
+}
+
+bool beats(const Row& a, const Row& b) { return beats(candidate_of(a), candidate_of(b)); }
+
+bool is_faster(const Row& a, const Row& b) { return a.gpu_ms.p95 < b.gpu_ms.p05; }
+
+bool is_tie(const Row& a, const Row& b) { return !is_faster(a, b) && !is_faster(b, a); }
+
+std::vector<std::size_t> front_of(const std::vector<Row>& rows) {
+    std::vector<Candidate> candidates;
+    for (const Row& row : rows) candidates.push_back(candidate_of(row));
+    return pareto_front(candidates);
+}
+
+bool on_front(const Comparison& comparison, const Row& row) {
+    return std::ranges::any_of(comparison.pareto, [&](std::size_t index) {
+        return index < comparison.rows.size() && &comparison.rows[index] == &row;
+    });
+}
+
+std::vector<const Row*> fastest_rows(const Comparison& comparison) {
+    const auto counts = [](const Row& row) { return judged(&row) && !row.mirrors_black; };
+    std::vector<const Row*> fastest;
+    for (const Row& row : comparison.rows)
+        if (counts(row) && std::ranges::none_of(comparison.rows, [&](const Row& other) {
+                return counts(other) && is_faster(other, row);
+            }))
+            fastest.push_back(&row);
+    return fastest;
+}
+
+const Row* closest_row(const Comparison& comparison) {
+    const Row* closest = nullptr;
+    for (const Row& row : comparison.rows) {
+        if (row.is_reference || !judged(&row)) continue;
+        if (closest == nullptr || row.error.flip < closest->error.flip) closest = &row;
+    }
+    return closest;
+}
+
+Standing standing(const Comparison& comparison) {
+    Standing result;
+    for (const std::size_t index : comparison.pareto)
+        if (index < comparison.rows.size()) result.front.push_back(&comparison.rows[index]);
+    for (const Row* winner : result.front) {
+        Standing::Win win{winner, {}};
+        for (const Row& row : comparison.rows)
+            if (!on_front(comparison, row) && winner_over(result.front, row) == winner)
+                win.losers.push_back(&row);
+        if (!win.losers.empty()) result.wins.push_back(std::move(win));
+    }
+    for (const Row& row : comparison.rows) {
+        if (!judged(&row))
+            result.not_judged.push_back(&row);
+        else if (!on_front(comparison, row) && winner_over(result.front, row) == nullptr)
+            result.beaten_by_beaten.push_back(&row);
+    }
+    return result;
+}
+
+TracingVerdict tracing_verdict(const Comparison& comparison) {
+    TracingVerdict verdict;
+    verdict.any_traced = std::ranges::any_of(comparison.rows, is_ray_traced);
+    for (const Row& row : comparison.rows) {
+        if (is_ray_traced(row) || !judged(&row) || row.mirrors_black) continue;
+        ++verdict.others;
+        if (std::ranges::none_of(comparison.rows, [&](const Row& other) {
+                return is_ray_traced(other) && beats(other, row);
+            }))
+            verdict.unbeaten.push_back(&row);
+    }
+    return verdict;
+}
+
+} // namespace catoptric::measure

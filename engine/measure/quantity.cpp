@@ -1,0 +1,110 @@
+#include "measure/quantity.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::measure {
+
+namespace {
+
+std::vector<Quantity>& table() {
+    static std::vector<Quantity> rows; // filled while the program starts
+    return rows;
+}
+
+bool is_of_row(const Quantity& quantity) {
+    return std::holds_alternative<Quantity::OfRow>(quantity.get);
+}
+
+std::vector<Quantity> in_order() {
+    std::vector<Quantity> rows = table();
+    std::ranges::sort(rows, {}, [](const Quantity& row) { return std::pair(row.order, row.name); });
+    for (const Quantity& row : rows)
+        check(std::ranges::count(rows, row.name, &Quantity::name) == 1, Failure::internal,
+              "the quantity '", row.name, "' is there twice");
+    return rows;
+}
+
+/// Place of a quantity among those that are computed from pictures.
+std::size_t index_of(const Quantity& quantity) {
+    std::size_t index = 0;
+    for (const Quantity& row : quantities()) {
+        if (row.name == quantity.name) break;
+        index += std::holds_alternative<Quantity::OfPictures>(row.get);
+    }
+    return index;
+}
+
+constexpr RowMask kMasks[] = {
+    {"error", "mirrors", "", &Row::error},
+    {"error_first_order", "first_order", "first order", &Row::error_first_order},
+    {"error_mirror_in_mirror", "mirror_in_mirror", "mirror in mirror",
+     &Row::error_mirror_in_mirror},
+    {"error_non_mirror", "non_mirror", "not a mirror", &Row::error_non_mirror},
+    {"error_all", "all", "all", &Row::error_all},
+};
+
+} // namespace
+
+Registered::Registered(Quantity quantity) {
+    if (!is_of_row(quantity)) quantity.mask = "each";
+    table().push_back(std::move(quantity));
+}
+
+const std::vector<Quantity>& quantities() {
+    static const std::vector<Quantity> kRows = in_order();
+    return kRows;
+}
+
+const std::vector<Quantity>& difference_quantities() {
+    static const std::vector<Quantity> kRows = [] {
+        std::vector<Quantity> rows = quantities();
+        std::erase_if(rows, is_of_row);
+        return rows;
+    }();
+    return kRows;
+}
+
+Value value_of(const Quantity& quantity, const Row& row) {
+    check(is_of_row(quantity), Failure::internal, "'", quantity.name, "' is no figure of a row");
+    return std::get<Quantity::OfRow>(quantity.get)(row);
+}
+
+Value value_of(const Quantity& quantity, const Difference& difference) {
+    check(!is_of_row(quantity), Failure::internal, "'", quantity.name,
+          "' is no figure of a difference");
+    if (const auto* get = std::get_if<Quantity::OfDifference>(&quantity.get))
+        return (*get)(difference);
+    const std::size_t index = index_of(quantity);
+    return index < difference.others.size() ? difference.others[index] : NAN;
+}
+
+bool is_nothing(const Value& value) {
+    struct Asks {
+        bool operator()(std::monostate) const { return true; }
+        bool operator()(bool) const { return false; }
+        bool operator()(double number) const { return !std::isfinite(number); }
+        bool operator()(const dvec3& colour) const {
+            return !std::isfinite(colour.x + colour.y + colour.z);
+        }
+        bool operator()(const Place& place) const { return place.x < 0; }
+        bool operator()(const Summary& times) const { return times.n == 0; }
+        bool operator()(const std::vector<double>& list) const { return list.empty(); }
+        bool operator()(const std::vector<Parts>& list) const { return list.empty(); }
+    };
+    return std::visit(Asks{}, value);
+}
+
+std::vector<double> other_figures(const Compared& compared) {
+    std::vector<double> figures;
+    for (const Quantity& quantity : quantities())
+        if (const auto* get = std::get_if<Quantity::OfPictures>(&quantity.get))
+            figures.push_back((*get)(compared));
+    return figures;
+}
+
+std::span<const RowMask> masks() { return kMasks; }
+
+} // namespace catoptric::measure

@@ -1,0 +1,32 @@
+// One name, one number: shaders/lib/constants.glsl.
+#include "gpu/shader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+namespace {
+
+using namespace catoptric::gpu;
+
+TEST(Constants, AreNumberedOnce) {
+    constexpr std::uint32_t kOwn = 32; // OWN_CONSTANTS
+    std::map<std::string, std::set<std::uint32_t>> ids;
+    std::map<std::uint32_t, std::set<std::string>> names;
+    for (const EmbeddedShader& shader : embedded_shaders()) {
+        std::set<std::uint32_t> here;
+        for (const Constant& constant : reflect(shader.name, shader.words).constants) {
+            EXPECT_TRUE(here.insert(constant.id).second)
+                << shader.name << ": " << constant.name << " has another's number";
+            if (constant.id >= kOwn) continue;
+            ids[constant.name].insert(constant.id);
+            names[constant.id].insert(constant.name);
+        }
+    }
+    EXPECT_GE(ids.size(), 15U);
+    for (const auto& [name, found] : ids) EXPECT_EQ(found.size(), 1U) << name;
+    for (const auto& [id, found] : names) EXPECT_EQ(found.size(), 1U) << id;
+}
+
+} // namespace

@@ -1,0 +1,139 @@
+// Figures, scenes and techniques register themselves: those of this file are listed nowhere else,
+// and are wherever such things are.
+#include "app/compare.hpp"
+#include "core/error.hpp"
+#include "measure/difference.hpp"
+#include "measure/flip.hpp"
+#include "measure/quantity.hpp"
+#include "reflect/technique.hpp"
+#include "report/report.hpp"
+#include "report_sample.hpp"
+#include "scene/load.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using namespace catoptric;
+using measure::Value;
+using nlohmann::json;
+using testing::Contains;
+using testing::HasSubstr;
+
+const measure::Registered kRedness{{.name = "test_only/redness",
+                                    .unit = "parts",
+                                    .help = "red of the first pixel",
+                                    .better = measure::Better::more,
+                                    .columns = {{"(test) redness", measure::Style::fixed, 2}},
+                                    .get = [](const measure::Row& row) -> Value {
+                                        return row.hdr.pixels.empty() ? measure::Difference::kNone
+                                                                      : row.hdr.pixels[0].x;
+                                    }}};
+
+const measure::Registered kGreener{
+    {.name = "test_only_greener",
+     .help = "pixels of the mask in which a is greener than b",
+     .columns = {{"(test) greener", measure::Style::fixed}},
+     .get = [](const measure::Compared& compared) {
+         double count = 0;
+         for (std::size_t i = 0; i < compared.a.pixels.size(); ++i)
+             count += (compared.mask.empty() || compared.mask[i] != 0) &&
+                      compared.a.pixels[i].y > compared.b.pixels[i].y;
+         return count;
+     }}};
+
+scene::Scene make_nothing() { return {.name = "test-only"}; }
+const scene::RegisteredScene kScene{{"test-only", "nothing at all", make_nothing}};
+
+constexpr std::string_view kRows[] = {"testonly", "testonly:much=2"};
+constexpr Knob kKnobs[] = {{.name = "much", .help = "how much", .low = 1, .high = 3, .value = 1}};
+constexpr reflect::Technique kTechnique{.name = "testonly",
+                                        .summary = "For a test.",
+                                        .order = 1000,
+                                        .knobs = kKnobs,
+                                        .compared = kRows};
+const reflect::Registered kTestOnly{kTechnique};
+
+/// A row whose picture is `colour` all over, and its difference from black.
+measure::Row row_of(const vec3& colour) {
+    measure::Row row = report::sample::row("reuse", 7, .1, .2);
+    std::ranges::fill(row.hdr.pixels, colour);
+    const measure::Picture black(row.hdr.width, row.hdr.height);
+    row.error = measure::difference(row.hdr, black, {}, row.flip_map);
+    return row;
+}
+
+TEST(Tables, AFigureThatNobodyListsIsInEveryFile) {
+    const measure::Comparison made = report::sample::comparison({row_of({.25F, .5F, 0})});
+    const json row = json::parse(report::to_json(made))["rows"][0];
+    EXPECT_EQ(row["test_only"]["redness"], .25);
+    EXPECT_EQ(row["error"]["test_only_greener"], 12);
+    EXPECT_TRUE(row["error_all"]["test_only_greener"].is_null()) << "nobody computed it there";
+    const std::string csv = report::to_csv(made);
+    for (const char* name : {",test_only_redness,", ",mirrors_test_only_greener,",
+                             ",first_order_test_only_greener,", ",mirror_1_test_only_greener,"})
+        EXPECT_THAT(csv, HasSubstr(name));
+    const std::string words = report::to_markdown(made), page = report::to_html(made);
+    for (const std::string& text : {words, page}) {
+        EXPECT_THAT(text, HasSubstr("(test) redness"));
+        EXPECT_THAT(text, HasSubstr("(test) greener"));
+        EXPECT_THAT(text, HasSubstr("0.25"));
+    }
+    EXPECT_THAT(page, HasSubstr("<td>12</td>"));
+}
+
+TEST(Tables, FiguresOfDifferencesAreOverTheirMask) {
+    const measure::Picture black(2, 1);
+    measure::Picture green(2, 1);
+    green.at(1, 0) = {0, 1, 0};
+    const std::vector<float> map(2, 0.F);
+    const auto greener = [&](const measure::Mask& mask) {
+        const measure::Difference found = measure::difference(green, black, mask, map);
+        const auto& table = measure::difference_quantities();
+        const auto row = std::ranges::find(table, "test_only_greener", &measure::Quantity::name);
+        return std::get<double>(measure::value_of(*row, found));
+    };
+    EXPECT_EQ(greener({}), 1);
+    EXPECT_EQ(greener({255, 0}), 0);
+    EXPECT_EQ(greener({0, 255}), 1);
+}
+
+TEST(Tables, QuantitiesAreInOrderAndKnowWhatTheyAreOf) {
+    const auto& table = measure::quantities();
+    EXPECT_TRUE(std::ranges::is_sorted(table, {}, &measure::Quantity::order));
+    const auto find = [&](std::string_view name) {
+        return *std::ranges::find(table, name, &measure::Quantity::name);
+    };
+    EXPECT_EQ(find("gpu_ms").unit, "ms");
+    EXPECT_EQ(find("psnr").better, measure::Better::more);
+    const auto refused = [](const measure::Quantity& quantity, const auto& of) {
+        try {
+            measure::value_of(quantity, of);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(refused(find("rmse"), measure::Row()), HasSubstr("'rmse' is no figure of a row"));
+    EXPECT_THAT(refused(find("gpu_ms"), measure::Difference()),
+                HasSubstr("'gpu_ms' is no figure of a difference"));
+}
+
+TEST(Tables, ASceneThatNobodyListsIsFoundByName) {
+    EXPECT_EQ(scene::load("test-only").name, "test-only");
+    std::vector<std::string> names;
+    for (const scene::BuiltIn& scene : scene::built_in_scenes()) names.push_back(scene.name);
+    EXPECT_THAT(names,
+                testing::ElementsAre("cornell-mirrors", "cornell-mirrors-closed", "test-only"));
+}
+
+TEST(Tables, ATechniqueThatNobodyListsIsFoundAndCompared) {
+    EXPECT_EQ(app::parse_technique("testonly:much=3").settings[0].number, 3.0);
+    EXPECT_EQ(app::techniques().back().name, "testonly");
+    const std::vector<std::string> rows = app::default_techniques();
+    EXPECT_THAT(rows, Contains("testonly:much=2"));
+    EXPECT_THAT(rows, Contains("naive:bounces=0"));
+}
+
+} // namespace
