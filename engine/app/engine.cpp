@@ -284,6 +284,7 @@ Result Engine::run(const Request& request) {
         auto mended = k == total ? render_mended(runner, request, choices, scene)
                                  : std::vector<std::vector<measure::Picture>>();
         const FrameGraph frame = declare(request, choices, scene, runner.history());
+        scene.prepare();
         const graph::Plan plan = runner.plan(frame.graph);
         const graph::FrameTimes times = runner.run(frame.graph, plan, timing);
         if (k > request.warmup) result.frames.push_back(to_frame(times));

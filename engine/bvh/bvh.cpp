@@ -234,18 +234,48 @@ float pad_of(const Box& box, const Box& core) {
            f32::largest(max(abs(box.lo - middle), abs(box.hi - middle))); // twice: roundings here
 }
 
+bool is_finite(const Triangle& t) {
+    return f32::is_finite(t.a) && f32::is_finite(t.b) && f32::is_finite(t.c);
+}
+
 std::vector<Reference> references(std::span<const Triangle> triangles) {
     std::vector<Reference> result;
     result.reserve(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
-        if (!f32::is_finite(t.a) || !f32::is_finite(t.b) || !f32::is_finite(t.c)) continue;
+        if (!is_finite(t)) continue;
         Reference r{.box = {}, .centre = {}, .triangle = static_cast<std::uint32_t>(i)};
         r.box.add(t.a), r.box.add(t.b), r.box.add(t.c);
         r.centre = r.box.lo * 0.5f + r.box.hi * 0.5f; // the sum itself may overflow
         result.push_back(r);
     }
     return result;
+}
+
+Box corner_bounds(const vec4* corners) {
+    Box box;
+    for (int i = 0; i < 3; ++i) box.add(vec3(corners[i]));
+    return box;
+}
+
+std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+/// Box of what a child's word stands for, from corners and nodes below it.
+Box child_bounds(const Bvh& bvh, std::uint32_t child, const Box& core) {
+    Box box;
+    if (f32::bvh_is_inner(child)) {
+        const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_index(child)}];
+        for (int side = 0; side < 2; ++side)
+            box.add(Box{vec3(node[2 * side]), vec3(node[2 * side + 1])});
+        return box;
+    }
+    for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
+        Box triangle = corner_bounds(&bvh.triangles[3 * std::size_t{f32::bvh_index(child) + i}]);
+        const float pad = pad_of(triangle, core);
+        triangle.lo -= pad, triangle.hi += pad;
+        box.add(triangle);
+    }
+    return box;
 }
 
 } // namespace
@@ -269,6 +299,48 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core) {
     bvh.nodes[0] = vec4(slack.lo, id_word(triangle_count(bvh)));
     bvh.nodes[1] = vec4(slack.hi, id_word(node_count(bvh)));
     return bvh;
+}
+
+void refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core) {
+    for (std::size_t i = 0; i < bvh.triangles.size(); i += 3) {
+        const std::size_t number = bits(bvh.triangles[i + 1].w) & f32::kBvhIdMask;
+        check(number < triangles.size() && is_finite(triangles[number]), Failure::internal,
+              "a hierarchy is refitted to finite triangles, number ", number, " is none");
+        const Triangle& t = triangles[number];
+        const std::array corners{t.a, t.b, t.c};
+        for (std::size_t k = 0; k < 3; ++k)
+            bvh.triangles[i + k] = vec4(corners[k], bvh.triangles[i + k].w);
+    }
+    Box slack = core;
+    if (slack.empty())
+        for (std::size_t i = 0; i < bvh.triangles.size(); i += 3)
+            slack.add(corner_bounds(&bvh.triangles[i]));
+    // A node comes before what is below it.
+    for (std::size_t node = node_count(bvh); node-- > 1;) {
+        vec4* texel = &bvh.nodes[4 * node];
+        for (int side = 0; side < 2; ++side) {
+            const Box box = child_bounds(bvh, bits(texel[side].w), slack);
+            texel[2 * side] = vec4(box.lo, texel[2 * side].w);
+            texel[2 * side + 1] = vec4(box.hi, texel[2 * side + 1].w);
+        }
+    }
+    bvh.nodes[0] = vec4(slack.lo, bvh.nodes[0].w);
+    bvh.nodes[1] = vec4(slack.hi, bvh.nodes[1].w);
+}
+
+double cost(const Bvh& bvh) {
+    double sum = 0;
+    for (std::size_t node = 1; node < node_count(bvh); ++node) {
+        const vec4* texel = &bvh.nodes[4 * node];
+        for (int side = 0; side < 2; ++side) {
+            const std::uint32_t child = bits(texel[side].w);
+            const Box box{vec3(texel[2 * side]), vec3(texel[2 * side + 1])};
+            sum += area(box) * (f32::bvh_is_inner(child)
+                                    ? kTraversalCost
+                                    : static_cast<double>(f32::bvh_count(child)));
+        }
+    }
+    return sum;
 }
 
 std::size_t node_count(const Bvh& bvh) { return bvh.nodes.size() / 4; }

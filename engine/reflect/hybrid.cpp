@@ -65,6 +65,7 @@ void add_trace(graph::Graph& graph, const render::FrameInputs& inputs, const Set
                const List& list, graph::Image hdr) {
     using graph::Use;
     const std::uint32_t shadow_rays = settings.choice("shadow") == "none" ? 0 : 2;
+    inputs.scene.want_tracing();
     graph.pass(inputs.prefix + "trace")
         .reads(list.arguments, Use::indirect)
         .reads(list.pixels, Use::storage_read)
@@ -72,6 +73,7 @@ void add_trace(graph::Graph& graph, const render::FrameInputs& inputs, const Set
         .writes(hdr, Use::storage)
         .record([=, &scene = inputs.scene, size = inputs.size](graph::Commands& commands) {
             scene.bind(commands);
+            scene.bind_tracing(commands);
             commands.bind("picture", hdr);
             commands.bind("counters", list.counters);
             commands.bind("List", list.pixels);

@@ -20,36 +20,50 @@ bool runs_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& tr
 
 Geometry make_geometry(const scene::Scene& now, const Space& space) {
     Geometry geometry{.core = space.core};
+    std::size_t vertices = 0, indices = 0;
     for (const scene::Object& object : now.objects) {
         const scene::Mesh& mesh = now.meshes[object.mesh];
         const scene::Material& material = now.materials[object.material];
-        const dmat3 normal_to_world = scene::normal_matrix(object.world_from_object);
         DrawRange range;
-        range.first_index = static_cast<std::uint32_t>(geometry.indices.size());
+        range.first_index = static_cast<std::uint32_t>(indices);
         range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+        range.first_vertex = static_cast<std::uint32_t>(vertices);
+        range.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
         range.mirror = material.mirror;
         range.casts_shadow = material.emission == vec3(0);
         range.seen_by_camera = object.seen_by_camera;
         range.exact_sphere = object.sphere.has_value();
         range.one_sided = scene::is_one_sided(material);
-        const auto first_vertex = static_cast<std::uint32_t>(geometry.vertices.size());
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-            const dvec3 world(object.world_from_object * dvec4(mesh.positions[i], 1));
-            const vec3 position = space.point(world);
-            range.bounds.add(position);
-            geometry.vertices.push_back(
-                {position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))});
-        }
-        check_reach(range.bounds, object.name);
-        for (uvec3 triangle : mesh.triangles) {
-            triangle += first_vertex;
-            if (range.one_sided && runs_clockwise(geometry.vertices, triangle))
-                std::swap(triangle.y, triangle.z);
-            for (int i = 0; i < 3; ++i) geometry.indices.push_back(triangle[i]);
-        }
         geometry.ranges.push_back(range);
+        vertices += range.vertex_count, indices += range.index_count;
     }
+    geometry.vertices.resize(vertices);
+    geometry.indices.resize(indices);
+    for (std::size_t i = 0; i < now.objects.size(); ++i) move_object(geometry, now, space, i);
     return geometry;
+}
+
+void move_object(Geometry& geometry, const scene::Scene& now, const Space& space,
+                 std::size_t object) {
+    const dmat4& world_from_object = now.objects[object].world_from_object;
+    const scene::Mesh& mesh = now.meshes[now.objects[object].mesh];
+    const dmat3 normal_to_world = scene::normal_matrix(world_from_object);
+    DrawRange& range = geometry.ranges[object];
+    range.bounds = {};
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const vec3 position = space.point(dvec3(world_from_object * dvec4(mesh.positions[i], 1)));
+        range.bounds.add(position);
+        geometry.vertices[range.first_vertex + i] = {
+            position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))};
+    }
+    check_reach(range.bounds, now.objects[object].name);
+    std::size_t index = range.first_index;
+    for (uvec3 triangle : mesh.triangles) {
+        triangle += range.first_vertex;
+        if (range.one_sided && runs_clockwise(geometry.vertices, triangle))
+            std::swap(triangle.y, triangle.z);
+        for (int i = 0; i < 3; ++i) geometry.indices[index++] = triangle[i];
+    }
 }
 
 float squared_distance(vec3 p, vec3 a, vec3 b, vec3 c) {

@@ -35,6 +35,7 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
     shared::Draw draw = scene.draw_of(object, first_view);
     draw.mended = mended;
     commands.push(draw);
+    scene.bind_vertices(commands, object);
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
         while (end < layers && may_meet(scene.views()[first_view + end], range.bounds)) ++end;
@@ -53,6 +54,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
     std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed",
                 black = "mirror_black.frag";
     scene.bind(commands);
+    if (look.mended) scene.bind_tracing(commands);
     if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
     if (peeled) {
         diffuse += lighting.shadow_map ? "#peel" : "_peel", black += "#peel";
@@ -151,6 +153,7 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
 MirrorLook mended(MirrorLook look, const FrameInputs& inputs, const Lighting& lighting) {
     if (!inputs.mended) return look;
     look.mended = inputs.mended;
+    inputs.scene.want_tracing();
     for (const auto& [name, value] : {std::pair{"picture_width", inputs.size.x},
                                       {"picture_height", inputs.size.y},
                                       {"max_depth", kReferenceDepth},
