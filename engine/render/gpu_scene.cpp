@@ -2,6 +2,7 @@
 
 #include "render/enclosure.hpp"
 #include "render/footprint.hpp"
+#include "render/limits.hpp"
 #include "render/stopwatch.hpp"
 #include "render/views.hpp"
 
@@ -50,10 +51,19 @@ bool same_kind(const scene::Material& a, const scene::Material& b) {
            scene::is_one_sided(a) == scene::is_one_sided(b);
 }
 
+/// The scene, once its numbers are known to fit.
+const scene::Scene& fitting(const gpu::Device& device, const scene::Scene& scene) {
+    const auto& limits = device.limits();
+    check_limits(scene.name, amounts_of(scene),
+                 {limits.maxTexelBufferElements, limits.maxStorageBufferRange,
+                  device.max_allocation(), device.memory_budget()});
+    return scene;
+}
+
 } // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots)
-    : device_(device), space_(space_of(scene)),
+    : device_(device), space_(space_of(fitting(device, scene))),
       still_vertices_("vertices", gpu::BufferUse::vertex, slots),
       moving_vertices_("moving vertices", gpu::BufferUse::vertex, slots),
       indices_("indices", gpu::BufferUse::index, slots),

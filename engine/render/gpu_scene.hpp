@@ -14,6 +14,7 @@ namespace catoptric::render {
 class GpuScene {
 public:
     /// `scene` at rest fixes the units for good. `slots`: frames that may be in flight at once.
+    /// Throws as check_limits does (render/limits.hpp) for what the device cannot hold.
     GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots = 1);
 
     /// Writes what differs from the update before, and nothing where nothing does. `now` is

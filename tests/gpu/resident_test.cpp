@@ -129,6 +129,23 @@ TEST(Resident, ShowsWhatASceneMadeForTheFrameShows) {
     EXPECT_GT(live.resident.hierarchies_refitted(), 2u);
 }
 
+/// 50 million triangles: refused by their count, before a vertex is made.
+TEST(Resident, AndASceneBeyondTheDeviceIsRefused) {
+    scene::Scene scene = test::room(0, 1);
+    scene::add_ball(scene, "ball", 0, dvec3(0), .5);
+    scene.meshes.back() = scene::ball("ball", 7); // 65,536 triangles
+    scene.objects.resize(800, scene.objects.back());
+    try {
+        render::GpuScene refused(device(), scene);
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::exhausted);
+        EXPECT_NE(std::string(error.what()).find("scene 'room' wants "), std::string::npos)
+            << error.what();
+        EXPECT_NE(std::string(error.what()).find(", the device allows "), std::string::npos);
+    }
+}
+
 std::vector<std::uint32_t> words(const gpu::Buffer& buffer, std::size_t count) {
     const std::vector<std::byte> bytes = buffer.read();
     std::vector<std::uint32_t> result(count);
