@@ -153,7 +153,8 @@ References without_copies(References references, std::span<const Triangle> trian
 
 class Builder {
 public:
-    Builder(std::span<const Triangle> triangles, Bvh& bvh) : triangles_(triangles), bvh_(bvh) {}
+    Builder(std::span<const Triangle> triangles, Bvh& bvh, std::uint32_t most)
+        : triangles_(triangles), bvh_(bvh), most_(most) {}
 
     void add_root(References references) { add_node(without_copies(references, triangles_), 0); }
 
@@ -182,12 +183,12 @@ private:
     }
 
     // Number of triangles that a subtree of which `depth` inner nodes are above can hold.
-    static std::size_t capacity(std::uint32_t depth) {
-        return static_cast<std::size_t>(kMaxLeaf) << (kMaxDepth - depth);
+    std::size_t capacity(std::uint32_t depth) const {
+        return std::size_t{most_} << (kMaxDepth - depth);
     }
 
-    static bool is_leaf(References references, std::uint32_t depth) {
-        if (references.size() > kMaxLeaf) return false;
+    bool is_leaf(References references, std::uint32_t depth) const {
+        if (references.size() > most_) return false;
         if (references.size() == 1 || depth == kMaxDepth) return true;
         const std::optional<Split> best = best_split(references, references.size());
         const double whole = area(bounds(references));
@@ -196,8 +197,8 @@ private:
                              whole * static_cast<double>(references.size()));
     }
 
-    static std::size_t split(References references, std::uint32_t depth) {
-        if (depth == 0 && references.size() <= kMaxLeaf) return references.size();
+    std::size_t split(References references, std::uint32_t depth) const {
+        if (depth == 0 && references.size() <= most_) return references.size();
         const std::optional<Split> best = best_split(references, capacity(depth + 1));
         if (!best) return halve(references);
         const auto middle = std::partition(
@@ -221,6 +222,7 @@ private:
 
     std::span<const Triangle> triangles_;
     Bvh& bvh_;
+    std::uint32_t most_; ///< triangles in a leaf
 };
 
 /// What the walk's slack lacks for a triangle that reaches out of the core: its distance from the
@@ -280,7 +282,7 @@ Box child_bounds(const Bvh& bvh, std::uint32_t child, const Box& core) {
 
 } // namespace
 
-Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core) {
+Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, std::uint32_t leaf) {
     check(triangles.size() <= kMaxTriangles, Failure::exhausted, "bounding volume hierarchy wants ",
           triangles.size(), " triangles, its words hold ", kMaxTriangles);
     std::vector<Reference> kept = references(triangles);
@@ -294,7 +296,7 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core) {
         r.box.lo -= pad, r.box.hi += pad;
     }
     bvh.nodes.resize(4, vec4(0));
-    Builder(triangles, bvh).add_root(kept);
+    Builder(triangles, bvh, leaf).add_root(kept);
     bvh.copies = kept.size() - triangle_count(bvh);
     bvh.nodes[0] = vec4(slack.lo, id_word(triangle_count(bvh)));
     bvh.nodes[1] = vec4(slack.hi, id_word(node_count(bvh)));

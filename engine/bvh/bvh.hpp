@@ -58,8 +58,10 @@ struct Bvh {
 /// Same input, same output. O(n log^2 n) whatever the input, about 1 s for a million triangles.
 /// `core`: where most of it is; the walk widens all boxes by roundings of that size. Boxes of
 /// triangles that lie farther out are wider themselves, so that one of them does not cost every
-/// ray. Empty: all is. Throws `Failure::exhausted` above 2^27 - 1 triangles.
-Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core = {});
+/// ray. Empty: all is. `leaf`: triangles in a leaf, 1 to kMaxLeaf. Throws `Failure::exhausted`
+/// above 2^27 - 1 triangles.
+Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core = {},
+          std::uint32_t leaf = kMaxLeaf);
 
 /// The same tree over the same triangles elsewhere: `triangles` as they were given to `build`, in
 /// the same order, moved. What a ray meets does not depend on whether a tree was built or refitted.

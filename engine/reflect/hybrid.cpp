@@ -77,9 +77,10 @@ void add_trace(graph::Graph& graph, const render::FrameInputs& inputs, const Set
             commands.bind("picture", hdr);
             commands.bind("counters", list.counters);
             commands.bind("List", list.pixels);
-            commands.use(gpu::ComputeState{
-                "reflect/hybrid_trace.comp",
-                {{"max_depth", render::kReferenceDepth}, {"shadow", shadow_rays}}});
+            commands.use(gpu::ComputeState{"reflect/hybrid_trace.comp",
+                                           {{"max_depth", render::kReferenceDepth},
+                                            {"shadow", shadow_rays},
+                                            {"own_spaces", scene.has_own_spaces() ? 1u : 0u}}});
             commands.push(size);
             commands.dispatch_indirect(list.arguments);
         });

@@ -92,6 +92,7 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
                     : lighting.shadow_map               ? 1u
                                                         : 2u},
          {"exact_spheres", static_cast<std::uint32_t>(settings.integer("sphere"))},
+         {"own_spaces", inputs.scene.has_own_spaces() ? 1u : 0u},
          {"without", static_cast<std::uint32_t>(settings.integer("without"))},
          {"fixed_offset", inputs.scene.space().length(kReportOffset)}}};
     pass.writes(hdr, Use::storage_write)

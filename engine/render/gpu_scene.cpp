@@ -51,6 +51,18 @@ bool same_kind(const scene::Material& a, const scene::Material& b) {
            scene::is_one_sided(a) == scene::is_one_sided(b);
 }
 
+/// All vertices, of which those of an object in its own space become arms from its middle.
+std::vector<shared::Vertex> arms_of(const Geometry& geometry, const DrawRange& range) {
+    std::vector<shared::Vertex> vertices = geometry.vertices;
+    const dmat3 turn = range.own->scene_from_own, normals = glm::transpose(glm::inverse(turn));
+    for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
+        shared::Vertex& vertex = vertices[range.first_vertex + i];
+        vertex = {vec3(turn * dvec3(vertex.position)),
+                  vec3(glm::normalize(normals * dvec3(vertex.normal)))};
+    }
+    return vertices;
+}
+
 /// The scene, once its numbers are known to fit.
 const scene::Scene& fitting(const gpu::Device& device, const scene::Scene& scene) {
     const auto& limits = device.limits();
@@ -127,7 +139,9 @@ GpuScene::Changes GpuScene::take_over(const scene::Scene& now) {
 }
 
 void GpuScene::lay_out(const scene::Scene& now) {
-    geometry_ = make_geometry(now, space_);
+    geometry_ = make_geometry(now, space_, Spaces::own);
+    has_own_spaces_ = std::ranges::any_of(
+        geometry_.ranges, [](const DrawRange& range) { return range.own.has_value(); });
     mirror_objects_ = scene::mirrors(now);
     nearest_.lay_out(geometry_);
     tracing_->lay_out();
@@ -135,14 +149,18 @@ void GpuScene::lay_out(const scene::Scene& now) {
 }
 
 void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& objects) {
+    if (std::ranges::any_of(objects, [&](std::size_t object) {
+            return changes_space(geometry_, now, space_, object);
+        }))
+        return lay_out(now);
     bool places = false, turned = false;
     for (const std::size_t object : objects) {
-        move_object(geometry_, now, space_, object);
+        const bool vertices = move_object(geometry_, now, space_, object);
         nearest_.move(object);
-        tracing_->move(object);
+        tracing_->move(object, vertices);
         turned = turned || geometry_.ranges[object].one_sided; // which may change its indices
-        places = places || !places_[object].moves;
-        places_[object].moves = true;
+        places = places || (vertices && !places_[object].moves);
+        places_[object].moves = places_[object].moves || vertices;
     }
     if (places || turned) place_vertices();
     if (objects.empty()) return;
@@ -150,7 +168,8 @@ void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& obj
     for (std::size_t i = 0; i < geometry_.ranges.size(); ++i) {
         const DrawRange& range = geometry_.ranges[i];
         const auto first = geometry_.vertices.begin() + range.first_vertex;
-        if (places_[i].moves) moving.insert(moving.end(), first, first + range.vertex_count);
+        if (places_[i].moves && range.storage == i)
+            moving.insert(moving.end(), first, first + range.vertex_count);
     }
     moving_vertices_.set(moving);
 }
@@ -158,16 +177,17 @@ void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& obj
 /// What stands still has one copy on the device, apart from what moves.
 void GpuScene::place_vertices() {
     std::vector<shared::Vertex> still, moving;
-    std::vector<std::uint32_t> indices;
-    indices.reserve(geometry_.indices.size());
+    std::vector<std::uint32_t> indices(geometry_.indices.size());
     for (std::size_t i = 0; i < geometry_.ranges.size(); ++i) {
         const DrawRange& range = geometry_.ranges[i];
+        if (range.shares) places_[i].moves = false; // the mesh's vertices never do
+        if (range.storage != i) continue;
         std::vector<shared::Vertex>& home = places_[i].moves ? moving : still;
         places_[i].first = static_cast<std::uint32_t>(home.size());
         const auto first = geometry_.vertices.begin() + range.first_vertex;
         home.insert(home.end(), first, first + range.vertex_count);
         for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k)
-            indices.push_back(geometry_.indices[k] - range.first_vertex + places_[i].first);
+            indices[k] = geometry_.indices[k] - range.first_vertex + places_[i].first;
     }
     anything_moves_ = std::ranges::any_of(places_, &Place::moves);
     still_vertices_.set(still);
@@ -183,23 +203,28 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
         surfaces_.push_back(
             surface_of(object, material, material.mirror ? ++mirrors : kNoMirror, space_));
     }
-    surface_buffer_.set(surfaces_);
+    // The walk meets exact spheres in spaces of their own; the shaders' list has the others.
+    std::vector<shared::Surface> listed = surfaces_;
+    for (std::size_t i = 0; i < listed.size(); ++i)
+        if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;
+    surface_buffer_.set(listed);
 }
 
 void GpuScene::fill_lights(const scene::Scene& now, bool others) {
     if (others) world_lights_ = scene::lights(now);
     check(world_lights_.size() <= shared::kMaxLights, Failure::exhausted, "the scene has ",
           world_lights_.size(), " lights, ", shared::kMaxLights, " are allowed");
-    lights_.clear();
+    lights_.clear(), light_places_.clear();
     shadow_faces_ = 5;
     for (const scene::PointLight& light : world_lights_) {
         const double area = light.area * space_.scale * space_.scale;
         shared::Light entry{};
-        entry.position = space_.point(light.position);
+        light_places_.push_back(space_.place(light.position));
+        entry.position = vec3(light_places_.back());
         entry.normal = vec3(light.normal);
         entry.intensity = light.emission * static_cast<float>(area);
         const float gap = nearest_.distance(
-            geometry_, entry.position,
+            geometry_, light_places_.back(),
             [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
         const shared::View main = turned_cube_views(entry.position, entry.normal, gap)[4];
         entry.right = main.right, entry.down = main.down, entry.forward = main.forward,
@@ -224,21 +249,36 @@ shared::Draw GpuScene::draw_of(std::size_t object, std::uint32_t first_view) con
             static_cast<std::uint32_t>(object), 0};
 }
 
+/// What all views that one draw may go to share.
+const dvec3& GpuScene::eye_of(std::uint32_t view) const {
+    if (view == kCameraView) return eye_;
+    if (view < shadow_view(0)) return probe_places_[(view - 1) / 6];
+    return light_places_[(view - shadow_view(0)) / shadow_faces_];
+}
+
+shared::Placement GpuScene::placement_of(std::size_t object, std::uint32_t first_view) const {
+    const OwnSpace& own = *geometry_.ranges[object].own;
+    return {vec3(own.scene_from_own[0]), vec3(own.scene_from_own[1]), vec3(own.scene_from_own[2]),
+            vec3(own.centre - eye_of(first_view))};
+}
+
 /// Six views for each mirror, then the shadow faces of each light.
 void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
     const std::size_t known = changes.layout ? 0 : probes_.size();
-    probes_.resize(mirror_objects_.size());
+    probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
     scene_views_.clear();
     for (std::size_t mirror = 0; mirror < mirror_objects_.size(); ++mirror) {
         const std::size_t object = mirror_objects_[mirror];
         shared::Probe& probe = probes_[mirror];
         if (mirror >= known || std::ranges::binary_search(changes.moved, object))
-            probe.centre = space_.point(scene::bounds(now, now.objects[object]).centre());
+            probe_places_[mirror] = space_.place(scene::bounds(now, now.objects[object]).centre());
+        probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];
         probe.sphere = surface.centre, probe.radius = surface.radius;
         probe.reflectance = surface.reflectance;
         const float gap = nearest_.distance(
-            geometry_, probe.centre, [&](std::size_t i, const DrawRange&) { return i == object; });
+            geometry_, probe_places_[mirror],
+            [&](std::size_t i, const DrawRange&) { return i == object; });
         std::ranges::copy(cube_views(probe.centre, gap), std::back_inserter(scene_views_));
     }
     for (const shared::Light& light : lights_) {
@@ -252,14 +292,14 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
 
 /// The camera's, then those of mirrors and lights.
 void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
-    const vec3 eye = space_.point(camera.eye);
+    eye_ = space_.place(camera.eye);
     const float gap = nearest_.distance(
-        geometry_, eye, [](std::size_t, const DrawRange& range) { return !range.seen_by_camera; });
+        geometry_, eye_, [](std::size_t, const DrawRange& range) { return !range.seen_by_camera; });
     views_ = {camera_view(camera, space_, size, gap)};
     views_.insert(views_.end(), scene_views_.begin(), scene_views_.end());
     hides_all_.clear();
     for (const DrawRange& range : geometry_.ranges)
-        hides_all_.push_back(range.mirror && encloses(geometry_, range, eye));
+        hides_all_.push_back(range.mirror && encloses(geometry_, range, eye_));
     camera_ = camera, size_ = size;
     view_buffer_.set(views_);
 }
@@ -271,17 +311,23 @@ void GpuScene::fill_frame(double ambient) {
 }
 
 void GpuScene::find_face_needs(uvec2 size) {
-    const Pixels pixels{views_[kCameraView], size.y};
     for (std::uint32_t mirror = 0; mirror < mirror_count(); ++mirror) {
+        Pixels pixels{views_[kCameraView], size.y};
         const DrawRange& range = geometry_.ranges[mirror_objects_[mirror]];
-        const shared::Probe& probe = probes_[mirror];
-        if (!range.seen_by_camera || !may_meet(pixels.view, range.bounds))
+        vec3 sphere = probes_[mirror].sphere;
+        std::vector<shared::Vertex> arms; // of an own space, from its middle
+        if (range.own) {
+            pixels.view.eye = vec3(eye_ - range.own->centre), sphere = vec3(0);
+            arms = arms_of(geometry_, range);
+        }
+        const std::span<const shared::Vertex> vertices = range.own ? arms : geometry_.vertices;
+        if (!range.seen_by_camera || !may_meet(views_[kCameraView], range.bounds))
             face_needs_.push_back(0);
-        else if (probe.radius > 0)
-            face_needs_.push_back(sphere_need(pixels, probe.sphere, double{probe.radius}));
+        else if (probes_[mirror].radius > 0)
+            face_needs_.push_back(sphere_need(pixels, sphere, double{probes_[mirror].radius}));
         else
             face_needs_.push_back(mesh_need(
-                pixels, geometry_.vertices,
+                pixels, vertices,
                 std::span(geometry_.indices).subspan(range.first_index, range.index_count)));
     }
 }

@@ -46,6 +46,10 @@ public:
     std::uint32_t common_face() const;
     /// Push constants that draw an object into the views from `first_view` on.
     shared::Draw draw_of(std::size_t object, std::uint32_t first_view) const;
+    /// What follows them where the object has a space of its own.
+    shared::Placement placement_of(std::size_t object, std::uint32_t first_view) const;
+    /// Whether some object has (DrawRange::own).
+    bool has_own_spaces() const { return has_own_spaces_; }
 
     static constexpr std::uint32_t kCameraView = 0;
     std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }
@@ -106,6 +110,7 @@ private:
     void fill_views(const scene::Camera& camera, uvec2 size);
     void fill_frame(double ambient);
     void find_face_needs(uvec2 size);
+    const dvec3& eye_of(std::uint32_t view) const;
     void write(std::size_t slot);
 
     gpu::Device& device_;
@@ -114,7 +119,9 @@ private:
     Nearest nearest_;
     std::vector<Seen> seen_;
     std::vector<Place> places_;
-    std::vector<shared::View> views_, scene_views_; ///< all; those of mirrors and lights
+    std::vector<shared::View> views_, scene_views_;  ///< all; those of mirrors and lights
+    std::vector<dvec3> probe_places_, light_places_; ///< scene units
+    dvec3 eye_{0};
     std::vector<shared::Surface> surfaces_;
     std::vector<shared::Probe> probes_;
     std::vector<scene::PointLight> world_lights_;
@@ -125,7 +132,7 @@ private:
     scene::Camera camera_; ///< of the last update
     uvec2 size_{0};
     bool complete_ = false; ///< the last update came to its end
-    bool anything_moves_ = false;
+    bool anything_moves_ = false, has_own_spaces_ = false;
     std::uint32_t shadow_faces_ = 6;
     std::size_t slot_ = 0, uploads_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0;

@@ -106,7 +106,7 @@ void Nearest::look_at(const Geometry& geometry, std::size_t object, const vec3& 
         for (std::uint32_t i = 0; i < range.index_count / 3; ++i) look(i);
         return;
     }
-    Part& part = parts_[object];
+    Part& part = parts_[range.storage];
     if (!part.tree)
         part.tree = BoxTree(triangle_boxes(geometry, range));
     else if (part.moved)
@@ -115,15 +115,27 @@ void Nearest::look_at(const Geometry& geometry, std::size_t object, const vec3& 
     part.tree->nearest(point, squared, look);
 }
 
-float Nearest::distance(const Geometry& geometry, const vec3& point,
+void Nearest::look_at_own(const Geometry& geometry, std::size_t object, const dvec3& point,
+                          float& squared) {
+    const OwnSpace& own = *geometry.ranges[object].own;
+    float own_squared = std::numeric_limits<float>::infinity();
+    look_at(geometry, object, vec3(own.point(point)), own_squared);
+    const double gap = std::sqrt(double{own_squared}) * own.least;
+    squared = std::min(squared, static_cast<float>(gap * gap));
+}
+
+float Nearest::distance(const Geometry& geometry, const dvec3& at,
                         const std::function<bool(std::size_t, const DrawRange&)>& skip) {
     if (moved_) objects_.refit(object_boxes(geometry));
     moved_ = false;
+    const vec3 point(at);
     float squared = std::numeric_limits<float>::infinity();
     objects_.nearest(point, squared, [&](std::uint32_t object) {
         if (skip(object, geometry.ranges[object])) return;
-        if (const float gap = gap_below(point, geometry.ranges[object].bounds);
-            !(gap * gap >= squared))
+        if (geometry.ranges[object].own)
+            look_at_own(geometry, object, at, squared);
+        else if (const float gap = gap_below(point, geometry.ranges[object].bounds);
+                 !(gap * gap >= squared))
             look_at(geometry, object, point, squared);
     });
     return std::sqrt(squared);

@@ -43,7 +43,8 @@ public:
 
     /// Distance from a point to the nearest triangle, scene units: what looking at all of them
     /// finds. Objects where `skip(index, range)` are left out; infinity when nothing is left.
-    float distance(const Geometry& geometry, const vec3& point,
+    /// An object in a shared mesh's space counts as at least as near as it is.
+    float distance(const Geometry& geometry, const dvec3& point,
                    const std::function<bool(std::size_t, const DrawRange&)>& skip);
 
 private:
@@ -52,6 +53,8 @@ private:
         bool moved = false;
     };
     void look_at(const Geometry& geometry, std::size_t object, const vec3& point, float& squared);
+    void look_at_own(const Geometry& geometry, std::size_t object, const dvec3& point,
+                     float& squared);
 
     BoxTree objects_;
     bool moved_ = false;

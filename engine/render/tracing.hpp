@@ -1,11 +1,12 @@
 #pragma once
 
-#include "bvh/bvh.hpp"
+#include "bvh/two_level.hpp"
 #include "graph/commands.hpp"
 #include "render/geometry.hpp"
 #include "render/resident.hpp"
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace catoptric::render {
@@ -21,7 +22,8 @@ public:
 
     /// The objects are others than before.
     void lay_out();
-    void move(std::size_t object) { moved_.push_back(object); }
+    /// `vertices`: these changed, not only where an object's own space stands.
+    void move(std::size_t object, bool vertices) { moved_.push_back({object, vertices}); }
     /// Brings the hierarchy up to date for slot `slot`; nothing to do where nothing has changed
     /// since. Building is O(n log^2 n), refitting O(n).
     void prepare(gpu::Device& device, const Geometry& geometry, std::size_t slot);
@@ -33,15 +35,23 @@ public:
     double ms() const { return ms_; }              ///< of the host, all together
 
 private:
+    struct Move {
+        std::size_t object;
+        bool vertices;
+    };
     void build(const Geometry& geometry);
     void refit(const Geometry& geometry);
+    void build_own(const Geometry& geometry, std::size_t object);
+    void follow(const Geometry& geometry);
+    void fill(const Geometry& geometry);
 
     std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
     std::vector<vec4> normals_;
-    bvh::Bvh tree_;
+    bvh::Bvh tree_;                             ///< of what is in scene units
+    std::map<std::size_t, bvh::Bvh> own_trees_; ///< by the object whose vertices they are
     double cost_when_built_ = 0;
     bool laid_out_ = false;
-    std::vector<std::size_t> moved_; ///< objects, since the hierarchy was made
+    std::vector<Move> moved_; ///< since the hierarchy was made
     Resident nodes_buffer_, triangles_buffer_, normals_buffer_;
     std::size_t built_ = 0, refitted_ = 0, writes_ = 0;
     double ms_ = 0;

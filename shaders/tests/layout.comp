@@ -33,7 +33,7 @@ void main() {
     put(l.position), put(l.normal), put(l.intensity), put(l.right), put(l.down), put(l.forward), put(l.near);
     put(probes[1].centre), put(probes[1].sphere), put(probes[1].radius), put(probes[1].reflectance);
     View v = views[1];
-    put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near);
+    put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near), put(v.eye_low);
     Frame f = frames[1];
     put(f.ambient), put(f.light_count), put(f.mirror_count), put(f.object_count), put(f.shadow_faces);
     put(draws[1].first_view);

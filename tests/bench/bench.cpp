@@ -126,7 +126,7 @@ void compare_rules(const app::Request& base, int rounds) {
     const auto gaps = [&] {
         // Camera, four captures, light.
         for (int i = 0; i < 6; ++i)
-            kept = nearest.distance(geometry, vec3(0.1f * static_cast<float>(i)),
+            kept = nearest.distance(geometry, dvec3(0.1 * i),
                                     [](std::size_t, const render::DrawRange&) { return false; });
     };
     std::printf("\n| On the processor, always | ms | when |\n|---|---:|---|\n");

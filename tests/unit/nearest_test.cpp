@@ -33,13 +33,14 @@ void expect_same(render::Nearest& nearest, const render::Geometry& geometry,
     for (int k = 0; k < 100; ++k) {
         const vec3 point = numbers.in_cube();
         const Skip none = [](std::size_t, const render::DrawRange&) { return false; };
-        ASSERT_EQ(nearest.distance(geometry, point, none),
+        ASSERT_EQ(nearest.distance(geometry, dvec3(point), none),
                   by_looking_at_all(geometry, point, none));
     }
     for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
         const vec3 point = geometry.ranges[object].bounds.centre();
         const Skip own = [&](std::size_t i, const render::DrawRange&) { return i == object; };
-        ASSERT_EQ(nearest.distance(geometry, point, own), by_looking_at_all(geometry, point, own));
+        ASSERT_EQ(nearest.distance(geometry, dvec3(point), own),
+                  by_looking_at_all(geometry, point, own));
     }
 }
 
@@ -67,7 +68,7 @@ TEST(Nearest, OfNothingIsInfinity) {
     const render::Geometry geometry;
     render::Nearest nearest;
     nearest.lay_out(geometry);
-    EXPECT_EQ(nearest.distance(geometry, vec3(0),
+    EXPECT_EQ(nearest.distance(geometry, dvec3(0),
                                [](std::size_t, const render::DrawRange&) { return false; }),
               std::numeric_limits<float>::infinity());
 }
