@@ -62,6 +62,7 @@ struct View {
     vec3 down;    // scaled by 1 / tan(half vertical field of view)
     vec3 forward; // unit length
     float near;
+    vec3 eye_low; // what `eye` lacks as a sum of two floats
 };
 
 // What is true for the whole frame.
@@ -80,6 +81,12 @@ struct Draw {
     vec3 probe_centre; // of a mirror's capture
     uint object;       // what is drawn
     uint mended;       // causes of error to take away: kMend..., in builds that can (lib/mend.glsl)
+};
+
+// Follows the push constants of a draw whose vertices are in a space of their own.
+struct Placement {
+    vec3 x, y, z;  // columns of the matrix to the scene's axes
+    vec3 from_eye; // to the middle of that space, from the eye that all views of the draw share
 };
 
 // Causes of error, in the order in which a chain of renderings takes them away.
@@ -115,9 +122,10 @@ static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
 static_assert(sizeof(Light) == 76);
 static_assert(sizeof(Probe) == 64);
-static_assert(sizeof(View) == 52);
+static_assert(sizeof(View) == 64);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(Draw) == 80);
+static_assert(sizeof(Draw) + sizeof(Placement) == 128); // what every device has
 static_assert(sizeof(Trace) == 24);
 static_assert(sizeof(Counters) == 28);
 } // namespace catoptric::shared

@@ -50,8 +50,8 @@ void check_spec(const FrameSpec& spec) {
 struct Session::Impl {
     Impl(Engine::Impl& shared, scene::Scene at_rest, std::uint32_t in_flight)
         : engine(shared), scene(std::move(at_rest)),
-          resident(std::make_unique<render::GpuScene>(shared.device, scene)),
-          runner(shared.device, shared.pipelines, in_flight) {}
+          resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
+          runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {}
 
     /// Writes what the specification asks for and the device does not have yet; milliseconds of
     /// work.
@@ -76,7 +76,7 @@ struct Frame::Impl {
     graph::Ticket ticket;
     FrameSpec spec;
     FrameGraph frame;
-    double update_ms = 0, declare_ms = 0;
+    double update_ms = 0, declare_ms = 0, hierarchy_ms = 0;
     mutable std::optional<FrameTimes> times; ///< once it was waited for
 
     graph::Runner& runner() const { return session->runner; }
@@ -93,10 +93,15 @@ struct Frame::Impl {
 double Session::Impl::stand(const FrameSpec& spec) {
     const Standing wanted{spec.time, spec.camera, spec.size, spec.ambient};
     if (standing == wanted) return 0;
-    if (last) runner.wait(*last); // it reads what is written now
+    // Another copy than frames on their way read.
+    const std::size_t next = (copy + 1) % read_by.size();
+    if (last && read_by[next] + read_by.size() > last->frame && read_by[next] > 0)
+        runner.wait({read_by[next]});
+    copy = next;
     const Clock::time_point start = Clock::now();
     if (standing && standing->size != wanted.size) resident->forget_face_needs();
-    resident->update(scene::at(scene, spec.time), spec.camera, spec.size, spec.ambient);
+    resident->update(scene::at(scene, spec.time), spec.camera, spec.size, spec.ambient,
+                     static_cast<std::uint32_t>(copy));
     standing = wanted;
     ++counts.updates;
     return milliseconds_since(start);
@@ -119,6 +124,9 @@ const scene::Scene& Session::scene() const { return impl_->scene; }
 Counts Session::counts() const {
     Counts counts = impl_->counts;
     counts.plans = impl_->runner.plans_made();
+    counts.uploads = impl_->resident->uploads();
+    counts.hierarchies_built = impl_->resident->hierarchies_built();
+    counts.hierarchies_refitted = impl_->resident->hierarchies_refitted();
     return counts;
 }
 
@@ -134,14 +142,18 @@ Frame Session::frame(const FrameSpec& spec) {
     const Clock::time_point start = Clock::now();
     FrameGraph frame = declare(spec, choices, *self.resident, self.runner.history());
     const double declare_ms = milliseconds_since(start);
+    const Clock::time_point trees = Clock::now();
+    self.resident->prepare();
+    const double hierarchy_ms = milliseconds_since(trees);
     const graph::Ticket ticket = self.runner.submit(
         frame.graph,
         spec.timing == Timing::isolated ? graph::Timing::isolated : graph::Timing::pipelined,
         spec.is_aside);
     self.last = ticket;
+    self.read_by[self.copy] = ticket.frame;
     ++self.counts.frames;
-    return Frame(std::make_shared<Frame::Impl>(
-        Frame::Impl{impl_, ticket, spec, std::move(frame), update_ms, declare_ms, {}}));
+    return Frame(std::make_shared<Frame::Impl>(Frame::Impl{
+        impl_, ticket, spec, std::move(frame), update_ms, declare_ms, hierarchy_ms, {}}));
 }
 
 void Session::change(const scene::Edit& edit) {
@@ -150,7 +162,8 @@ void Session::change(const scene::Edit& edit) {
     scene::apply(edited, edit);
     // Units are those of the scene as it stands; where they stay, so does all that is resident.
     if (render::space_of(edited) != render::space_of(self.scene))
-        self.resident = std::make_unique<render::GpuScene>(self.engine.device, edited);
+        self.resident = std::make_unique<render::GpuScene>(
+            self.engine.device, edited, static_cast<std::uint32_t>(self.read_by.size()));
     self.scene = std::move(edited);
     self.standing.reset();
 }
@@ -208,6 +221,7 @@ const FrameTimes& Frame::times() const {
     if (!impl_->times) {
         impl_->times = to_times(impl_->runner().wait(impl_->ticket));
         impl_->times->host.update = impl_->update_ms;
+        impl_->times->host.hierarchy = impl_->hierarchy_ms;
         impl_->times->host.compile += impl_->declare_ms;
     }
     return *impl_->times;

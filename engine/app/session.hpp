@@ -147,6 +147,9 @@ struct Counts {
     std::uint64_t frames = 0;
     std::uint64_t updates = 0; ///< times that something of the scene was written to the device
     std::uint64_t plans = 0;   ///< shapes of frames that were planned
+    // Of the scene as it is resident now; a change of the scene's units makes it anew.
+    std::uint64_t uploads = 0; ///< writes of buffers
+    std::uint64_t hierarchies_built = 0, hierarchies_refitted = 0;
 };
 
 /// A scene on a device, for as many frames as one likes: what is uploaded, compiled or remembered

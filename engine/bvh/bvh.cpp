@@ -153,7 +153,8 @@ References without_copies(References references, std::span<const Triangle> trian
 
 class Builder {
 public:
-    Builder(std::span<const Triangle> triangles, Bvh& bvh) : triangles_(triangles), bvh_(bvh) {}
+    Builder(std::span<const Triangle> triangles, Bvh& bvh, std::uint32_t most)
+        : triangles_(triangles), bvh_(bvh), most_(most) {}
 
     void add_root(References references) { add_node(without_copies(references, triangles_), 0); }
 
@@ -182,12 +183,12 @@ private:
     }
 
     // Number of triangles that a subtree of which `depth` inner nodes are above can hold.
-    static std::size_t capacity(std::uint32_t depth) {
-        return static_cast<std::size_t>(kMaxLeaf) << (kMaxDepth - depth);
+    std::size_t capacity(std::uint32_t depth) const {
+        return std::size_t{most_} << (kMaxDepth - depth);
     }
 
-    static bool is_leaf(References references, std::uint32_t depth) {
-        if (references.size() > kMaxLeaf) return false;
+    bool is_leaf(References references, std::uint32_t depth) const {
+        if (references.size() > most_) return false;
         if (references.size() == 1 || depth == kMaxDepth) return true;
         const std::optional<Split> best = best_split(references, references.size());
         const double whole = area(bounds(references));
@@ -196,8 +197,8 @@ private:
                              whole * static_cast<double>(references.size()));
     }
 
-    static std::size_t split(References references, std::uint32_t depth) {
-        if (depth == 0 && references.size() <= kMaxLeaf) return references.size();
+    std::size_t split(References references, std::uint32_t depth) const {
+        if (depth == 0 && references.size() <= most_) return references.size();
         const std::optional<Split> best = best_split(references, capacity(depth + 1));
         if (!best) return halve(references);
         const auto middle = std::partition(
@@ -221,6 +222,7 @@ private:
 
     std::span<const Triangle> triangles_;
     Bvh& bvh_;
+    std::uint32_t most_; ///< triangles in a leaf
 };
 
 /// What the walk's slack lacks for a triangle that reaches out of the core: its distance from the
@@ -234,12 +236,16 @@ float pad_of(const Box& box, const Box& core) {
            f32::largest(max(abs(box.lo - middle), abs(box.hi - middle))); // twice: roundings here
 }
 
+bool is_finite(const Triangle& t) {
+    return f32::is_finite(t.a) && f32::is_finite(t.b) && f32::is_finite(t.c);
+}
+
 std::vector<Reference> references(std::span<const Triangle> triangles) {
     std::vector<Reference> result;
     result.reserve(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
-        if (!f32::is_finite(t.a) || !f32::is_finite(t.b) || !f32::is_finite(t.c)) continue;
+        if (!is_finite(t)) continue;
         Reference r{.box = {}, .centre = {}, .triangle = static_cast<std::uint32_t>(i)};
         r.box.add(t.a), r.box.add(t.b), r.box.add(t.c);
         r.centre = r.box.lo * 0.5f + r.box.hi * 0.5f; // the sum itself may overflow
@@ -248,9 +254,35 @@ std::vector<Reference> references(std::span<const Triangle> triangles) {
     return result;
 }
 
+Box corner_bounds(const vec4* corners) {
+    Box box;
+    for (int i = 0; i < 3; ++i) box.add(vec3(corners[i]));
+    return box;
+}
+
+std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+/// Box of what a child's word stands for, from corners and nodes below it.
+Box child_bounds(const Bvh& bvh, std::uint32_t child, const Box& core) {
+    Box box;
+    if (f32::bvh_is_inner(child)) {
+        const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_index(child)}];
+        for (int side = 0; side < 2; ++side)
+            box.add(Box{vec3(node[2 * side]), vec3(node[2 * side + 1])});
+        return box;
+    }
+    for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
+        Box triangle = corner_bounds(&bvh.triangles[3 * std::size_t{f32::bvh_index(child) + i}]);
+        const float pad = pad_of(triangle, core);
+        triangle.lo -= pad, triangle.hi += pad;
+        box.add(triangle);
+    }
+    return box;
+}
+
 } // namespace
 
-Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core) {
+Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, std::uint32_t leaf) {
     check(triangles.size() <= kMaxTriangles, Failure::exhausted, "bounding volume hierarchy wants ",
           triangles.size(), " triangles, its words hold ", kMaxTriangles);
     std::vector<Reference> kept = references(triangles);
@@ -264,11 +296,53 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core) {
         r.box.lo -= pad, r.box.hi += pad;
     }
     bvh.nodes.resize(4, vec4(0));
-    Builder(triangles, bvh).add_root(kept);
+    Builder(triangles, bvh, leaf).add_root(kept);
     bvh.copies = kept.size() - triangle_count(bvh);
     bvh.nodes[0] = vec4(slack.lo, id_word(triangle_count(bvh)));
     bvh.nodes[1] = vec4(slack.hi, id_word(node_count(bvh)));
     return bvh;
+}
+
+void refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core) {
+    for (std::size_t i = 0; i < bvh.triangles.size(); i += 3) {
+        const std::size_t number = bits(bvh.triangles[i + 1].w) & f32::kBvhIdMask;
+        check(number < triangles.size() && is_finite(triangles[number]), Failure::internal,
+              "a hierarchy is refitted to finite triangles, number ", number, " is none");
+        const Triangle& t = triangles[number];
+        const std::array corners{t.a, t.b, t.c};
+        for (std::size_t k = 0; k < 3; ++k)
+            bvh.triangles[i + k] = vec4(corners[k], bvh.triangles[i + k].w);
+    }
+    Box slack = core;
+    if (slack.empty())
+        for (std::size_t i = 0; i < bvh.triangles.size(); i += 3)
+            slack.add(corner_bounds(&bvh.triangles[i]));
+    // A node comes before what is below it.
+    for (std::size_t node = node_count(bvh); node-- > 1;) {
+        vec4* texel = &bvh.nodes[4 * node];
+        for (int side = 0; side < 2; ++side) {
+            const Box box = child_bounds(bvh, bits(texel[side].w), slack);
+            texel[2 * side] = vec4(box.lo, texel[2 * side].w);
+            texel[2 * side + 1] = vec4(box.hi, texel[2 * side + 1].w);
+        }
+    }
+    bvh.nodes[0] = vec4(slack.lo, bvh.nodes[0].w);
+    bvh.nodes[1] = vec4(slack.hi, bvh.nodes[1].w);
+}
+
+double cost(const Bvh& bvh) {
+    double sum = 0;
+    for (std::size_t node = 1; node < node_count(bvh); ++node) {
+        const vec4* texel = &bvh.nodes[4 * node];
+        for (int side = 0; side < 2; ++side) {
+            const std::uint32_t child = bits(texel[side].w);
+            const Box box{vec3(texel[2 * side]), vec3(texel[2 * side + 1])};
+            sum += area(box) * (f32::bvh_is_inner(child)
+                                    ? kTraversalCost
+                                    : static_cast<double>(f32::bvh_count(child)));
+        }
+    }
+    return sum;
 }
 
 std::size_t node_count(const Bvh& bvh) { return bvh.nodes.size() / 4; }

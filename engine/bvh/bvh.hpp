@@ -58,8 +58,19 @@ struct Bvh {
 /// Same input, same output. O(n log^2 n) whatever the input, about 1 s for a million triangles.
 /// `core`: where most of it is; the walk widens all boxes by roundings of that size. Boxes of
 /// triangles that lie farther out are wider themselves, so that one of them does not cost every
-/// ray. Empty: all is. Throws `Failure::exhausted` above 2^27 - 1 triangles.
-Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core = {});
+/// ray. Empty: all is. `leaf`: triangles in a leaf, 1 to kMaxLeaf. Throws `Failure::exhausted`
+/// above 2^27 - 1 triangles.
+Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core = {},
+          std::uint32_t leaf = kMaxLeaf);
+
+/// The same tree over the same triangles elsewhere: `triangles` as they were given to `build`, in
+/// the same order, moved. What a ray meets does not depend on whether a tree was built or refitted.
+/// O(n), a tenth of a build. Throws `Failure::internal` where a triangle that was finite is not.
+void refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {});
+
+/// What the surface area heuristic expects of a ray's walk, times the area of the whole: rises as
+/// the triangles of a refitted tree move away from their neighbours.
+double cost(const Bvh& bvh);
 
 std::size_t node_count(const Bvh& bvh);     ///< with the header
 std::size_t triangle_count(const Bvh& bvh); ///< kept ones

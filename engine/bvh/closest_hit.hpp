@@ -22,7 +22,8 @@ struct Hit {
     Vec<Real> barycentric{0};   ///< weights of a, b, c
     std::uint32_t triangle = 0; ///< original number
     std::uint32_t object = 0;
-    std::uint32_t place = 0; ///< in Bvh::triangles
+    std::uint32_t place = 0;  ///< in Bvh::triangles
+    std::uint32_t inside = 0; ///< record of the thing in whose own space it lies; 0: none
     friend bool operator==(const Hit&, const Hit&) = default;
 };
 
@@ -37,6 +38,7 @@ namespace detail {
 
 using f32::box_ray, f64::box_ray;
 using f32::is_from_behind, f64::is_from_behind;
+using f32::own_ray, f64::own_ray;
 using f32::ray_shear, f64::ray_shear;
 using f32::triangle_test, f64::triangle_test;
 
@@ -48,20 +50,41 @@ Vec<Real> corner(const vec4& texel) {
     return Vec<Real>(vec3(texel));
 }
 
+template <typename Real>
+using Place = std::conditional_t<std::is_same_v<Real, float>, f32::Place, f64::Place>;
+
+/// What the record at a node says (two_level.hpp).
+template <typename Real>
+Place<Real> place_at(const Bvh& bvh, std::uint32_t record) {
+    const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
+    return {corner<Real>(texel[0]), corner<Real>(texel[1]), corner<Real>(texel[2]),
+            corner<Real>(texel[4]), corner<Real>(texel[5]), corner<Real>(texel[6]),
+            corner<Real>(texel[3]), corner<Real>(texel[7])};
+}
+
 /// The best hit so far, and what one triangle does to it.
 template <typename Real>
 struct Search {
     const Bvh& bvh;
-    Ray<Real> ray;
-    Real t_max; ///< excluded; shrinks to the best hit
+    Ray<Real> ray; ///< as the tree that is walked sees it
+    Real t_max;    ///< excluded; shrinks to the best hit
     std::uint32_t skipped_flags;
     std::optional<Hit<Real>> best{};
     decltype(ray_shear(Vec<Real>{})) shear = ray_shear(ray.direction);
+    std::uint32_t record = 0;
+
+    /// Into the tree of a record, or back (0).
+    void enter(std::uint32_t into, const Ray<Real>& as_it_sees_it) {
+        record = into, ray = as_it_sees_it;
+        shear = ray_shear(ray.direction);
+    }
 
     void test(std::uint32_t place) {
         const vec4* texel = &bvh.triangles[3 * std::size_t{place}];
-        const std::uint32_t triangle = number(texel[1].w);
-        const std::uint32_t skips = number(texel[2].w) & skipped_flags;
+        const vec4* of = &bvh.nodes[4 * std::size_t{record}];
+        const std::uint32_t triangle = number(texel[1].w) + (record ? number(of[2].w) : 0);
+        const std::uint32_t flags = number(record ? of[3].w : texel[2].w);
+        const std::uint32_t skips = flags & skipped_flags;
         if ((skips & ~f32::kBvhOneSided) != 0 || triangle + 1 == ray.leaves) return;
         if (skips != 0 && is_from_behind(corner<Real>(texel[0]), corner<Real>(texel[1]),
                                          corner<Real>(texel[2]), ray.direction))
@@ -73,7 +96,9 @@ struct Search {
             return;
         if (t < t_max || (best && t == t_max && triangle < best->triangle)) {
             t_max = t;
-            best = Hit<Real>{t, barycentric(weights), triangle, number(texel[0].w), place};
+            best = Hit<Real>{t,        barycentric(weights),
+                             triangle, number((record ? of[1] : texel[0]).w),
+                             place,    record};
         }
     }
 
@@ -88,13 +113,19 @@ bool can_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max) {
 }
 
 template <typename Real>
-std::optional<Hit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
-                              std::uint32_t skipped_flags, bool any, Steps* steps) {
+auto boxes_outside(const Bvh& bvh, const Ray<Real>& ray) {
+    const vec4* header = bvh.nodes.data();
+    const Real times = header[2].x > 0 ? Real{header[2].x} : Real{1};
+    return box_ray(ray, corner<Real>(header[0]), corner<Real>(header[1]), times);
+}
+
+template <typename Real>
+std::optional<Hit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, const Vec<Real>& low,
+                              Real t_max, std::uint32_t skipped_flags, bool any, Steps* steps) {
     if (!can_hit(bvh, ray, t_max)) return {};
     Search<Real> search{bvh, ray, t_max, skipped_flags};
-    const vec4* header = bvh.nodes.data();
-    const auto boxes = box_ray(ray, corner<Real>(header[0]), corner<Real>(header[1]));
-    std::array<std::uint32_t, kMaxDepth> stack;
+    auto boxes = boxes_outside<Real>(bvh, ray);
+    std::array<std::uint32_t, f32::kBvhMaxStack> stack;
     std::size_t waiting = 0;
     Steps count;
     std::uint32_t child = f32::kBvhRoot;
@@ -115,6 +146,19 @@ std::optional<Hit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
                 child = first;
                 continue;
             }
+        } else if (child == f32::kBvhReturns) {
+            ++count.nodes;
+            search.enter(0, ray);
+            boxes = boxes_outside<Real>(bvh, ray);
+        } else if (f32::bvh_count(child) == f32::kBvhEnters) {
+            ++count.nodes;
+            const std::uint32_t record = f32::bvh_index(child);
+            const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
+            search.enter(record, own_ray(place_at<Real>(bvh, record), ray, low));
+            boxes = box_ray(search.ray, corner<Real>(texel[8]), corner<Real>(texel[9]), Real{1});
+            stack.at(waiting++) = f32::kBvhReturns;
+            child = bits(texel[0].w);
+            continue;
         } else {
             for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
                 ++count.triangles;
@@ -133,21 +177,22 @@ std::optional<Hit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
 
 /// The first triangle that the ray meets at a t in (0, t_max); a ray that is not finite misses.
 /// Triangles with a flag of `skipped` are passed by (kOneSided: from behind alone); no ray sees the
-/// triangle it leaves.
+/// triangle it leaves. `low`: what the ray's origin lacks as a sum of two numbers.
 template <typename Real>
 std::optional<Hit<Real>> closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
-                                     std::uint32_t skipped = 0, Steps* steps = nullptr) {
-    return detail::walk<Real>(bvh, ray, t_max, skipped, false, steps);
+                                     std::uint32_t skipped = 0, Steps* steps = nullptr,
+                                     const Vec<Real>& low = Vec<Real>(0)) {
+    return detail::walk<Real>(bvh, ray, low, t_max, skipped, false, steps);
 }
 
 /// Whether some triangle is met at a t in (0, t_max).
 template <typename Real>
 bool any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t skipped = 0,
-             Steps* steps = nullptr) {
-    return detail::walk<Real>(bvh, ray, t_max, skipped, true, steps).has_value();
+             Steps* steps = nullptr, const Vec<Real>& low = Vec<Real>(0)) {
+    return detail::walk<Real>(bvh, ray, low, t_max, skipped, true, steps).has_value();
 }
 
-/// `closest_hit` without the tree: tests every triangle.
+/// `closest_hit` without the tree, where nothing has a space of its own: tests every triangle.
 template <typename Real>
 std::optional<Hit<Real>> brute_force(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
                                      std::uint32_t skipped = 0) {

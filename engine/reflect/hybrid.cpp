@@ -65,6 +65,7 @@ void add_trace(graph::Graph& graph, const render::FrameInputs& inputs, const Set
                const List& list, graph::Image hdr) {
     using graph::Use;
     const std::uint32_t shadow_rays = settings.choice("shadow") == "none" ? 0 : 2;
+    inputs.scene.want_tracing();
     graph.pass(inputs.prefix + "trace")
         .reads(list.arguments, Use::indirect)
         .reads(list.pixels, Use::storage_read)
@@ -72,12 +73,14 @@ void add_trace(graph::Graph& graph, const render::FrameInputs& inputs, const Set
         .writes(hdr, Use::storage)
         .record([=, &scene = inputs.scene, size = inputs.size](graph::Commands& commands) {
             scene.bind(commands);
+            scene.bind_tracing(commands);
             commands.bind("picture", hdr);
             commands.bind("counters", list.counters);
             commands.bind("List", list.pixels);
-            commands.use(gpu::ComputeState{
-                "reflect/hybrid_trace.comp",
-                {{"max_depth", render::kReferenceDepth}, {"shadow", shadow_rays}}});
+            commands.use(gpu::ComputeState{"reflect/hybrid_trace.comp",
+                                           {{"max_depth", render::kReferenceDepth},
+                                            {"shadow", shadow_rays},
+                                            {"own_spaces", scene.has_own_spaces() ? 1u : 0u}}});
             commands.push(size);
             commands.dispatch_indirect(list.arguments);
         });

@@ -79,6 +79,7 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
     graph.pass(inputs.prefix + "raytrace/reset")
         .writes(counters, Use::copy_to)
         .record([=](graph::Commands& commands) { commands.fill(counters, 0); });
+    inputs.scene.want_tracing();
     graph::PassBuilder pass = graph.pass(inputs.prefix + "raytrace");
     if (lighting.shadow_map) pass.reads(*lighting.shadow_map, Use::sampled);
     const bool doubles = settings.choice("hit") == "f64";
@@ -91,6 +92,7 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
                     : lighting.shadow_map               ? 1u
                                                         : 2u},
          {"exact_spheres", static_cast<std::uint32_t>(settings.integer("sphere"))},
+         {"own_spaces", inputs.scene.has_own_spaces() ? 1u : 0u},
          {"without", static_cast<std::uint32_t>(settings.integer("without"))},
          {"fixed_offset", inputs.scene.space().length(kReportOffset)}}};
     pass.writes(hdr, Use::storage_write)
@@ -99,6 +101,7 @@ Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settin
         .record([=, &scene = inputs.scene, seed = inputs.seed,
                  samples = settings.integer("samples")](graph::Commands& commands) {
             scene.bind(commands);
+            scene.bind_tracing(commands);
             if (lighting.shadow_map)
                 commands.bind("shadow_map", *lighting.shadow_map, graph::Filter::compare);
             commands.bind("picture", hdr);

@@ -39,9 +39,12 @@ double solid_angle(dvec3 a, dvec3 b, dvec3 c) {
 
 } // namespace
 
-bool encloses(const Geometry& geometry, const DrawRange& range, vec3 point) {
-    if (!(all(lessThanEqual(range.bounds.lo, point)) && all(lessThanEqual(point, range.bounds.hi))))
+bool encloses(const Geometry& geometry, const DrawRange& range, const dvec3& place) {
+    const vec3 in_scene(place);
+    if (!(all(lessThanEqual(range.bounds.lo, in_scene)) &&
+          all(lessThanEqual(in_scene, range.bounds.hi))))
         return false;
+    const vec3 point = range.own ? vec3(range.own->point(place)) : in_scene;
     double seen = 0;
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
         const auto corner = [&](std::uint32_t j) {

@@ -4,9 +4,9 @@
 
 namespace catoptric::render {
 
-/// Whether the object's triangles are a closed surface with the point (scene units) in it or on it.
-/// Costs a look at the bounds where the point is outside of them, else O(n log n) in the object's
+/// Whether the object's triangles are a closed surface with the place (scene units) in it or on it.
+/// Costs a look at the bounds where it is outside of them, else O(n log n) in the object's
 /// triangles.
-bool encloses(const Geometry& geometry, const DrawRange& range, vec3 point);
+bool encloses(const Geometry& geometry, const DrawRange& range, const dvec3& place);
 
 } // namespace catoptric::render

@@ -3,57 +3,79 @@
 #include "render/space.hpp"
 #include "shared.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace catoptric::render {
+
+/// A space of its own for an object's vertices: scene = centre + scene_from_own * own, own about 1.
+struct OwnSpace {
+    dmat3 scene_from_own{1};
+    dvec3 centre{0};  ///< scene units
+    double least = 1; ///< no length in own units becomes less than this many times it
+    float radius = 0; ///< own units, of the exact sphere around the middle; 0: none
+    dvec3 point(const dvec3& scene) const {
+        return glm::inverse(scene_from_own) * (scene - centre);
+    }
+};
+
+/// Which objects keep a space of their own.
+enum class Spaces {
+    one, ///< none: all vertices are in scene units
+    own  ///< see own_space_of
+};
+
+/// Copies of shared meshes are put into scene units up to so many triangles (some 50 MB); those of
+/// the meshes above that keep the mesh's space and one set of vertices.
+inline constexpr std::uint64_t kMostCopied = 1u << 18;
 
 /// The triangles of one object in the shared buffers.
 struct DrawRange {
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
+    std::uint32_t first_vertex = 0;
+    std::uint32_t vertex_count = 0;
     Bounds<float> bounds; ///< scene units
     bool mirror = false;
     bool casts_shadow = true; ///< a light's own mesh does not: it would hide the light
     bool seen_by_camera = true;
-    bool exact_sphere = false; ///< the mesh stands for one
-    bool one_sided = false;    ///< not there from behind, where triangles run clockwise
+    bool exact_sphere = false;   ///< the mesh stands for one
+    bool one_sided = false;      ///< not there from behind, where triangles run clockwise
+    std::optional<OwnSpace> own; ///< none: vertices are in scene units
+    /// Object whose vertices and indices these are, the first that has the mesh; itself where it
+    /// shares none.
+    std::uint32_t storage = 0;
+    bool shares = false; ///< has the mesh's space, of which there may be others
 };
 
-/// All triangles of a frame in scene units; one range for each object, in the scene's order.
+/// All triangles of a frame, in scene units where their object has no space of its own; one range
+/// for each object, in the scene's order. What is in scene units comes first in both lists.
 struct Geometry {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<DrawRange> ranges;
     Bounds<float> core; ///< where most of it is (Space::core)
+    Spaces spaces = Spaces::one;
+    std::uint32_t flat_indices = 0; ///< of what is in scene units
 };
-Geometry make_geometry(const scene::Scene& now, const Space& space);
+/// With Spaces::own an object keeps its own space where it is smaller than kSmallPart of its
+/// distance from the origin, or where its mesh is one of those that share (kMostCopied) and it is
+/// no lamp of one side, whose corners may have to be swapped, and its transform no worse than a
+/// float can turn a ray by.
+Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces spaces = Spaces::one);
 
-/// Distance from a point to the nearest triangle, scene units; objects where `skip(range)` are left
-/// out; infinity when nothing is left. Brute force over all triangles.
-template <typename Skip>
-float nearest_distance(const Geometry& geometry, vec3 point, Skip&& skip);
+/// Whether `make_geometry` would now give the object another kind of space than it has.
+bool changes_space(const Geometry& geometry, const scene::Scene& now, const Space& space,
+                   std::size_t object);
+
+/// Puts an object's triangles where they are now; nothing else of it may have changed since
+/// `make_geometry`. Returns whether vertices changed: not where only an own space moved. Throws as
+/// check_reach does.
+bool move_object(Geometry& geometry, const scene::Scene& now, const Space& space,
+                 std::size_t object);
 
 /// Squared distance from p to the triangle (Ericson, Real-Time Collision Detection, 5.1.5).
 float squared_distance(vec3 p, vec3 a, vec3 b, vec3 c);
-
-template <typename Skip>
-float nearest_distance(const Geometry& geometry, vec3 point, Skip&& skip) {
-    float nearest = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
-        const DrawRange& range = geometry.ranges[i];
-        if (skip(i, range)) continue;
-        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count;
-             k += 3) {
-            const auto corner = [&](std::uint32_t j) {
-                return geometry.vertices[geometry.indices[k + j]].position;
-            };
-            nearest = std::min(nearest, squared_distance(point, corner(0), corner(1), corner(2)));
-        }
-    }
-    return std::sqrt(nearest);
-}
 
 } // namespace catoptric::render

@@ -1,8 +1,9 @@
 #include "render/gpu_scene.hpp"
 
-#include "bvh/bvh.hpp"
 #include "render/enclosure.hpp"
 #include "render/footprint.hpp"
+#include "render/limits.hpp"
+#include "render/stopwatch.hpp"
 #include "render/views.hpp"
 
 #include <algorithm>
@@ -11,9 +12,10 @@ namespace catoptric::render {
 
 namespace {
 
-shared::Surface surface_of(const scene::Scene& now, const scene::Object& object,
+constexpr std::uint32_t kNoMirror = 0;
+
+shared::Surface surface_of(const scene::Object& object, const scene::Material& material,
                            std::uint32_t mirror, const Space& space) {
-    const scene::Material& material = now.materials[object.material];
     shared::Surface surface{};
     surface.albedo = material.mirror ? vec3(0) : material.albedo;
     surface.emission = material.emission;
@@ -26,53 +28,203 @@ shared::Surface surface_of(const scene::Scene& now, const scene::Object& object,
     return surface;
 }
 
-} // namespace
-
-GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene)
-    : device_(device), space_(space_of(scene)) {}
-
-void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
-                      double ambient) {
-    geometry_ = make_geometry(now, space_);
-    mirror_objects_ = scene::mirrors(now);
-    mirror_count_ = static_cast<std::uint32_t>(mirror_objects_.size());
-    surfaces_.clear();
-    for (std::size_t i = 0; i < now.objects.size(); ++i) {
-        const auto found = std::ranges::find(mirror_objects_, i);
-        const auto number = static_cast<std::uint32_t>(found - mirror_objects_.begin()) + 1;
-        surfaces_.push_back(
-            surface_of(now, now.objects[i], found == mirror_objects_.end() ? 0 : number, space_));
-    }
-    fill_lights(now);
-    fill_views(now, camera, size);
-    if (face_needs_.empty()) find_face_needs(size);
-    const std::vector<shared::Frame> frame{
-        {static_cast<float>(ambient), light_count_, mirror_count_,
-         static_cast<std::uint32_t>(now.objects.size()), shadow_faces_}};
-    std::vector<shared::Light> lights = lights_;
-    lights.resize(shared::kMaxLights);
-    using gpu::BufferUse;
-    upload(device_, vertex_buffer_, "vertices", geometry_.vertices, BufferUse::vertex);
-    upload(device_, index_buffer_, "indices", geometry_.indices, BufferUse::index);
-    upload(device_, frame_, "frame", frame, BufferUse::uniform);
-    upload(device_, view_buffer_, "views", views_, BufferUse::plain);
-    upload(device_, surface_buffer_, "surfaces", surfaces_, BufferUse::plain);
-    upload(device_, light_buffer_, "lights", lights, BufferUse::uniform);
-    upload(device_, probe_buffer_, "probes", probes_, BufferUse::plain);
-    fill_tracing();
+bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
+    return a.has_value() == b.has_value() &&
+           (!a || (a->centre == b->centre && a->radius == b->radius));
 }
 
-void GpuScene::fill_lights(const scene::Scene& now) {
-    lights_.clear();
+bool same(const scene::Material& a, const scene::Material& b) {
+    return a.albedo == b.albedo && a.emission == b.emission && a.mirror == b.mirror &&
+           a.reflectance == b.reflectance && a.two_sided == b.two_sided;
+}
+
+bool same(const scene::Camera& a, const scene::Camera& b) {
+    return a.eye == b.eye && a.target == b.target && a.up == b.up &&
+           a.vertical_fov_degrees == b.vertical_fov_degrees;
+}
+
+bool glows(const scene::Material& material) { return material.emission != vec3(0); }
+
+/// Whether the object is drawn, traced and counted in the same way with either material.
+bool same_kind(const scene::Material& a, const scene::Material& b) {
+    return a.mirror == b.mirror && glows(a) == glows(b) &&
+           scene::is_one_sided(a) == scene::is_one_sided(b);
+}
+
+/// All vertices, of which those of an object in its own space become arms from its middle.
+std::vector<shared::Vertex> arms_of(const Geometry& geometry, const DrawRange& range) {
+    std::vector<shared::Vertex> vertices = geometry.vertices;
+    const dmat3 turn = range.own->scene_from_own, normals = glm::transpose(glm::inverse(turn));
+    for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
+        shared::Vertex& vertex = vertices[range.first_vertex + i];
+        vertex = {vec3(turn * dvec3(vertex.position)),
+                  vec3(glm::normalize(normals * dvec3(vertex.normal)))};
+    }
+    return vertices;
+}
+
+/// The scene, once its numbers are known to fit.
+const scene::Scene& fitting(const gpu::Device& device, const scene::Scene& scene) {
+    const auto& limits = device.limits();
+    check_limits(scene.name, amounts_of(scene),
+                 {limits.maxTexelBufferElements, limits.maxStorageBufferRange,
+                  device.max_allocation(), device.memory_budget()});
+    return scene;
+}
+
+} // namespace
+
+GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots)
+    : device_(device), space_(space_of(fitting(device, scene))),
+      still_vertices_("vertices", gpu::BufferUse::vertex, slots),
+      moving_vertices_("moving vertices", gpu::BufferUse::vertex, slots),
+      indices_("indices", gpu::BufferUse::index, slots),
+      frame_("frame", gpu::BufferUse::uniform, slots),
+      view_buffer_("views", gpu::BufferUse::plain, slots),
+      surface_buffer_("surfaces", gpu::BufferUse::plain, slots),
+      light_buffer_("lights", gpu::BufferUse::uniform, slots),
+      probe_buffer_("probes", gpu::BufferUse::plain, slots),
+      tracing_(std::make_unique<Tracing>(slots)) {
+    for (const scene::Object& object : scene.objects)
+        places_.push_back({!std::holds_alternative<std::monostate>(object.motion), 0});
+}
+
+void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
+                      double ambient, std::size_t slot) {
+    update_ms_ = 0, hierarchy_ms_before_ = tracing_->ms();
+    const Stopwatch watch(update_ms_);
+    slot_ = slot, wants_tracing_ = false;
+    const Changes changes = take_over(now);
+    complete_ = false; // until the end: whatever throws, the next update starts anew
+    if (changes.layout)
+        lay_out(now);
+    else
+        move(now, changes.moved);
+    if (changes.shapes() || changes.materials) fill_surfaces(now);
+    if (changes.shapes() || changes.lights) fill_lights(now, changes.lights);
+    if (changes.shapes() || changes.lights || changes.materials) fill_probes(now, changes);
+    if (changes.shapes() || changes.lights || !same(camera_, camera) || size_ != size)
+        fill_views(camera, size);
+    if (face_needs_.empty()) find_face_needs(size);
+    fill_frame(ambient);
+    write(slot);
+    complete_ = true;
+}
+
+/// What differs from the scene of the last update, which `now` becomes.
+GpuScene::Changes GpuScene::take_over(const scene::Scene& now) {
+    Changes changes;
+    changes.layout = !complete_ || seen_.size() != now.objects.size();
+    seen_.resize(now.objects.size());
+    places_.resize(now.objects.size());
+    for (std::size_t i = 0; i < now.objects.size(); ++i) {
+        const scene::Object& object = now.objects[i];
+        const scene::Material& material = now.materials[object.material];
+        Seen& seen = seen_[i];
+        const bool moved = seen.world_from_object != object.world_from_object;
+        const bool repainted = !same(seen.material, material);
+        changes.layout = changes.layout || seen.mesh != object.mesh ||
+                         seen.seen_by_camera != object.seen_by_camera ||
+                         seen.sphere.has_value() != object.sphere.has_value() ||
+                         !same_kind(seen.material, material);
+        changes.lights = changes.lights ||
+                         ((moved || repainted) && (glows(seen.material) || glows(material)));
+        changes.materials = changes.materials || repainted || !same(seen.sphere, object.sphere);
+        if (moved) changes.moved.push_back(i);
+        seen = {object.mesh, material, object.world_from_object, object.sphere,
+                object.seen_by_camera};
+    }
+    changes.lights = changes.lights || changes.layout;
+    return changes;
+}
+
+void GpuScene::lay_out(const scene::Scene& now) {
+    geometry_ = make_geometry(now, space_, Spaces::own);
+    has_own_spaces_ = std::ranges::any_of(
+        geometry_.ranges, [](const DrawRange& range) { return range.own.has_value(); });
+    mirror_objects_ = scene::mirrors(now);
+    nearest_.lay_out(geometry_);
+    tracing_->lay_out();
+    place_vertices();
+}
+
+void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& objects) {
+    if (std::ranges::any_of(objects, [&](std::size_t object) {
+            return changes_space(geometry_, now, space_, object);
+        }))
+        return lay_out(now);
+    bool places = false, turned = false;
+    for (const std::size_t object : objects) {
+        const bool vertices = move_object(geometry_, now, space_, object);
+        nearest_.move(object);
+        tracing_->move(object, vertices);
+        turned = turned || geometry_.ranges[object].one_sided; // which may change its indices
+        places = places || (vertices && !places_[object].moves);
+        places_[object].moves = places_[object].moves || vertices;
+    }
+    if (places || turned) place_vertices();
+    if (objects.empty()) return;
+    std::vector<shared::Vertex> moving;
+    for (std::size_t i = 0; i < geometry_.ranges.size(); ++i) {
+        const DrawRange& range = geometry_.ranges[i];
+        const auto first = geometry_.vertices.begin() + range.first_vertex;
+        if (places_[i].moves && range.storage == i)
+            moving.insert(moving.end(), first, first + range.vertex_count);
+    }
+    moving_vertices_.set(moving);
+}
+
+/// What stands still has one copy on the device, apart from what moves.
+void GpuScene::place_vertices() {
+    std::vector<shared::Vertex> still, moving;
+    std::vector<std::uint32_t> indices(geometry_.indices.size());
+    for (std::size_t i = 0; i < geometry_.ranges.size(); ++i) {
+        const DrawRange& range = geometry_.ranges[i];
+        if (range.shares) places_[i].moves = false; // the mesh's vertices never do
+        if (range.storage != i) continue;
+        std::vector<shared::Vertex>& home = places_[i].moves ? moving : still;
+        places_[i].first = static_cast<std::uint32_t>(home.size());
+        const auto first = geometry_.vertices.begin() + range.first_vertex;
+        home.insert(home.end(), first, first + range.vertex_count);
+        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k)
+            indices[k] = geometry_.indices[k] - range.first_vertex + places_[i].first;
+    }
+    anything_moves_ = std::ranges::any_of(places_, &Place::moves);
+    still_vertices_.set(still);
+    moving_vertices_.set(moving);
+    indices_.set(indices);
+}
+
+void GpuScene::fill_surfaces(const scene::Scene& now) {
+    surfaces_.clear();
+    std::uint32_t mirrors = 0;
+    for (const scene::Object& object : now.objects) {
+        const scene::Material& material = now.materials[object.material];
+        surfaces_.push_back(
+            surface_of(object, material, material.mirror ? ++mirrors : kNoMirror, space_));
+    }
+    // The walk meets exact spheres in spaces of their own; the shaders' list has the others.
+    std::vector<shared::Surface> listed = surfaces_;
+    for (std::size_t i = 0; i < listed.size(); ++i)
+        if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;
+    surface_buffer_.set(listed);
+}
+
+void GpuScene::fill_lights(const scene::Scene& now, bool others) {
+    if (others) world_lights_ = scene::lights(now);
+    check(world_lights_.size() <= shared::kMaxLights, Failure::exhausted, "the scene has ",
+          world_lights_.size(), " lights, ", shared::kMaxLights, " are allowed");
+    lights_.clear(), light_places_.clear();
     shadow_faces_ = 5;
-    for (const scene::PointLight& light : scene::lights(now)) {
+    for (const scene::PointLight& light : world_lights_) {
         const double area = light.area * space_.scale * space_.scale;
         shared::Light entry{};
-        entry.position = space_.point(light.position);
+        light_places_.push_back(space_.place(light.position));
+        entry.position = vec3(light_places_.back());
         entry.normal = vec3(light.normal);
         entry.intensity = light.emission * static_cast<float>(area);
-        const float gap = nearest_distance(
-            geometry_, entry.position,
+        const float gap = nearest_.distance(
+            geometry_, light_places_.back(),
             [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
         const shared::View main = turned_cube_views(entry.position, entry.normal, gap)[4];
         entry.right = main.right, entry.down = main.down, entry.forward = main.forward,
@@ -80,9 +232,9 @@ void GpuScene::fill_lights(const scene::Scene& now) {
         lights_.push_back(entry);
         if (light.normal == dvec3(0)) shadow_faces_ = 6;
     }
-    light_count_ = static_cast<std::uint32_t>(lights_.size());
-    check(light_count_ <= shared::kMaxLights, Failure::exhausted, "the scene has ", light_count_,
-          " lights, ", shared::kMaxLights, " are allowed");
+    std::vector<shared::Light> all = lights_;
+    all.resize(shared::kMaxLights);
+    light_buffer_.set(all);
 }
 
 bool GpuScene::has_other_mirrors() const {
@@ -97,48 +249,87 @@ shared::Draw GpuScene::draw_of(std::size_t object, std::uint32_t first_view) con
             static_cast<std::uint32_t>(object), 0};
 }
 
-/// Camera, then six for each mirror, then the shadow faces of each light.
-void GpuScene::fill_views(const scene::Scene& now, const scene::Camera& camera, uvec2 size) {
-    const vec3 eye = space_.point(camera.eye);
-    views_ = {camera_view(camera, space_, size,
-                          nearest_distance(geometry_, eye, [](std::size_t, const DrawRange& range) {
-                              return !range.seen_by_camera;
-                          }))};
-    hides_all_.clear();
-    for (const DrawRange& range : geometry_.ranges)
-        hides_all_.push_back(range.mirror && encloses(geometry_, range, eye));
-    probes_.clear();
-    for (const std::size_t object : mirror_objects_) {
-        const Bounds<double> bounds = scene::bounds(now, now.objects[object]);
-        const vec3 centre = space_.point(bounds.centre());
+/// What all views that one draw may go to share.
+const dvec3& GpuScene::eye_of(std::uint32_t view) const {
+    if (view == kCameraView) return eye_;
+    if (view < shadow_view(0)) return probe_places_[(view - 1) / 6];
+    return light_places_[(view - shadow_view(0)) / shadow_faces_];
+}
+
+shared::Placement GpuScene::placement_of(std::size_t object, std::uint32_t first_view) const {
+    const OwnSpace& own = *geometry_.ranges[object].own;
+    return {vec3(own.scene_from_own[0]), vec3(own.scene_from_own[1]), vec3(own.scene_from_own[2]),
+            vec3(own.centre - eye_of(first_view))};
+}
+
+/// Six views for each mirror, then the shadow faces of each light.
+void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
+    const std::size_t known = changes.layout ? 0 : probes_.size();
+    probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
+    scene_views_.clear();
+    for (std::size_t mirror = 0; mirror < mirror_objects_.size(); ++mirror) {
+        const std::size_t object = mirror_objects_[mirror];
+        shared::Probe& probe = probes_[mirror];
+        if (mirror >= known || std::ranges::binary_search(changes.moved, object))
+            probe_places_[mirror] = space_.place(scene::bounds(now, now.objects[object]).centre());
+        probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];
+        probe.sphere = surface.centre, probe.radius = surface.radius;
+        probe.reflectance = surface.reflectance;
         const Bounds<float>& box = geometry_.ranges[object].bounds;
-        probes_.push_back(
-            {centre, surface.centre, surface.radius, surface.reflectance, box.lo, box.hi});
-        const float gap = nearest_distance(
-            geometry_, centre, [&](std::size_t i, const DrawRange&) { return i == object; });
-        std::ranges::copy(cube_views(centre, gap), std::back_inserter(views_));
+        probe.lowest = box.lo, probe.highest = box.hi;
+        const float gap = nearest_.distance(
+            geometry_, probe_places_[mirror],
+            [&](std::size_t i, const DrawRange&) { return i == object; });
+        std::ranges::copy(cube_views(probe.centre, gap), std::back_inserter(scene_views_));
     }
     for (const shared::Light& light : lights_) {
         std::vector<shared::View> faces = turned_cube_views(light.position, light.normal, 0);
         for (shared::View& face : faces) face.near = light.near;
         faces.resize(shadow_faces_); // the last one looks back, where a one-sided light is dark
-        std::ranges::copy(faces, std::back_inserter(views_));
+        std::ranges::copy(faces, std::back_inserter(scene_views_));
     }
+    probe_buffer_.set(probes_);
+}
+
+/// The camera's, then those of mirrors and lights.
+void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
+    eye_ = space_.place(camera.eye);
+    const float gap = nearest_.distance(
+        geometry_, eye_, [](std::size_t, const DrawRange& range) { return !range.seen_by_camera; });
+    views_ = {camera_view(camera, space_, size, gap)};
+    views_.insert(views_.end(), scene_views_.begin(), scene_views_.end());
+    hides_all_.clear();
+    for (const DrawRange& range : geometry_.ranges)
+        hides_all_.push_back(range.mirror && encloses(geometry_, range, eye_));
+    camera_ = camera, size_ = size;
+    view_buffer_.set(views_);
+}
+
+void GpuScene::fill_frame(double ambient) {
+    frame_.set(
+        std::vector<shared::Frame>{{static_cast<float>(ambient), light_count(), mirror_count(),
+                                    static_cast<std::uint32_t>(surfaces_.size()), shadow_faces_}});
 }
 
 void GpuScene::find_face_needs(uvec2 size) {
-    const Pixels pixels{views_[kCameraView], size.y};
-    for (std::uint32_t mirror = 0; mirror < mirror_count_; ++mirror) {
+    for (std::uint32_t mirror = 0; mirror < mirror_count(); ++mirror) {
+        Pixels pixels{views_[kCameraView], size.y};
         const DrawRange& range = geometry_.ranges[mirror_objects_[mirror]];
-        const shared::Probe& probe = probes_[mirror];
-        if (!range.seen_by_camera || !may_meet(pixels.view, range.bounds))
+        vec3 sphere = probes_[mirror].sphere;
+        std::vector<shared::Vertex> arms; // of an own space, from its middle
+        if (range.own) {
+            pixels.view.eye = vec3(eye_ - range.own->centre), sphere = vec3(0);
+            arms = arms_of(geometry_, range);
+        }
+        const std::span<const shared::Vertex> vertices = range.own ? arms : geometry_.vertices;
+        if (!range.seen_by_camera || !may_meet(views_[kCameraView], range.bounds))
             face_needs_.push_back(0);
-        else if (probe.radius > 0)
-            face_needs_.push_back(sphere_need(pixels, probe.sphere, double{probe.radius}));
+        else if (probes_[mirror].radius > 0)
+            face_needs_.push_back(sphere_need(pixels, sphere, double{probes_[mirror].radius}));
         else
             face_needs_.push_back(mesh_need(
-                pixels, geometry_.vertices,
+                pixels, vertices,
                 std::span(geometry_.indices).subspan(range.first_index, range.index_count)));
     }
 }
@@ -147,44 +338,34 @@ std::uint32_t GpuScene::common_face() const {
     return common_edge(face_needs_, device_.limits().maxImageDimensionCube);
 }
 
-void GpuScene::fill_tracing() {
-    std::vector<bvh::Triangle> triangles;
-    std::vector<vec4> normals;
-    for (std::size_t object = 0; object < geometry_.ranges.size(); ++object) {
-        const DrawRange& range = geometry_.ranges[object];
-        const std::uint32_t flags = (range.seen_by_camera ? 0 : bvh::kHidden) |
-                                    (range.casts_shadow ? 0 : bvh::kShadowless) |
-                                    (range.exact_sphere ? bvh::kSphere : 0) |
-                                    (range.one_sided ? bvh::kOneSided : 0);
-        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count;
-             k += 3) {
-            const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& {
-                return geometry_.vertices[geometry_.indices[k + j]];
-            };
-            triangles.push_back({vertex(0).position, vertex(1).position, vertex(2).position,
-                                 static_cast<std::uint32_t>(object), flags});
-            for (std::uint32_t j = 0; j < 3; ++j) normals.emplace_back(vertex(j).normal, 0.0f);
-        }
-    }
-    const bvh::Bvh tree = bvh::build(triangles, geometry_.core);
-    upload(device_, bvh_nodes_, "bvh_nodes", tree.nodes, gpu::BufferUse::texels);
-    upload(device_, bvh_triangles_, "bvh_triangles", tree.triangles, gpu::BufferUse::texels);
-    upload(device_, normals_, "normals", normals, gpu::BufferUse::texels);
+void GpuScene::write(std::size_t slot) {
+    for (Resident* buffer : {&still_vertices_, &moving_vertices_, &indices_, &frame_, &view_buffer_,
+                             &surface_buffer_, &light_buffer_, &probe_buffer_})
+        uploads_ += buffer->write(device_, slot);
 }
 
 void GpuScene::bind(graph::Commands& commands) const {
-    commands.bind("frame", frame_);
-    commands.bind("Views", view_buffer_);
-    commands.bind("Surfaces", surface_buffer_);
-    commands.bind("Lights", light_buffer_);
-    commands.bind("Probes", probe_buffer_);
-    commands.bind("bvh_nodes", bvh_nodes_);
-    commands.bind("BvhNodes", bvh_nodes_);
-    commands.bind("bvh_triangles", bvh_triangles_);
-    commands.bind("BvhTriangles", bvh_triangles_);
-    commands.bind("normals", normals_);
-    commands.bind("Normals", normals_);
-    commands.geometry(vertex_buffer_, index_buffer_);
+    commands.bind("frame", frame_.at(slot_));
+    commands.bind("Views", view_buffer_.at(slot_));
+    commands.bind("Surfaces", surface_buffer_.at(slot_));
+    commands.bind("Lights", light_buffer_.at(slot_));
+    commands.bind("Probes", probe_buffer_.at(slot_));
+    commands.geometry(still_vertices_.at(slot_), indices_.at(slot_));
+}
+
+void GpuScene::bind_vertices(graph::Commands& commands, std::size_t object) const {
+    if (!anything_moves_) return;
+    const Resident& vertices = places_[object].moves ? moving_vertices_ : still_vertices_;
+    commands.geometry(vertices.at(slot_), indices_.at(slot_));
+}
+
+void GpuScene::prepare() const {
+    if (wants_tracing_) tracing_->prepare(device_, geometry_, slot_);
+}
+
+void GpuScene::bind_tracing(graph::Commands& commands) const {
+    tracing_->prepare(device_, geometry_, slot_);
+    tracing_->bind(commands, slot_);
 }
 
 } // namespace catoptric::render

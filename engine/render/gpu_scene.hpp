@@ -1,27 +1,34 @@
 #pragma once
 
-#include "gpu/buffer.hpp"
 #include "graph/commands.hpp"
-#include "render/geometry.hpp"
+#include "render/nearest.hpp"
+#include "render/resident.hpp"
+#include "render/tracing.hpp"
+
+#include <memory>
 
 namespace catoptric::render {
 
-/// A scene on the device at one instant, and everything derived from it: views, probes, lights, the
+/// A scene that stays on the device, and everything derived from it: views, probes, lights, the
 /// hierarchy for tracing. Both worlds read the same vertices.
 class GpuScene {
 public:
-    /// `scene` at rest fixes the units for good.
-    GpuScene(gpu::Device& device, const scene::Scene& scene);
+    /// `scene` at rest fixes the units for good. `slots`: frames that may be in flight at once.
+    /// Throws as check_limits does (render/limits.hpp) for what the device cannot hold.
+    GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots = 1);
 
-    /// Writes what stands where now. `now` is scene::at of the scene given above; not while a frame
-    /// is in flight. Rebuilds everything: O(n log n) in triangles, some 20 ms for the built-in
-    /// scene.
-    void update(const scene::Scene& now, const scene::Camera& camera, uvec2 size, double ambient);
+    /// Writes what differs from the update before, and nothing where nothing does. `now` is
+    /// scene::at of the scene given above, or that with other transforms, materials and lights; the
+    /// meshes stay. What is bound from here on belongs to slot `slot`, of which no frame may be in
+    /// flight; frames of the others keep what they were recorded with.
+    /// Costs O(n) in what has moved, O(log n) a near plane.
+    void update(const scene::Scene& now, const scene::Camera& camera, uvec2 size, double ambient,
+                std::size_t slot = 0);
 
-    std::uint32_t mirror_count() const { return mirror_count_; }
+    std::uint32_t mirror_count() const { return static_cast<std::uint32_t>(probes_.size()); }
     /// Whether some mirror is no exact sphere.
     bool has_other_mirrors() const;
-    std::uint32_t light_count() const { return light_count_; }
+    std::uint32_t light_count() const { return static_cast<std::uint32_t>(lights_.size()); }
     std::uint32_t shadow_faces() const { return shadow_faces_; }
     const Space& space() const { return space_; }
     const std::vector<DrawRange>& ranges() const { return geometry_.ranges; }
@@ -41,36 +48,100 @@ public:
     std::uint32_t common_face() const;
     /// Push constants that draw an object into the views from `first_view` on.
     shared::Draw draw_of(std::size_t object, std::uint32_t first_view) const;
+    /// What follows them where the object has a space of its own.
+    shared::Placement placement_of(std::size_t object, std::uint32_t first_view) const;
+    /// Whether some object has (DrawRange::own).
+    bool has_own_spaces() const { return has_own_spaces_; }
 
     static constexpr std::uint32_t kCameraView = 0;
     std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }
     std::uint32_t shadow_view(std::uint32_t light) const {
-        return 1 + 6 * mirror_count_ + shadow_faces_ * light;
+        return 1 + 6 * mirror_count() + shadow_faces_ * light;
     }
 
-    /// Binds every buffer of the scene under the name it has in shaders/lib.
+    /// Binds every buffer of the scene but the hierarchy under the name it has in shaders/lib.
     void bind(graph::Commands& commands) const;
+    /// Binds the object's vertices. After `bind`, before each draw.
+    void bind_vertices(graph::Commands& commands, std::size_t object) const;
+
+    /// Said by a pass that traces, when it is declared.
+    void want_tracing() const { wants_tracing_ = true; }
+    /// After the frame's passes are declared: makes the hierarchy if one of them wants it and it is
+    /// not up to date.
+    void prepare() const;
+    /// Binds the hierarchy; makes it first where nobody has prepared it.
+    void bind_tracing(graph::Commands& commands) const;
+
+    /// Milliseconds of the host since this update began.
+    double update_ms() const { return update_ms_; }
+    double hierarchy_ms() const { return tracing_->ms() - hierarchy_ms_before_; }
+    /// Since the scene was made: writes of device memory, and what became of hierarchies.
+    std::size_t uploads() const { return uploads_ + tracing_->writes(); }
+    std::size_t hierarchies_built() const { return tracing_->built(); }
+    std::size_t hierarchies_refitted() const { return tracing_->refitted(); }
 
 private:
-    void fill_lights(const scene::Scene& now);
-    void fill_views(const scene::Scene& now, const scene::Camera& camera, uvec2 size);
-    void fill_tracing();
+    /// What an object looked like at the last update.
+    struct Seen {
+        std::size_t mesh = 0;
+        scene::Material material;
+        dmat4 world_from_object{1};
+        std::optional<scene::Sphere> sphere;
+        bool seen_by_camera = true;
+    };
+    /// Where an object's vertices are on the device.
+    struct Place {
+        bool moves = false; ///< among those that are written again
+        std::uint32_t first = 0;
+    };
+    struct Changes {
+        bool layout = false;
+        bool materials = false; ///< or exact spheres
+        bool lights = false;
+        std::vector<std::size_t> moved;
+        bool shapes() const { return layout || !moved.empty(); }
+    };
+
+    Changes take_over(const scene::Scene& now);
+    void lay_out(const scene::Scene& now);
+    void move(const scene::Scene& now, const std::vector<std::size_t>& objects);
+    void place_vertices();
+    void fill_surfaces(const scene::Scene& now);
+    void fill_lights(const scene::Scene& now, bool others);
+    void fill_probes(const scene::Scene& now, const Changes& changes);
+    void fill_views(const scene::Camera& camera, uvec2 size);
+    void fill_frame(double ambient);
     void find_face_needs(uvec2 size);
+    const dvec3& eye_of(std::uint32_t view) const;
+    void write(std::size_t slot);
 
     gpu::Device& device_;
     Space space_;
     Geometry geometry_;
-    std::vector<shared::View> views_;
+    Nearest nearest_;
+    std::vector<Seen> seen_;
+    std::vector<Place> places_;
+    std::vector<shared::View> views_, scene_views_;  ///< all; those of mirrors and lights
+    std::vector<dvec3> probe_places_, light_places_; ///< scene units
+    dvec3 eye_{0};
     std::vector<shared::Surface> surfaces_;
     std::vector<shared::Probe> probes_;
+    std::vector<scene::PointLight> world_lights_;
     std::vector<shared::Light> lights_;
     std::vector<std::size_t> mirror_objects_;
     std::vector<bool> hides_all_; ///< by object
     std::vector<double> face_needs_;
-    std::uint32_t mirror_count_ = 0, light_count_ = 0, shadow_faces_ = 6;
-    gpu::Buffer vertex_buffer_, index_buffer_, frame_, view_buffer_, surface_buffer_, light_buffer_,
-        probe_buffer_;
-    gpu::Buffer bvh_nodes_, bvh_triangles_, normals_;
+    scene::Camera camera_; ///< of the last update
+    uvec2 size_{0};
+    bool complete_ = false; ///< the last update came to its end
+    bool anything_moves_ = false, has_own_spaces_ = false;
+    std::uint32_t shadow_faces_ = 6;
+    std::size_t slot_ = 0, uploads_ = 0;
+    double update_ms_ = 0, hierarchy_ms_before_ = 0;
+    Resident still_vertices_, moving_vertices_, indices_, frame_, view_buffer_, surface_buffer_,
+        light_buffer_, probe_buffer_;
+    std::unique_ptr<Tracing> tracing_;
+    mutable bool wants_tracing_ = false;
 };
 
 } // namespace catoptric::render

@@ -28,18 +28,43 @@ gpu::Winding turns_away(const shared::View& view) {
                : gpu::Winding::counterclockwise;
 }
 
+/// Push constants of placed.vert.
+struct PlacedDraw {
+    shared::Draw draw;
+    shared::Placement placement;
+};
+
 /// One object in the layers whose view it may meet; neighbouring layers in one draw.
 void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended = 0) {
     const DrawRange& range = scene.ranges()[object];
     shared::Draw draw = scene.draw_of(object, first_view);
     draw.mended = mended;
-    commands.push(draw);
+    if (range.own)
+        commands.push(PlacedDraw{draw, scene.placement_of(object, first_view)});
+    else
+        commands.push(draw);
+    scene.bind_vertices(commands, object);
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
         while (end < layers && may_meet(scene.views()[first_view + end], range.bounds)) ++end;
         if (end > layer) commands.draw(range.first_index, range.index_count, layer, end - layer);
         layer = end + 1;
+    }
+}
+
+/// The objects that are asked for, with these programs; those in spaces of their own come last.
+template <typename Wanted>
+void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState state,
+                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
+                  Wanted&& wanted) {
+    for (const bool own : {false, true}) {
+        if (own && !scene.has_own_spaces()) break;
+        if (own) state.vertex = "placed.vert";
+        commands.use(state);
+        for (std::size_t i = 0; i < scene.ranges().size(); ++i)
+            if (scene.ranges()[i].own.has_value() == own && wanted(i))
+                draw_object(commands, scene, i, first_view, layers, mended);
     }
 }
 
@@ -53,18 +78,18 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
     std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed",
                 black = "mirror_black.frag";
     scene.bind(commands);
+    if (look.mended) scene.bind_tracing(commands);
     if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
     if (peeled) {
         diffuse += lighting.shadow_map ? "#peel" : "_peel", black += "#peel";
         commands.bind("first_layer", *peeled);
     }
     const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {
-        commands.use(gpu::RasterState{"scene.vert", diffuse, store, hidden});
-        for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
-            const DrawRange& range = scene.ranges()[i];
-            if (!range.mirror && range.one_sided == one_sided && !skip(i))
-                draw_object(commands, scene, i, first_view, layers);
-        }
+        draw_objects(commands, scene, {"scene.vert", diffuse, store, hidden}, first_view, layers, 0,
+                     [&](std::size_t i) {
+                         const DrawRange& range = scene.ranges()[i];
+                         return !range.mirror && range.one_sided == one_sided && !skip(i);
+                     });
     };
     draw_diffuse(false, gpu::Winding::none);
     if (std::ranges::any_of(scene.ranges(), &DrawRange::one_sided))
@@ -91,15 +116,14 @@ void draw_scene(Commands& commands, const GpuScene& scene, std::uint32_t first_v
         for (const auto& [name, image] : look.images) commands.bind(name, image);
         for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
     }
-    commands.use(mirrors);
+    draw_objects(commands, scene, mirrors, first_view, layers, look.mended, [&](std::size_t i) {
+        return scene.ranges()[i].mirror && !skip(i) && !is_black(i);
+    });
+    const auto is_shut = [&](std::size_t i) { return is_black(i) && !skip(i); };
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
-        if (scene.ranges()[i].mirror && !skip(i) && !is_black(i))
-            draw_object(commands, scene, i, first_view, layers, look.mended);
-    for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
-        if (!is_black(i) || skip(i)) continue;
-        commands.use(gpu::RasterState{"scene.vert", black, store});
-        draw_object(commands, scene, i, first_view, layers);
-    }
+        if (is_shut(i))
+            return draw_objects(commands, scene, {"scene.vert", black, store}, first_view, layers,
+                                0, is_shut);
 }
 
 void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const MirrorLook& look) {
@@ -151,10 +175,12 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
 MirrorLook mended(MirrorLook look, const FrameInputs& inputs, const Lighting& lighting) {
     if (!inputs.mended) return look;
     look.mended = inputs.mended;
+    inputs.scene.want_tracing();
     for (const auto& [name, value] : {std::pair{"picture_width", inputs.size.x},
                                       {"picture_height", inputs.size.y},
                                       {"max_depth", kReferenceDepth},
-                                      {"shadow", lighting.shadow_map ? 1u : 0u}})
+                                      {"shadow", lighting.shadow_map ? 1u : 0u},
+                                      {"own_spaces", inputs.scene.has_own_spaces() ? 1u : 0u}})
         look.constants.emplace_back(name, value);
     return look;
 }
@@ -176,10 +202,9 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs,
             .layers(faces)
             .record([&scene, light, faces](Commands& commands) {
                 scene.bind(commands);
-                commands.use(gpu::RasterState{"scene.vert", "", {}});
-                for (std::size_t i = 0; i < scene.ranges().size(); ++i)
-                    if (scene.ranges()[i].casts_shadow)
-                        draw_object(commands, scene, i, scene.shadow_view(light), faces);
+                draw_objects(commands, scene, {"scene.vert", "", {}}, scene.shadow_view(light),
+                             faces, 0,
+                             [&](std::size_t i) { return scene.ranges()[i].casts_shadow; });
             });
     }
     return map;

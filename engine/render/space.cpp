@@ -11,8 +11,6 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr double kSmall = 0x1p-12; // of the distance from the origin
-
 double largest(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 /// The bounds of mirrors that would lose half of a float's digits to their distance; may be empty.
@@ -23,7 +21,7 @@ Bounds<double> small_mirrors(const scene::Scene& scene, const dvec3& origin) {
         if (box.empty()) continue;
         const double distance = largest(
             glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
-        if (largest(box.extent()) < kSmall * distance) small.add(box);
+        if (largest(box.extent()) < kSmallPart * distance) small.add(box);
     }
     return small;
 }

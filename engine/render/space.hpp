@@ -14,9 +14,13 @@ struct Space {
     Bounds<float> core; ///< scene units; things may lie outside
 
     bool operator==(const Space&) const = default;
-    vec3 point(const dvec3& world) const { return vec3((world - origin_world) * scale); }
+    dvec3 place(const dvec3& world) const { return (world - origin_world) * scale; }
+    vec3 point(const dvec3& world) const { return vec3(place(world)); }
     float length(double world) const { return static_cast<float>(world * scale); }
 };
+
+/// Smaller than this part of its distance from the origin, a thing loses half of a float's digits.
+inline constexpr double kSmallPart = 0x1p-12;
 
 /// Of the scene at rest; the same for all its frames, so that motion does not move the units. The
 /// origin is the core's centre or, where mirrors are smaller than 2^-12 of their distance from

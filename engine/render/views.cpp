@@ -1,5 +1,6 @@
 #include "render/views.hpp"
 
+#include "bvh/two_level.hpp"
 #include "core/error.hpp"
 #include "core/shader_math.hpp"
 #include "scene/core.hpp"
@@ -26,7 +27,9 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
     // A thing at distance `gap` in the corner of the picture lies this far along the axis.
     const double along = 1 / std::sqrt(1 + tangent * tangent * (1 + aspect * aspect));
     shared::View view{};
-    view.eye = space.point(camera.eye);
+    const dvec3 eye = space.place(camera.eye);
+    view.eye = vec3(eye);
+    view.eye_low = bvh::low_part(eye);
     view.right = vec3(right / (tangent * aspect));
     view.down = vec3(down / tangent);
     view.forward = vec3(forward);

@@ -51,7 +51,7 @@ End end_of(Ray ray, uint skipped) {
 
 Ray reflected(Ray ray, Point at) {
     vec3 direction = mirror_direction(ray.direction, at.normal, at.facet);
-    return Ray(spawn_origin(at.position, at.error, at.facet, direction), direction, at.leaves);
+    return Ray(leaving(at, direction), direction, at.leaves);
 }
 
 // What capture `mirror` shows in the looked-up direction: in the second layer the next surface behind

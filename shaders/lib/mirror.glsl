@@ -100,7 +100,7 @@ bool may_meet_mirror_before(uint mirror, Path path, Lookup lookup) {
         float t;
         bool meets = probe.radius > 0.0
                          ? sphere_test(probe.sphere, probe.radius, ray, kLargest, t)
-                         : slab_test(probe.lowest, probe.highest, box_ray(ray, probe.lowest, probe.highest), kLargest, t);
+                         : slab_test(probe.lowest, probe.highest, box_ray(ray, probe.lowest, probe.highest, 1.0), kLargest, t);
         if (meets && !(t_end < t)) return true;
     }
     return false;

@@ -9,6 +9,7 @@
 #ifndef CATOPTRIC_TRACE_GLSL
 #define CATOPTRIC_TRACE_GLSL
 
+#include "lib/constants.glsl"
 #include "lib/math.glsl"
 #include "lib/plain.glsl"
 
@@ -38,7 +39,7 @@ layout(set = 0, binding = BVH_TRIANGLES_BINDING) uniform samplerBuffer bvh_trian
 #ifdef TRACE_PRIVATE_STACK
 #define STACK(i) stack[i]
 #else
-shared uint trace_stack[(kBvhMaxDepth + 2) * TRACE_LOCAL_SIZE];
+shared uint trace_stack[kBvhMaxStack * TRACE_LOCAL_SIZE];
 #define STACK(i) trace_stack[(i) * TRACE_LOCAL_SIZE + gl_LocalInvocationIndex]
 #endif
 
@@ -57,10 +58,35 @@ struct Hit {
     vec3 barycentric; // weights of a, b, c
     uint triangle;    // original number
     uint object;
-    uint place;       // where triangle_corners finds it
+    uint place;       // where triangle_corners finds it; kOnSphere
+    uint inside;      // the record of the thing in whose own space it lies; 0: in the scene's
+};
+const uint kOnSphere = 0xffffffffu; // the exact sphere that a thing in its own space stands for
+
+// 1: some things have spaces of their own (engine/bvh/two_level.hpp).
+layout(constant_id = OWN_SPACES_CONSTANT) const uint own_spaces = 0u;
+// What the origin of the next ray lacks as a sum of two floats. A walk uses it up.
+vec3 trace_low = vec3(0);
+
+Place place_at(uint record) {
+    uint i = 4u * record;
+    return Place(NODE_TEXEL(i).xyz, NODE_TEXEL(i + 1u).xyz, NODE_TEXEL(i + 2u).xyz, NODE_TEXEL(i + 4u).xyz,
+                 NODE_TEXEL(i + 5u).xyz, NODE_TEXEL(i + 6u).xyz, NODE_TEXEL(i + 3u).xyz, NODE_TEXEL(i + 7u).xyz);
+}
+// What is added to the number of a triangle below the record.
+uint number_shift(uint record) { return floatBitsToUint(NODE_TEXEL(4u * record + 2u).w) & kBvhIdMask; }
+float own_radius(uint record) { return NODE_TEXEL(4u * record + 9u).w; }
+
+// The tree that is walked: its ray, and what stands in its triangles' place of object, flags and number.
+struct Walked {
+    Ray ray;
+    BoxRay boxes;
+    RayShear shear;
+    uint record; // 0: the scene's own
+    uint object, flags, shift;
 };
 
-// Corners in scene units.
+// Corners in scene units or in those of the thing's own space.
 void triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
     a = TRIANGLE_TEXEL(3u * place).xyz;
     b = TRIANGLE_TEXEL(3u * place + 1u).xyz;
@@ -68,23 +94,29 @@ void triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
 }
 
 // One triangle against the best hit so far; of equal t the lowest original number wins.
-void trace_triangle(uint place, Ray ray, RayShear shear, uint skipped_flags, inout Hit best,
-                    inout bool found) {
+void trace_triangle(uint place, Walked walked, uint skipped_flags, inout Hit best, inout bool found) {
+    Ray ray = walked.ray;
     vec4 a = TRIANGLE_TEXEL(3u * place);
     vec4 b = TRIANGLE_TEXEL(3u * place + 1u);
     vec4 c = TRIANGLE_TEXEL(3u * place + 2u);
     float t;
     vec3 weights;
-    bool hit = keeps(kWatertight) ? triangle_test(a.xyz, b.xyz, c.xyz, ray.origin, shear, t, weights)
+    bool hit = keeps(kWatertight) ? triangle_test(a.xyz, b.xyz, c.xyz, ray.origin, walked.shear, t, weights)
                                   : plain_triangle_test(a.xyz, b.xyz, c.xyz, ray, t, weights);
     uint triangle = floatBitsToUint(b.w) & kBvhIdMask;
     uint object = floatBitsToUint(a.w) & kBvhIdMask;
-    uint skips = floatBitsToUint(c.w) & skipped_flags;
+    uint flags = floatBitsToUint(c.w);
+    if (own_spaces != 0u && walked.record != 0u) {
+        triangle += walked.shift;
+        object = walked.object;
+        flags = walked.flags;
+    }
+    uint skips = flags & skipped_flags;
     bool seen = (skips == 0u || (skips == kBvhOneSided && !is_from_behind(a.xyz, b.xyz, c.xyz, ray.direction))) &&
                 triangle + 1u != ray.leaves && TRACE_SEES(object);
     bool nearer = t < best.t || (found && t == best.t && triangle < best.triangle);
     if (hit && seen && nearer) {
-        best = Hit(t, weights, triangle, object, place);
+        best = Hit(t, weights, triangle, object, place, walked.record);
         found = true;
     }
 }
@@ -109,17 +141,45 @@ void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint s
     second = swap ? child_0 : child_1;
 }
 
+// The scene's own tree.
+Walked trace_outside(Ray ray) {
+    vec3 lo = NODE_TEXEL(0u).xyz, hi = NODE_TEXEL(1u).xyz;
+    float times = own_spaces != 0u ? NODE_TEXEL(2u).x : 1.0;
+    BoxRay boxes = keeps(kBoxSlack) ? box_ray(ray, lo, hi, times) : plain_box_ray(ray);
+    return Walked(ray, boxes, ray_shear(ray.direction), 0u, 0u, 0u, 0u);
+}
+
+// The tree of a thing in its own space, and its root.
+Walked trace_inside(uint record, Ray ray, vec3 low, out uint root) {
+    uint i = 4u * record;
+    root = floatBitsToUint(NODE_TEXEL(i).w);
+    Ray own = own_ray(place_at(record), ray, low);
+    BoxRay boxes = keeps(kBoxSlack) ? box_ray(own, NODE_TEXEL(i + 8u).xyz, NODE_TEXEL(i + 9u).xyz, 1.0) : plain_box_ray(own);
+    return Walked(own, boxes, ray_shear(own.direction), record, floatBitsToUint(NODE_TEXEL(i + 1u).w) & kBvhIdMask,
+                  floatBitsToUint(NODE_TEXEL(i + 3u).w) & kBvhIdMask, number_shift(record));
+}
+
+// A thing that stands for an exact sphere around the middle of its space, where spheres are exact.
+void trace_sphere(Walked walked, uint skipped_flags, inout Hit best, inout bool found) {
+    float t;
+    float radius = own_radius(walked.record);
+    if ((walked.flags & skipped_flags & ~(kBvhSphere | kBvhOneSided)) == 0u && TRACE_SEES(walked.object) && radius > 0.0 &&
+        sphere_test(vec3(0), radius, walked.ray, best.t, t)) {
+        best = Hit(t, vec3(0), 0u, walked.object, kOnSphere, walked.record);
+        found = true;
+    }
+}
+
 bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best) {
-    best = Hit(t_max, vec3(0), 0u, 0u, 0u);
-    vec4 header_lo = NODE_TEXEL(0u);
-    vec4 header_hi = NODE_TEXEL(1u);
-    bool empty = (floatBitsToUint(header_lo.w) & kBvhIdMask) == 0u;
+    best = Hit(t_max, vec3(0), 0u, 0u, 0u, 0u);
+    vec3 low = trace_low;
+    trace_low = vec3(0);
+    bool empty = (floatBitsToUint(NODE_TEXEL(0u).w) & kBvhIdMask) == 0u;
     if (empty || !is_valid(ray) || !(t_max > 0.0)) return false;
 #ifdef TRACE_PRIVATE_STACK
-    uint stack[kBvhMaxDepth + 2];
+    uint stack[kBvhMaxStack];
 #endif
-    BoxRay boxes = keeps(kBoxSlack) ? box_ray(ray, header_lo.xyz, header_hi.xyz) : plain_box_ray(ray);
-    RayShear shear = ray_shear(ray.direction);
+    Walked walked = trace_outside(ray);
     bool found = false;
     uint waiting = 0u;
     uint child = kBvhRoot;
@@ -127,7 +187,7 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
         // Down to a leaf. A child that is not met leaves `child` for the next on the stack.
         while (bvh_is_inner(child) && trace_steps < kMaxTraceSteps) {
             uint second;
-            trace_node(bvh_index(child), boxes, best.t, child, second);
+            trace_node(bvh_index(child), walked.boxes, best.t, child, second);
             ++trace_steps;
             if (second != kBvhNothing) {
                 STACK(waiting) = second;
@@ -141,13 +201,34 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
         uint first = bvh_index(child);
         uint count = bvh_count(child);
         uint i = 0u;
+        bool enters = false;
+        if (own_spaces != 0u && count >= kBvhEnters) {
+            if (child == kBvhReturns) {
+                walked = trace_outside(ray);
+            } else {
+                uint root;
+                walked = trace_inside(first, ray, low, root);
+                enters = (walked.flags & skipped_flags & kBvhSphere) == 0u;
+                if (!enters) {
+                    trace_sphere(walked, skipped_flags, best, found);
+                    walked = trace_outside(ray);
+                } else {
+                    STACK(waiting) = kBvhReturns;
+                    ++waiting;
+                    child = root;
+                }
+            }
+            ++trace_steps;
+            count = 0u;
+        }
         while (i < count) {
-            trace_triangle(first + i, ray, shear, skipped_flags, best, found);
+            trace_triangle(first + i, walked, skipped_flags, best, found);
             ++trace_steps;
             ++i;
         }
         // Out of steps, or stopped by the driver: one of the two loops has work left.
-        if (bvh_is_inner(child) || i < count) break;
+        if (!enters && (bvh_is_inner(child) || i < count)) break;
+        if (enters) continue;
         child = kBvhNothing;
         if (waiting > 0u && !(any && found)) {
             --waiting;

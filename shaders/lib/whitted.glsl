@@ -41,6 +41,9 @@ struct Point {
     vec3 facet;  // geometric, unit
     uint object;
     uint leaves; // for the rays that start here (see Ray)
+    uint inside; // the record of the thing in whose own space it lies; 0: none
+    vec3 arm;    // from that thing's centre, scene units, and the bound of its error
+    vec3 arm_error;
 };
 Point point; // what is being shaded
 
@@ -64,6 +67,18 @@ bool nearest_sphere(Ray ray, inout float t, out uint object) {
     return found;
 }
 
+// From the own space in which it was found.
+void put_into_scene(inout Point p, uint record) {
+    Place place = place_at(record);
+    p.inside = record;
+    p.arm = arm_of(place, p.position);
+    p.arm_error = arm_error(place, p.position, p.error);
+    p.normal = scene_normal(place, p.normal);
+    vec3 low;
+    p.position = scene_point(place, p.arm, low);
+    p.error = p.arm_error + gamma_bound(2) * abs(p.position);
+}
+
 Point on_triangle(Hit hit) {
     vec3 a, b, c;
     triangle_corners(hit.place, a, b, c);
@@ -71,12 +86,27 @@ Point on_triangle(Hit hit) {
     Point p;
     p.position = triangle_point(a, b, c, w, p.error);
     p.facet = facet_normal(a, b, c);
-    p.normal = normalize(w.x * NORMAL(3u * hit.triangle) + w.y * NORMAL(3u * hit.triangle + 1u) +
-                         w.z * NORMAL(3u * hit.triangle + 2u));
+    uint corner = 3u * hit.triangle;
+    if (own_spaces != 0u && hit.inside != 0u) corner -= 3u * number_shift(hit.inside);
+    p.normal = normalize(w.x * NORMAL(corner) + w.y * NORMAL(corner + 1u) + w.z * NORMAL(corner + 2u));
+    p.inside = 0u;
+    p.arm = p.arm_error = vec3(0);
+    if (own_spaces != 0u && hit.inside != 0u) {
+        Place place = place_at(hit.inside);
+        p.facet = facet_normal(arm_of(place, a), arm_of(place, b), arm_of(place, c));
+        put_into_scene(p, hit.inside);
+    }
 #ifdef DOUBLES
-    dvec3 exact_w = exact_triangle_hit(a, b, c, w);
-    exact_normal = normalize(exact_w.x * dvec3(NORMAL(3u * hit.triangle)) + exact_w.y * dvec3(NORMAL(3u * hit.triangle + 1u)) +
-                             exact_w.z * dvec3(NORMAL(3u * hit.triangle + 2u)));
+    dvec3 exact_a = dvec3(a), exact_b = dvec3(b), exact_c = dvec3(c);
+    if (own_spaces != 0u && hit.inside != 0u) {
+        Place place = place_at(hit.inside);
+        exact_a = exact_place(place, a), exact_b = exact_place(place, b), exact_c = exact_place(place, c);
+    }
+    dvec3 exact_w = exact_triangle_hit(exact_a, exact_b, exact_c, w);
+    exact_normal = exact_w.x * dvec3(NORMAL(corner)) + exact_w.y * dvec3(NORMAL(corner + 1u)) +
+                   exact_w.z * dvec3(NORMAL(corner + 2u));
+    if (own_spaces != 0u && hit.inside != 0u) exact_normal = exact_scene_normal(place_at(hit.inside), exact_normal);
+    exact_normal = normalize(exact_normal);
     p.position = vec3(exact_point);
     p.normal = vec3(exact_normal);
 #endif
@@ -89,17 +119,39 @@ Point on_sphere(Ray ray, float t, uint object) {
     Point p;
     p.position = sphere_point(surfaces[object].centre, surfaces[object].radius, ray, t, p.error);
 #ifdef DOUBLES
-    exact_sphere_hit(surfaces[object].centre, surfaces[object].radius, t);
+    exact_sphere_hit(dvec3(surfaces[object].centre), double(surfaces[object].radius), t);
     p.position = vec3(exact_point);
 #endif
     p.normal = p.facet = (p.position - surfaces[object].centre) / surfaces[object].radius;
     p.object = object;
     p.leaves = 0u;
+    p.inside = 0u;
+    p.arm = p.arm_error = vec3(0);
+    return p;
+}
+
+// On the exact sphere that a thing in its own space stands for; `low`: what the ray's origin lacks.
+Point on_own_sphere(Ray ray, vec3 low, Hit hit) {
+    Point p;
+    Place place = place_at(hit.inside);
+    float radius = own_radius(hit.inside);
+    p.position = sphere_point(vec3(0), radius, own_ray(place, ray, low), hit.t, p.error);
+    p.normal = p.position / radius;
+    p.object = hit.object;
+    p.leaves = 0u;
+    put_into_scene(p, hit.inside);
+    p.facet = p.normal;
+#ifdef DOUBLES
+    exact_sphere_hit(exact_place(place, vec3(0)), double(radius) * length(dvec3(place.scene_x)), hit.t);
+    p.normal = p.facet = vec3(exact_normal);
+    p.position = vec3(exact_point);
+#endif
     return p;
 }
 
 bool trace_ray(Ray ray, uint skipped, out Point p) {
     Hit hit;
+    vec3 low = trace_low;
     bool found = closest_hit(ray, kLargest, skipped | kBvhOneSided | passed_by(), hit);
     if (exact_spheres != 0u) {
         float t = found ? hit.t : kLargest;
@@ -109,12 +161,15 @@ bool trace_ray(Ray ray, uint skipped, out Point p) {
             return true;
         }
     }
-    if (found) p = on_triangle(hit);
+    if (found && own_spaces != 0u && hit.place == kOnSphere) p = on_own_sphere(ray, low, hit);
+    else if (found) p = on_triangle(hit);
     return found;
 }
 
 // A ray that leaves the point along `direction`.
 vec3 leaving(Point p, vec3 direction) {
+    if (own_spaces != 0u && p.inside != 0u)
+        return scene_point(place_at(p.inside), spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
     return keeps(kSpawnBound) ? spawn_origin(p.position, p.error, p.facet, direction) : plain_spawn_origin(p.position, p.facet, direction);
 }
 
@@ -137,6 +192,7 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
 Ray camera_ray(vec2 place, uvec2 size) {
     View view = views[0];
     vec2 ndc = place / vec2(size) * 2.0 - 1.0;
+    if (own_spaces != 0u) trace_low = view.eye_low;
     return Ray(view.eye, normalize(view.forward + ndc.x * view.right / dot(view.right, view.right) +
                                    ndc.y * view.down / dot(view.down, view.down)), 0u);
 }
@@ -149,7 +205,7 @@ vec3 radiance(Ray ray, uint first, out uint met) {
     met = 0u;
     uint skipped = first == 0u ? kBvhHidden : 0u;
 #ifdef DOUBLES
-    exact_ray(ray);
+    exact_ray(ray, trace_low);
 #endif
     bool done = false;
     for (uint bounce = first; !done; ++bounce) {

@@ -24,9 +24,9 @@ void main() {
     uvec4 along = rays[2u * i + 1u];
     Ray ray = Ray(uintBitsToFloat(from.xyz), uintBitsToFloat(along.xyz), along.w);
     float t_max = uintBitsToFloat(from.w);
-    Hit hit = Hit(0.0, vec3(0), 0u, 0u, 0u);
+    Hit hit = Hit(0.0, vec3(0), 0u, 0u, 0u, 0u);
     bool found = occluded != 0u ? any_hit(ray, t_max, skipped) : closest_hit(ray, t_max, skipped, hit);
-    if (!found || occluded != 0u) hit = Hit(0.0, vec3(0), 0u, 0u, 0u);
+    if (!found || occluded != 0u) hit = Hit(0.0, vec3(0), 0u, 0u, 0u, 0u);
     uint outcome = (found ? kFound : 0u) | (trace_exhausted ? kExhausted : 0u);
     hits[2u * i] = uvec4(floatBitsToUint(hit.t), floatBitsToUint(hit.barycentric));
     hits[2u * i + 1u] = uvec4(hit.triangle, hit.object, outcome, trace_steps);

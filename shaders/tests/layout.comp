@@ -34,7 +34,7 @@ void main() {
     put(probes[1].centre), put(probes[1].sphere), put(probes[1].radius), put(probes[1].reflectance);
     put(probes[1].lowest), put(probes[1].highest);
     View v = views[1];
-    put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near);
+    put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near), put(v.eye_low);
     Frame f = frames[1];
     put(f.ambient), put(f.light_count), put(f.mirror_count), put(f.object_count), put(f.shadow_faces);
     put(draws[1].first_view);

@@ -5,7 +5,7 @@
 //   docs/robustness.md
 #include "app/run.hpp"
 #include "measure/statistics.hpp"
-#include "render/geometry.hpp"
+#include "render/nearest.hpp"
 #include "scene/load.hpp"
 #include "scene/repair.hpp"
 
@@ -122,13 +122,14 @@ void compare_rules(const app::Request& base, int rounds) {
     constexpr int kTimes = 25;
     const render::Space space = render::space_of(base.scene);
     const render::Geometry geometry = render::make_geometry(base.scene, space);
+    render::Nearest nearest;
+    nearest.lay_out(geometry);
     volatile float kept = 0; // or the compiler would not look for it
     const auto gaps = [&] {
         // Camera, four captures, light.
         for (int i = 0; i < 6; ++i)
-            kept = render::nearest_distance(
-                geometry, vec3(0.1f * static_cast<float>(i)),
-                [](std::size_t, const render::DrawRange&) { return false; });
+            kept = nearest.distance(geometry, dvec3(0.1 * i),
+                                    [](std::size_t, const render::DrawRange&) { return false; });
     };
     std::printf("\n| On the processor, always | ms | when |\n|---|---:|---|\n");
     std::printf("| near planes from the nearest gap | %.3f | frame |\n", cpu_ms(kTimes, gaps));

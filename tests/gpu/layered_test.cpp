@@ -54,6 +54,7 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
                         if (range.mirror != mirrors_now || i == gpu_scene.mirror_object(mirror))
                             continue;
                         commands.push(gpu_scene.draw_of(i, gpu_scene.capture_view(mirror)));
+                        gpu_scene.bind_vertices(commands, i);
                         commands.draw(range.first_index, range.index_count, 0, 6);
                     }
                 }

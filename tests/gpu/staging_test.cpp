@@ -4,6 +4,7 @@
 #include "support/device.hpp"
 #include "support/scenes.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace {

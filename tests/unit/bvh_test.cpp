@@ -446,6 +446,71 @@ TEST(ClosestHit, SpawnedRaysCrossTheBall) {
     }
 }
 
+bool same(const std::vector<vec4>& a, const std::vector<vec4>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(vec4)) == 0;
+}
+
+TEST(Refit, ToWhereEverythingStandsChangesNothing) {
+    for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
+        std::vector<Triangle> triangles = soup(500, 3);
+        triangles[7].b.y = kNan;
+        const Bvh built = build(triangles, core);
+        Bvh refitted = built;
+        triangles[7] = triangles[8]; // left out at build: not looked at again
+        refit(refitted, triangles, core);
+        EXPECT_TRUE(same(built.nodes, refitted.nodes));
+        EXPECT_TRUE(same(built.triangles, refitted.triangles));
+    }
+}
+
+/// Hits of a tree that was refitted over and over equal those of one made for the place, to the
+/// last bit, of two triangles in one place too.
+TEST(Refit, RaysMeetWhatTheyMeetInANewTree) {
+    test::Numbers random(21);
+    std::vector<Triangle> triangles = ball(3);
+    const std::size_t room = triangles.size();
+    for (const Triangle& t : soup(400, 4)) triangles.push_back(t);
+    for (std::size_t i = 0; i < 50; ++i) triangles.push_back(triangles[room + i]); // copies
+    Bvh refitted = build(triangles);
+    std::size_t found = 0;
+    for (int step = 0; step < 6; ++step) {
+        const vec3 move = random.in_cube();
+        for (std::size_t i = 0; i < room; ++i)
+            for (vec3* corner : {&triangles[i].a, &triangles[i].b, &triangles[i].c})
+                *corner += move;
+        refit(refitted, triangles);
+        const Bvh anew = build(triangles);
+        for (int k = 0; k < 3000; ++k) {
+            const Triangle& aim = triangles[random.below(triangles.size())];
+            const vec3 origin = 2.0f * random.in_cube();
+            const Ray<float> ray{origin, (k % 2 ? aim.a : (aim.a + aim.b) * 0.5f) - origin, 0};
+            const auto hit = closest_hit<float>(refitted, ray, kInfinity),
+                       wanted = closest_hit<float>(anew, ray, kInfinity);
+            ASSERT_EQ(hit.has_value(), wanted.has_value());
+            if (!hit) continue;
+            ++found;
+            ASSERT_EQ(hit->t, wanted->t);
+            ASSERT_EQ(hit->triangle, wanted->triangle);
+            ASSERT_EQ(hit->barycentric, wanted->barycentric);
+        }
+    }
+    EXPECT_GT(found, 15000u);
+}
+
+TEST(Refit, CostRisesWhereNeighboursPart) {
+    std::vector<Triangle> triangles = soup(500, 5);
+    Bvh tree = build(triangles);
+    const double before = cost(tree);
+    test::Numbers random(22);
+    for (Triangle& t : triangles) {
+        const vec3 move = 2.0f * random.in_cube();
+        t.a += move, t.b += move, t.c += move;
+    }
+    refit(tree, triangles);
+    EXPECT_GT(cost(tree), 2 * before);
+    EXPECT_LT(cost(build(triangles)), .5 * cost(tree));
+}
+
 TEST(ClosestHit, VisitsFewNodes) {
     const Bvh bvh = build(ball(5)); // 8192 triangles
     test::Numbers random(18);

@@ -17,7 +17,7 @@ struct Alone {
         geometry = render::make_geometry(scene, {});
     }
     bool encloses(vec3 point) const {
-        return render::encloses(geometry, geometry.ranges.front(), point);
+        return render::encloses(geometry, geometry.ranges.front(), dvec3(point));
     }
     render::Geometry geometry;
 };

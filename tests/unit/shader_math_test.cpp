@@ -195,7 +195,7 @@ TEST(TriangleTest, PowersOfTwoChangeNothing) {
 
 bool hit_box(vec3 lo, vec3 hi, vec3 origin, vec3 direction, float t_max = kInfinity) {
     float t;
-    const f32::BoxRay ray = f32::box_ray({origin, direction}, vec3(-1), vec3(1));
+    const f32::BoxRay ray = f32::box_ray({origin, direction}, vec3(-1), vec3(1), 1);
     return f32::slab_test(lo, hi, ray, t_max, t);
 }
 

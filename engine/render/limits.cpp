@@ -1,0 +1,51 @@
+#include "render/limits.hpp"
+
+#include "bvh/bvh.hpp"
+#include "core/error.hpp"
+#include "shared.h"
+
+#include <limits>
+
+namespace catoptric::render {
+
+namespace {
+
+constexpr std::uint64_t kTexelBytes = 16, kTexelsOfTriangle = 3, kTexelsOfNode = 4;
+
+} // namespace
+
+Amounts amounts_of(const scene::Scene& scene) {
+    Amounts amounts;
+    for (const scene::Object& object : scene.objects) {
+        const scene::Mesh& mesh = scene.meshes[object.mesh];
+        amounts.vertices += mesh.positions.size();
+        amounts.triangles += mesh.triangles.size();
+        amounts.mirrors += scene.materials[object.material].mirror ? 1 : 0;
+    }
+    amounts.objects = scene.objects.size();
+    return amounts;
+}
+
+void check_limits(const std::string& scene, const Amounts& amounts, const Limits& limits) {
+    const auto within = [&](std::uint64_t wanted, std::uint64_t allowed, const char* what) {
+        check(wanted <= allowed, Failure::exhausted, "scene '", scene, "' wants ", wanted, " ",
+              what, ", the device allows ", allowed);
+    };
+    const std::uint64_t vertex_bytes = amounts.vertices * sizeof(shared::Vertex),
+                        index_bytes = 3 * amounts.triangles * sizeof(std::uint32_t),
+                        texels = kTexelsOfTriangle * amounts.triangles,
+                        node_texels = kTexelsOfNode * (amounts.triangles / bvh::kMaxLeaf);
+    within(amounts.vertices, std::numeric_limits<std::uint32_t>::max(), "vertices");
+    within(3 * amounts.triangles, std::numeric_limits<std::uint32_t>::max(), "indices");
+    within(texels, limits.texels, "texels of triangles");
+    within(amounts.objects * sizeof(shared::Surface), limits.storage_bytes, "bytes of surfaces");
+    within((1 + 6 * amounts.mirrors) * sizeof(shared::View), limits.storage_bytes,
+           "bytes of views");
+    within(vertex_bytes, limits.piece_bytes, "bytes of vertices");
+    within(index_bytes, limits.piece_bytes, "bytes of indices");
+    // Triangles, their normals, and the nodes above them.
+    within(vertex_bytes + index_bytes + (2 * texels + node_texels) * kTexelBytes,
+           limits.memory_bytes, "bytes");
+}
+
+} // namespace catoptric::render

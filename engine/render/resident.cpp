@@ -1,0 +1,76 @@
+#include "render/resident.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace catoptric::render {
+
+namespace {
+
+constexpr std::size_t kPage = 16384; // bytes that are compared and written together
+
+std::size_t page_count(std::size_t bytes) { return (bytes + kPage - 1) / kPage; }
+
+} // namespace
+
+void Resident::set(std::span<const std::byte> data) {
+    const std::size_t kept = std::min(data.size(), data_.size());
+    const std::uint64_t next = version_ + 1;
+    bool changed = data.size() != data_.size();
+    data_.resize(data.size());
+    pages_.resize(page_count(data.size()), next);
+    for (std::size_t page = 0; page < pages_.size(); ++page) {
+        const std::size_t first = page * kPage, end = std::min(first + kPage, data.size());
+        if (end <= kept && std::memcmp(&data_[first], &data[first], end - first) == 0) continue;
+        std::memcpy(&data_[first], &data[first], end - first);
+        pages_[page] = next;
+        changed = true;
+    }
+    if (changed) version_ = next;
+}
+
+/// A copy that no other slot binds.
+std::size_t Resident::free_copy(std::size_t slot) {
+    const auto is_free = [&](std::size_t copy) {
+        for (std::size_t other = 0; other < bound_.size(); ++other)
+            if (other != slot && bound_[other] == copy) return false;
+        return true;
+    };
+    if (bound_[slot] && is_free(*bound_[slot])) return *bound_[slot];
+    for (std::size_t copy = 0; copy < copies_.size(); ++copy)
+        if (is_free(copy)) return copy;
+    copies_.emplace_back();
+    return copies_.size() - 1;
+}
+
+std::size_t Resident::write(gpu::Device& device, std::size_t slot) {
+    const auto current = std::ranges::find(copies_, version_, &Copy::version);
+    if (current != copies_.end()) {
+        bound_[slot] = static_cast<std::size_t>(current - copies_.begin());
+        return 0;
+    }
+    const std::size_t place = free_copy(slot);
+    Copy& copy = copies_[place];
+    if (!copy.buffer.handle() || copy.buffer.bytes() < data_.size()) {
+        copy = {};
+        copy.buffer = gpu::Buffer(device, name_, data_.size(), use_);
+    }
+    std::size_t writes = 0;
+    for (std::size_t page = 0; page < pages_.size();) {
+        const std::size_t first = page;
+        while (page < pages_.size() && pages_[page] > copy.version) ++page;
+        if (page == first) {
+            ++page;
+            continue;
+        }
+        const std::size_t end = std::min(page * kPage, data_.size());
+        copy.buffer.write(first * kPage,
+                          std::span(data_).subspan(first * kPage, end - first * kPage));
+        ++writes;
+    }
+    copy.version = version_;
+    bound_[slot] = place;
+    return writes;
+}
+
+} // namespace catoptric::render

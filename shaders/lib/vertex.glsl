@@ -1,0 +1,54 @@
+// Every raster pass: triangles into the view of this layer. With LAYERED the layer is written here; otherwise the
+// pass draws one layer at a time. gl_InstanceIndex is the layer either way. PLACED: vertices in a space of their own.
+#ifndef CATOPTRIC_VERTEX_GLSL
+#define CATOPTRIC_VERTEX_GLSL
+
+#include "lib/bindings.glsl"
+
+layout(push_constant, scalar) uniform Push {
+    Draw draw;
+#ifdef PLACED
+    Placement placement;
+#endif
+};
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 0) flat out vec3 out_eye;
+layout(location = 1) out vec3 out_normal;
+layout(location = 2) out vec3 out_from_eye;
+layout(location = 3) flat out uint out_layer;
+
+invariant gl_Position;
+
+#ifdef PLACED
+// By the cofactors of the matrix, scaled so that small things do not underflow.
+vec3 scene_direction(vec3 n) {
+    float size = max(largest(abs(placement.x)), max(largest(abs(placement.y)), largest(abs(placement.z))));
+    vec3 x = placement.x / size, y = placement.y / size, z = placement.z / size;
+    vec3 turned = n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y);
+    return normalize(dot(x, cross(y, z)) < 0.0 ? -turned : turned);
+}
+#endif
+
+void main() {
+    View view = views[draw.first_view + gl_InstanceIndex];
+#ifdef PLACED
+    vec3 v = placement.from_eye + (placement.x * position.x + placement.y * position.y + placement.z * position.z);
+#else
+    vec3 v = position - view.eye;
+#endif
+    gl_Position = vec4(dot(view.right, v), dot(view.down, v), view.near, dot(view.forward, v));
+#ifdef LAYERED
+    gl_Layer = gl_InstanceIndex;
+#endif
+    out_eye = view.eye;
+#ifdef PLACED
+    out_normal = scene_direction(normal);
+#else
+    out_normal = normal;
+#endif
+    out_from_eye = v;
+    out_layer = uint(gl_InstanceIndex);
+}
+
+#endif

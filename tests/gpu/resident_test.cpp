@@ -1,0 +1,193 @@
+// A scene that stays on the device: what is written of it, which hierarchies are made, and that
+// pictures cannot tell it from one that was made for the frame.
+#include "reflect/technique.hpp"
+#include "support/device.hpp"
+#include "support/numbers.hpp"
+#include "support/scenes.hpp"
+
+#include <cstring>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr uvec2 kSize{24, 24};
+
+gpu::Device& device() { return test::bench().device; }
+
+/// What the resident scene shows: its linear picture, byte for byte.
+std::vector<std::byte> picture(const render::GpuScene& scene, const std::string& technique) {
+    auto& [device, pipelines] = test::bench();
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    const reflect::Choice choice = reflect::parse_choice(technique);
+    const reflect::Outputs outputs = choice.technique->add(graph, {scene, kSize, ""},
+                                                           choice.settings);
+    graph.want(outputs.hdr);
+    scene.prepare();
+    test::run(runner, graph);
+    return runner.read(outputs.hdr);
+}
+
+/// A room that is changed and shown.
+struct Live {
+    explicit Live(std::size_t slots = 1)
+        : now(test::room(3, 2)), camera(now.cameras.front()), resident(device(), now, slots) {}
+    /// Returns the number of writes.
+    std::size_t update(std::size_t slot = 0) {
+        const std::size_t before = resident.uploads();
+        resident.update(now, camera, kSize, ambient, slot);
+        return resident.uploads() - before;
+    }
+    dvec4& place(std::size_t object) { return now.objects[object].world_from_object[3]; }
+    void move_ball(const dvec3& by) {
+        scene::Object& ball = now.objects.back();
+        ball.world_from_object[3] += dvec4(by, 0);
+        ball.sphere->centre += by;
+    }
+
+    scene::Scene now;
+    scene::Camera camera;
+    double ambient = .05;
+    render::GpuScene resident;
+};
+
+TEST(Resident, WritesWhatDiffersAndNothingElse) {
+    Live live;
+    EXPECT_EQ(live.update(), 7u) << "all lists but the empty one of what moves";
+    EXPECT_EQ(live.update(), 0u);
+    live.camera.eye.x += .1;
+    EXPECT_EQ(live.update(), 1u) << "views";
+    live.ambient = .1;
+    EXPECT_EQ(live.update(), 1u) << "frame";
+    live.now.materials[1].albedo.x = .3f;
+    EXPECT_EQ(live.update(), 1u) << "surfaces";
+    live.now.materials[3].emission.x = 5;
+    EXPECT_EQ(live.update(), 2u) << "surfaces, lights";
+    live.move_ball({.1, 0, 0});
+    live.update(); // it now lies among what moves
+    live.move_ball({.1, 0, 0});
+    EXPECT_LE(live.update(), 7u) << "its vertices (up to 4 parts), surfaces, probes, views";
+    EXPECT_EQ(live.update(), 0u);
+}
+
+TEST(Resident, HierarchiesAreMadeForThoseWhoTrace) {
+    Live live;
+    live.update();
+    picture(live.resident, "parallax:face=16,shadow_map=16");
+    EXPECT_EQ(live.resident.hierarchies_built(), 0u);
+    EXPECT_EQ(live.resident.hierarchy_ms(), 0);
+    for (int frame = 0; frame < 3; ++frame) {
+        live.update();
+        picture(live.resident, "raytrace");
+        EXPECT_EQ(live.resident.hierarchies_built(), 1u);
+    }
+    EXPECT_EQ(live.resident.hierarchies_refitted(), 0u);
+    live.move_ball({.1, .1, 0});
+    live.update();
+    picture(live.resident, "raytrace");
+    EXPECT_EQ(live.resident.hierarchies_built(), 1u);
+    EXPECT_EQ(live.resident.hierarchies_refitted(), 1u);
+    for (std::size_t ball = 0; ball < 3; ++ball) // out of the room, to all sides
+        live.place(live.now.objects.size() - 3 + ball)[static_cast<int>(ball)] += 30;
+    live.update();
+    picture(live.resident, "raytrace");
+    EXPECT_EQ(live.resident.hierarchies_built(), 2u) << "a refit twice as bad is none";
+    EXPECT_GT(live.resident.update_ms(), 0);
+    EXPECT_GT(live.resident.hierarchy_ms(), 0);
+}
+
+/// Draws one of the changes that a program may make.
+void change(Live& live, test::Numbers& numbers) {
+    const std::size_t object = numbers.below(live.now.objects.size());
+    const dvec3 by = .2 * dvec3(numbers.in_cube());
+    switch (numbers.below(6)) {
+    case 0: live.camera.eye += by; break;
+    case 1: live.move_ball(by); break;
+    case 2: live.place(object) += dvec4(by, 0); break; // lamps too
+    case 3: live.now.objects[object].material = numbers.below(live.now.materials.size()); break;
+    case 4: live.now.materials[numbers.below(3)].albedo.y = numbers.unit(); break;
+    default: live.now.materials[3].emission *= .5f + numbers.unit(); break;
+    }
+}
+
+TEST(Resident, ShowsWhatASceneMadeForTheFrameShows) {
+    constexpr std::size_t kSlots = 3;
+    Live live(kSlots);
+    live.update();
+    test::Numbers numbers(5);
+    const scene::Scene rest = live.now;
+    for (std::size_t step = 0; step < 20; ++step) {
+        change(live, numbers);
+        live.update(step % kSlots);
+        render::GpuScene fresh(device(), rest);
+        fresh.update(live.now, live.camera, kSize, live.ambient);
+        for (const char* technique : {"raytrace", "parallax:face=16,shadow_map=16"})
+            ASSERT_EQ(picture(live.resident, technique), picture(fresh, technique))
+                << technique << ", step " << step;
+    }
+    EXPECT_GT(live.resident.hierarchies_refitted(), 2u);
+}
+
+/// 50 million triangles: refused by their count, before a vertex is made.
+TEST(Resident, AndASceneBeyondTheDeviceIsRefused) {
+    scene::Scene scene = test::room(0, 1);
+    scene::add_ball(scene, "ball", 0, dvec3(0), .5);
+    scene.meshes.back() = scene::ball("ball", 7); // 65,536 triangles
+    scene.objects.resize(800, scene.objects.back());
+    try {
+        render::GpuScene refused(device(), scene);
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::exhausted);
+        EXPECT_NE(std::string(error.what()).find("scene 'room' wants "), std::string::npos)
+            << error.what();
+        EXPECT_NE(std::string(error.what()).find(", the device allows "), std::string::npos);
+    }
+}
+
+std::vector<std::uint32_t> words(const gpu::Buffer& buffer, std::size_t count) {
+    const std::vector<std::byte> bytes = buffer.read();
+    std::vector<std::uint32_t> result(count);
+    std::memcpy(result.data(), bytes.data(), count * sizeof(std::uint32_t));
+    return result;
+}
+
+/// What a slot binds stays as it was written until the slot itself writes again.
+TEST(Resident, FramesInFlightKeepWhatTheyWereRecordedWith) {
+    constexpr std::size_t kSlots = 3, kWords = 9000;
+    render::Resident list("list", gpu::BufferUse::plain, kSlots);
+    std::vector<std::uint32_t> now(kWords, 1);
+    list.set(now);
+    for (std::size_t slot = 0; slot < kSlots; ++slot) list.write(device(), slot);
+    EXPECT_EQ(list.copy_count(), 1u) << "nothing has changed: one copy";
+    std::vector<std::vector<std::uint32_t>> bound(kSlots, now);
+    test::Numbers numbers(6);
+    for (std::size_t frame = 0; frame < 40; ++frame) {
+        if (numbers.below(3) > 0) now[numbers.below(kWords)] = numbers.word();
+        list.set(now);
+        const std::size_t slot = frame % kSlots;
+        list.write(device(), slot);
+        bound[slot] = now;
+        for (std::size_t other = 0; other < kSlots; ++other)
+            ASSERT_EQ(words(list.at(other), kWords), bound[other]) << "frame " << frame;
+    }
+    EXPECT_LE(list.copy_count(), kSlots);
+}
+
+TEST(Resident, WritesTheParts) {
+    render::Resident list("list", gpu::BufferUse::plain, 1);
+    std::vector<std::uint32_t> now(100000, 1);
+    list.set(now);
+    EXPECT_EQ(list.write(device(), 0), 1u);
+    now[10] = now[20] = now[60000] = 2;
+    list.set(now);
+    EXPECT_EQ(list.write(device(), 0), 2u);
+    EXPECT_EQ(words(list.at(0), now.size()), now);
+    now.resize(200000, 3);
+    list.set(now);
+    list.write(device(), 0);
+    EXPECT_EQ(words(list.at(0), now.size()), now);
+}
+
+} // namespace

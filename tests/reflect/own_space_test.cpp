@@ -1,0 +1,103 @@
+// Balls of a millionth of their room, far apart, so that no origin suits both: each keeps a space
+// of its own. What is seen of one is what is seen where it is alone, and so the origin.
+#include "measure/flip.hpp"
+#include "stress/double_tracer.hpp"
+#include "support/rendering.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr double kRadius = 1e-3;
+constexpr uvec2 kSize{96, 96};
+
+/// A room of 1000 with a lamp and one or two balls off its middle; the camera is next to ball 1.
+scene::Scene far_balls(int count, bool mirrors) {
+    scene::Scene scene{.name = "far balls"};
+    const std::size_t white = test::add_material(scene, {.albedo = {.7f, .7f, .7f}}),
+                      red = test::add_material(scene, {.albedo = {.6f, .1f, .1f}}),
+                      green = test::add_material(scene, {.albedo = {.1f, .5f, .1f}}),
+                      lamp = test::add_material(scene, {.emission = {9, 8, 6}}),
+                      mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
+    for (int face = 0; face < 6; ++face)
+        test::add_mesh(scene, test::wall(face, dvec3(-500), dvec3(500)),
+                       face == 0   ? red
+                       : face == 1 ? green
+                                   : white);
+    test::add_quad(scene, "lamp", lamp, {-80, 499, -90}, {80, 499, -90}, {80, 499, 60},
+                   {-80, 499, 60});
+    const dvec3 place(203.7, -101.3, -151.9);
+    test::add_ball(scene, "ball1", mirrors ? mirror : red, place, kRadius, 5);
+    if (count > 1) test::add_ball(scene, "ball2", mirror, {-222.2, 181.4, 204.4}, kRadius, 5);
+    scene.cameras.push_back({.name = "near",
+                             .eye = place + dvec3(.0017, .0011, -.0053),
+                             .target = place + dvec3(.0002, 0, 0),
+                             .vertical_fov_degrees = 30});
+    return scene;
+}
+
+double flip(const app::Part& a, const app::Part& b) {
+    return measure::flip_mean(measure::flip(a.display, b.display));
+}
+
+TEST(OwnSpace, ABallShowsWhatItShowsAtTheOrigin) {
+    const scene::Scene alone = far_balls(1, true), both = far_balls(2, true);
+    for (const std::string technique :
+         {"raytrace", "raytrace:sphere=exact", "raytrace:hit=f64", "raytrace:shadow=map",
+          "parallax", "pyramid", "hybrid", "layered"}) {
+        const app::Part wanted = test::render(alone, technique, kSize),
+                        found = test::render(both, technique, kSize);
+        EXPECT_EQ(test::nonfinite(found.hdr), 0u) << technique;
+        EXPECT_LE(flip(found, wanted), .001) << technique;
+    }
+}
+
+/// One that is lit, not a mirror: shadow rays start on it, and in the raster world the map is
+/// asked. Alone it has a space of its own too, since only mirrors are worth an origin.
+TEST(OwnSpace, RaysAgreeWithDoubles) {
+    for (const bool mirrors : {true, false}) {
+        const scene::Scene scene = far_balls(2, mirrors);
+        const app::Request request = test::request(scene, {"raytrace:sphere=exact"}, kSize);
+        const app::Part part = test::render(scene, "raytrace:sphere=exact", kSize);
+        const stress::DoubleTracer tracer(scene, request.ambient);
+        std::size_t off = 0;
+        for (std::uint32_t y = 0; y < kSize.y; ++y)
+            for (std::uint32_t x = 0; x < kSize.x; ++x) {
+                const dvec3 wanted = tracer.pixel(scene.cameras.front(), kSize, x, y, 8),
+                            found(part.hdr.pixels[x + kSize.x * y]);
+                const dvec3 apart = glm::abs(wanted - found);
+                off += !(std::max({apart.x, apart.y, apart.z}) <= .01);
+            }
+        EXPECT_LE(off, 20u) << "pixels of " << kSize.x * kSize.y << ", mirrors " << mirrors;
+    }
+}
+
+/// Eighty turned and squeezed balls, each its own mesh or all one that more copies have than are
+/// put into scene units.
+scene::Scene many(bool shared) {
+    scene::Scene scene = test::room(0, 1);
+    const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
+    for (int i = 0; i < 80; ++i) {
+        const double turn = .3 * i;
+        test::add_mesh(scene, scene::ball("ball", 5), i == 40 ? mirror : 1);
+        scene::Object& ball = scene.objects.back();
+        if (shared) ball.mesh = scene.objects[7].mesh;
+        ball.world_from_object = .14 * dmat4(cos(turn), sin(turn), 0, 0, -sin(turn), cos(turn), 0,
+                                             0, 0, 0, i % 2 ? .6 : -.6, 0, 0, 0, 0, 1 / .14);
+        ball.world_from_object[3] = {i % 9 * .4 - 1.6, i / 9 * .4 - 1.7, .05 * i - 1.5, 1};
+    }
+    return scene;
+}
+
+TEST(OwnSpace, CopiesOfOneMeshShowWhatSingleMeshesShow) {
+    for (const std::string technique :
+         {"raytrace", "raytrace:hit=f64", "raytrace:shadow=map", "pyramid", "hybrid"})
+        EXPECT_LE(flip(test::render(many(true), technique, kSize),
+                       test::render(many(false), technique, kSize)),
+                  .001)
+            << technique;
+}
+
+} // namespace

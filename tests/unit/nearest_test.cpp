@@ -1,0 +1,76 @@
+// The nearest triangle through trees against looking at all of them.
+#include "render/nearest.hpp"
+#include "support/numbers.hpp"
+#include "support/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace catoptric;
+
+using Skip = std::function<bool(std::size_t, const render::DrawRange&)>;
+
+float by_looking_at_all(const render::Geometry& geometry, const vec3& point, const Skip& skip) {
+    float squared = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
+        const render::DrawRange& range = geometry.ranges[i];
+        if (skip(i, range)) continue;
+        for (std::uint32_t k = 0; k < range.index_count; k += 3) {
+            const auto corner = [&](std::uint32_t j) {
+                return geometry.vertices[geometry.indices[range.first_index + k + j]].position;
+            };
+            squared = std::min(squared,
+                               render::squared_distance(point, corner(0), corner(1), corner(2)));
+        }
+    }
+    return std::sqrt(squared);
+}
+
+/// Random points, and the middle of every object without that object.
+void expect_same(render::Nearest& nearest, const render::Geometry& geometry,
+                 test::Numbers& numbers) {
+    for (int k = 0; k < 100; ++k) {
+        const vec3 point = numbers.in_cube();
+        const Skip none = [](std::size_t, const render::DrawRange&) { return false; };
+        ASSERT_EQ(nearest.distance(geometry, dvec3(point), none),
+                  by_looking_at_all(geometry, point, none));
+    }
+    for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
+        const vec3 point = geometry.ranges[object].bounds.centre();
+        const Skip own = [&](std::size_t i, const render::DrawRange&) { return i == object; };
+        ASSERT_EQ(nearest.distance(geometry, dvec3(point), own),
+                  by_looking_at_all(geometry, point, own));
+    }
+}
+
+TEST(Nearest, IsWhatLookingAtAllFindsAlsoAfterMoves) {
+    for (const scene::Scene& scene : {scene::cornell_mirrors(), test::room(3, 2)}) {
+        const render::Space space = render::space_of(scene);
+        scene::Scene now = scene::at(scene, 0);
+        render::Geometry geometry = render::make_geometry(now, space);
+        render::Nearest nearest;
+        nearest.lay_out(geometry);
+        test::Numbers numbers(1);
+        expect_same(nearest, geometry, numbers);
+        for (int k = 0; k < 4; ++k) {
+            const std::size_t object = numbers.below(now.objects.size());
+            now.objects[object].world_from_object[3] += dvec4(
+                dvec3(numbers.in_cube()) * (.1 / space.scale), 0);
+            render::move_object(geometry, now, space, object);
+            nearest.move(object);
+            expect_same(nearest, geometry, numbers);
+        }
+    }
+}
+
+TEST(Nearest, OfNothingIsInfinity) {
+    const render::Geometry geometry;
+    render::Nearest nearest;
+    nearest.lay_out(geometry);
+    EXPECT_EQ(nearest.distance(geometry, dvec3(0),
+                               [](std::size_t, const render::DrawRange&) { return false; }),
+              std::numeric_limits<float>::infinity());
+}
+
+} // namespace

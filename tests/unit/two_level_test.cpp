@@ -1,0 +1,182 @@
+// Trees in spaces of their own: what holds in a flat tree holds through their transforms.
+#include "bvh/closest_hit.hpp"
+#include "bvh/two_level.hpp"
+#include "scene/shapes.hpp"
+#include "support/kernel_shapes.hpp"
+#include "support/numbers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace catoptric::bvh {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+std::vector<Triangle> ball(int levels) {
+    return *test::placed(scene::ball("ball", levels), .5, dvec3(0));
+}
+
+dmat3 turned(test::Numbers& numbers, double size, double squeeze) {
+    const dvec3 x(numbers.direction()), y = glm::normalize(cross(x, dvec3(numbers.direction())));
+    return dmat3(x, y, cross(x, y)) * dmat3(size, 0, 0, 0, size * squeeze, 0, 0, 0, -size);
+}
+
+/// One thing, anywhere in a unit cube, of a size from 1e-8 to 1, turned, squeezed and mirrored.
+struct Alone {
+    explicit Alone(const Bvh& tree, test::Numbers& numbers)
+        : instance{.tree = &tree,
+                   .scene_from_own = turned(numbers, std::pow(10., numbers.between(-8, 0)),
+                                            numbers.between(.1f, 1)),
+                   .centre = dvec3(numbers.in_cube()) + 1e-9 * dvec3(numbers.in_cube()),
+                   .shift = 100},
+          whole(assemble(build({}, {vec3(-1), vec3(1)}), std::span(&instance, 1))),
+          place(detail::place_at<float>(whole, record())) {}
+    std::uint32_t record() const {
+        return static_cast<std::uint32_t>(node_count(whole)) - 1 - f32::kBvhRecordNodes;
+    }
+    Instance instance;
+    Bvh whole;
+    f32::Place place;
+};
+
+/// N15: a ray from strictly inside a closed mesh that hits nothing is a leak.
+TEST(TwoLevel, ClosedMeshesDoNotLeak) {
+    const std::vector<Triangle> triangles = ball(3);
+    const Bvh tree = build(triangles);
+    test::Numbers numbers(31);
+    for (int k = 0; k < 200; ++k) {
+        const Alone alone(tree, numbers);
+        for (int i = 0; i < 300; ++i) {
+            const Triangle& aim = triangles[numbers.below(triangles.size())];
+            const vec3 at = i % 3 ? aim.a + (aim.b - aim.a) * numbers.unit() : aim.a;
+            const vec3 from = .3f * numbers.in_cube();
+            vec3 low;
+            const vec3 origin = f32::scene_point(alone.place, f32::arm_of(alone.place, from), low);
+            const f32::Ray ray{origin, f32::arm_of(alone.place, at - from), 0};
+            ASSERT_TRUE(closest_hit<float>(alone.whole, ray, kInfinity, 0, nullptr, low))
+                << "thing " << k << ", ray " << i;
+        }
+    }
+}
+
+/// N17: a ray that leaves a ball meets nothing that its exact ray does not.
+TEST(TwoLevel, NoRayMeetsWhatItLeaves) {
+    std::size_t met = 0;
+    const std::vector<Triangle> triangles = ball(3);
+    const Bvh tree = build(triangles);
+    test::Numbers numbers(32);
+    for (int k = 0; k < 200; ++k) {
+        const Alone alone(tree, numbers);
+        for (int i = 0; i < 300; ++i) {
+            const auto number = static_cast<std::uint32_t>(numbers.below(triangles.size()));
+            const Triangle& t = triangles[number];
+            vec3 error;
+            const vec3 own = f32::triangle_point(t.a, t.b, t.c, numbers.weights(), error);
+            const vec3 arm = f32::arm_of(alone.place, own);
+            vec3 facet = f32::facet_normal(f32::arm_of(alone.place, t.a),
+                                           f32::arm_of(alone.place, t.b),
+                                           f32::arm_of(alone.place, t.c));
+            if (dot(facet, arm) < 0) facet = -facet;
+            vec3 direction = numbers.direction();
+            if (dot(direction, facet) < 0) direction = -direction;
+            vec3 low;
+            const vec3 origin = f32::scene_point(
+                alone.place,
+                f32::spawn_origin(arm, f32::arm_error(alone.place, own, error), facet, direction),
+                low);
+            const f32::Ray ray{origin, direction, 100 + number + 1};
+            const auto hit = closest_hit<float>(alone.whole, ray, kInfinity, 0, nullptr, low);
+            if (!hit) continue;
+            // A ball of four subdivided triangles is not convex everywhere: does doubles' ray meet
+            // that, too?
+            const f64::Ray exact{dvec3(own), dvec3(f32::to_own(alone.place, direction)),
+                                 number + 1};
+            const auto wanted = closest_hit<double>(tree, exact, 1e300);
+            ASSERT_TRUE(wanted) << "thing " << k << ", ray " << i << " of " << number << " meets "
+                                << hit->triangle - 100 << " at " << hit->t;
+            ++met;
+        }
+    }
+    EXPECT_LT(met, 6000u) << "a tenth";
+}
+
+/// Things as large as a float tells apart anyway: the walk meets what it meets in one tree.
+TEST(TwoLevel, RaysMeetWhatTheyMeetInOneTree) {
+    test::Numbers numbers(33);
+    const std::vector<Triangle> shape = ball(2);
+    const Bvh tree = build(shape);
+    std::vector<Triangle> room, all;
+    for (int i = 0; i < 40; ++i) {
+        const vec3 a = 2.0f * numbers.in_cube();
+        room.push_back({a, a + numbers.in_cube(), a + numbers.in_cube(), 0, 0});
+    }
+    all = room;
+    std::vector<Instance> instances;
+    for (std::uint32_t k = 0; k < 30; ++k) {
+        const auto first = static_cast<std::uint32_t>(all.size());
+        instances.push_back({&tree, turned(numbers, .5, .6), 2.0 * dvec3(numbers.in_cube()), k + 1,
+                             k % 5 == 0 ? kHidden : 0, first});
+        for (const Triangle& t : shape) {
+            const auto put = [&](const vec3& p) {
+                return vec3(instances[k].centre + instances[k].scene_from_own * dvec3(p));
+            };
+            all.push_back({put(t.a), put(t.b), put(t.c), k + 1, instances[k].flags});
+        }
+    }
+    const Bvh flat = build(room), one = build(all), two = assemble(flat, instances);
+    std::vector<Instance> backwards(instances.rbegin(), instances.rend());
+    const Bvh other = assemble(flat, backwards);
+    std::size_t found = 0, apart = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const f32::Ray ray{3.0f * numbers.in_cube(), numbers.direction(), 0};
+        const std::uint32_t skipped = i % 2 ? kHidden : 0;
+        const auto wanted = closest_hit<float>(one, ray, kInfinity, skipped),
+                   hit = closest_hit<float>(two, ray, kInfinity, skipped),
+                   again = closest_hit<float>(other, ray, kInfinity, skipped);
+        ASSERT_EQ(hit.has_value(), again.has_value());
+        ASSERT_EQ(hit.has_value(), any_hit<float>(two, ray, kInfinity, skipped));
+        if (hit) {
+            ASSERT_EQ(hit->t, again->t);
+            ASSERT_EQ(hit->triangle, again->triangle);
+            ASSERT_EQ(hit->object, again->object);
+        }
+        found += wanted.has_value();
+        const bool same = wanted.has_value() == hit.has_value() &&
+                          (!hit ||
+                           (wanted->triangle == hit->triangle && wanted->object == hit->object &&
+                            std::abs(wanted->t - hit->t) < 1e-4f));
+        apart += !same;
+    }
+    EXPECT_GT(found, 2000u);
+    EXPECT_LE(apart, 10u) << "at edges, where either is right";
+}
+
+TEST(TwoLevel, WithoutThingsOfTheirOwnTheTreeStays) {
+    const Bvh flat = build(ball(1)), same = assemble(flat, {});
+    EXPECT_EQ(same.nodes.size(), flat.nodes.size());
+    EXPECT_EQ(same.triangles, flat.triangles);
+}
+
+TEST(TwoLevel, LowPartsAreWhatFloatsLack) {
+    test::Numbers numbers(34);
+    for (int i = 0; i < 1000; ++i) {
+        const dvec3 v = dvec3(numbers.in_cube()) + 1e-8 * dvec3(numbers.in_cube());
+        const vec3 low = low_part(v);
+        for (int k = 0; k < 3; ++k) {
+            const volatile float high = static_cast<float>(v[k]);
+            EXPECT_NEAR(double{high} + double{low[k]}, v[k], 1e-15);
+        }
+    }
+}
+
+TEST(TwoLevel, StretchIsThatOfTheMatrix) {
+    EXPECT_EQ(stretch(dmat3(.25)), 1);
+    EXPECT_LE(stretch(dmat3(.6, .8, 0, -.8, .6, 0, 0, 0, 1)), 2);
+    EXPECT_GT(stretch(dmat3(1, 0, 0, 1, 1e-3, 0, 0, 0, 1)), 1000);
+    EXPECT_EQ(stretch(dmat3(0)), std::numeric_limits<double>::infinity());
+}
+
+} // namespace
+} // namespace catoptric::bvh
