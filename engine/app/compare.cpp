@@ -72,6 +72,14 @@ void fill_times(report::Row& row, const std::vector<FrameTimes>& frames,
     row.wall_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.wall_ms; });
     row.closure = over_frames(
         frames, [](const FrameTimes& frame) { return frame.passes_ms() / frame.wall_ms; });
+    row.host_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.host.sum(); });
+    row.frame_ms = over_frames(frames, [&](const FrameTimes& frame) { return frame.frame_ms(); });
+    const auto part = [&](double HostTimes::*which) {
+        return over_frames(frames, [&](const FrameTimes& frame) { return frame.host.*which; })
+            .median;
+    };
+    row.host_parts = {part(&HostTimes::update), part(&HostTimes::hierarchy),
+                      part(&HostTimes::compile), part(&HostTimes::record)};
     const std::vector<PassTime>& passes = frames.front().passes;
     for (std::size_t i = 0; i < passes.size(); ++i)
         if (mine(passes[i]))
@@ -285,6 +293,9 @@ private:
 
     void add(const std::string& text, const Part& part, const std::vector<FrameTimes>& frames) {
         report::Row row = make_row(text, part, frames);
+        // Together the host's work is that of all rows, which none can be blamed for.
+        row.moves = request_.base.animate && !request_.together &&
+                    scene::is_animated(request_.base.scene);
         const Part looked = !part.rays || part.traced_fraction ? looked_up(text) : Part();
         const std::vector<vec4>& lookup = looked.lookup;
         row.saturated_texels = looked.saturated;

@@ -54,6 +54,14 @@ struct AutoFace {
     std::vector<double> needs; ///< entry n-1: what mirror n alone needs; 0: not in view
 };
 
+/// Medians over frames, milliseconds each.
+struct HostParts {
+    double update = 0;    ///< what moved: buffers written, views and lights found
+    double hierarchy = 0; ///< trees for tracing, built or refitted
+    double compile = 0;   ///< passes declared, and planned where their shape is new
+    double record = 0;    ///< filling the command buffer
+};
+
 /// One technique with its settings: what it cost and what it got wrong.
 struct Row {
     std::string technique;         ///< "naive"
@@ -64,6 +72,12 @@ struct Row {
         0; ///< counted in the executed plan; a cube counts once, as in the seed report
     int scene_draws = 0; ///< the same with every cube face counted
     Summary gpu_ms, cpu_record_ms, wall_ms;
+    Summary host_ms;  ///< the processor's work before the device could begin; waiting is none
+    Summary frame_ms; ///< host_ms and the device's time, frame by frame: they do not overlap
+    HostParts host_parts;
+    bool moves = false; ///< the scene moved, so that every frame had work for the host
+    /// What the row is ranked by: a moving scene's rows pay for it on the host too.
+    const Summary& time_ms() const { return moves ? frame_ms : gpu_ms; }
     std::vector<PassFacts> passes; ///< in order of execution
     /// Sum of all the frame's passes over wall_ms, frame by frame: near 1 where stamps tell the
     /// truth.

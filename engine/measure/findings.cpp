@@ -14,10 +14,10 @@ std::optional<ClearFinding> find_clears(const Comparison& comparison) {
     if (!comparison.clear_ms) return finding;
     const double clear = comparison.clear_ms->median;
     finding.clear_ms = clear;
-    finding.gap = (one->gpu_ms.median + clear - two->gpu_ms.median) / two->gpu_ms.median;
+    finding.gap = (one->time_ms().median + clear - two->time_ms().median) / two->time_ms().median;
     if (finding.one_is_slower)
         finding.verdict = Verdict::slower_without;
-    else if (!(one->gpu_ms.p05 + clear > two->gpu_ms.p95))
+    else if (!(one->time_ms().p05 + clear > two->time_ms().p95))
         finding.verdict = Verdict::too_little;
     return finding;
 }
@@ -54,9 +54,9 @@ std::optional<BounceFinding> find_bounces(const Comparison& comparison) {
 std::optional<PriceFinding> find_price(const Comparison& comparison) {
     const Row* two = find_row(comparison, "reuse");
     const Row* three = find_parallax(comparison);
-    if (two == nullptr || three == nullptr || !(two->gpu_ms.median > 0)) return {};
+    if (two == nullptr || three == nullptr || !(two->time_ms().median > 0)) return {};
     PriceFinding finding{two, three, is_tie(*two, *three)};
-    finding.more = three->gpu_ms.median / two->gpu_ms.median - 1;
+    finding.more = three->time_ms().median / two->time_ms().median - 1;
     if (three->memory_bytes > two->memory_bytes)
         finding.more_bytes = three->memory_bytes - two->memory_bytes;
     return finding;
@@ -65,9 +65,9 @@ std::optional<PriceFinding> find_price(const Comparison& comparison) {
 std::optional<TracingFinding> find_tracing(const Comparison& comparison) {
     const Row* three = find_parallax(comparison);
     const Row* traced = find_ray_traced(comparison);
-    if (three == nullptr || traced == nullptr || !(three->gpu_ms.median > 0)) return {};
+    if (three == nullptr || traced == nullptr || !(three->time_ms().median > 0)) return {};
     return TracingFinding{three, traced, is_tie(*three, *traced),
-                          traced->gpu_ms.median / three->gpu_ms.median};
+                          traced->time_ms().median / three->time_ms().median};
 }
 
 } // namespace catoptric::measure

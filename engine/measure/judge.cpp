@@ -34,12 +34,12 @@ bool judged(const Row* row) {
 
 Candidate candidate_of(const Row& row) {
     if (failed(row)) return {NAN, NAN, NAN, NAN};
-    return {row.gpu_ms.median, row.gpu_ms.p05, row.gpu_ms.p95, row.error.flip};
+    return {row.time_ms().median, row.time_ms().p05, row.time_ms().p95, row.error.flip};
 }
 
 bool beats(const Row& a, const Row& b) { return beats(candidate_of(a), candidate_of(b)); }
 
-bool is_faster(const Row& a, const Row& b) { return a.gpu_ms.p95 < b.gpu_ms.p05; }
+bool is_faster(const Row& a, const Row& b) { return a.time_ms().p95 < b.time_ms().p05; }
 
 bool is_tie(const Row& a, const Row& b) { return !is_faster(a, b) && !is_faster(b, a); }
 

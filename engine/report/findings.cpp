@@ -21,7 +21,7 @@ std::string percent(double share) { return fixed(100 * share, share < 0.1 ? 1 : 
 std::string rmse_text(const Row& row) { return error_text(row.error.rmse); }
 
 std::string both_times(const Row& a, const Row& b) {
-    return ms_text(a.gpu_ms.median) + " against " + ms_text(b.gpu_ms.median) + " ms";
+    return ms_text(a.time_ms().median) + " against " + ms_text(b.time_ms().median) + " ms";
 }
 /// Where no more can be said.
 constexpr const char* kTie = ": their bands overlap, they are not told apart";

@@ -10,7 +10,7 @@ namespace catoptric::report {
 namespace {
 
 std::string figures(const Row& row) {
-    return fmt::format("{} ({} ms, FLIP {}{})", row.label, ms_text(row.gpu_ms.median),
+    return fmt::format("{} ({} ms, FLIP {}{})", row.label, ms_text(row.time_ms().median),
                        error_text(row.error.flip), row.mirrors_black ? ", its mirrors black" : "");
 }
 

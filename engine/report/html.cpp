@@ -66,7 +66,7 @@ std::string headlines(const Comparison& comparison) {
     std::string html = "<dl class=\"headline\">";
     if (const std::vector<const Row*> fastest = measure::fastest_rows(comparison);
         fastest.size() == 1)
-        html += headline("Fastest", ms_text(fastest.front()->gpu_ms.median) + " ms",
+        html += headline("Fastest", ms_text(fastest.front()->time_ms().median) + " ms",
                          fastest.front()->label);
     else if (!fastest.empty())
         html += headline("Fastest", std::to_string(fastest.size()) + " rows", "not told apart");
@@ -93,9 +93,9 @@ std::string number(const char* name, const std::string& value) {
 }
 
 std::string numbers(const Row& row) {
-    return "<dl class=\"numbers\">" + number("ms", ms_text(row.gpu_ms.median)) +
-           number("FPS", fps_text(row.gpu_ms.median)) + number("FLIP", error_text(row.error.flip)) +
-           number("rmse", error_text(row.error.rmse)) +
+    return "<dl class=\"numbers\">" + number("ms", ms_text(row.time_ms().median)) +
+           number("FPS", fps_text(row.time_ms().median)) +
+           number("FLIP", error_text(row.error.flip)) + number("rmse", error_text(row.error.rmse)) +
            number("rmse, 1st order", error_text(row.error_first_order.rmse)) +
            number("PSNR dB", row.error.psnr ? fixed(*row.error.psnr, 1) : std::string(kNothing)) +
            number("Scene passes", std::to_string(row.scene_passes)) +

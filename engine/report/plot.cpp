@@ -34,10 +34,11 @@ struct Box {
 };
 
 bool can_be_placed(const Row& row) {
-    return row.gpu_ms.median > 0 && std::isfinite(row.error.flip);
+    return row.time_ms().median > 0 && std::isfinite(row.error.flip);
 }
 
-std::string axes(const Scale& x, const Scale& y, bool has_errors) {
+/// `moves`: time is the host's too.
+std::string axes(const Scale& x, const Scale& y, bool has_errors, bool moves) {
     constexpr double kMiddle = (kLane + kBottom) / 2;
     std::string svg = fmt::format(R"(<rect class="lane" x="{}" y="{}" width="{}" height="{}"/>)",
                                   kLeft, kLane, kRight - kLeft, kBottom - kLane);
@@ -48,7 +49,9 @@ std::string axes(const Scale& x, const Scale& y, bool has_errors) {
         svg += grid_line(kLeft, y(value), kRight, y(value)) +
                text(kLeft - 8, y(value) + 4, "end", fmt::format("{:g}", value));
     svg += text(kLeft - 8, kMiddle + 4, "end", "0");
-    svg += text((kLeft + kRight) / 2, kBottom + 38, "middle", "GPU time of a frame, median, ms");
+    svg += text((kLeft + kRight) / 2, kBottom + 38, "middle",
+                moves ? "Time of a frame, host and GPU, median, ms"
+                      : "GPU time of a frame, median, ms");
     svg += fmt::format("<g transform=\"translate(14 {}) rotate(-90)\">", (kTop + kLane) / 2);
     return svg + text(0, 0, "middle", "FLIP over the mirrors") + "</g>";
 }
@@ -69,7 +72,7 @@ std::string mark(const Point& point) {
     const char* kind = point.front ? "mark front" : "mark";
     const std::string title = fmt::format(
         "<title>{}: {} ms, FLIP {}</title>", html_escaped(point.row->label),
-        ms_text(point.row->gpu_ms.median), error_text(point.row->error.flip));
+        ms_text(point.row->time_ms().median), error_text(point.row->error.flip));
     if (measure::is_ray_traced(*point.row))
         return fmt::format(
             R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9">{}</rect>)", kind,
@@ -117,7 +120,7 @@ std::string plot(const Comparison& comparison) {
     std::vector<double> times, errors;
     for (const Row& row : comparison.rows) {
         if (!can_be_placed(row)) continue;
-        times.push_back(row.gpu_ms.median);
+        times.push_back(row.time_ms().median);
         if (row.error.flip > 0) errors.push_back(row.error.flip);
     }
     if (times.empty()) return "";
@@ -126,14 +129,14 @@ std::string plot(const Comparison& comparison) {
     std::vector<Point> points;
     for (const Row& row : comparison.rows)
         if (can_be_placed(row))
-            points.push_back({x(row.gpu_ms.median),
+            points.push_back({x(row.time_ms().median),
                               row.error.flip > 0 ? y(row.error.flip) : (kLane + kBottom) / 2, &row,
                               measure::on_front(comparison, row)});
     std::string svg = fmt::format(
-        R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of GPU time )"
+        R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of time )"
         R"(against FLIP; the figures are in the table of every row">)",
         kWidth, kHeight);
-    svg += axes(x, y, !errors.empty()) + stairs(points);
+    svg += axes(x, y, !errors.empty(), points.front().row->moves) + stairs(points);
     for (const Point& point : points) svg += mark(point);
     return svg + labels(points) + "</svg>";
 }

@@ -38,9 +38,9 @@ std::vector<std::string> measured(const Row& row, int decimals) {
     return {row.label,
             std::to_string(row.scene_passes),
             std::to_string(row.scene_draws),
-            fixed(row.gpu_ms.median, decimals),
-            range_text(row.gpu_ms, decimals),
-            fps_text(row.gpu_ms.median),
+            fixed(row.time_ms().median, decimals),
+            range_text(row.time_ms(), decimals),
+            fps_text(row.time_ms().median),
             error_text(row.error.rmse),
             error_text(row.error.flip),
             error_text(row.error_first_order.rmse)};

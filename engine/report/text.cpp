@@ -36,7 +36,7 @@ std::string ms_text(double ms) { return fixed(ms, decimals_for(ms)); }
 int ms_decimals(const Comparison& comparison) {
     double fastest = INFINITY;
     for (const Row& row : comparison.rows)
-        if (row.gpu_ms.median > 0) fastest = std::min(fastest, row.gpu_ms.median);
+        if (row.time_ms().median > 0) fastest = std::min(fastest, row.time_ms().median);
     return std::isfinite(fastest) ? decimals_for(fastest) : 1;
 }
 

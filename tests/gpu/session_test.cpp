@@ -1,5 +1,6 @@
 // A scene that stays on the device: whatever is changed in it, the next frame shows it as a session
 // that never knew it otherwise, and nothing piles up.
+#include "scene/load.hpp"
 #include "support/rendering.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -181,6 +182,37 @@ TEST(Session, ShowsTheSameHoweverManyFramesAreOnTheirWay) {
         for (std::size_t i : {1, 2}) EXPECT_TRUE(test::same_bytes(seen[i][k], seen[0][k])) << k;
     test::expect_refused([&] { app::Session(test::engine(), scene, 4); }, Failure::usage,
                          {"1 to 3", "4"});
+}
+
+TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
+    const scene::Scene scene = scene::cornell_mirrors();
+    app::Session session(test::engine(), scene);
+    std::uint64_t uploads = 0;
+    for (const std::string technique : {"reuse:face=16", "raytrace", "hybrid:face=16"}) {
+        session.forget();
+        for (int k = 0; k < 3; ++k) session.frame(spec_of(scene, technique));
+        const app::Counts counts = session.counts();
+        EXPECT_EQ(counts.hierarchies_built, technique == "reuse:face=16" ? 0u : 1u);
+        EXPECT_EQ(counts.hierarchies_refitted, 0u);
+        if (technique == "hybrid:face=16") EXPECT_EQ(counts.uploads, uploads) << "all is there";
+        uploads = counts.uploads;
+    }
+}
+
+TEST(Session, OnlyWhoTracesPaysForMovingTrees) {
+    const scene::Scene scene = scene::cornell_mirrors(); // in which a ball moves
+    for (const std::string technique : {"parallax:face=16", "raytrace"}) {
+        app::Session session(test::engine(), scene);
+        for (int k = 0; k < 5; ++k) {
+            app::FrameSpec spec = spec_of(scene, technique);
+            spec.time = .1 * k;
+            session.frame(spec);
+        }
+        const app::Counts counts = session.counts();
+        const bool traces = technique == "raytrace";
+        EXPECT_EQ(counts.hierarchies_built, traces ? 1u : 0u);
+        EXPECT_EQ(counts.hierarchies_refitted, traces ? 4u : 0u);
+    }
 }
 
 TEST(Session, PlansAShapeOnce) {

@@ -183,7 +183,8 @@ TEST(ReportFigures, TimesAreThoseOfTheFramesAndTheirPasses) {
     const json document = compared(asked({"parallax:face=32", "raytrace"}));
     for (const json& row : document["rows"]) {
         SCOPED_TRACE(row["label"]);
-        for (const char* name : {"gpu_ms", "cpu_record_ms", "wall_ms", "closure"})
+        for (const char* name :
+             {"gpu_ms", "cpu_record_ms", "wall_ms", "closure", "host_ms", "frame_ms"})
             expect_summary(row[name]);
         for (const json& pass : row["passes"]) expect_summary(pass["gpu_ms"]);
         for (int k = 0; k < kFrames; ++k) {
@@ -192,9 +193,35 @@ TEST(ReportFigures, TimesAreThoseOfTheFramesAndTheirPasses) {
             EXPECT_NEAR(row["closure"]["samples"][k].get<double>(), passes / wall, 1e-9);
             EXPECT_LE(passes, gpu * (1 + 1e-9)) << "passes lie between the first and last stamp";
             EXPECT_LE(gpu, wall) << "stamps lie between submit and fence";
+            const double host = row["host_ms"]["samples"][k];
+            EXPECT_NEAR(row["frame_ms"]["samples"][k].get<double>(), host + gpu, 1e-9);
+            EXPECT_LE(row["cpu_record_ms"]["samples"][k].get<double>(), host);
         }
     }
     expect_summary(document["reference"]["gpu_ms"]);
+}
+
+/// What a moving scene costs the host is in the parts that it belongs to, and ranks rows.
+TEST(ReportFigures, AMovingSceneHasWorkForTheHost) {
+    app::CompareRequest request = asked({"parallax:face=32", "raytrace"});
+    const json still = compared(request);
+    request.base.scene = scene::cornell_mirrors(); // in which a ball moves
+    request.base.camera = request.base.scene.cameras.front();
+    request.base.animate = true;
+    const json moving = compared(request);
+    for (const json& row : still["rows"]) {
+        EXPECT_FALSE(row.contains("moves"));
+        EXPECT_EQ(row["host_parts"]["update"], 0) << "nothing is written for a still frame";
+    }
+    for (const json& row : moving["rows"]) {
+        EXPECT_EQ(row["moves"], true);
+        EXPECT_GT(row["host_parts"]["update"], 0);
+        EXPECT_GT(row["host_parts"]["record"], 0);
+    }
+    const json &parallax = moving["rows"][0], &raytrace = moving["rows"][1];
+    EXPECT_GT(raytrace["host_parts"]["hierarchy"].get<double>(),
+              10 * parallax["host_parts"]["hierarchy"].get<double>())
+        << "raster rows make no tree";
 }
 
 TEST(ReportFigures, TogetherARowCostsItsOwnPasses) {
