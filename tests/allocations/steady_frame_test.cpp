@@ -3,6 +3,7 @@
 #include "reflect/technique.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/passes.hpp"
+#include "scene/load.hpp"
 #include "support/device.hpp"
 
 #include <iostream>

@@ -1,4 +1,5 @@
 // Where no mirror is seen, raster and ray tracing are the same picture.
+#include "measure/lines.hpp"
 #include "support/numbers.hpp"
 #include "support/rendering.hpp"
 

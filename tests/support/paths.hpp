@@ -1,5 +1,6 @@
 #pragma once
 
+#include "measure/lines.hpp"
 #include "support/rendering.hpp"
 
 #include <array>
