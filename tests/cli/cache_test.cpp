@@ -14,7 +14,9 @@ protected:
     test::Ended render(const std::string& cache_home) const {
         test::Start asked = start({"render", "--technique", "naive:bounces=1,face=8,shadow=none",
                                    "--size", "16x16", "-o", "a.png", "-q"});
-        asked.environment = {{"XDG_CACHE_HOME", cache_home}, {"HOME", folder.string()}};
+        asked.environment = {{"XDG_CACHE_HOME", cache_home},
+                             {"HOME", folder.string()},
+                             {"MESA_SHADER_CACHE_DISABLE", "true"}}; // whose words are its own
         return test::run_process(asked);
     }
     std::string picture() const { return read("a.png"); }
