@@ -68,6 +68,8 @@ struct Session::Impl {
     std::vector<reflect::Choice> choices;    ///< of `texts`
     std::vector<reflect::Choice> remembered; ///< whose history the runner has
     std::optional<graph::Ticket> last;       ///< of the frame that was submitted last
+    std::vector<std::uint64_t> read_by; ///< by copy of what is written: the last frame to read it
+    std::size_t copy = 0;               ///< that frames read now
     Counts counts;
 };
 
@@ -96,7 +98,7 @@ double Session::Impl::stand(const FrameSpec& spec) {
     // Another copy than frames on their way read.
     const std::size_t next = (copy + 1) % read_by.size();
     if (last && read_by[next] + read_by.size() > last->frame && read_by[next] > 0)
-        runner.wait({read_by[next]});
+        runner.wait(graph::Ticket{read_by[next]});
     copy = next;
     const Clock::time_point start = Clock::now();
     if (standing && standing->size != wanted.size) resident->forget_face_needs();

@@ -194,7 +194,9 @@ TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
         const app::Counts counts = session.counts();
         EXPECT_EQ(counts.hierarchies_built, technique == "reuse:face=16" ? 0u : 1u);
         EXPECT_EQ(counts.hierarchies_refitted, 0u);
-        if (technique == "hybrid:face=16") EXPECT_EQ(counts.uploads, uploads) << "all is there";
+        if (technique == "hybrid:face=16") {
+            EXPECT_EQ(counts.uploads, uploads) << "all is there";
+        }
         uploads = counts.uploads;
     }
 }

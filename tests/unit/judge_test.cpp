@@ -2,6 +2,8 @@
 #include "measure/judge.hpp"
 #include "unit/report_sample.hpp"
 
+#include <gtest/gtest.h>
+
 namespace {
 
 using namespace catoptric;
