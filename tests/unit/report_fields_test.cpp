@@ -276,7 +276,7 @@ TEST(ReportFields, CsvHoldsEachFigureInItsColumn) {
         wanted.insert(field.column.substr(0, field.column.find('#')));
         EXPECT_EQ(number_in(found, field.column), field.value) << field.column;
     }
-    for (const char* name : {"technique", "label", "settings", "model", "failed", "image",
+    for (const char* name : {"technique", "label", "settings", "model", "moves", "failed", "image",
                              "on_front", "is_reference", "incomplete"})
         wanted.insert(name);
     for (const auto& [name, field] : identity()) {
@@ -289,6 +289,7 @@ TEST(ReportFields, CsvHoldsEachFigureInItsColumn) {
     EXPECT_EQ(there, wanted);
     EXPECT_EQ(found["failed"], "1"); // it has pixels that are no numbers
     EXPECT_EQ(found["on_front"], "0");
+    EXPECT_EQ(found["moves"], "0");
 }
 
 /// The table's cells by the names of its columns.
