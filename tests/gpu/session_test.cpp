@@ -7,6 +7,7 @@
 
 #include <malloc.h>
 
+#include <chrono>
 #include <random>
 
 namespace {
@@ -214,6 +215,26 @@ TEST(Session, OnlyWhoTracesPaysForMovingTrees) {
         const bool traces = technique == "raytrace";
         EXPECT_EQ(counts.hierarchies_built, traces ? 1u : 0u);
         EXPECT_EQ(counts.hierarchies_refitted, traces ? 4u : 0u);
+    }
+}
+
+/// Work of the host, and the time from submit to the end, are apart: both fit into what a frame
+/// takes.
+TEST(Session, WhatIsWaitedIsNoWork) {
+    const scene::Scene scene = scene::cornell_mirrors();
+    app::Session session(test::engine(), scene);
+    app::FrameSpec spec = spec_of(scene, "raytrace:samples=4");
+    spec.size = {256, 256};
+    for (int k = 0; k < 4; ++k) {
+        spec.time = .1 * k;
+        const auto begin = std::chrono::steady_clock::now();
+        const app::FrameTimes times = session.frame(spec).times();
+        const double all = std::chrono::duration<double, std::milli>(
+                               std::chrono::steady_clock::now() - begin)
+                               .count();
+        EXPECT_GT(times.host.sum(), 0);
+        EXPECT_LE(times.host.sum() + times.wall_ms, all);
+        EXPECT_LE(times.frame_ms(), all);
     }
 }
 
