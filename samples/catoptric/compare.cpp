@@ -108,8 +108,8 @@ int run(const Options& options) {
     report::create_folder(options.folder);
 
     Progress progress(manners);
-    progress.row("reference " + request.reference, 0, row_count);
     request.watcher = watcher_of(progress);
+    request.watcher.row("reference " + request.reference, 0, row_count);
     report::Writer writer(options.folder);
     request.on_finished_row = [&](const report::Comparison& so_far) { writer.write(so_far); };
     const report::Comparison comparison = app::compare(engine, request);
