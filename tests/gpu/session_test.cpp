@@ -67,7 +67,7 @@ private:
 
 TEST(Session, ChangedShowsWhatAFreshOneShows) {
     Changer draw(11);
-    for (const std::string technique : {"reuse:face=16", "raytrace", "pyramid:face=16"}) {
+    for (const std::string technique : {"pyramid:face=16", "raytrace"}) {
         const scene::Scene at_rest = test::room(3, 2);
         app::Session session(test::engine(), at_rest);
         app::FrameSpec spec = spec_of(at_rest, technique);
