@@ -48,8 +48,9 @@ TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
         EXPECT_EQ(one->binding, binding) << name;
         EXPECT_EQ(one->kind, kind) << name;
     }
-    EXPECT_EQ(constants(found), (std::vector<std::string>{"exact_spheres", "fixed_offset", "max_depth",
-                                                          "own_spaces", "shadow", "without"}));
+    EXPECT_EQ(constants(found),
+              (std::vector<std::string>{"exact_spheres", "fixed_offset", "max_depth", "own_spaces",
+                                        "shadow", "without"}));
 }
 
 TEST(Reflection, LeavesOutWhatTheCodeDoesNotUse) {
