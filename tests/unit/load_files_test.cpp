@@ -90,7 +90,8 @@ TEST_F(LoadFiles, LinksAreFollowedBeforeTheyAreBelieved) {
     }
     EXPECT_THAT(refused_uri("sub/gone.bin"), HasSubstr("--root"))
         << "nothing is told of what is there";
-    EXPECT_THAT(refused_uri("loop.bin", Failure::missing_input), HasSubstr("'loop.bin' cannot be reached: "));
+    EXPECT_THAT(refused_uri("loop.bin", Failure::missing_input),
+                HasSubstr("'loop.bin' cannot be reached: "));
     // the scene itself was named by the user, however that leads there
     fs::create_directory_symlink("in", folder / "door");
     width("link.bin");
