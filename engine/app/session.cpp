@@ -102,6 +102,7 @@ double Session::Impl::stand(const FrameSpec& spec) {
     copy = next;
     const Clock::time_point start = Clock::now();
     if (standing && standing->size != wanted.size) resident->forget_face_needs();
+    standing.reset(); // should the update end half-way
     resident->update(scene::at(scene, spec.time), spec.camera, spec.size, spec.ambient,
                      static_cast<std::uint32_t>(copy));
     standing = wanted;
@@ -162,10 +163,14 @@ void Session::change(const scene::Edit& edit) {
     Impl& self = *impl_;
     scene::Scene edited = self.scene;
     scene::apply(edited, edit);
-    // Units are those of the scene as it stands; where they stay, so does all that is resident.
-    if (render::space_of(edited) != render::space_of(self.scene))
-        self.resident = std::make_unique<render::GpuScene>(
-            self.engine.device, edited, static_cast<std::uint32_t>(self.read_by.size()));
+    // Units are those of the scene as it stands; where they stay, so does all that is resident, and
+    // history.
+    if (render::space_of(edited) != render::space_of(self.scene)) {
+        auto made = std::make_unique<render::GpuScene>(self.engine.device, edited,
+                                                       self.read_by.size());
+        self.runner.forget(); // waits for frames under way; captured distances were in other units
+        self.resident = std::move(made);
+    }
     self.scene = std::move(edited);
     self.standing.reset();
 }

@@ -153,7 +153,8 @@ struct Counts {
 };
 
 /// A scene on a device, for as many frames as one likes: what is uploaded, compiled or remembered
-/// stays from frame to frame. One thread at a time. A device error ends it, and its engine.
+/// stays from frame to frame. One thread at a time. A device error ends it, and its engine, which
+/// must outlive it and its frames.
 class Session {
 public:
     /// The scene at rest. `in_flight`: frames, 1 to 3, that may be under way before the oldest is
@@ -168,7 +169,8 @@ public:
     /// the scene is written to. Other techniques than those of the frame before begin without
     /// history. Throws `usage` for a specification that means nothing.
     Frame frame(const FrameSpec& spec);
-    /// Edits the scene; seen from the next frame on, whose history stays. Throws `usage` for an
+    /// Edits the scene; seen from the next frame on. History stays unless the edit makes the scene
+    /// so much larger or smaller that its units on the device are others. Throws `usage` for an
     /// object or material that is not there.
     void change(const scene::Edit& edit);
     /// A cut: the next frame begins without history.

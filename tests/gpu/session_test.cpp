@@ -238,6 +238,22 @@ TEST(Session, WhatIsWaitedIsNoWork) {
     }
 }
 
+TEST(Session, OtherUnitsWaitForFramesUnderWay) {
+    scene::Scene scene = test::room(2, 1);
+    app::Session session(test::engine(), scene, 3);
+    app::FrameSpec spec = spec_of(scene, "raytrace:samples=4");
+    spec.size = {128, 128};
+    for (int k = 0; k < 4; ++k) { // away, and so far that the scene's units are others
+        dmat4 place = session.scene().objects.back().world_from_object;
+        place[3] += dvec4(20 + 100 * k, 0, 0, 0);
+        const app::Frame before = session.frame(spec);
+        session.change(scene::move(scene.objects.size() - 1, place));
+        const measure::Picture found = session.frame(spec).hdr();
+        app::Session fresh(test::engine(), session.scene());
+        EXPECT_TRUE(test::same_bytes(found, fresh.frame(spec).hdr())) << k;
+    }
+}
+
 TEST(Session, PlansAShapeOnce) {
     const scene::Scene scene = test::room(2, 1);
     app::Session session(test::engine(), scene);
