@@ -1,27 +1,52 @@
 // Whitted ray tracing: one sample of each pixel a dispatch.
-// Builds: default; #shadow_map asks the raster world's shadow map instead of tracing; #doubles and
-// #shadow_map_doubles compute hit points in doubles; #naive is the
-// plain form that the benchmark compares with (see lib/trace.glsl).
+// Builds, which combine: #listed traces the pixels of a list and leaves the others as they are; #shadow_map asks
+// the raster world's shadow map instead of tracing; #doubles computes hit points in doubles. #naive is the plain form
+// that the benchmark compares with (see lib/trace.glsl).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/ray_counts.glsl"
+#include "lib/trace_list.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = PICTURE_BINDING, rgba32f) uniform image2D picture;
-layout(set = 0, binding = HITS_BINDING, r32ui) writeonly uniform uimage2D hits;
 layout(push_constant, scalar) uniform Push { Trace trace; };
 
-void main() {
+#ifdef LISTED
+
+layout(local_size_x = 64) in; // kListGroup
+layout(set = 0, binding = LIST_BINDING, scalar) readonly buffer List { uint list[]; };
+
+bool has_pixel(out uvec2 pixel) {
+    uint place = work_group() * kListGroup + gl_LocalInvocationIndex;
+    if (place >= counters.value.listed) return false;
+    pixel = uvec2(list[place] % trace.size.x, list[place] / trace.size.x);
+    return true;
+}
+void keep_hits(uvec2 pixel, uint met) {}
+
+#else
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = HITS_BINDING, r32ui) writeonly uniform uimage2D hits;
+
+bool has_pixel(out uvec2 pixel) {
     uint across = (trace.size.x + 7u) / 8u;
     uint group = work_group();
-    uvec2 pixel = uvec2(group % across, group / across) * 8u + gl_LocalInvocationID.xy;
-    bool inside = all(lessThan(pixel, trace.size));
+    pixel = uvec2(group % across, group / across) * 8u + gl_LocalInvocationID.xy;
+    return all(lessThan(pixel, trace.size));
+}
+void keep_hits(uvec2 pixel, uint met) { imageStore(hits, ivec2(pixel), uvec4(met)); }
+
+#endif
+
+void main() {
+    uvec2 pixel;
+    bool inside = has_pixel(pixel);
     if (inside) {
         uint met;
         vec3 sum = radiance(camera_ray(vec2(pixel) + trace.sample_offset, trace.size), 0u, met);
         if (trace.sample_index == 0u)
-            imageStore(hits, ivec2(pixel), uvec4(met));
+            keep_hits(pixel, met);
         else
             sum += imageLoad(picture, ivec2(pixel)).rgb;
         if (trace.sample_index + 1u == trace.sample_count) sum /= float(trace.sample_count);

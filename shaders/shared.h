@@ -54,6 +54,15 @@ struct Probe {
     vec3 highest;
 };
 
+// Where a mirror's capture is kept, of several cube arrays.
+struct CapturePlace {
+    uint array;        // from 0; kMostArrays: there is no capture
+    uint cube;         // of that array
+    float stored_unit; // scene units of a stored distance of 1
+    uint range_ends;   // 1: where nothing is, that is 1 too
+};
+const uint kMostArrays = 8u;
+
 // One projection: clip = (dot(right, v), dot(down, v), near, dot(forward, v)) with v = position - eye.
 // Reversed-Z with infinite far: depth = near / distance along forward.
 struct View {
@@ -122,6 +131,7 @@ static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
 static_assert(sizeof(Light) == 76);
 static_assert(sizeof(Probe) == 64);
+static_assert(sizeof(CapturePlace) == 16);
 static_assert(sizeof(View) == 64);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(Draw) == 80);

@@ -1,6 +1,7 @@
 // What a frame's graph holds, and what is read of it.
 #include "app/frame_graph.hpp"
 
+#include "app/plan_file.hpp"
 #include "core/error.hpp"
 #include "core/half.hpp"
 
@@ -43,20 +44,21 @@ std::vector<Value> values_of(const std::vector<std::byte>& bytes) {
     return values;
 }
 
-void read_counters(const std::vector<std::byte>& bytes, Part& part) {
+/// Adds what one tracing counted.
+void add_counters(const std::vector<std::byte>& bytes, Part& part) {
     shared::Counters counters;
     std::memcpy(&counters, bytes.data(), sizeof counters);
     check(counters.exhausted == 0, Failure::exhausted, "'", part.label, "': ", counters.exhausted,
           " pixels met more triangles and boxes than one invocation may (", counters.longest_walk,
           " steps); lower the depth");
-    part.rays = RayCounts{counters.primary_rays, counters.mirror_rays, counters.shadow_rays,
-                          counters.longest_walk};
+    if (!part.rays) part.rays.emplace();
+    part.rays->primary += counters.primary_rays;
+    part.rays->mirror += counters.mirror_rays;
+    part.rays->shadow += counters.shadow_rays;
+    part.rays->longest_walk = std::max(part.rays->longest_walk, counters.longest_walk);
     if (counters.mirror_pixels > 0)
-        part.traced_fraction = static_cast<double>(counters.listed) / counters.mirror_pixels;
-}
-
-bool holds_halves(const graph::Graph& graph, const render::Cubes& cubes) {
-    return graph.images()[cubes.colour.id].format == Format::rgba16f;
+        part.traced_fraction = part.traced_fraction.value_or(0) +
+                               static_cast<double>(counters.listed) / counters.mirror_pixels;
 }
 
 /// Texels of four halves with a colour at or above the largest half.
@@ -72,39 +74,42 @@ std::size_t saturated_texels(const std::vector<std::byte>& bytes) {
 
 } // namespace
 
-std::vector<reflect::Choice> parse_choices(const std::vector<std::string>& techniques) {
+std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& techniques) {
     check(!techniques.empty(), Failure::usage, "no technique was asked for");
-    std::vector<reflect::Choice> choices;
+    std::vector<reflect::Plan> plans;
     for (const std::string& text : techniques) {
-        choices.push_back(reflect::parse_choice(text));
-        for (std::size_t i = 0; i + 1 < choices.size(); ++i)
-            check(!choices[i].same_as(choices.back()), Failure::usage, "technique '", text,
+        plans.push_back(read_plan(text));
+        for (std::size_t i = 0; i + 1 < plans.size(); ++i)
+            check(!plans[i].same_as(plans.back()), Failure::usage, "technique '", text,
                   "' is asked for twice");
     }
-    return choices;
+    return plans;
 }
 
-FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Choice>& choices,
-                   const render::GpuScene& scene, graph::History history) {
+FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plans,
+                   const std::vector<std::string>& mirrors, const render::GpuScene& scene,
+                   graph::History history) {
     FrameGraph frame{graph::Graph(std::move(history)), {}};
-    for (const reflect::Choice& choice : choices) {
-        const std::string prefix = choices.size() > 1 ? choice.file_name() + "/" : "";
+    for (const reflect::Plan& plan : plans) {
+        const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
         const render::FrameInputs inputs{scene,     spec.size,   prefix,
                                          spec.seed, spec.mended, spec.with_lookup};
-        reflect::Outputs outputs = choice.technique->add(frame.graph, inputs, choice.settings);
+        const reflect::Assignment assignment = reflect::assign(plan, mirrors);
+        reflect::Outputs outputs = reflect::add_frame(frame.graph, inputs, assignment);
         const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr,
                                                          spec.exposure);
         frame.graph.want(outputs.hdr);
         frame.graph.want(display);
         if (outputs.hits) frame.graph.want(*outputs.hits);
-        if (outputs.counters) frame.graph.want(*outputs.counters);
+        for (const graph::Buffer counters : outputs.counters) frame.graph.want(counters);
         if (outputs.lookup) frame.graph.want(*outputs.lookup);
         if (outputs.captures && (spec.with_lookup || spec.with_captures)) {
-            frame.graph.want(outputs.captures->colour);
-            if (spec.with_captures && outputs.captures->distance)
-                frame.graph.want(*outputs.captures->distance);
+            for (const render::Cubes& cubes : outputs.captures->arrays) {
+                frame.graph.want(cubes.colour);
+                if (spec.with_captures && cubes.distance) frame.graph.want(*cubes.distance);
+            }
         }
-        frame.parts.push_back({choice, prefix, outputs, display});
+        frame.parts.push_back({plan, assignment, prefix, std::move(outputs), display});
     }
     return frame;
 }
@@ -129,21 +134,26 @@ Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& fr
     const reflect::Outputs& outputs = declared.outputs;
     const graph::Plan& plan = runner.compiled(frame.graph);
     Part part;
-    part.label = declared.choice.label;
+    part.label = declared.plan.label;
     part.prefix = declared.prefix;
     part.memory_bytes = plan.bytes;
     part.remembers = reads_previous(frame, plan, part.prefix);
     count_scene_passes(frame.graph, plan, part);
-    const Settings& settings = declared.choice.settings;
-    if (settings.has("face") && settings.is_special("face"))
-        part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
-    if (outputs.counters) read_counters(runner.read(ticket, *outputs.counters), part);
+    if (outputs.captures) part.notes = outputs.captures->notes;
+    for (const reflect::Choice& choice : declared.assignment.choices)
+        if (choice.settings.has("face") && choice.settings.is_special("face"))
+            part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
+    for (const graph::Buffer counters : outputs.counters)
+        add_counters(runner.read(ticket, counters), part);
     part.hdr = read_hdr(runner, ticket, declared, spec.size);
     part.display = to_picture(runner.read(ticket, declared.display), spec.size,
                               Format::rgba8_unorm);
     if (outputs.hits) part.hits = values_of<std::uint32_t>(runner.read(ticket, *outputs.hits));
-    if (spec.with_lookup && outputs.captures && holds_halves(frame.graph, *outputs.captures))
-        part.saturated = saturated_texels(runner.read(ticket, outputs.captures->colour));
+    if (spec.with_lookup && outputs.captures)
+        for (const render::Cubes& cubes : outputs.captures->arrays)
+            if (frame.graph.images()[cubes.colour.id].format == Format::rgba16f)
+                part.saturated = part.saturated.value_or(0) +
+                                 saturated_texels(runner.read(ticket, cubes.colour));
     if (outputs.lookup) part.lookup = values_of<vec4>(runner.read(ticket, *outputs.lookup));
     return part;
 }

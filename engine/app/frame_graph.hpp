@@ -3,7 +3,7 @@
 #include "app/session.hpp"
 #include "graph/plan.hpp"
 #include "graph/run.hpp"
-#include "reflect/technique.hpp"
+#include "reflect/frame.hpp"
 
 #include <vector>
 
@@ -12,7 +12,8 @@ namespace catoptric::app {
 
 /// One technique's share of a frame's graph.
 struct Declared {
-    reflect::Choice choice;
+    reflect::Plan plan;
+    reflect::Assignment assignment;
     std::string prefix;
     reflect::Outputs outputs;
     graph::Image display;
@@ -24,11 +25,13 @@ struct FrameGraph {
 };
 
 /// Throws `usage` for none, for an unknown one and for one that is there twice.
-std::vector<reflect::Choice> parse_choices(const std::vector<std::string>& techniques);
+std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& techniques);
 
 /// Every technique's passes and its compose, and what is wanted of them.
-FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Choice>& choices,
-                   const render::GpuScene& scene, graph::History history);
+/// `mirrors`: their names. Throws `usage` for a plan that does not fit them.
+FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plans,
+                   const std::vector<std::string>& mirrors, const render::GpuScene& scene,
+                   graph::History history);
 
 /// Whether a pass whose name begins with `prefix` reads what the frame before left.
 bool reads_previous(const FrameGraph& frame, const graph::Plan& plan, const std::string& prefix);

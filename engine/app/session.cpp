@@ -36,7 +36,7 @@ FrameTimes to_times(const graph::FrameTimes& times) {
     return frame;
 }
 
-bool same(const std::vector<reflect::Choice>& a, const std::vector<reflect::Choice>& b) {
+bool same(const std::vector<reflect::Plan>& a, const std::vector<reflect::Plan>& b) {
     return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return x.same_as(y); });
 }
 
@@ -51,23 +51,32 @@ struct Session::Impl {
     Impl(Engine::Impl& shared, scene::Scene at_rest, std::uint32_t in_flight)
         : engine(shared), scene(std::move(at_rest)),
           resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
-          runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {}
+          runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {
+        name_mirrors();
+    }
+
+    void name_mirrors() {
+        mirrors.clear();
+        for (const std::size_t object : scene::mirrors(scene))
+            mirrors.push_back(scene.objects[object].name);
+    }
 
     /// Writes what the specification asks for and the device does not have yet; milliseconds of
     /// work.
     double stand(const FrameSpec& spec);
     /// The techniques' texts read; only once for as long as they stay.
-    const std::vector<reflect::Choice>& choices_of(const std::vector<std::string>& techniques);
+    const std::vector<reflect::Plan>& plans_of(const std::vector<std::string>& techniques);
 
     Engine::Impl& engine;
     scene::Scene scene;
     std::unique_ptr<render::GpuScene> resident;
     graph::Runner runner;
+    std::vector<std::string> mirrors; ///< their names
     std::optional<Standing> standing;
     std::vector<std::string> texts;
-    std::vector<reflect::Choice> choices;    ///< of `texts`
-    std::vector<reflect::Choice> remembered; ///< whose history the runner has
-    std::optional<graph::Ticket> last;       ///< of the frame that was submitted last
+    std::vector<reflect::Plan> plans;      ///< of `texts`
+    std::vector<reflect::Plan> remembered; ///< whose history the runner has
+    std::optional<graph::Ticket> last;     ///< of the frame that was submitted last
     std::vector<std::uint64_t> read_by; ///< by copy of what is written: the last frame to read it
     std::size_t copy = 0;               ///< that frames read now
     Counts counts;
@@ -110,13 +119,13 @@ double Session::Impl::stand(const FrameSpec& spec) {
     return milliseconds_since(start);
 }
 
-const std::vector<reflect::Choice>&
-Session::Impl::choices_of(const std::vector<std::string>& techniques) {
-    if (choices.empty() || texts != techniques) {
-        choices = parse_choices(techniques);
+const std::vector<reflect::Plan>&
+Session::Impl::plans_of(const std::vector<std::string>& techniques) {
+    if (plans.empty() || texts != techniques) {
+        plans = parse_plans(techniques);
         texts = techniques;
     }
-    return choices;
+    return plans;
 }
 
 Session::Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight)
@@ -136,14 +145,14 @@ Counts Session::counts() const {
 Frame Session::frame(const FrameSpec& spec) {
     Impl& self = *impl_;
     check_spec(spec);
-    const std::vector<reflect::Choice>& choices = self.choices_of(spec.techniques);
-    if (!spec.is_aside && !same(self.remembered, choices)) {
+    const std::vector<reflect::Plan>& plans = self.plans_of(spec.techniques);
+    if (!spec.is_aside && !same(self.remembered, plans)) {
         self.runner.forget();
-        self.remembered = choices;
+        self.remembered = plans;
     }
     const double update_ms = self.stand(spec);
     const Clock::time_point start = Clock::now();
-    FrameGraph frame = declare(spec, choices, *self.resident, self.runner.history());
+    FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, self.runner.history());
     const double declare_ms = milliseconds_since(start);
     const Clock::time_point trees = Clock::now();
     self.resident->prepare();
@@ -172,6 +181,7 @@ void Session::change(const scene::Edit& edit) {
         self.resident = std::move(made);
     }
     self.scene = std::move(edited);
+    self.name_mirrors();
     self.standing.reset();
 }
 
@@ -184,14 +194,14 @@ void Session::forget() {
 std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
     Impl& self = *impl_;
     check_spec(spec);
-    const std::vector<reflect::Choice>& choices = self.choices_of(spec.techniques);
+    const std::vector<reflect::Plan>& plans = self.plans_of(spec.techniques);
     self.stand(spec);
     graph::History history; // what the first frame would leave
-    const FrameGraph first = declare(spec, choices, *self.resident, {});
+    const FrameGraph first = declare(spec, plans, self.mirrors, *self.resident, {});
     for (std::uint32_t i = 0; i < first.graph.images().size(); ++i)
         if (first.graph.lifetime(i) == graph::Lifetime::previous)
             history.previous.insert(first.graph.images()[i].name);
-    const FrameGraph frame = declare(spec, choices, *self.resident, history);
+    const FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, history);
     const graph::Plan& plan = self.runner.compiled(frame.graph);
     switch (format) {
     case PlanFormat::dot: return graph::to_dot(frame.graph, plan);
@@ -203,22 +213,25 @@ std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
 
 FrameTimes Session::clear_cubes() {
     constexpr std::uint32_t kEdge = 256;
-    const auto mirrors = static_cast<std::uint32_t>(scene::mirrors(impl_->scene).size());
+    const std::uint32_t mirrors = impl_->resident->mirror_count(),
+                        most = impl_->resident->most_cubes();
     graph::Graph graph;
-    std::optional<graph::Image> cubes;
-    if (mirrors > 0)
-        cubes = graph.image({"cubes.colour", Format::rgba16f, kEdge, kEdge, 6 * mirrors, true});
-    for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
-        const std::string name = "clear/" + std::to_string(mirror + 1);
-        const graph::Image depth = graph.image(
-            {name + ".depth", Format::d32f, kEdge, kEdge, 6, true});
-        graph.pass(name)
-            .writes(cubes->layers(6 * mirror, 6), graph::Use::colour, graph::Clear{0, 0, 0, 1})
-            .writes(depth, graph::Use::depth, graph::Clear{0, 0, 0, 0})
-            .layers(6)
-            .record([](graph::Commands&) {});
+    for (std::uint32_t first = 0; first < mirrors; first += most) {
+        const std::uint32_t count = std::min(most, mirrors - first);
+        const graph::Image cubes = graph.image({"cubes" + std::to_string(first / most + 1),
+                                                Format::rgba16f, kEdge, kEdge, 6 * count, true});
+        for (std::uint32_t cube = 0; cube < count; ++cube) {
+            const std::string name = "clear/" + std::to_string(first + cube + 1);
+            const graph::Image depth = graph.image(
+                {name + ".depth", Format::d32f, kEdge, kEdge, 6, true});
+            graph.pass(name)
+                .writes(cubes.layers(6 * cube, 6), graph::Use::colour, graph::Clear{0, 0, 0, 1})
+                .writes(depth, graph::Use::depth, graph::Clear{0, 0, 0, 0})
+                .layers(6)
+                .record([](graph::Commands&) {});
+        }
+        graph.want(cubes);
     }
-    if (cubes) graph.want(*cubes);
     ++impl_->counts.frames;
     impl_->last = impl_->runner.submit(graph, graph::Timing::isolated);
     return to_times(impl_->runner.wait(*impl_->last));
@@ -257,15 +270,17 @@ std::vector<Part> Frame::read_all() const {
 }
 
 render::Captured Frame::captures(std::size_t part) const {
-    const std::optional<render::Cubes>& cubes = impl_->part(part).outputs.captures;
-    check(impl_->spec.with_captures && cubes && cubes->distance, Failure::internal, "'",
-          impl_->part(part).choice.label,
-          "': wanted captures with distances that the frame was asked for, found none");
+    const std::shared_ptr<const render::Captures>& captures = impl_->part(part).outputs.captures;
+    check(
+        impl_->spec.with_captures && captures && captures->arrays.size() == 1 &&
+            captures->arrays.front().distance,
+        Failure::internal, "'", impl_->part(part).plan.label,
+        "': wanted captures with distances in one array that the frame was asked for, found none");
     impl_->check_last();
     graph::Runner& runner = impl_->runner();
-    return {impl_->frame.graph.images()[cubes->colour.id].width,
-            runner.read(impl_->ticket, cubes->colour), runner.read(impl_->ticket, *cubes->distance),
-            impl_->session->resident->space()};
+    const render::Cubes& cubes = captures->arrays.front();
+    return {cubes.face, runner.read(impl_->ticket, cubes.colour),
+            runner.read(impl_->ticket, *cubes.distance), impl_->session->resident->space()};
 }
 
 std::vector<std::byte> Frame::state() const {

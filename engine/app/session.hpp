@@ -24,8 +24,9 @@ enum class Timing { isolated, pipelined };
 
 /// What one frame shows and how it is made.
 struct FrameSpec {
-    /// "name[:knob=value,...]" each. Several are rendered in one frame: one command buffer, one
-    /// submit, one timeline; their pictures equal those of separate frames.
+    /// "name[:knob=value,...]", a plan "PATTERN=name[:knob=value,...] ..." (reflect/plan.hpp), or
+    /// "plan:FILE" with one in it (app/plan_file.hpp) each. Several are rendered in one frame: one
+    /// command buffer, one submit, one timeline; their pictures equal those of separate frames.
     std::vector<std::string> techniques;
     scene::Camera camera;
     uvec2 size{512, 512};
@@ -88,8 +89,9 @@ struct AutoFace {
 
 /// What one technique made in a frame.
 struct Part {
-    std::string label;  ///< as it was asked for
-    std::string prefix; ///< of its passes' names; empty when it was alone
+    std::string label;              ///< as it was asked for
+    std::string prefix;             ///< of its passes' names; empty when it was alone
+    std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
     int scene_passes = 0;
     int scene_draws = 0;            ///< scene passes times the layers that each renders
     bool remembers = false;         ///< a pass of it reads what the frame before left

@@ -1,6 +1,6 @@
 // The table of techniques as the outside sees it.
 #include "app/engine.hpp"
-#include "reflect/technique.hpp"
+#include "app/plan_file.hpp"
 
 namespace catoptric::app {
 
@@ -22,20 +22,27 @@ std::vector<TechniqueInfo> techniques() {
     return infos;
 }
 
-TechniqueChoice parse_technique(const std::string& text) {
-    const reflect::Choice choice = reflect::parse_choice(text);
-    TechniqueChoice result{
-        std::string(choice.technique->name), choice.label, choice.file_name(), {}};
+/// All knobs.
+std::vector<Setting> settings_of(const reflect::Choice& choice) {
+    std::vector<Setting> settings;
     const Settings defaults(choice.technique->knobs);
     for (const catoptric::Knob& knob : choice.technique->knobs) {
         const bool is_number = knob.choices.empty() && !choice.settings.is_special(knob.name);
         const std::string value = choice.settings.text(knob.name);
-        result.settings.push_back(
+        settings.push_back(
             {std::string(knob.name), value,
              is_number ? std::optional(choice.settings.number(knob.name)) : std::nullopt,
              value != defaults.text(knob.name)});
     }
-    return result;
+    return settings;
+}
+
+TechniqueChoice parse_technique(const std::string& text) {
+    const reflect::Plan plan = read_plan(text);
+    if (!plan.is_technique) return {"plan", plan.label, plan.file_name(), {}};
+    const reflect::Choice& choice = plan.rules.front().choice;
+    return {std::string(choice.technique->name), choice.label, choice.file_name(),
+            settings_of(choice)};
 }
 
 } // namespace catoptric::app

@@ -9,6 +9,19 @@
 
 namespace catoptric::gpu {
 
+VkDescriptorType descriptor_type(BindingKind kind) {
+    switch (kind) {
+    case BindingKind::uniform_buffer: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case BindingKind::storage_buffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    case BindingKind::texel_buffer: return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    case BindingKind::sampled_image: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    case BindingKind::texture: return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+    case BindingKind::sampler: return VK_DESCRIPTOR_TYPE_SAMPLER;
+    case BindingKind::storage_image: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    }
+    return VK_DESCRIPTOR_TYPE_MAX_ENUM;
+}
+
 namespace {
 
 std::string key_of(const Constants& constants) {
@@ -67,15 +80,15 @@ struct Stage {
     VkSpecializationInfo specialisation{};
 };
 
-VkDescriptorType descriptor_type(BindingKind kind) {
-    switch (kind) {
-    case BindingKind::uniform_buffer: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    case BindingKind::storage_buffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    case BindingKind::texel_buffer: return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    case BindingKind::sampled_image: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    case BindingKind::storage_image: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    }
-    return VK_DESCRIPTOR_TYPE_MAX_ENUM;
+void check_images(const Device& device, const std::string& name,
+                  const std::vector<Binding>& bindings) {
+    std::uint32_t images = 0;
+    for (const Binding& binding : bindings)
+        if (binding.kind == BindingKind::sampled_image || binding.kind == BindingKind::texture)
+            images += binding.count;
+    const std::uint32_t most = device.limits().maxPerStageDescriptorSampledImages;
+    check(images <= most, Failure::exhausted, "pipeline '", name, "' samples ", images,
+          " images, the device allows ", most);
 }
 
 /// Checks that every constant is known to a stage, merges bindings, makes the layouts.
@@ -93,15 +106,17 @@ void lay_out(const Device& device, const std::string& name, std::span<Stage> sta
             if (same == pipeline.bindings.end())
                 pipeline.bindings.push_back(binding);
             else
-                check(same->name == binding.name && same->kind == binding.kind, Failure::internal,
-                      "pipeline '", name, "': binding ", binding.binding, " is '", same->name,
-                      "' and '", binding.name, "'");
+                check(same->name == binding.name && same->kind == binding.kind &&
+                          same->count == binding.count,
+                      Failure::internal, "pipeline '", name, "': binding ", binding.binding,
+                      " is '", same->name, "' and '", binding.name, "'");
         }
     }
+    check_images(device, name, pipeline.bindings);
     std::vector<VkDescriptorSetLayoutBinding> slots;
     for (const Binding& binding : pipeline.bindings)
-        slots.push_back(
-            {binding.binding, descriptor_type(binding.kind), 1, pipeline.stages, nullptr});
+        slots.push_back({binding.binding, descriptor_type(binding.kind), binding.count,
+                         pipeline.stages, nullptr});
     VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     set.bindingCount = static_cast<std::uint32_t>(slots.size());
     set.pBindings = slots.data();

@@ -36,6 +36,9 @@ struct Attachments {
     bool depth = false;
 };
 
+/// What Vulkan calls such a binding.
+VkDescriptorType descriptor_type(BindingKind kind);
+
 /// A pipeline with its layout and the bindings that its shaders use.
 struct Pipeline {
     UniqueDescriptorSetLayout set_layout;

@@ -22,6 +22,7 @@ enum Op : std::uint32_t {
     kTypeVector = 23,
     kTypeMatrix = 24,
     kTypeImage = 25,
+    kTypeSampler = 26,
     kTypeSampledImage = 27,
     kTypeArray = 28,
     kTypeRuntimeArray = 29,
@@ -101,6 +102,7 @@ private:
         case kTypeVector:
         case kTypeMatrix:
         case kTypeImage:
+        case kTypeSampler:
         case kTypeSampledImage:
         case kTypeArray:
         case kTypeRuntimeArray:
@@ -161,14 +163,25 @@ private:
                                                        : BindingKind::storage_buffer;
             return result;
         }
-        check(type->op == kTypeImage || type->op == kTypeSampledImage, Failure::internal,
-              "shader '", name_, "': '", result.name, "' is an array of resources");
-        if (type->op == kTypeSampledImage) type = &types_.at(type->words[0]);
+        if (type->op == kTypeSampler) {
+            result.kind = BindingKind::sampler;
+            return result;
+        }
+        const bool is_array = type->op == kTypeArray;
+        if (is_array) {
+            result.count = constants_.at(type->words[1]);
+            type = &types_.at(type->words[0]);
+        }
+        const bool has_sampler = type->op == kTypeSampledImage;
+        if (has_sampler) type = &types_.at(type->words[0]);
         const std::uint32_t dim = type->words[1], arrayed = type->words[3],
                             sampled = type->words[5];
         result.kind = dim == kDimBuffer ? BindingKind::texel_buffer
                       : sampled == 2    ? BindingKind::storage_image
-                                        : BindingKind::sampled_image;
+                      : has_sampler     ? BindingKind::sampled_image
+                                        : BindingKind::texture;
+        check(!is_array || result.kind == BindingKind::texture, Failure::internal, "shader '",
+              name_, "': '", result.name, "' is an array of something else than textures");
         result.shape = dim == kDimCube ? (arrayed ? ImageShape::cube_array : ImageShape::cube)
                                        : (arrayed ? ImageShape::flat_array : ImageShape::flat);
         return result;

@@ -21,7 +21,9 @@ enum class BindingKind {
     uniform_buffer,
     storage_buffer,
     texel_buffer,
-    sampled_image,
+    sampled_image, ///< with a sampler of its own
+    texture,       ///< without one
+    sampler,
     storage_image
 };
 enum class ImageShape { flat, flat_array, cube, cube_array };
@@ -32,6 +34,7 @@ struct Binding {
     std::uint32_t binding = 0;
     BindingKind kind = BindingKind::storage_buffer;
     ImageShape shape = ImageShape::flat;
+    std::uint32_t count = 1; ///< of an array of textures
 };
 
 struct Constant {
@@ -47,8 +50,9 @@ struct Reflection {
     bool doubles = false; ///< needs a device that computes with them
 };
 
-/// Reads names, decorations and uses out of SPIR-V. Throws `internal` for a set other than 0 or an
-/// array of resources (which the engine does not use: not every device can index them).
+/// Reads names, decorations and uses out of SPIR-V. Throws `internal` for a set other than 0 and
+/// for an array of anything but textures (which shaders may index by constants only: not every
+/// device can do more).
 Reflection reflect(std::string_view name, std::span<const std::uint32_t> words);
 
 } // namespace catoptric::gpu

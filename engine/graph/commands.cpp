@@ -41,9 +41,18 @@ void Commands::require_declared(Image image, std::string_view name) const {
           "' but does not declare it");
 }
 
-void Commands::bind(std::string_view name, Image image, Filter filter) {
-    require_declared(image, name);
-    bound_.insert_or_assign(std::string(name), BoundImage{image, filter});
+void Commands::bind(std::string_view name, std::span<const Image> images, Filter filter) {
+    check(!images.empty() && images.size() <= kMostImages, Failure::internal, "pass '", pass_.name,
+          "': '", name, "' wants 1 to ", kMostImages, " images, found ", images.size());
+    BoundImages bound{{}, images.size(), filter};
+    std::ranges::copy(images, bound.images.begin());
+    for (const Image& image : images) require_declared(image, name);
+    bound_.insert_or_assign(std::string(name), bound);
+    dirty_ = true;
+}
+
+void Commands::bind(std::string_view name, Filter sampler) {
+    bound_.insert_or_assign(std::string(name), sampler);
     dirty_ = true;
 }
 
@@ -135,46 +144,62 @@ void Commands::fill(Buffer buffer, std::uint32_t word) {
     vkCmdFillBuffer(commands_, recorder_.buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
-VkWriteDescriptorSet Commands::write(const gpu::Binding& binding, const Bound& bound,
-                                     VkDescriptorSet set, VkDescriptorImageInfo& image,
-                                     VkDescriptorBufferInfo& buffer, VkBufferView& texels) {
+void Commands::update(Buffer buffer, std::span<const std::byte> bytes) {
+    require_declared(buffer, "target of an update");
+    vkCmdUpdateBuffer(commands_, recorder_.buffer(buffer), 0, bytes.size(), bytes.data());
+}
+
+namespace {
+
+bool is_image(gpu::BindingKind kind) {
     using gpu::BindingKind;
-    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = set;
-    write.dstBinding = binding.binding;
-    write.descriptorCount = 1;
-    write.pImageInfo = &image;
-    write.pBufferInfo = &buffer;
-    write.pTexelBufferView = &texels;
-    const bool wants_image = binding.kind == BindingKind::sampled_image ||
-                             binding.kind == BindingKind::storage_image;
-    const auto* bound_image = std::get_if<BoundImage>(&bound);
-    check(wants_image == (bound_image != nullptr), Failure::internal, "pass '", pass_.name, "': '",
-          binding.name, "' of ", pipeline_name_,
-          wants_image ? " is an image, bound is a buffer" : " is a buffer, bound is an image");
-    if (bound_image) {
-        const bool sampled = binding.kind == BindingKind::sampled_image;
-        image.sampler = sampled ? recorder_.sampler(bound_image->filter) : VK_NULL_HANDLE;
-        image.imageView = recorder_.physical(bound_image->image)
-                              .view(recorder_.device(), binding.shape, bound_image->image);
-        image.imageLayout = sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
-                                    : VK_IMAGE_LAYOUT_GENERAL;
-        write.descriptorType = sampled ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-                                       : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-        return write;
+    return kind == BindingKind::sampled_image || kind == BindingKind::texture ||
+           kind == BindingKind::storage_image;
+}
+
+const char* kind_of(bool image, bool sampler) {
+    return image ? "an image" : sampler ? "a sampler" : "a buffer";
+}
+
+} // namespace
+
+void Commands::require_kind(const gpu::Binding& binding, const Bound& bound) const {
+    const bool wants_image = is_image(binding.kind),
+               wants_sampler = binding.kind == gpu::BindingKind::sampler,
+               image = std::holds_alternative<BoundImages>(bound),
+               sampler = std::holds_alternative<Filter>(bound);
+    check(wants_image == image && wants_sampler == sampler, Failure::internal, "pass '", pass_.name,
+          "': '", binding.name, "' of ", pipeline_name_, " is ",
+          kind_of(wants_image, wants_sampler), ", bound is ", kind_of(image, sampler));
+}
+
+void Commands::write_images(const gpu::Binding& binding, const Bound& bound,
+                            std::vector<VkDescriptorImageInfo>& infos) {
+    using gpu::BindingKind;
+    if (const auto* filter = std::get_if<Filter>(&bound)) {
+        infos.push_back({recorder_.sampler(*filter), VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED});
+        return;
     }
+    const auto& [images, count, filter] = std::get<BoundImages>(bound);
+    const bool stored = binding.kind == BindingKind::storage_image;
+    for (std::size_t i = 0; i < binding.count; ++i) {
+        const Image image = images[i < count ? i : 0];
+        infos.push_back(
+            {binding.kind == BindingKind::sampled_image ? recorder_.sampler(filter)
+                                                        : VK_NULL_HANDLE,
+             recorder_.physical(image).view(recorder_.device(), binding.shape, image),
+             stored ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+    }
+}
+
+void Commands::write_buffer(const gpu::Binding& binding, const Bound& bound,
+                            VkDescriptorBufferInfo& buffer, VkBufferView& texels) {
     const auto* owned = std::get_if<const gpu::Buffer*>(&bound);
     buffer = {owned ? (*owned)->handle() : std::get<VkBuffer>(bound), 0, VK_WHOLE_SIZE};
-    write.descriptorType = binding.kind == BindingKind::uniform_buffer
-                               ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                               : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    if (binding.kind == BindingKind::texel_buffer) {
-        check(owned && (*owned)->texels(), Failure::internal, "pass '", pass_.name, "': '",
-              binding.name, "' wants a buffer made with BufferUse::texels");
-        texels = (*owned)->texels();
-        write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    }
-    return write;
+    if (binding.kind != gpu::BindingKind::texel_buffer) return;
+    check(owned && (*owned)->texels(), Failure::internal, "pass '", pass_.name, "': '",
+          binding.name, "' wants a buffer made with BufferUse::texels");
+    texels = (*owned)->texels();
 }
 
 /// Writes a fresh descriptor set when pipeline or bindings changed, then the push constants.
@@ -184,16 +209,33 @@ void Commands::flush() {
     if (dirty_ && !pipeline_->bindings.empty()) {
         const VkDescriptorSet set = recorder_.descriptor_set(pipeline_->set_layout);
         const std::size_t count = pipeline_->bindings.size();
-        std::vector<VkDescriptorImageInfo> images(count);
+        std::size_t image_count = 0;
+        for (const gpu::Binding& binding : pipeline_->bindings) image_count += binding.count;
+        std::vector<VkDescriptorImageInfo> images; // the writes point into these
+        images.reserve(image_count);
         std::vector<VkDescriptorBufferInfo> buffers(count);
         std::vector<VkBufferView> texels(count);
         std::vector<VkWriteDescriptorSet> writes;
+        writes.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             const gpu::Binding& binding = pipeline_->bindings[i];
             const auto bound = bound_.find(binding.name);
             check(bound != bound_.end(), Failure::internal, "pass '", pass_.name,
                   "': nothing is bound to '", binding.name, "' of ", pipeline_name_);
-            writes.push_back(write(binding, bound->second, set, images[i], buffers[i], texels[i]));
+            require_kind(binding, bound->second);
+            VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+            write.dstSet = set;
+            write.dstBinding = binding.binding;
+            write.descriptorCount = binding.count;
+            write.descriptorType = gpu::descriptor_type(binding.kind);
+            write.pImageInfo = images.data() + images.size();
+            write.pBufferInfo = &buffers[i];
+            write.pTexelBufferView = &texels[i];
+            if (is_image(binding.kind) || binding.kind == gpu::BindingKind::sampler)
+                write_images(binding, bound->second, images);
+            else
+                write_buffer(binding, bound->second, buffers[i], texels[i]);
+            writes.push_back(write);
         }
         vkUpdateDescriptorSets(recorder_.device().handle(),
                                static_cast<std::uint32_t>(writes.size()), writes.data(), 0,

@@ -4,7 +4,9 @@
 #include "gpu/pipeline.hpp"
 #include "graph/graph.hpp"
 
+#include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -13,6 +15,9 @@
 namespace catoptric::graph {
 
 class Recorder;
+
+/// Images that one name of a shader can stand for: an array of textures.
+inline constexpr std::size_t kMostImages = 8;
 
 /// How a sampled image is looked up. Edges clamp; cubes are seamless.
 enum class Filter {
@@ -38,7 +43,14 @@ public:
     void use(gpu::RasterState state);
     void use(const gpu::ComputeState& state);
     /// The image must be declared by the pass.
-    void bind(std::string_view name, Image image, Filter filter = Filter::nearest);
+    void bind(std::string_view name, Image image, Filter filter = Filter::nearest) {
+        bind(name, std::span(&image, 1), filter);
+    }
+    /// 1 to kMostImages of them; where the shader's array is longer, its rest is the first.
+    void bind(std::string_view name, std::span<const Image> images,
+              Filter filter = Filter::nearest);
+    /// A sampler by itself.
+    void bind(std::string_view name, Filter sampler);
     void bind(std::string_view name, Buffer buffer);
     void bind(std::string_view name, const gpu::Buffer& buffer);
     template <typename T>
@@ -63,19 +75,24 @@ public:
     void copy(Image from, Buffer to);
     /// Sets every word of a buffer that the pass declares as copy_to.
     void fill(Buffer buffer, std::uint32_t word);
+    /// Puts bytes, whole words and no more than 65536, at the start of such a buffer.
+    void update(Buffer buffer, std::span<const std::byte> bytes);
 
 private:
-    struct BoundImage {
-        Image image;
-        Filter filter;
+    struct BoundImages {
+        std::array<Image, kMostImages> images{};
+        std::size_t count = 1;
+        Filter filter = Filter::nearest;
     };
-    using Bound = std::variant<BoundImage, VkBuffer, const gpu::Buffer*>;
+    using Bound = std::variant<BoundImages, Filter, VkBuffer, const gpu::Buffer*>;
     void flush();
     void require_declared(Image image, std::string_view name) const;
     void require_declared(Buffer buffer, std::string_view name) const;
-    VkWriteDescriptorSet write(const gpu::Binding& binding, const Bound& bound, VkDescriptorSet set,
-                               VkDescriptorImageInfo& image, VkDescriptorBufferInfo& buffer,
-                               VkBufferView& texels);
+    void require_kind(const gpu::Binding& binding, const Bound& bound) const;
+    void write_images(const gpu::Binding& binding, const Bound& bound,
+                      std::vector<VkDescriptorImageInfo>& infos);
+    void write_buffer(const gpu::Binding& binding, const Bound& bound,
+                      VkDescriptorBufferInfo& buffer, VkBufferView& texels);
 
     Recorder& recorder_;
     const Graph& graph_;

@@ -12,6 +12,8 @@ gpu::UniqueDescriptorPool make_descriptor_pool(const gpu::Device& device) {
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kSetsPerPool},
         {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 4 * kSetsPerPool},
         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * kSetsPerPool},
+        {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 32 * kSetsPerPool},
+        {VK_DESCRIPTOR_TYPE_SAMPLER, 2 * kSetsPerPool},
         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4 * kSetsPerPool}};
     VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     create.maxSets = kSetsPerPool;

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <array>
 
-/// What the techniques with captures share: their knobs, what these mean for the shared passes, and
-/// captures that show last frame's captures.
+/// What the techniques with captures share: their knobs, and what these mean for the shared passes.
 namespace catoptric::reflect {
 
 inline constexpr std::array<std::string_view, 3> kDistanceChoices{"r32f", "r16f", "unorm8"};
@@ -20,6 +19,14 @@ inline constexpr Knob kFace{
     .high = 16384,
     .value = 256,
     .special = "auto"};
+inline constexpr Knob kCapture{
+    .name = "capture",
+    .help = "beside other techniques: cube face edge of the capture by which other mirrors' "
+            "captures show this one, in texels; none: black there",
+    .low = 1,
+    .high = 16384,
+    .value = 256,
+    .special = "none"};
 inline constexpr Knob kColour{
     .name = "colour",
     .help = "how captures store colour: half, which ends at 65504, or float",
@@ -90,40 +97,19 @@ constexpr std::array<Knob, N + 11> search_knobs(const std::array<Knob, N>& own) 
     return knobs;
 }
 
-/// The shadow pass that the knobs ask for.
-render::Lighting add_lighting(graph::Graph& graph, const render::FrameInputs& inputs,
-                              const Settings& settings);
-
 /// Shadow passes: one a light, none without shadows.
 int shadow_passes(int lights, const Settings& settings);
 
-/// `face`, lighting, and how colour and, where there are such knobs, distance are stored.
-render::CaptureOptions capture_options(const render::FrameInputs& inputs, const Settings& settings,
-                                       const render::Lighting& lighting);
+/// `face`, and how colour and, where there are such knobs, distance are stored.
+render::CaptureOptions capture_options(const render::FrameInputs& inputs, const Settings& settings);
 
-/// A mirror that looks into `cubes` with the technique's fragment shader.
-render::MirrorLook look_into(std::string fragment, const render::Cubes& cubes,
-                             const render::CaptureOptions& options);
+/// Whether the search goes on, or may ask, in captures of other mirrors than its own.
+bool visits_others(const Settings& settings);
 
-/// The captures of part two and its followers, fed by those of the frame before.
-struct Feedback {
-    render::Lighting lighting;
-    render::CaptureOptions options;
-    std::optional<render::Cubes> cubes; ///< none without mirrors
-};
-
-/// Shadow pass, then every mirror captured once (twice with a second layer). In a capture the other
-/// mirrors look into last frame's captures with `fragment`.
-Feedback add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
-                      const Settings& settings, const std::string& fragment,
-                      bool second_layer = false);
-
-/// The view of what was captured, mirrors drawn with `fragment`; hops are set where there is a
+/// A mirror that looks into the captures with the fragment shader; hops are set where there is a
 /// `continue`.
-render::MirrorLook view_look(const Feedback& captured, const Settings& settings,
-                             const std::string& fragment);
-Outputs add_view_of(graph::Graph& graph, const render::FrameInputs& inputs,
-                    const Feedback& captured, const render::MirrorLook& look);
+render::MirrorLook look_into(const Captured& captured, std::string fragment,
+                             const Settings& settings);
 
 /// R = N + 2 with one light.
 inline int feedback_passes(int mirrors, int lights, const Settings& settings) {

@@ -13,16 +13,28 @@ constexpr auto kKnobs = search_knobs(
                     .high = 256,
                     .value = 16}});
 
-Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag", true);
-    render::MirrorLook look = view_look(captured, settings, "reflect/layered.frag");
-    look.constants.emplace_back("steps", static_cast<std::uint32_t>(settings.integer("steps")));
-    if (const auto& cubes = captured.cubes)
-        look.images = {{"distance1", *cubes->distance},
-                       {"distance2", *cubes->distance2},
-                       {"colour1", cubes->colour},
-                       {"colour2", *cubes->colour2}};
-    return add_view_of(graph, inputs, captured, look);
+render::CaptureOptions capture(const render::FrameInputs& inputs, const Settings& settings) {
+    render::CaptureOptions options = capture_options(inputs, settings);
+    options.second_layer = true;
+    return options;
+}
+
+Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
+          const Captured& captured) {
+    Look look{look_into(captured, "reflect/layered.frag", settings), {}};
+    look.mirror.constants.emplace_back("steps",
+                                       static_cast<std::uint32_t>(settings.integer("steps")));
+    // Captures that lack a layer are those of mirrors that nobody looks into with this shader.
+    const auto images = [&](const char* name, auto&& image) {
+        std::vector<graph::Image> list;
+        for (const render::Cubes& cubes : captured.captures->arrays) list.push_back(image(cubes));
+        look.mirror.images.emplace_back(name, std::move(list));
+    };
+    images("distance1", [](const auto& cubes) { return cubes.distance.value_or(cubes.colour); });
+    images("distance2", [](const auto& cubes) { return cubes.distance2.value_or(cubes.colour); });
+    images("colour1", [](const auto& cubes) { return cubes.colour; });
+    images("colour2", [](const auto& cubes) { return cubes.colour2.value_or(cubes.colour); });
+    return look;
 }
 
 constexpr std::string_view kCompared[] = {"layered"};
@@ -38,7 +50,9 @@ constexpr Technique kLayered{.name = "layered",
                                  [](int mirrors, int lights, const Settings& settings) {
                                      return feedback_passes(2 * mirrors, lights, settings);
                                  },
-                             .add = add};
+                             .capture = capture,
+                             .in_captures = "reflect/parallax.frag",
+                             .look = look};
 const Registered kRow{kLayered};
 
 } // namespace

@@ -13,11 +13,12 @@ constexpr auto kKnobs = search_knobs(
                     .high = 256,
                     .value = 16}});
 
-Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
-    render::MirrorLook look = view_look(captured, settings, "reflect/march.frag");
-    look.constants.emplace_back("steps", static_cast<std::uint32_t>(settings.integer("steps")));
-    return add_view_of(graph, inputs, captured, look);
+Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
+          const Captured& captured) {
+    Look look{look_into(captured, "reflect/march.frag", settings), {}};
+    look.mirror.constants.emplace_back("steps",
+                                       static_cast<std::uint32_t>(settings.integer("steps")));
+    return look;
 }
 
 constexpr std::string_view kCompared[] = {"march"};
@@ -30,7 +31,9 @@ constexpr Technique kMarch{
     .knobs = kKnobs,
     .compared = kCompared,
     .scene_passes = feedback_passes,
-    .add = add};
+    .capture = capture_options,
+    .in_captures = "reflect/parallax.frag",
+    .look = look};
 const Registered kRow{kMarch};
 
 } // namespace

@@ -16,21 +16,27 @@ constexpr Knob kKnobs[] = {{.name = "bounces",
                            kFace,
                            kColour,
                            kShadow,
-                           kShadowMapEdge};
+                           kShadowMapEdge,
+                           kCapture};
 
-Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const render::Lighting lighting = add_lighting(graph, inputs, settings);
-    render::CaptureOptions options = capture_options(inputs, settings, lighting);
-    const int bounces = inputs.scene.mirror_count() ? settings.integer("bounces") : 0;
+/// Of the last bounce only the captures of the mirrors that look into them.
+Look look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+          const Captured& captured) {
+    render::CaptureOptions options = capture_options(inputs, settings);
+    options.lighting = captured.lighting;
+    render::MirrorLook look; // black
+    const int bounces = settings.integer("bounces");
     for (int bounce = 1; bounce <= bounces; ++bounce) {
-        options.name = "bounce" + std::to_string(bounce);
-        const render::Cubes cubes = render::declare_cubes(graph, inputs, options);
-        render::add_captures(graph, inputs, options, cubes);
-        options.look = look_into("reflect/naive.frag", cubes, options);
+        const auto captures = std::make_shared<const render::Captures>(
+            render::declare_captures(graph, inputs, "bounce" + std::to_string(bounce),
+                                     std::vector(inputs.scene.mirror_count(), options)));
+        const bool last = bounce == bounces;
+        render::add_captures(graph, inputs, *captures, render::same_look(inputs.scene, look),
+                             last ? captured.mirrors : std::vector<std::uint32_t>{});
+        look = look_into({captures, captured.lighting, captured.mirrors}, "reflect/naive.frag",
+                         settings);
     }
-    const std::optional<render::Cubes>& last = options.look.cubes;
-    const render::View view = render::add_view(graph, inputs, lighting, options.look);
-    return {view.hdr, {}, {}, view.lookup, last};
+    return {std::move(look), {}};
 }
 
 constexpr std::string_view kCompared[] = {"naive:bounces=0", "naive:bounces=1", "naive:bounces=2",
@@ -47,7 +53,7 @@ constexpr Technique kNaive{.name = "naive",
                                    return mirrors * settings.integer("bounces") +
                                           shadow_passes(lights, settings) + 1;
                                },
-                           .add = add};
+                           .look = look};
 const Registered kRow{kNaive};
 
 } // namespace

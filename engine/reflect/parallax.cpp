@@ -31,12 +31,14 @@ constexpr Technique kParallax{
     .knobs = kKnobs,
     .compared = kCompared,
     .scene_passes = feedback_passes,
-    .add = [](graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-        const Feedback captured = add_feedback(graph, inputs, settings, kFragment);
-        render::MirrorLook look = view_look(captured, settings, kFragment);
-        if (captured.cubes && settings.choice("without") == "void_test")
-            look.constants.emplace_back("tests_void", 0u);
-        return add_view_of(graph, inputs, captured, look);
+    .capture = capture_options,
+    .in_captures = kFragment,
+    .look = [](graph::Graph&, const render::FrameInputs&, const Settings& settings,
+               const Captured& captured) {
+        Look look{look_into(captured, kFragment, settings), {}};
+        if (settings.choice("without") == "void_test")
+            look.mirror.constants.emplace_back("tests_void", 0u);
+        return look;
     }};
 const Registered kRow{kParallax};
 

@@ -19,31 +19,43 @@ constexpr std::uint64_t kProxyBytes = 28; // Proxy of shaders/reflect/proxy.glsl
 
 /// One proxy a mirror.
 graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs,
-                          const Feedback& captured) {
+                          const std::shared_ptr<const render::Captures>& captures) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
-    const graph::Image distance = *captured.cubes->distance;
     const graph::Buffer proxies = graph.buffer({inputs.prefix + "proxies", kProxyBytes * mirrors});
-    const gpu::Constants constants{
-        {"stored_unit", captured.options.stored_unit},
-        {"range_ends", captured.options.distance == Format::r8_unorm ? 1u : 0u}};
-    graph.pass(inputs.prefix + "proxies")
-        .reads(distance, graph::Use::sampled)
-        .writes(proxies, graph::Use::storage_write)
-        .record([=](graph::Commands& commands) {
-            commands.use(gpu::ComputeState{"reflect/proxy.comp", constants});
-            commands.bind("distance_faces", distance);
+    graph::PassBuilder pass = graph.pass(inputs.prefix + "proxies");
+    std::vector<graph::Image> faces;
+    for (const render::Cubes& cubes : captures->arrays) {
+        faces.push_back(cubes.distance.value_or(cubes.colour)); // without distance: never read
+        pass.reads(faces.back(), graph::Use::sampled);
+    }
+    gpu::ComputeState state{"reflect/proxy.comp", {}};
+    const render::CaptureOptions& options = captures->options.front();
+    if (captures->table) {
+        state.shader += "#arrays";
+        pass.reads(*captures->table, graph::Use::storage_read);
+    } else {
+        state.constants = {{"stored_unit", options.stored_unit},
+                           {"range_ends", options.distance == Format::r8_unorm ? 1u : 0u}};
+    }
+    pass.writes(proxies, graph::Use::storage_write)
+        .record([=, table = captures->table](graph::Commands& commands) {
+            commands.use(state);
+            commands.bind("distance_faces", faces);
             commands.bind("Proxies", proxies);
+            commands.bind("nearest_texels", graph::Filter::nearest);
+            if (table) commands.bind("CapturePlaces", *table);
             commands.dispatch(mirrors, 1);
         });
     return proxies;
 }
 
-Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
-    render::MirrorLook look = view_look(captured, settings, "reflect/proxy.frag");
-    if (captured.cubes) look.buffers.emplace_back("Proxies", add_proxies(graph, inputs, captured));
-    look.constants.emplace_back("shape", static_cast<std::uint32_t>(settings.integer("shape")));
-    return add_view_of(graph, inputs, captured, look);
+Look look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+          const Captured& captured) {
+    Look look{look_into(captured, "reflect/proxy.frag", settings), {}};
+    look.mirror.buffers.emplace_back("Proxies", add_proxies(graph, inputs, captured.captures));
+    look.mirror.constants.emplace_back("shape",
+                                       static_cast<std::uint32_t>(settings.integer("shape")));
+    return look;
 }
 
 constexpr Technique kProxy{
@@ -53,7 +65,9 @@ constexpr Technique kProxy{
     .order = 10,
     .knobs = kKnobs,
     .scene_passes = feedback_passes,
-    .add = add};
+    .capture = capture_options,
+    .in_captures = "reflect/parallax.frag",
+    .look = look};
 const Registered kRow{kProxy};
 
 } // namespace

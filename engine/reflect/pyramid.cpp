@@ -18,41 +18,51 @@ std::uint32_t level_edge(std::uint32_t face, std::uint32_t level) {
     return (face + (1u << level) - 1) >> level;
 }
 
+/// All levels of all faces of each array, one layer a face: a dispatch a level.
+std::vector<graph::Image> add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
+                                      const render::Captures& captures) {
+    std::vector<graph::Image> pyramids;
+    std::uint32_t top_of_all = 0;
+    graph::PassBuilder pass = graph.pass(inputs.prefix + "pyramid");
+    for (const render::Cubes& cubes : captures.arrays) {
+        const std::string number = pyramids.empty() ? "" : std::to_string(pyramids.size() + 1);
+        const std::uint32_t top = top_level(cubes.face);
+        top_of_all = std::max(top_of_all, top);
+        pyramids.push_back(
+            graph.image({inputs.prefix + "pyramid" + number, Format::r32ui, 1u << top,
+                         level_edge(cubes.face, 1), cubes.colour.layer_count}));
+        // What nobody searches has no distance, and what stands for it is never read.
+        pass.reads(cubes.distance.value_or(cubes.colour), graph::Use::sampled)
+            .writes(pyramids.back(), graph::Use::storage_write);
+    }
+    pass.record([=, arrays = captures.arrays](graph::Commands& commands) {
+        for (std::uint32_t level = 1; level <= top_of_all; ++level) {
+            if (level > 1) commands.barrier();
+            commands.use(
+                gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
+            commands.push(static_cast<std::int32_t>(level));
+            for (std::size_t i = 0; i < arrays.size(); ++i) {
+                if (level > top_level(arrays[i].face)) continue;
+                commands.bind("distance_cubes", arrays[i].distance.value_or(arrays[i].colour));
+                commands.bind("bounds", pyramids[i]);
+                const std::uint32_t groups = (level_edge(arrays[i].face, level) + 7) / 8;
+                commands.dispatch(groups, groups, arrays[i].colour.layer_count);
+            }
+        }
+    });
+    return pyramids;
+}
+
 } // namespace
 
-graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                         const Feedback& captured) {
-    const std::uint32_t face = captured.options.face, layers = 6 * inputs.scene.mirror_count(),
-                        top = top_level(face);
-    const graph::Image distance = *captured.cubes->distance;
-    const graph::Image bounds = graph.image(
-        {inputs.prefix + "pyramid", Format::r32ui, 1u << top, level_edge(face, 1), layers});
-    graph.pass(inputs.prefix + "pyramid")
-        .reads(distance, graph::Use::sampled)
-        .writes(bounds, graph::Use::storage_write)
-        .record([=](graph::Commands& commands) {
-            commands.bind("distance_cubes", distance);
-            commands.bind("bounds", bounds);
-            for (std::uint32_t level = 1; level <= top; ++level) {
-                if (level > 1) commands.barrier();
-                commands.use(gpu::ComputeState{"reflect/pyramid.comp",
-                                               {{"from_cells", level > 1 ? 1u : 0u}}});
-                commands.push(static_cast<std::int32_t>(level));
-                const std::uint32_t groups = (level_edge(face, level) + 7) / 8;
-                commands.dispatch(groups, groups, layers);
-            }
-        });
-    return bounds;
+Look look_through_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
+                          const Settings& settings, const Captured& captured) {
+    Look look{look_into(captured, "reflect/pyramid.frag", settings), {}};
+    look.mirror.images.emplace_back("bounds", add_pyramid(graph, inputs, *captured.captures));
+    return look;
 }
 
 namespace {
-
-Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
-    render::MirrorLook look = view_look(captured, settings, "reflect/pyramid.frag");
-    if (captured.cubes) look.images.emplace_back("bounds", add_pyramid(graph, inputs, captured));
-    return add_view_of(graph, inputs, captured, look);
-}
 
 constexpr std::string_view kCompared[] = {"pyramid"};
 
@@ -64,7 +74,9 @@ constexpr Technique kPyramid{
     .knobs = kKnobs,
     .compared = kCompared,
     .scene_passes = feedback_passes,
-    .add = add};
+    .capture = capture_options,
+    .in_captures = "reflect/parallax.frag",
+    .look = look_through_pyramid};
 const Registered kRow{kPyramid};
 
 } // namespace

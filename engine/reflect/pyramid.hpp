@@ -2,11 +2,10 @@
 
 #include "reflect/captures.hpp"
 
-/// The bounds that `reflect/pyramid.frag` searches in, for other rows that search with it.
+/// The search of `pyramid`, for other rows that begin with it.
 namespace catoptric::reflect {
 
-/// All levels of all faces, one layer a face: a dispatch a level. To be bound as "bounds".
-graph::Image add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                         const Feedback& captured);
+Look look_through_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
+                          const Settings& settings, const Captured& captured);
 
 } // namespace catoptric::reflect

@@ -18,9 +18,11 @@ constexpr Technique kReuse{
     .knobs = kKnobs,
     .compared = kCompared,
     .scene_passes = feedback_passes,
-    .add = [](graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-        const Feedback captured = add_feedback(graph, inputs, settings, kFragment);
-        return add_view_of(graph, inputs, captured, view_look(captured, settings, kFragment));
+    .capture = capture_options,
+    .in_captures = kFragment,
+    .look = [](graph::Graph&, const render::FrameInputs&, const Settings& settings,
+               const Captured& captured) {
+        return Look{look_into(captured, kFragment, settings), {}};
     }};
 const Registered kRow{kReuse};
 

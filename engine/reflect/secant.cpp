@@ -13,14 +13,14 @@ constexpr auto kKnobs = search_knobs(
                     .high = 8,
                     .value = 2}});
 
-Outputs add(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings) {
-    const Feedback captured = add_feedback(graph, inputs, settings, "reflect/parallax.frag");
-    if (settings.integer("steps") == 0 && captured.cubes) // parallax has no other knobs
-        return add_view_of(graph, inputs, captured,
-                           look_into("reflect/parallax.frag", *captured.cubes, captured.options));
-    render::MirrorLook look = view_look(captured, settings, "reflect/secant.frag");
-    look.constants.emplace_back("steps", static_cast<std::uint32_t>(settings.integer("steps")));
-    return add_view_of(graph, inputs, captured, look);
+Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
+          const Captured& captured) {
+    const int steps = settings.integer("steps");
+    if (steps == 0) // parallax has no other knobs
+        return {look_into(captured, "reflect/parallax.frag", Settings({})), {}};
+    Look look{look_into(captured, "reflect/secant.frag", settings), {}};
+    look.mirror.constants.emplace_back("steps", static_cast<std::uint32_t>(steps));
+    return look;
 }
 
 constexpr std::string_view kCompared[] = {"secant:continue=0", "secant"};
@@ -32,7 +32,9 @@ constexpr Technique kSecant{.name = "secant",
                             .knobs = kKnobs,
                             .compared = kCompared,
                             .scene_passes = feedback_passes,
-                            .add = add};
+                            .capture = capture_options,
+                            .in_captures = "reflect/parallax.frag",
+                            .look = look};
 const Registered kRow{kSecant};
 
 } // namespace

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "core/knob.hpp"
-#include "render/passes.hpp"
+#include "reflect/tracer.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,9 +18,22 @@ struct Outputs {
     graph::Image hdr; ///< linear radiance, rgba32f
     std::optional<graph::Image>
         hits; ///< r32ui: mirror of the first hit, second hit << 16 (0: none)
-    std::optional<graph::Buffer> counters; ///< shared::Counters
+    std::vector<graph::Buffer> counters; ///< shared::Counters of each tracing
     std::optional<graph::Image> lookup; ///< rgba32f: where mirrors looked, if the inputs ask for it
-    std::optional<render::Cubes> captures; ///< that the view looks into
+    std::shared_ptr<const render::Captures> captures; ///< that the view looks into; may be none
+};
+
+/// What the mirrors that share a technique and its settings may look into.
+struct Captured {
+    std::shared_ptr<const render::Captures> captures; ///< of all mirrors; none was asked for: null
+    render::Lighting lighting;                        ///< as the settings ask for it
+    std::vector<std::uint32_t> mirrors;               ///< those that share it, from 0
+};
+
+/// How mirrors are drawn in the view.
+struct Look {
+    render::MirrorLook mirror;
+    std::optional<Tracer> tracer; ///< for pixels that the mirror's shader leaves to it
 };
 
 struct Technique {
@@ -31,9 +45,17 @@ struct Technique {
     std::span<const std::string_view> compared = {};
     /// Scene renders a frame as the report counts its R; a cube counts once.
     int (*scene_passes)(int mirrors, int lights, const Settings& settings) = nullptr;
-    /// Declares the passes of one frame.
-    Outputs (*add)(graph::Graph& graph, const render::FrameInputs& inputs,
-                   const Settings& settings) = nullptr;
+    /// What its mirrors' captures hold, one a frame and mirror. In them mirrors look into last
+    /// frame's captures with `in_captures`. Null: it looks into none of these.
+    render::CaptureOptions (*capture)(const render::FrameInputs& inputs,
+                                      const Settings& settings) = nullptr;
+    const char* in_captures = nullptr; ///< path of a fragment shader
+    /// How its mirrors are drawn; declares what passes that takes.
+    Look (*look)(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+                 const Captured& captured) = nullptr;
+    /// The whole picture where all mirrors are its own, without a view that is drawn. Null: drawn.
+    Outputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
+                       const Settings& settings, const render::Lighting& lighting) = nullptr;
 };
 
 /// A namespace-scope Registered puts its technique into the table while the program starts.

@@ -35,6 +35,8 @@ public:
     const std::vector<shared::View>& views() const { return views_; }
     /// Index of the object that is mirror n, n from 0.
     std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
+    /// The number of the mirror that the object is, from 1; 0: it is none.
+    std::uint32_t mirror_of(std::size_t object) const { return surfaces_[object].mirror; }
     /// Whether the object is a closed mirror with the camera inside, where no light from outside
     /// arrives.
     bool hides_all_from_camera(std::size_t object) const { return hides_all_[object]; }
@@ -46,6 +48,8 @@ public:
     void forget_face_needs() { face_needs_.clear(); }
     /// One edge for all: the largest need, as far as the device allows.
     std::uint32_t common_face() const;
+    /// Cubes that the device keeps in one array.
+    std::uint32_t most_cubes() const { return device_.limits().maxImageArrayLayers / 6; }
     /// Push constants that draw an object into the views from `first_view` on.
     shared::Draw draw_of(std::size_t object, std::uint32_t first_view) const;
     /// What follows them where the object has a space of its own.

@@ -12,9 +12,7 @@ layout(set = 0, binding = 2, scalar) readonly buffer Surfaces { Surface surfaces
 layout(set = 0, binding = 3, scalar) uniform Lights { Light lights[kMaxLights]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Probes { Probe probes[]; };
 layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
-layout(set = 0, binding = 6) uniform samplerCubeArray colour_cubes;
-layout(set = 0, binding = 7) uniform samplerCubeArray distance_cubes;
-layout(set = 0, binding = 8) uniform samplerCubeArray distance_cubes_nearest;
+// 6, 7, 8, 17, 18, 19: captures, see lib/captures.glsl
 #define BVH_NODES_BINDING 9
 #define BVH_TRIANGLES_BINDING 10
 #define NORMALS_BINDING 11
@@ -23,7 +21,6 @@ layout(set = 0, binding = 8) uniform samplerCubeArray distance_cubes_nearest;
 #define COUNTERS_BINDING 14
 #define HDR_BINDING 15
 #define FIRST_LAYER_BINDING 16
-layout(set = 0, binding = 17) uniform samplerCubeArray surface_cubes; // number and normal, see lib/surface.glsl
 
 const uint kShadowNone = 0u, kShadowMap = 1u, kShadowRay = 2u;
 

@@ -20,6 +20,11 @@ layout(constant_id = ASKS_OTHERS_CONSTANT) const uint asks_others = 0u;
 const uint kShowColour = 0u, kShowState = 1u, kShowResidual = 2u;
 layout(constant_id = SHOW_CONSTANT) const uint show = kShowColour;
 
+// The number of the tracing that takes over where the search ends unknown; 0: none does.
+layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
+// 1: it takes over everywhere, no answer is believed.
+layout(constant_id = TRUSTS_NONE_CONSTANT) const uint trusts_none = 0u;
+
 // The reflected ray that is looked up: it leaves mirror `mirror` (from 0) at `at`.
 struct Path {
     uint mirror;
@@ -31,7 +36,10 @@ struct Path {
 };
 
 bool is_mirror(vec4 surface) { return surface.x > 0.0; }
-vec4 captured_surface(uint mirror, vec3 direction) { return textureLod(surface_cubes, vec4(direction, mirror), 0); }
+vec4 captured_surface(uint mirror, vec3 direction) {
+#define SURFACE(i) textureLod(SURFACE_CUBES(i), vec4(direction, cube_of(mirror)), 0)
+    RETURN_OF_ARRAY(mirror, SURFACE)
+}
 
 // The nearest other mirror along the ray, if it is an exact sphere.
 bool next_mirror(Path path, out uint next, out float t) {
@@ -49,6 +57,9 @@ bool next_mirror(Path path, out uint next, out float t) {
     return found;
 }
 
+// A mirror without a capture is black where others show it.
+vec3 reflectance_of(uint mirror) { return is_captured(mirror) ? probes[mirror].reflectance : vec3(0); }
+
 // On from the exact sphere that the ray meets next, if there is one in sight.
 bool follow_sphere(inout Path path) {
     uint next;
@@ -61,7 +72,7 @@ bool follow_sphere(inout Path path) {
     if (captured_distance(path.mirror, normalize(seen)) + probes[next].radius < length(seen)) return false;
     vec3 n = (met - probes[next].sphere) / probes[next].radius;
     path = Path(next, met, mirror_direction(path.direction, n, n), probes[next].centre,
-                path.weight * probes[next].reflectance, path.hops + 1u);
+                path.weight * reflectance_of(next), path.hops + 1u);
     return true;
 }
 
@@ -76,7 +87,7 @@ bool follow_captured(inout Path path, Lookup lookup) {
     float t = dot(seen - path.at, n) / dot(path.direction, n);
     if (!(is_finite(t) && t > 0.0)) return false;
     path = Path(next, path.at + path.direction * t, mirror_direction(path.direction, n, n), probes[next].centre,
-                path.weight * probes[next].reflectance, path.hops + 1u);
+                path.weight * reflectance_of(next), path.hops + 1u);
     return true;
 }
 
@@ -110,7 +121,7 @@ bool may_meet_mirror_before(uint mirror, Path path, Lookup lookup) {
 void ask_others(inout Path path, inout Lookup lookup) {
     float distance = looked_at();
     for (uint i = 0u; i < frame.value.mirror_count; ++i) {
-        if (i == path.mirror) continue;
+        if (i == path.mirror || !is_captured(i)) continue;
         Lookup other = search(i, path.at - probes[i].centre, path.direction);
         if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction)) || may_meet_mirror_before(i, path, other))
             continue;
@@ -167,6 +178,7 @@ void main() {
     vec3 colour = path.weight * lookup_colour(path.mirror, lookup);
 #endif
     write_surface(shown(colour, lookup));
+    if (tracer != 0u && (trusts_none != 0u || lookup.state == kUnknown)) out_distance = float(tracer);
     if (keeps_surface == 0u)
         out_more = vec4(lookup.direction, float(1u + lookup.state) + 4.0 * lookup.layer + 8.0 * float(path.mirror) +
                                               clamp(lookup.residual, 0.0, 0.996)); // below one at 8 bits of mirror

@@ -2,11 +2,7 @@
 #ifndef CATOPTRIC_PROBE_GLSL
 #define CATOPTRIC_PROBE_GLSL
 
-#include "lib/bindings.glsl"
-#include "lib/constants.glsl"
-
-// Scene units of a stored 1: 1 for float formats, the range for unorm8.
-layout(constant_id = STORED_UNIT_CONSTANT) const float stored_unit = 1.0;
+#include "lib/captures.glsl"
 
 // A hit: the search ended on a captured surface. Unknown: the ray went behind something that hides
 // the rest of it from the capture's centre. A miss: the ray leaves without meeting anything captured.
@@ -27,15 +23,45 @@ const float kLeaves = 1.0;
 // 1: colours are mixed only from texels of one object.
 layout(constant_id = BY_OBJECT_CONSTANT) const uint by_object = 0u;
 
-vec3 bilinear_colour(uint mirror, vec3 direction) { return textureLod(colour_cubes, vec4(direction, mirror), 0).rgb; }
+vec3 bilinear_colour(uint mirror, vec3 direction) {
+#define COLOUR(i) textureLod(COLOUR_CUBES(i), vec4(direction, cube_of(mirror)), 0).rgb
+    RETURN_OF_ARRAY(mirror, COLOUR)
+}
+
+// Each of the four texels around a direction: which object it shows, and red, green or blue.
+vec4 object_numbers(uint mirror, vec3 direction) {
+#define NUMBERS(i) textureGather(SURFACE_CUBES(i), vec4(direction, cube_of(mirror)), 0)
+    RETURN_OF_ARRAY(mirror, NUMBERS)
+}
+vec4 four_reds(uint mirror, vec3 direction) {
+#define REDS(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_of(mirror)), 0)
+    RETURN_OF_ARRAY(mirror, REDS)
+}
+vec4 four_greens(uint mirror, vec3 direction) {
+#define GREENS(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_of(mirror)), 1)
+    RETURN_OF_ARRAY(mirror, GREENS)
+}
+vec4 four_blues(uint mirror, vec3 direction) {
+#define BLUES(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_of(mirror)), 2)
+    RETURN_OF_ARRAY(mirror, BLUES)
+}
+
+// Texels along an edge of the mirror's capture.
+int surface_edge(uint mirror) {
+#define SURFACE_EDGE(i) textureSize(SURFACE_CUBES(i), 0).x
+    RETURN_OF_ARRAY(mirror, SURFACE_EDGE)
+}
+int distance_edge(uint mirror) {
+#define DISTANCE_EDGE(i) textureSize(DISTANCE_CUBES(i), 0).x
+    RETURN_OF_ARRAY(mirror, DISTANCE_EDGE)
+}
 
 // Of the objects in the four texels around a direction the one with the greatest weight, from its texels only.
 vec3 colour_of_object(uint mirror, vec3 direction) {
-    vec4 at = vec4(direction, mirror);
-    vec4 numbers = textureGather(surface_cubes, at, 0);
+    vec4 numbers = object_numbers(mirror, direction);
     if (all(equal(numbers, numbers.xxxx))) return bilinear_colour(mirror, direction);
     vec3 place = cube_coordinates(cube_face(direction), direction);
-    vec2 share = fract((place.xy / place.z * 0.5 + 0.5) * float(textureSize(surface_cubes, 0).x) - 0.5);
+    vec2 share = fract((place.xy / place.z * 0.5 + 0.5) * float(surface_edge(mirror)) - 0.5);
     vec4 weights = vec4(1.0 - share.x, share.x, share.x, 1.0 - share.x) * vec4(share.yy, 1.0 - share.yy);
     vec4 best = vec4(0);
     for (int i = 0; i < 4; ++i) {
@@ -43,8 +69,8 @@ vec3 colour_of_object(uint mirror, vec3 direction) {
         if (dot(of_object, vec4(1)) > dot(best, vec4(1))) best = of_object;
     }
     best /= dot(best, vec4(1));
-    return vec3(dot(best, textureGather(colour_cubes, at, 0)), dot(best, textureGather(colour_cubes, at, 1)),
-                dot(best, textureGather(colour_cubes, at, 2)));
+    return vec3(dot(best, four_reds(mirror, direction)), dot(best, four_greens(mirror, direction)),
+                dot(best, four_blues(mirror, direction)));
 }
 
 vec3 captured_colour(uint mirror, vec3 direction) {
@@ -65,15 +91,25 @@ float exact_distance(uint mirror, vec3 direction);
 // 0: only for measuring what the test costs and what it is worth (docs/robustness.md).
 layout(constant_id = TESTS_VOID_CONSTANT) const uint tests_void = 1u;
 
+// As stored, bilinear, and of the nearest texel.
+float stored_distance(uint mirror, vec3 direction) {
+#define STORED(i) textureLod(DISTANCE_CUBES(i), vec4(direction, cube_of(mirror)), 0).r
+    RETURN_OF_ARRAY(mirror, STORED)
+}
+float nearest_stored_distance(uint mirror, vec3 direction) {
+#define NEAREST_STORED(i) textureLod(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_of(mirror)), 0).r
+    RETURN_OF_ARRAY(mirror, NEAREST_STORED)
+}
+
 // Distance from the capture's centre, bilinear. Where one of the four texels holds nothing
 // (+infinity), the sum is not finite and the nearest texel decides.
 float captured_distance(uint mirror, vec3 direction) {
 #ifdef MEND
     if (mends(kMendDistance)) return exact_distance(mirror, direction);
 #endif
-    float d = textureLod(distance_cubes, vec4(direction, mirror), 0).r;
-    if (tests_void != 0u && is_miss(d)) d = textureLod(distance_cubes_nearest, vec4(direction, mirror), 0).r;
-    return d * stored_unit;
+    float d = stored_distance(mirror, direction);
+    if (tests_void != 0u && is_miss(d)) d = nearest_stored_distance(mirror, direction);
+    return d * stored_unit_of(mirror);
 }
 
 #endif

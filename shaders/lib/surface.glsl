@@ -11,7 +11,9 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 from_eye; // position - eye
 
 layout(location = 0) out vec4 out_colour;
-layout(location = 1) out float out_distance; // only captures that hold distances keep it
+// Captures that hold distances keep them. A view that leaves pixels to tracing keeps which tracer takes each, from 1;
+// there distance_scale is 0.
+layout(location = 1) out float out_distance;
 // Views keep where a mirror looked: direction; 1 + state + 4 layer + 8 mirror + residual, as a number; else 0.
 // Some captures keep the surface: mirror n as n, from 1, any other object as a negative number; its normal.
 layout(location = 2) out vec4 out_more;

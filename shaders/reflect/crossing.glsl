@@ -34,7 +34,7 @@ const float kOnSurface = 1.0 / 512.0;
 // A hit where a surface is crossed. Unknown at a silhouette: what is seen a texel beside it, or that the ray
 // leaves where nothing is.
 Lookup crossing(uint mirror, Arc arc, Sample front, Sample behind) {
-    float texel = texel_angle();
+    float texel = texel_angle(mirror);
     for (uint i = 0u; i < kMaxRefinements &&
                       sine_between(front.place, behind.place) > (front.captured > 0.0 ? 0.5 : kEdge) * texel; ++i) {
         bool halves = (i & 1u) == 1u;
@@ -58,7 +58,7 @@ Lookup crossing(uint mirror, Arc arc, Sample front, Sample behind) {
 // meets the surface between them, in `front`, which goes on there as it did.
 bool meets_at_edge(uint mirror, Arc arc, inout Sample front, inout Sample next) {
     Sample earlier = front;
-    for (uint i = 0u; i < kMaxRefinements && sine_between(front.place, next.place) > kEdge * texel_angle(); ++i) {
+    for (uint i = 0u; i < kMaxRefinements && sine_between(front.place, next.place) > kEdge * texel_angle(mirror); ++i) {
         Sample middle = sample_at(mirror, arc, normalize(front.place + next.place));
         if (middle.captured == 0.0) next = middle;
         else if (is_behind(middle)) {

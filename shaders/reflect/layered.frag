@@ -13,10 +13,10 @@
 #include "reflect/arc.glsl"
 
 layout(constant_id = OWN_CONSTANTS) const uint steps = 16u;
-layout(set = 0, binding = 20) uniform sampler2DArray distance1;
-layout(set = 0, binding = 21) uniform sampler2DArray distance2;
-layout(set = 0, binding = 22) uniform sampler2DArray colour1;
-layout(set = 0, binding = 23) uniform sampler2DArray colour2;
+layout(set = 0, binding = 20) uniform FACES(distance1);
+layout(set = 0, binding = 21) uniform FACES(distance2);
+layout(set = 0, binding = 22) uniform FACES(colour1);
+layout(set = 0, binding = 23) uniform FACES(colour2);
 
 const uint kLimit = 512u;       // samples in all
 const float kSameSurface = 0.125; // largest relative step from texel to texel within one surface
@@ -27,19 +27,47 @@ struct Sample {
     float ray, first, second;
 };
 
-int edge() { return textureSize(distance1, 0).x; }
+// In scene units, of a texel in each layer.
+float first_distance(uint mirror, ivec3 texel) {
+#define FIRST(i) texelFetch(FACES_OF(distance1, i), texel, 0).r * stored_unit_of(mirror)
+    RETURN_OF_ARRAY(mirror, FIRST)
+}
+float second_distance(uint mirror, ivec3 texel) {
+#define SECOND(i) texelFetch(FACES_OF(distance2, i), texel, 0).r * stored_unit_of(mirror)
+    RETURN_OF_ARRAY(mirror, SECOND)
+}
+// The same of the four texels around a place.
+vec4 first_distances(uint mirror, vec3 at) {
+#define FIRSTS(i) textureGather(FACES_OF(distance1, i), at) * stored_unit_of(mirror)
+    RETURN_OF_ARRAY(mirror, FIRSTS)
+}
+vec4 second_distances(uint mirror, vec3 at) {
+#define SECONDS(i) textureGather(FACES_OF(distance2, i), at) * stored_unit_of(mirror)
+    RETURN_OF_ARRAY(mirror, SECONDS)
+}
+// Sum of their colours in both layers, with weights.
+vec3 weighted_colours(uint mirror, vec3 at, vec4 in_first, vec4 in_second) {
+#define WEIGHTED(i)                                                                                                    \
+    vec3(dot(in_first, textureGather(FACES_OF(colour1, i), at, 0)) +                                                   \
+             dot(in_second, textureGather(FACES_OF(colour2, i), at, 0)),                                               \
+         dot(in_first, textureGather(FACES_OF(colour1, i), at, 1)) +                                                   \
+             dot(in_second, textureGather(FACES_OF(colour2, i), at, 1)),                                               \
+         dot(in_first, textureGather(FACES_OF(colour1, i), at, 2)) +                                                   \
+             dot(in_second, textureGather(FACES_OF(colour2, i), at, 2)))
+    RETURN_OF_ARRAY(mirror, WEIGHTED)
+}
 // Position in texels on the face of a direction, and the layer of that face.
 vec3 texel_of(uint mirror, vec3 direction) {
     int face = cube_face(direction);
     vec3 c = cube_coordinates(face, direction);
-    return vec3((c.xy / c.z * 0.5 + 0.5) * float(edge()), float(6u * mirror) + float(face));
+    return vec3((c.xy / c.z * 0.5 + 0.5) * float(distance_edge(mirror)), float(first_face_of(mirror)) + float(face));
 }
 
 Sample sample_at(uint mirror, Arc arc, vec2 place) {
     ivec3 texel = ivec3(texel_of(mirror, direction_at(arc, place)));
-    texel.xy = min(texel.xy, ivec2(edge() - 1));
-    return Sample(place, ray_at(arc, place), inverse(texelFetch(distance1, texel, 0).r * stored_unit),
-                  inverse(texelFetch(distance2, texel, 0).r * stored_unit));
+    texel.xy = min(texel.xy, ivec2(distance_edge(mirror) - 1));
+    return Sample(place, ray_at(arc, place), inverse(first_distance(mirror, texel)),
+                  inverse(second_distance(mirror, texel)));
 }
 
 uint surfaces_in_front(Sample s) {
@@ -62,17 +90,17 @@ bool are_alike(Sample a, Sample b) {
 }
 
 // Of the two layers in a texel what is nearest to one over a distance.
-float nearest_to(float about, ivec3 texel) {
-    vec2 both = vec2(inverse(texelFetch(distance1, texel, 0).r * stored_unit), inverse(texelFetch(distance2, texel, 0).r * stored_unit));
+float nearest_to(uint mirror, float about, ivec3 texel) {
+    vec2 both = vec2(inverse(first_distance(mirror, texel)), inverse(second_distance(mirror, texel)));
     return abs(both.y - about) < abs(both.x - about) ? both.y : both.x;
 }
 
 // From a texel to its two neighbours on an axis the lesser change of `mean`; none where it turns: an edge.
-float change(float about, float mean, ivec3 texel, ivec3 step, vec3 coordinates, vec3 move) {
+float change(uint mirror, float about, float mean, ivec3 texel, ivec3 step, vec3 coordinates, vec3 move) {
     ivec3 low = texel - step, high = texel + step;
-    bool has_low = all(greaterThanEqual(low.xy, ivec2(0))), has_high = all(lessThan(high.xy, ivec2(edge())));
-    float to_low = has_low ? mean - nearest_to(about, low) * length(coordinates - move) : kLargest;
-    float to_high = has_high ? nearest_to(about, high) * length(coordinates + move) - mean : kLargest;
+    bool has_low = all(greaterThanEqual(low.xy, ivec2(0))), has_high = all(lessThan(high.xy, ivec2(distance_edge(mirror))));
+    float to_low = has_low ? mean - nearest_to(mirror, about, low) * length(coordinates - move) : kLargest;
+    float to_high = has_high ? nearest_to(mirror, about, high) * length(coordinates + move) - mean : kLargest;
     if (has_low && has_high && to_low * to_high <= 0.0) return 0.0;
     float least = abs(to_low) < abs(to_high) ? to_low : to_high;
     return least < kLargest ? least : 0.0;
@@ -83,13 +111,13 @@ float change(float about, float mean, ivec3 texel, ivec3 step, vec3 coordinates,
 vec2 plane_at(uint mirror, Arc arc, vec2 place, float about) {
     int face = cube_face(direction_at(arc, place));
     ivec3 texel = ivec3(texel_of(mirror, direction_at(arc, place)));
-    texel.xy = min(texel.xy, ivec2(edge() - 1));
-    float size = 2.0 / float(edge());
+    texel.xy = min(texel.xy, ivec2(distance_edge(mirror) - 1));
+    float size = 2.0 / float(distance_edge(mirror));
     vec3 centre = vec3((vec2(texel.xy) + 0.5) * size - 1.0, 1.0);
     // On a plane one over the distance, times the length of the coordinates, is linear in them.
     float mean = about * length(centre);
-    vec2 slope = vec2(change(about, mean, texel, ivec3(1, 0, 0), centre, vec3(size, 0, 0)),
-                      change(about, mean, texel, ivec3(0, 1, 0), centre, vec3(0, size, 0))) / size;
+    vec2 slope = vec2(change(mirror, about, mean, texel, ivec3(1, 0, 0), centre, vec3(size, 0, 0)),
+                      change(mirror, about, mean, texel, ivec3(0, 1, 0), centre, vec3(0, size, 0))) / size;
     vec3 plane = vec3(slope, mean - dot(slope, centre.xy));
     return vec2(dot(plane, cube_coordinates(face, arc.from)), dot(plane, cube_coordinates(face, arc.side)));
 }
@@ -103,9 +131,9 @@ Taps taps_at(uint mirror, vec3 direction) {
     vec3 texel = texel_of(mirror, direction);
     vec2 corner = floor(texel.xy - 0.5), share = texel.xy - 0.5 - corner;
     Taps taps;
-    taps.at = vec3((corner + 1.0) / float(edge()), texel.z);
+    taps.at = vec3((corner + 1.0) / float(distance_edge(mirror)), texel.z);
     taps.weights = vec4(1.0 - share.x, share.x, share.x, 1.0 - share.x) * vec4(share.yy, 1.0 - share.yy);
-    taps.first = textureGather(distance1, taps.at) * stored_unit;
+    taps.first = first_distances(mirror, taps.at);
     return taps;
 }
 
@@ -116,8 +144,8 @@ vec4 on_surface(vec4 distances, float distance) {
 bool is_whole(vec4 chosen) { return dot(chosen, vec4(1)) == 4.0; }
 
 // In each texel the layer that holds the surface, if one does: weights of the first, of the second.
-void choose(Taps taps, float distance, out vec4 second, out vec4 in_first, out vec4 in_second) {
-    second = textureGather(distance2, taps.at) * stored_unit;
+void choose(uint mirror, Taps taps, float distance, out vec4 second, out vec4 in_first, out vec4 in_second) {
+    second = second_distances(mirror, taps.at);
     vec4 is_second = vec4(lessThan(abs(second - distance), abs(taps.first - distance)));
     in_first = taps.weights * (1.0 - is_second) * on_surface(taps.first, distance);
     in_second = taps.weights * is_second * on_surface(second, distance);
@@ -133,22 +161,18 @@ vec3 lookup_colour(uint mirror, Lookup lookup) {
     Taps taps = taps_at(mirror, lookup.direction);
     if (is_whole(on_surface(taps.first, found_distance))) return captured_colour(mirror, lookup.direction);
     vec4 second, in_first, in_second;
-    choose(taps, found_distance, second, in_first, in_second);
+    choose(mirror, taps, found_distance, second, in_first, in_second);
     float weight = dot(in_first + in_second, vec4(1));
     if (!(weight > 0.0)) return captured_colour(mirror, lookup.direction);
-    vec3 colour;
-    colour.r = dot(in_first, textureGather(colour1, taps.at, 0)) + dot(in_second, textureGather(colour2, taps.at, 0));
-    colour.g = dot(in_first, textureGather(colour1, taps.at, 1)) + dot(in_second, textureGather(colour2, taps.at, 1));
-    colour.b = dot(in_first, textureGather(colour1, taps.at, 2)) + dot(in_second, textureGather(colour2, taps.at, 2));
-    return colour / weight;
+    return weighted_colours(mirror, taps.at, in_first, in_second) / weight;
 }
 
 // Where the ray meets a plane near `place`.
-Lookup meet(Arc arc, vec2 plane, vec2 place, float layer) {
+Lookup meet(uint mirror, Arc arc, vec2 plane, vec2 place, float layer) {
     vec2 depth = plane - ray_plane(arc), met = normalize(vec2(-depth.y, depth.x));
     if (dot(met, place) < 0.0) met = -met;
     // No further away than texels reach.
-    float reach = 4.0 / float(edge()), apart = sine_between(place, met);
+    float reach = 4.0 / float(distance_edge(mirror)), apart = sine_between(place, met);
     if (!(abs(apart) <= reach)) met = place;
     found_distance = 1.0 / dot(plane, met);
     return Lookup(direction_at(arc, met), kHit, min(abs(dot(depth, met)) * found_distance, 1.0), layer);
@@ -171,12 +195,12 @@ bool is_met(uint mirror, Arc arc, Sample a, Sample b, out Lookup found, out bool
         // It goes on to b and is behind the ray there, or ends on the way after the ray has met it.
         bool is_behind = at_b >= b.ray || (in_first && b.first >= b.ray) || (!in_first && in_second && b.second >= b.ray);
         if (!is_behind) continue;
-        found = meet(arc, plane, a.place, in_first || i == 0u ? 0.0 : 1.0);
+        found = meet(mirror, arc, plane, a.place, in_first || i == 0u ? 0.0 : 1.0);
         return true;
     }
     // What begins at b is met if it is ahead there.
     if (count == 0u && b.first >= b.ray && b.first > 0.0 && dot(first, b.place) < b.ray) {
-        found = meet(arc, first, b.place, 0.0);
+        found = meet(mirror, arc, first, b.place, 0.0);
         return true;
     }
     return false;
@@ -193,7 +217,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     }
     float whole = atan(arc.end.y, arc.end.x);
     vec2 turn = vec2(cos(whole / float(steps)), sin(whole / float(steps)));
-    float half_texel = 1.0 / float(edge()); // in the middle of a face
+    float half_texel = 1.0 / float(distance_edge(mirror)); // in the middle of a face
     uint step = 1u;
     vec2 next = steps == 1u ? arc.end : turn;
     Sample a = sample_at(mirror, arc, vec2(1, 0)), b = sample_at(mirror, arc, next);

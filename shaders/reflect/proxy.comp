@@ -2,26 +2,31 @@
 // a mirror, kAcross x kAcross texels a face. A flat wall across an axis gives its exact place at any texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/bindings.glsl"
-#include "lib/constants.glsl"
+#include "lib/captures.glsl"
 #include "reflect/proxy.glsl"
 
 layout(local_size_x = 256) in;
-layout(set = 0, binding = 20) uniform sampler2DArray distance_faces;
+layout(set = 0, binding = 20) uniform FACES(distance_faces);
 layout(set = 0, binding = 21, scalar) writeonly buffer Proxies { Proxy proxies[]; };
 
-layout(constant_id = STORED_UNIT_CONSTANT) const float stored_unit = 1.0;
-// With unorm8 a stored 1 is the end of the range, whatever lies there.
-layout(constant_id = OWN_CONSTANTS) const uint range_ends = 0u;
 const uint kAcross = 64u;
 
 shared vec3 lows[gl_WorkGroupSize.x];
 shared vec3 highs[gl_WorkGroupSize.x];
 shared vec2 sums[gl_WorkGroupSize.x]; // of solid angle times distance, and of solid angle
 
+int face_edge(uint mirror) {
+#define FACE_EDGE(i) textureSize(FACES_OF(distance_faces, i), 0).x
+    RETURN_OF_ARRAY(mirror, FACE_EDGE)
+}
+float stored_at(uint mirror, ivec3 texel) {
+#define STORED_AT(i) texelFetch(FACES_OF(distance_faces, i), texel, 0).r
+    RETURN_OF_ARRAY(mirror, STORED_AT)
+}
+
 void main() {
     uint me = gl_LocalInvocationIndex, mirror = gl_WorkGroupID.x;
-    uint face = uint(textureSize(distance_faces, 0).x);
+    uint face = uint(face_edge(mirror));
     uint across = min(face, kAcross);
     vec3 low = vec3(kLargest), high = vec3(-kLargest);
     vec2 sum = vec2(0);
@@ -30,15 +35,15 @@ void main() {
         uint side = i / (across * across);
         // The middle texel of the cell; no product overflows below 2^26 texels an edge.
         uvec2 texel = (cell * face + face / 2u) / across;
-        float stored = texelFetch(distance_faces, ivec3(texel, 6u * mirror + side), 0).r;
-        if (is_miss(stored) || (range_ends != 0u && stored >= 1.0)) continue;
+        float stored = stored_at(mirror, ivec3(texel, first_face_of(mirror) + side));
+        if (is_miss(stored) || (range_ends_of(mirror) && stored >= 1.0)) continue;
         vec2 place = (vec2(texel) + 0.5) / float(face) * 2.0 - 1.0;
         vec3 direction = normalize(cube_direction(int(side), vec3(place, 1)));
-        vec3 point = direction * (stored * stored_unit);
+        vec3 point = direction * (stored * stored_unit_of(mirror));
         low = min(low, point);
         high = max(high, point);
         float angle = pow(1.0 + dot(place, place), -1.5);
-        sum += angle * vec2(stored * stored_unit, 1);
+        sum += angle * vec2(stored * stored_unit_of(mirror), 1);
     }
     lows[me] = low, highs[me] = high, sums[me] = sum;
     barrier();

@@ -1,8 +1,7 @@
 // One level of the pyramid, from the captured distances (level 1) or from the level below.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/bindings.glsl"
-#include "lib/constants.glsl"
+#include "lib/captures.glsl"
 #include "reflect/pyramid.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -21,7 +21,7 @@
 #include "reflect/pyramid.glsl"
 #include "reflect/silhouette.glsl"
 
-layout(set = 0, binding = 20) uniform usampler2DArray bounds;
+layout(set = 0, binding = 20) uniform WHOLE_FACES(bounds);
 
 // A driver that stops an invocation's loops does it after 65,535 turns.
 const int kMaxVisits = 4096;
@@ -119,11 +119,17 @@ void advance(inout Walk walk, Arc arc, vec2 leave, int face) {
     walk.texel[other] = beside;
 }
 
+uint packed_bounds(uint mirror, ivec3 place) {
+#define PACKED(i) texelFetch(WHOLE_FACES_OF(bounds, i), place, 0).r
+    RETURN_OF_ARRAY(mirror, PACKED)
+}
+
 // Least and largest captured distance in the cell; infinite as in the pyramid.
 vec2 cell_bounds(Walk walk, uint mirror, int face) {
     ivec2 cell = walk.texel >> walk.level;
-    uint both = texelFetch(bounds, ivec3(level_column(face, walk.level) + cell.x, cell.y, int(6u * mirror) + walk.line.face), 0).r;
-    return unpackHalf2x16(both) * stored_unit;
+    uint both = packed_bounds(mirror, ivec3(level_column(face, walk.level) + cell.x, cell.y,
+                                            int(first_face_of(mirror)) + walk.line.face));
+    return unpackHalf2x16(both) * stored_unit_of(mirror);
 }
 
 // Whether the ray cannot change sides in the cell, which it leaves at s = end.
@@ -185,7 +191,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     // Straight away from the centre, or through it.
     if (!(length(arc.bend) > kOneDirection && length(direction + arc.from) > kOneDirection))
         return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kMiss : kHit, 0.0, 0.0);
-    int face = textureSize(distance_cubes, 0).x;
+    int face = distance_edge(mirror);
     Line line = line_on(cube_face(arc.from), arc);
     Walk walk = Walk(line, texel_at(line, 0.0, face), max(top_level(face) - kBelowTop, 1), 0.0);
     bool in_sight = depth_at(arc, 0.0, captured_distance(mirror, arc.from)) < 0.0;

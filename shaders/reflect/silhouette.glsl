@@ -10,7 +10,7 @@ const float kSteepest = 4.0;
 // ... unless the step from texel to texel is that small a part of the distance: one of unorm8 is.
 const float kSmallStep = 1.0 / 128.0;
 
-float texel_angle() { return 2.0 / float(textureSize(distance_cubes, 0).x); } // in the middle of a face
+float texel_angle(uint mirror) { return 2.0 / float(distance_edge(mirror)); } // in the middle of a face
 float inverse(float distance) { return is_miss(distance) ? 0.0 : 1.0 / distance; } // 0: nothing
 
 // One surface goes on; or it ends and one further away begins, either of which the ray may meet, but nothing
@@ -22,10 +22,10 @@ const uint kGoesOn = 0u, kEnds = 1u, kSilhouette = 2u;
 uint what_is_between(uint mirror, vec3 front, vec3 behind, float captured_front, float captured_behind) {
     if (captured_front == 0.0) return kSilhouette;
     float rise = captured_behind - captured_front, angle = length(behind - front);
-    if (abs(rise) <= max(kSteepest, kSmallStep / texel_angle()) * angle * captured_front) return kGoesOn;
+    if (abs(rise) <= max(kSteepest, kSmallStep / texel_angle(mirror)) * angle * captured_front) return kGoesOn;
     // A plane seen at a grazing angle goes on as steeply on one side at least, beyond the texel that a
     // bilinear lookup mixes in.
-    float apart = 1.25 * texel_angle();
+    float apart = 1.25 * texel_angle(mirror);
     vec3 move = (behind - front) * (apart / angle);
     float before = inverse(captured_distance(mirror, normalize(front - move))) -
                    inverse(captured_distance(mirror, normalize(front - 2.0 * move)));

@@ -2,6 +2,7 @@
 #define LOOKUP_BINDING 24
 #define LIST_BINDING 25
 #define ARGUMENTS_BINDING 26
+#define MARKS_BINDING 27
 
 const uint kListGroup = 64u;     // pixels of one work group
 const uint kListGroups = 32768u; // work groups across, before a further row begins: every device allows 65535

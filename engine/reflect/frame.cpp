@@ -1,0 +1,168 @@
+#include "reflect/frame.hpp"
+
+#include "reflect/captures.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace catoptric::reflect {
+
+namespace {
+
+std::optional<std::uint32_t> map_edge(const Settings& settings) {
+    if (settings.choice("shadow") != "map") return std::nullopt;
+    return static_cast<std::uint32_t>(settings.integer("shadow_map"));
+}
+
+/// A shadow map for each edge that is asked for, made once.
+class Maps {
+public:
+    Maps(graph::Graph& graph, const render::FrameInputs& inputs) : graph_(graph), inputs_(inputs) {}
+
+    render::Lighting of(std::optional<std::uint32_t> edge) {
+        if (!edge) return {};
+        const auto found = made_.find(*edge);
+        if (found != made_.end()) return found->second;
+        const std::string suffix = made_.empty() ? "" : "." + std::to_string(*edge);
+        return made_[*edge] = {render::add_shadow(graph_, inputs_, *edge, suffix)};
+    }
+
+private:
+    graph::Graph& graph_;
+    const render::FrameInputs& inputs_;
+    std::map<std::uint32_t, render::Lighting> made_;
+};
+
+/// Of the view. Rays know shadows that a drawn view has only by a map.
+std::optional<std::uint32_t> view_map_edge(const std::vector<Choice>& choices) {
+    std::optional<std::uint32_t> finest;
+    if (choices.size() == 1) return map_edge(choices.front().settings);
+    for (const auto& [technique, settings, label] : choices)
+        if (settings.choice("shadow") != "none")
+            finest = std::max(finest.value_or(1),
+                              static_cast<std::uint32_t>(settings.integer("shadow_map")));
+    return finest;
+}
+
+/// What every mirror's capture holds: as its technique has it, and what searches that go on in
+/// other captures than their own want of all.
+std::vector<render::CaptureOptions> options_of_mirrors(const render::FrameInputs& inputs,
+                                                       const Assignment& assignment, Maps& maps,
+                                                       const render::Lighting& view_lighting) {
+    std::vector<render::CaptureOptions> of_choice;
+    render::CaptureOptions shared;
+    for (const auto& [technique, settings, label] : assignment.choices) {
+        render::CaptureOptions options{.face = 0, .lighting = view_lighting};
+        if (technique->capture) {
+            options = technique->capture(inputs, settings);
+            options.lighting = maps.of(map_edge(settings));
+            if (visits_others(settings)) {
+                shared.surfaces = shared.surfaces || options.surfaces;
+                shared.second_layer = shared.second_layer || options.second_layer;
+                shared.distance = Format::r32f;
+            }
+        } else if (!settings.is_special("capture")) {
+            options.face = static_cast<std::uint32_t>(settings.integer("capture"));
+            options.distance = Format::r32f; // mirrors look into it with one step's correction
+        }
+        of_choice.push_back(options);
+    }
+    std::vector<render::CaptureOptions> of_mirror;
+    for (const std::uint32_t choice : assignment.of_mirror) {
+        render::CaptureOptions options = of_choice[choice];
+        if (!options.distance) options.distance = shared.distance;
+        options.surfaces = options.surfaces || shared.surfaces;
+        options.second_layer = options.second_layer || shared.second_layer;
+        of_mirror.push_back(options);
+    }
+    return of_mirror;
+}
+
+/// How captures show the other mirrors: by last frame's captures of these.
+render::Looks looks_in_captures(const render::Captures& last, bool has_history,
+                                const Assignment& assignment) {
+    const auto shared = std::make_shared<const render::Captures>(last);
+    render::Looks looks;
+    for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
+        const Technique& technique = *assignment.choices[assignment.of_mirror[i]].technique;
+        render::MirrorLook look; // black
+        if (last.places[i].exists()) {
+            look.fragment = technique.capture ? technique.in_captures : "reflect/parallax.frag";
+            look.captures = shared;
+            look.blank = !has_history;
+        }
+        const auto found = std::ranges::find(looks.looks, look.fragment,
+                                             &render::MirrorLook::fragment);
+        looks.of_mirror.push_back(static_cast<std::uint32_t>(found - looks.looks.begin()));
+        if (found == looks.looks.end()) looks.looks.push_back(std::move(look));
+    }
+    return looks;
+}
+
+/// The captures of part two of the report and its followers, fed by those of the frame before.
+/// Nothing where no technique looks into any.
+std::shared_ptr<const render::Captures> add_feedback(graph::Graph& graph,
+                                                     const render::FrameInputs& inputs,
+                                                     const Assignment& assignment, Maps& maps,
+                                                     const render::Lighting& view_lighting) {
+    const auto captures_any = [](const Choice& choice) {
+        return choice.technique->capture != nullptr;
+    };
+    if (assignment.of_mirror.empty() || std::ranges::none_of(assignment.choices, captures_any))
+        return nullptr;
+    auto captures = std::make_shared<const render::Captures>(render::declare_captures(
+        graph, inputs, "capture", options_of_mirrors(inputs, assignment, maps, view_lighting)));
+    const render::Captures last = render::previous(graph, *captures);
+    const bool has_history = graph.has_history(captures->arrays.front().colour);
+    render::add_captures(graph, inputs, *captures,
+                         looks_in_captures(last, has_history, assignment));
+    return captures;
+}
+
+std::vector<std::uint32_t> mirrors_of(std::size_t choice, const Assignment& assignment) {
+    std::vector<std::uint32_t> mirrors;
+    for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i)
+        if (assignment.of_mirror[i] == choice) mirrors.push_back(i);
+    return mirrors;
+}
+
+} // namespace
+
+Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
+                  const Assignment& assignment) {
+    const std::vector<Choice>& choices = assignment.choices;
+    const bool is_mixed = choices.size() > 1;
+    Maps maps(graph, inputs);
+    const render::Lighting lighting = maps.of(view_map_edge(choices));
+    if (!is_mixed && choices.front().technique->picture)
+        return choices.front().technique->picture(graph, inputs, choices.front().settings,
+                                                  lighting);
+    Outputs outputs;
+    outputs.captures = add_feedback(graph, inputs, assignment, maps, lighting);
+    render::Looks looks{{}, assignment.of_mirror};
+    std::vector<Tracer> tracers;
+    for (std::size_t i = 0; i < choices.size() && !assignment.of_mirror.empty(); ++i) {
+        render::FrameInputs own = inputs;
+        if (is_mixed) own.prefix += choices[i].file_name() + "/";
+        const Settings& settings = choices[i].settings;
+        Look look = choices[i].technique->look(
+            graph, own, settings,
+            {outputs.captures, maps.of(map_edge(settings)), mirrors_of(i, assignment)});
+        if (look.tracer) {
+            tracers.push_back(*look.tracer);
+            look.mirror.constants.emplace_back("tracer",
+                                               static_cast<std::uint32_t>(tracers.size()));
+        }
+        if (!outputs.captures) outputs.captures = look.mirror.captures;
+        looks.looks.push_back(std::move(look.mirror));
+    }
+    const render::View view = render::add_view(graph, inputs, lighting, std::move(looks),
+                                               !tracers.empty());
+    outputs.hdr = view.hdr;
+    if (inputs.with_lookup) outputs.lookup = view.lookup;
+    for (std::uint32_t i = 0; i < tracers.size(); ++i)
+        outputs.counters.push_back(add_listed(graph, inputs, tracers[i], i + 1, view));
+    return outputs;
+}
+
+} // namespace catoptric::reflect

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "reflect/plan.hpp"
+
+namespace catoptric::reflect {
+
+/// Declares the passes of one frame: the union of what the mirrors' techniques need. Where all
+/// mirrors share one, the passes are that technique's; where they do not, the view is drawn, lit by
+/// the finest shadow map that one of them asks for, and if one looks into captures that show last
+/// frame's, every mirror has one, so that the others can show it.
+Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
+                  const Assignment& assignment);
+
+} // namespace catoptric::reflect

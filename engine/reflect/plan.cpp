@@ -1,0 +1,141 @@
+#include "reflect/plan.hpp"
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <optional>
+
+#include <fnmatch.h>
+
+namespace catoptric::reflect {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\n";
+constexpr std::size_t kLongestFileName = 80;
+
+std::vector<std::string> split(std::string_view text, std::string_view separators) {
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+        parts.emplace_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+/// How closely a pattern's item says which mirror is meant.
+enum Rank { kNumber, kName, kRest, kNone };
+
+/// The item as a number, if it is one.
+std::optional<std::size_t> number_of(const std::string& item) {
+    std::size_t number = 0;
+    const char* end = item.data() + item.size();
+    const auto [stop, error] = std::from_chars(item.data(), end, number);
+    return error == std::errc{} && stop == end ? std::optional(number) : std::nullopt;
+}
+
+/// How the item means mirror `index`, from 0.
+Rank rank_of(const std::string& item, std::size_t index, const std::string& name) {
+    if (item == "*") return kRest;
+    if (const auto number = number_of(item)) return *number == index + 1 ? kNumber : kNone;
+    return fnmatch(item.c_str(), name.c_str(), 0) == 0 ? kName : kNone;
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+    constexpr std::size_t kMostListed = 20;
+    std::string list = std::to_string(names.size()) + (names.size() == 1 ? " mirror" : " mirrors");
+    for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
+        list += (i ? ", " : ": ") + std::to_string(i + 1) + " " + in_quotes(names[i]);
+    return list + (names.size() > kMostListed ? ", ..." : "");
+}
+
+Rule parse_rule(const std::string& text, std::string_view plan) {
+    const auto equals = text.find('=');
+    check(equals != std::string::npos && equals > 0 && text.find(':') > equals, Failure::usage,
+          "plan '", plan, "': wanted PATTERN=TECHNIQUE, found '", text, "'");
+    Rule rule{text.substr(0, equals), parse_choice(std::string_view(text).substr(equals + 1))};
+    for (const std::string& item : split(rule.pattern, ","))
+        check(!item.empty(), Failure::usage, "plan '", plan, "': pattern '", rule.pattern,
+              "' has an empty entry");
+    return rule;
+}
+
+/// One choice for rules that say the same.
+std::uint32_t index_of(const Choice& choice, std::vector<Choice>& choices) {
+    const auto found = std::ranges::find_if(
+        choices, [&](const Choice& known) { return known.same_as(choice); });
+    if (found != choices.end()) return static_cast<std::uint32_t>(found - choices.begin());
+    choices.push_back(choice);
+    return static_cast<std::uint32_t>(choices.size() - 1);
+}
+
+} // namespace
+
+std::string Plan::file_name() const {
+    if (is_technique) return rules.front().choice.file_name();
+    std::string name = label.starts_with("plan:") ? label : "plan-" + label;
+    std::erase(name, '=');
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_' && c != '-'; },
+        '-');
+    if (name.size() <= kLongestFileName) return name;
+    const std::size_t mark = std::hash<std::string>{}(label); // tells long names apart
+    return name.substr(0, kLongestFileName - 7) + "-" + std::to_string(mark % 1000000);
+}
+
+bool Plan::same_as(const Plan& other) const {
+    return std::ranges::equal(rules, other.rules, [](const Rule& a, const Rule& b) {
+        return a.pattern == b.pattern && a.choice.same_as(b.choice);
+    });
+}
+
+Plan parse_plan(std::string_view text) {
+    const std::string_view head = text.substr(0, text.find(':'));
+    if (head.find('=') == std::string_view::npos)
+        return {std::string(text), {{"*", parse_choice(text)}}, true};
+    Plan plan{std::string(text), {}};
+    for (const std::string& rule : split(text, kBlanks))
+        if (!rule.empty()) plan.rules.push_back(parse_rule(rule, text));
+    return plan;
+}
+
+Assignment assign(const Plan& plan, const std::vector<std::string>& names) {
+    Assignment assignment;
+    if (plan.is_technique) {
+        assignment.choices = {plan.rules.front().choice};
+        assignment.of_mirror.assign(names.size(), 0);
+        assignment.patterns.assign(names.size(), "");
+        return assignment;
+    }
+    struct Best {
+        Rank rank = kNone;
+        const Rule* rule = nullptr;
+    };
+    std::vector<Best> best(names.size());
+    for (const Rule& rule : plan.rules) {
+        for (const std::string& item : split(rule.pattern, ",")) {
+            bool matches = false;
+            for (std::size_t i = 0; i < names.size(); ++i) {
+                const Rank rank = rank_of(item, i, names[i]);
+                matches = matches || rank != kNone;
+                if (rank < best[i].rank) best[i] = {rank, &rule};
+            }
+            check(matches, Failure::usage, "plan '", plan.label, "': pattern '", item,
+                  "' matches no mirror; the scene has ", list_of(names), did_you_mean(item, names));
+        }
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        check(best[i].rule != nullptr, Failure::usage, "plan '", plan.label,
+              "': no rule for mirror ", i + 1, " ", in_quotes(names[i]),
+              "; '*=TECHNIQUE' takes the rest");
+        assignment.of_mirror.push_back(index_of(best[i].rule->choice, assignment.choices));
+        assignment.patterns.push_back(best[i].rule->pattern);
+    }
+    return assignment;
+}
+
+} // namespace catoptric::reflect

@@ -1,0 +1,167 @@
+// Whitted ray tracing in a compute shader over a hierarchy that needs no ray-tracing extension. One
+// dispatch a sample, added up in the picture: a software driver ends all loops of an invocation
+// after 65,535 iterations, and one sample of a deep path must stay below that.
+#include "reflect/tracer.hpp"
+
+#include <cmath>
+#include <random>
+
+namespace catoptric::reflect {
+
+namespace {
+
+using graph::Use;
+
+/// World units: what the report moves a ray's origin by.
+constexpr double kReportOffset = 1e-3;
+/// Work groups in one row of a dispatch: every device allows 65535.
+constexpr std::uint32_t kMostAcross = 32768;
+
+/// Where sample i of n lies in the pixel: its centre, the regular grid, or one point in each of n
+/// cells of the smallest grid that holds them, jittered.
+std::vector<vec2> sample_offsets(int count, std::uint64_t seed) {
+    const int edge = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
+    const bool regular = edge * edge == count;
+    std::mt19937_64 random(seed);
+    std::vector<vec2> offsets;
+    for (int i = 0; i < count; ++i) {
+        const auto jitter = [&] {
+            return regular ? 0.5f : static_cast<float>(random() >> 40) * 0x1p-24f;
+        };
+        const float y = static_cast<float>(i / edge) + jitter(),
+                    x = static_cast<float>(i % edge) + jitter();
+        offsets.push_back(vec2(x, y) / static_cast<float>(edge));
+    }
+    return offsets;
+}
+
+gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, bool listed) {
+    std::string build;
+    for (const auto& [wanted, name] : {std::pair{listed, "listed"},
+                                       {tracer.shadow == Tracer::Shadow::map, "shadow_map"},
+                                       {tracer.doubles, "doubles"}})
+        if (wanted) build += (build.empty() ? "#" : "_") + std::string(name);
+    return {"raytrace.comp" + build,
+            {{"max_depth", tracer.depth},
+             {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
+             {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
+             {"own_spaces", scene.has_own_spaces() ? 1u : 0u},
+             {"without", tracer.without},
+             {"fixed_offset", scene.space().length(kReportOffset)}}};
+}
+
+/// What the body of a tracing pass binds.
+void bind(graph::Commands& commands, const render::GpuScene& scene, const Tracer& tracer) {
+    scene.bind(commands);
+    scene.bind_tracing(commands);
+    if (tracer.shadow == Tracer::Shadow::map)
+        commands.bind("shadow_map", *tracer.lighting.shadow_map, graph::Filter::compare);
+}
+
+/// One dispatch a sample.
+template <typename Dispatch>
+void dispatch_samples(graph::Commands& commands, const Tracer& tracer, uvec2 size,
+                      std::uint64_t seed, Dispatch&& dispatch) {
+    const std::vector<vec2> offsets = sample_offsets(tracer.samples, seed);
+    for (std::uint32_t i = 0; i < offsets.size(); ++i) {
+        if (i > 0) commands.barrier();
+        commands.push(
+            shared::Trace{offsets[i], i, static_cast<std::uint32_t>(offsets.size()), size});
+        dispatch();
+    }
+}
+
+/// Pixels to trace, and how many work groups they are.
+struct List {
+    graph::Buffer pixels, arguments, counters;
+};
+
+List add_list(graph::Graph& graph, const render::FrameInputs& inputs, const std::string& suffix,
+              std::uint32_t number, const render::View& view) {
+    const uvec2 size = inputs.size;
+    const std::string name = inputs.prefix + "list" + suffix;
+    List list;
+    list.pixels = graph.buffer({name, sizeof(std::uint32_t) * size.x * size.y});
+    list.arguments = graph.buffer({name + "/arguments", 3 * sizeof(std::uint32_t)});
+    list.counters = graph.buffer({inputs.prefix + "counters" + suffix, sizeof(shared::Counters)});
+    graph.pass(name + "/reset")
+        .writes(list.counters, Use::copy_to)
+        .writes(list.arguments, Use::copy_to)
+        .record([=](graph::Commands& commands) {
+            commands.fill(list.counters, 0);
+            commands.fill(list.arguments, 0);
+        });
+    graph.pass(name)
+        .reads(*view.lookup, Use::storage_read)
+        .reads(*view.tracers, Use::storage_read)
+        .writes(list.counters, Use::storage)
+        .writes(list.arguments, Use::storage)
+        .writes(list.pixels, Use::storage_write)
+        .record([=](graph::Commands& commands) {
+            commands.bind("lookup", *view.lookup);
+            commands.bind("marks", *view.tracers);
+            commands.bind("counters", list.counters);
+            commands.bind("arguments", list.arguments);
+            commands.bind("List", list.pixels);
+            commands.use(gpu::ComputeState{"trace_list.comp", {{"tracer", number}}});
+            commands.push(size);
+            commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
+        });
+    return list;
+}
+
+} // namespace
+
+Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const Tracer& tracer) {
+    const uvec2 size = inputs.size;
+    const Traced traced{graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y}),
+                        graph.image({inputs.prefix + "hits", Format::r32ui, size.x, size.y}),
+                        graph.buffer({inputs.prefix + "counters", sizeof(shared::Counters)})};
+    graph.pass(inputs.prefix + "raytrace/reset")
+        .writes(traced.counters, Use::copy_to)
+        .record([=](graph::Commands& commands) { commands.fill(traced.counters, 0); });
+    inputs.scene.want_tracing();
+    graph::PassBuilder pass = graph.pass(inputs.prefix + "raytrace");
+    if (tracer.shadow == Tracer::Shadow::map) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
+    pass.writes(traced.hdr, Use::storage_write)
+        .writes(traced.hits, Use::storage_write)
+        .writes(traced.counters, Use::storage)
+        .record([=, &scene = inputs.scene, seed = inputs.seed](graph::Commands& commands) {
+            bind(commands, scene, tracer);
+            commands.bind("picture", traced.hdr);
+            commands.bind("hits", traced.hits);
+            commands.bind("counters", traced.counters);
+            commands.use(state_of(tracer, scene, false));
+            const std::uint32_t groups = (size.x + 7) / 8 * ((size.y + 7) / 8),
+                                rows = (groups + kMostAcross - 1) / kMostAcross;
+            dispatch_samples(commands, tracer, size, seed,
+                             [&] { commands.dispatch((groups + rows - 1) / rows, rows); });
+        });
+    return traced;
+}
+
+graph::Buffer add_listed(graph::Graph& graph, const render::FrameInputs& inputs,
+                         const Tracer& tracer, std::uint32_t number, const render::View& view) {
+    const std::string suffix = number == 1 ? "" : std::to_string(number);
+    const List list = add_list(graph, inputs, suffix, number, view);
+    inputs.scene.want_tracing();
+    graph::PassBuilder pass = graph.pass(inputs.prefix + "trace" + suffix);
+    if (tracer.shadow == Tracer::Shadow::map) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
+    pass.reads(list.arguments, Use::indirect)
+        .reads(list.pixels, Use::storage_read)
+        .writes(list.counters, Use::storage)
+        .writes(view.hdr, Use::storage)
+        .record([=, &scene = inputs.scene, size = inputs.size, seed = inputs.seed,
+                 hdr = view.hdr](graph::Commands& commands) {
+            bind(commands, scene, tracer);
+            commands.bind("picture", hdr);
+            commands.bind("counters", list.counters);
+            commands.bind("List", list.pixels);
+            commands.use(state_of(tracer, scene, true));
+            dispatch_samples(commands, tracer, size, seed,
+                             [&] { commands.dispatch_indirect(list.arguments); });
+        });
+    return list.counters;
+}
+
+} // namespace catoptric::reflect

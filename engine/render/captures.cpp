@@ -1,0 +1,156 @@
+#include "render/captures.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <tuple>
+
+namespace catoptric::render {
+
+namespace {
+
+/// Captures keep the numbers of mirrors as halves, which hold so many exactly.
+constexpr std::size_t kMostCaptured = 2048;
+
+/// What captures of one array have in common, but for the edge.
+using Contents = std::tuple<Format, std::optional<Format>, bool, bool, float>;
+
+Contents format_of(const CaptureOptions& options) {
+    return {options.colour, options.distance, options.second_layer, options.surfaces,
+            options.stored_unit};
+}
+
+/// Mirrors by format and edge.
+using Kinds = std::map<std::pair<Contents, std::uint32_t>, std::vector<std::uint32_t>>;
+
+Kinds kinds_of(const std::vector<CaptureOptions>& options) {
+    Kinds kinds;
+    for (std::uint32_t mirror = 0; mirror < options.size(); ++mirror)
+        if (options[mirror].face > 0)
+            kinds[{format_of(options[mirror]), options[mirror].face}].push_back(mirror);
+    return kinds;
+}
+
+std::size_t arrays_for(const Kinds& kinds, std::size_t most_cubes) {
+    std::size_t arrays = 0;
+    for (const auto& [kind, mirrors] : kinds)
+        arrays += (mirrors.size() + most_cubes - 1) / most_cubes;
+    return arrays;
+}
+
+/// Enlarges the captures of the kind for which that adds the fewest texels to the next larger edge
+/// of their format. False where every format has one edge only.
+bool merge(Kinds& kinds, std::vector<std::string>& notes) {
+    auto cheapest = kinds.end();
+    double least = 0;
+    for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
+        const auto next = std::next(kind);
+        if (next == kinds.end() || next->first.first != kind->first.first) continue;
+        const auto edge = [](const auto& entry) { return double{1} * entry.first.second; };
+        const double more = static_cast<double>(kind->second.size()) *
+                            (edge(*next) * edge(*next) - edge(*kind) * edge(*kind));
+        if (cheapest == kinds.end() || more < least) cheapest = kind, least = more;
+    }
+    if (cheapest == kinds.end()) return false;
+    const auto next = std::next(cheapest);
+    notes.push_back(std::to_string(cheapest->second.size()) + " captures of " +
+                    std::to_string(cheapest->first.second) + " texels an edge are made with " +
+                    std::to_string(next->first.second) + ": a frame has at most " +
+                    std::to_string(shared::kMostArrays) + " arrays of them");
+    next->second.insert(next->second.end(), cheapest->second.begin(), cheapest->second.end());
+    std::ranges::sort(next->second);
+    kinds.erase(cheapest);
+    return true;
+}
+
+/// A piece of a kind that fits into one array.
+Cubes declare_cubes(graph::Graph& graph, const std::string& name, const CaptureOptions& options,
+                    std::size_t cubes) {
+    const auto image = [&](const char* what, Format format) {
+        return graph.image({name + what, format, options.face, options.face,
+                            static_cast<std::uint32_t>(6 * cubes), true});
+    };
+    check(options.distance || !(options.surfaces || options.second_layer), Failure::internal,
+          "captures '", name, "' want surfaces or a second layer, which need the distance");
+    Cubes made;
+    made.face = options.face;
+    made.colour = image("colour", options.colour);
+    if (options.distance) made.distance = image("distance", *options.distance);
+    if (options.surfaces) made.surfaces = image("surfaces", Format::rgba16f);
+    if (options.second_layer) {
+        made.colour2 = image("colour2", options.colour);
+        made.distance2 = image("distance2", *options.distance);
+    }
+    return made;
+}
+
+/// A buffer that a pass of its own fills with where each mirror's capture is.
+graph::Buffer add_table(graph::Graph& graph, const std::string& name, const Captures& captures) {
+    std::vector<shared::CapturePlace> places;
+    for (std::size_t i = 0; i < captures.places.size(); ++i) {
+        const CaptureOptions& options = captures.options[i];
+        places.push_back({captures.places[i].array, captures.places[i].cube, options.stored_unit,
+                          options.distance == Format::r8_unorm ? 1u : 0u});
+    }
+    const graph::Buffer table = graph.buffer(
+        {name + ".table", places.size() * sizeof(shared::CapturePlace)});
+    graph.pass(name + ".table")
+        .writes(table, graph::Use::copy_to)
+        .record([table, places = std::move(places)](graph::Commands& commands) {
+            commands.update(table, std::as_bytes(std::span(places)));
+        });
+    return table;
+}
+
+} // namespace
+
+Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
+                          std::vector<CaptureOptions> options) {
+    Captures captures;
+    captures.name = std::move(name);
+    Kinds kinds = kinds_of(options);
+    const std::size_t most_cubes = inputs.scene.most_cubes();
+    while (arrays_for(kinds, most_cubes) > shared::kMostArrays && merge(kinds, captures.notes)) {
+    }
+    const std::size_t count = arrays_for(kinds, most_cubes);
+    check(count <= shared::kMostArrays && options.size() <= kMostCaptured, Failure::exhausted,
+          "captures of ", options.size(), " mirrors in ", kinds.size(), " sizes and formats want ",
+          count, " arrays of at most ", most_cubes, " cubes; a frame has ", shared::kMostArrays,
+          ", of ", kMostCaptured, " mirrors");
+    captures.places.resize(options.size());
+    for (const auto& [kind, mirrors] : kinds) {
+        for (std::size_t first = 0; first < mirrors.size(); first += most_cubes) {
+            const std::size_t cubes = std::min(most_cubes, mirrors.size() - first);
+            const auto array = static_cast<std::uint32_t>(captures.arrays.size());
+            for (std::uint32_t cube = 0; cube < cubes; ++cube) {
+                const std::uint32_t mirror = mirrors[first + cube];
+                options[mirror].face = kind.second;
+                captures.places[mirror] = {array, cube};
+            }
+            const std::string number = array == 0 ? "" : std::to_string(array + 1);
+            captures.arrays.push_back(
+                declare_cubes(graph, inputs.prefix + captures.name + "/cubes" + number + ".",
+                              options[mirrors[first]], cubes));
+        }
+    }
+    captures.options = std::move(options);
+    std::vector<CapturePlace> in_order;
+    for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror)
+        in_order.push_back({0, mirror});
+    if (captures.places != in_order)
+        captures.table = add_table(graph, inputs.prefix + captures.name, captures);
+    return captures;
+}
+
+Captures previous(graph::Graph& graph, const Captures& captures) {
+    Captures last = captures;
+    for (Cubes& cubes : last.arrays) {
+        cubes = {cubes.face, graph.previous(cubes.colour), cubes.distance, {}, {}, {}};
+        if (cubes.distance) cubes.distance = graph.previous(*cubes.distance);
+    }
+    return last;
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,155 @@
+#include "render/draw.hpp"
+
+#include "render/views.hpp"
+
+#include <algorithm>
+
+namespace catoptric::render {
+
+namespace {
+
+using graph::Commands;
+using graph::Filter;
+using graph::Image;
+
+/// How triangles that are seen from behind run in a view's picture: cube faces show it mirrored.
+gpu::Winding turns_away(const shared::View& view) {
+    return dot(glm::cross(view.right, view.down), view.forward) > 0
+               ? gpu::Winding::clockwise
+               : gpu::Winding::counterclockwise;
+}
+
+/// Push constants of placed.vert.
+struct PlacedDraw {
+    shared::Draw draw;
+    shared::Placement placement;
+};
+
+/// One object in the layers whose view it may meet; neighbouring layers in one draw.
+void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
+                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended) {
+    const DrawRange& range = scene.ranges()[object];
+    shared::Draw draw = scene.draw_of(object, first_view);
+    draw.mended = mended;
+    if (range.own)
+        commands.push(PlacedDraw{draw, scene.placement_of(object, first_view)});
+    else
+        commands.push(draw);
+    scene.bind_vertices(commands, object);
+    for (std::uint32_t layer = 0; layer < layers;) {
+        std::uint32_t end = layer;
+        while (end < layers && may_meet(scene.views()[first_view + end], range.bounds)) ++end;
+        if (end > layer) commands.draw(range.first_index, range.index_count, layer, end - layer);
+        layer = end + 1;
+    }
+}
+
+/// One image of each array.
+template <typename Part>
+std::vector<Image> images_of(const Captures& captures, Part&& part) {
+    std::vector<Image> images;
+    for (const Cubes& cubes : captures.arrays) images.push_back(part(cubes));
+    return images;
+}
+
+void bind_captures(Commands& commands, const Captures& captures) {
+    commands.bind("colour_cubes",
+                  images_of(captures, [](const Cubes& cubes) { return cubes.colour; }),
+                  Filter::linear);
+    // A shader has a binding for what some captures lack; nothing reads it where it is the colour.
+    commands.bind("surface_cubes", images_of(captures, [](const Cubes& cubes) {
+                      return cubes.surfaces.value_or(cubes.colour);
+                  }));
+    const std::vector<Image> distances = images_of(
+        captures, [](const Cubes& cubes) { return cubes.distance.value_or(cubes.colour); });
+    commands.bind("distance_cubes", distances, Filter::linear);
+    if (!captures.table) {
+        commands.bind("distance_cubes_nearest", distances);
+        return;
+    }
+    commands.bind("CapturePlaces", *captures.table);
+    commands.bind("linear_texels", Filter::linear);
+    commands.bind("nearest_texels", Filter::nearest);
+}
+
+/// The build of the fragment shader that the look asks for.
+std::string build_of(const MirrorLook& look, bool peeled, bool shadow_map) {
+    std::string build = look.captures && look.captures->table ? "arrays" : "";
+    const auto add = [&](const char* more) {
+        build += (build.empty() ? "" : "_") + std::string(more);
+    };
+    if (peeled) add("peel");
+    if (!peeled && look.mended) add("mend");
+    if (!peeled && look.mended && !shadow_map) add("unshadowed");
+    return look.fragment + (build.empty() ? "" : "#" + build);
+}
+
+void draw_mirrors(Commands& commands, const GpuScene& scene, const Picture& picture,
+                  const MirrorLook& look, const std::string& black, const Wanted& wanted) {
+    gpu::RasterState state{"scene.vert", black, picture.store};
+    if (!look.fragment.empty() && !look.blank) {
+        state.fragment = build_of(look, picture.peeled.has_value(),
+                                  picture.lighting.shadow_map.has_value());
+        state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
+        if (look.captures) bind_captures(commands, *look.captures);
+        if (look.captures && !look.captures->table && look.captures->arrays.front().distance)
+            state.constants.emplace_back("stored_unit", look.captures->options.front().stored_unit);
+        for (const auto& [name, images] : look.images) commands.bind(name, images);
+        for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
+    }
+    draw_objects(commands, scene, state, picture.first_view, picture.layers, look.mended, wanted);
+}
+
+} // namespace
+
+void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState state,
+                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
+                  const Wanted& wanted) {
+    for (const bool own : {false, true}) {
+        if (own && !scene.has_own_spaces()) break;
+        if (own) state.vertex = "placed.vert";
+        commands.use(state);
+        for (std::size_t i = 0; i < scene.ranges().size(); ++i)
+            if (scene.ranges()[i].own.has_value() == own && wanted(i))
+                draw_object(commands, scene, i, first_view, layers, mended);
+    }
+}
+
+void draw_scene(Commands& commands, const GpuScene& scene, const Picture& picture,
+                const Wanted& wanted) {
+    const auto& [first_view, layers, lighting, looks, store, peeled] = picture;
+    std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed",
+                black = "mirror_black.frag";
+    scene.bind(commands);
+    if (std::ranges::any_of(looks->looks, &MirrorLook::mended)) scene.bind_tracing(commands);
+    if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
+    if (peeled) {
+        diffuse += lighting.shadow_map ? "#peel" : "_peel", black += "#peel";
+        commands.bind("first_layer", *peeled);
+    }
+    const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {
+        draw_objects(commands, scene, {"scene.vert", diffuse, store, hidden}, first_view, layers, 0,
+                     [&](std::size_t i) {
+                         const DrawRange& range = scene.ranges()[i];
+                         return !range.mirror && range.one_sided == one_sided && wanted(i);
+                     });
+    };
+    draw_diffuse(false, gpu::Winding::none);
+    if (std::ranges::any_of(scene.ranges(), &DrawRange::one_sided))
+        draw_diffuse(true, turns_away(scene.views()[first_view]));
+    const auto is_black = [&](std::size_t object) {
+        return first_view == GpuScene::kCameraView && scene.hides_all_from_camera(object);
+    };
+    for (std::uint32_t look = 0; look < looks->looks.size(); ++look)
+        draw_mirrors(commands, scene, picture, looks->looks[look], black, [&](std::size_t i) {
+            const std::uint32_t mirror = scene.mirror_of(i);
+            return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) && !is_black(i);
+        });
+    const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
+    for (std::size_t i = 0; i < scene.ranges().size(); ++i)
+        if (is_shut(i))
+            return draw_objects(commands, scene, {"scene.vert", black, store}, first_view, layers,
+                                0, is_shut);
+}
+
+} // namespace catoptric::render

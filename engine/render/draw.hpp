@@ -1,0 +1,33 @@
+#pragma once
+
+#include "render/looks.hpp"
+
+#include <functional>
+
+/// Draws objects of a scene: what the bodies of raster passes are made of.
+namespace catoptric::render {
+
+/// Which objects are drawn, by their index.
+using Wanted = std::function<bool(std::size_t)>;
+
+/// The objects that are asked for, with these programs, into the layers whose views they may meet:
+/// views from `first_view` on. Those in spaces of their own come last.
+void draw_objects(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
+                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
+                  const Wanted& wanted);
+
+/// What a picture of the scene is made with.
+struct Picture {
+    std::uint32_t first_view = 0, layers = 1;
+    Lighting lighting;
+    std::shared_ptr<const Looks> looks; ///< of mirrors
+    gpu::Constants store;               ///< how distances are kept, and what else
+    std::optional<graph::Image>
+        peeled; ///< the distances of a first layer: only what lies behind them is drawn
+};
+
+/// Everything that is no mirror, then the mirrors, of what is wanted.
+void draw_scene(graph::Commands& commands, const GpuScene& scene, const Picture& picture,
+                const Wanted& wanted);
+
+} // namespace catoptric::render

@@ -1,0 +1,50 @@
+#include "render/looks.hpp"
+
+#include <algorithm>
+
+namespace catoptric::render {
+
+namespace {
+
+/// What a pass reads so far.
+struct Reads {
+    graph::PassBuilder& pass;
+    std::vector<graph::Image> images = {};
+    std::vector<graph::Buffer> buffers = {};
+
+    void add(graph::Image image) {
+        if (std::ranges::find(images, image) != images.end()) return;
+        images.push_back(image);
+        pass.reads(image, graph::Use::sampled);
+    }
+    void add(graph::Buffer buffer) {
+        if (std::ranges::find(buffers, buffer) != buffers.end()) return;
+        buffers.push_back(buffer);
+        pass.reads(buffer, graph::Use::storage_read);
+    }
+};
+
+} // namespace
+
+Looks same_look(const GpuScene& scene, MirrorLook look) {
+    return {{std::move(look)}, std::vector<std::uint32_t>(scene.mirror_count(), 0)};
+}
+
+void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const Looks& looks) {
+    Reads reads{pass};
+    if (lighting.shadow_map) reads.add(*lighting.shadow_map);
+    for (const MirrorLook& look : looks.looks) {
+        if (!look.captures) continue;
+        for (const Cubes& cubes : look.captures->arrays) {
+            reads.add(cubes.colour);
+            if (cubes.distance) reads.add(*cubes.distance);
+            if (cubes.surfaces) reads.add(*cubes.surfaces);
+        }
+        if (look.captures->table) reads.add(*look.captures->table);
+        for (const auto& [name, images] : look.images)
+            for (const graph::Image& image : images) reads.add(image);
+        for (const auto& [name, buffer] : look.buffers) reads.add(buffer);
+    }
+}
+
+} // namespace catoptric::render

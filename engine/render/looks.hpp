@@ -1,0 +1,36 @@
+#pragma once
+
+#include "render/captures.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+/// How mirrors are drawn.
+namespace catoptric::render {
+
+/// A fragment shader and what it looks into.
+struct MirrorLook {
+    std::string fragment; ///< empty: black
+    gpu::Constants constants;
+    std::shared_ptr<const Captures> captures;
+    /// What else it samples (nearest), by shader name: one image, or one an array of the captures.
+    std::vector<std::pair<std::string, std::vector<graph::Image>>> images;
+    std::vector<std::pair<std::string, graph::Buffer>> buffers; ///< what else it reads
+    bool blank = false;       ///< the captures are last frame's and there was none: black
+    std::uint32_t mended = 0; ///< causes of error that its fragment#mend takes away
+};
+
+/// One of several looks for each mirror.
+struct Looks {
+    std::vector<MirrorLook> looks;
+    std::vector<std::uint32_t> of_mirror; ///< index into `looks`
+};
+
+/// All mirrors alike.
+Looks same_look(const GpuScene& scene, MirrorLook look);
+
+/// Says which of the look's resources a pass reads, each once.
+void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const Looks& looks);
+
+} // namespace catoptric::render

@@ -1,0 +1,11 @@
+// A mirror that nobody looks up: every pixel of it is left to tracing.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/surface.glsl"
+
+layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
+
+void main() {
+    write_surface(vec3(0));
+    out_distance = float(tracer);
+}
