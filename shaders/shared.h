@@ -54,14 +54,18 @@ struct Probe {
     vec3 highest;
 };
 
-// Where a mirror's capture is kept, of several cube arrays.
-struct CapturePlace {
-    uint array;        // from 0; kMostArrays: there is no capture
-    uint cube;         // of that array
-    float stored_unit; // scene units of a stored distance of 1
-    uint range_ends;   // 1: where nothing is, that is 1 too
+// One of the cube arrays that captures are kept in, and how distances are in it.
+struct CaptureArray {
+    float stored_unit; // scene units of a stored 1
+    uint range_ends;   // 1: where nothing is, a 1 is stored too
 };
 const uint kMostArrays = 8u;
+const uint kMostCaptured = 2048u; // mirrors whose numbers a half holds exactly
+// Where mirror n's capture is kept, n from 0: array << 16 | cube, both from 0; array kMostArrays: nowhere.
+struct CaptureTable {
+    CaptureArray arrays[kMostArrays];
+    uint places[kMostCaptured];
+};
 
 // One projection: clip = (dot(right, v), dot(down, v), near, dot(forward, v)) with v = position - eye.
 // Reversed-Z with infinite far: depth = near / distance along forward.
@@ -131,7 +135,7 @@ static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
 static_assert(sizeof(Light) == 76);
 static_assert(sizeof(Probe) == 64);
-static_assert(sizeof(CapturePlace) == 16);
+static_assert(sizeof(CaptureTable) == 8256); // every device has uniform buffers of 16 KiB
 static_assert(sizeof(View) == 64);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(Draw) == 80);

@@ -2,6 +2,7 @@
 #include "app/frame_graph.hpp"
 
 #include "app/plan_file.hpp"
+#include "app/table.hpp"
 #include "core/error.hpp"
 #include "core/half.hpp"
 
@@ -128,14 +129,34 @@ measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Dec
     return to_picture(runner.read(ticket, declared.outputs.hdr), size, Format::rgba32f);
 }
 
+/// How each mirror was drawn, and which rule said so.
+std::vector<PlanEntry> plan_of(const Declared& declared, const std::vector<std::string>& mirrors) {
+    const auto& [choices, of_mirror, patterns] = declared.assignment;
+    std::vector<PlanEntry> entries;
+    for (std::size_t i = 0; i < mirrors.size(); ++i) {
+        const reflect::Choice& choice = choices[of_mirror[i]];
+        std::string why = patterns[i].empty() ? "one technique was asked for"
+                                              : "rule '" + patterns[i] + "'";
+        const bool is_left_out = choices.size() > 1 && choice.settings.has("capture") &&
+                                 choice.settings.is_special("capture");
+        if (is_left_out) why += "; black in the captures of others, capture=none";
+        entries.push_back({static_cast<std::uint32_t>(i + 1), mirrors[i],
+                           std::string(choice.technique->name), settings_of(choice),
+                           std::move(why)});
+    }
+    return entries;
+}
+
 Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& frame,
-               std::size_t index, const render::GpuScene& scene, const FrameSpec& spec) {
+               std::size_t index, const std::vector<std::string>& mirrors,
+               const render::GpuScene& scene, const FrameSpec& spec) {
     const Declared& declared = frame.parts[index];
     const reflect::Outputs& outputs = declared.outputs;
     const graph::Plan& plan = runner.compiled(frame.graph);
     Part part;
     part.label = declared.plan.label;
     part.prefix = declared.prefix;
+    part.plan = plan_of(declared, mirrors);
     part.memory_bytes = plan.bytes;
     part.remembers = reads_previous(frame, plan, part.prefix);
     count_scene_passes(frame.graph, plan, part);

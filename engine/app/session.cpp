@@ -259,7 +259,8 @@ measure::Picture Frame::hdr(std::size_t part) const {
 
 Part Frame::read(std::size_t part) const {
     if (impl_->spec.with_lookup) impl_->check_last();
-    return read_part(impl_->runner(), impl_->ticket, impl_->frame, part, *impl_->session->resident,
+    return read_part(impl_->runner(), impl_->ticket, impl_->frame, part, impl_->session->mirrors,
+                     *impl_->session->resident,
                      impl_->spec);
 }
 

@@ -87,10 +87,19 @@ struct AutoFace {
         needs; ///< texels along an edge, entry n-1 of mirror n; 0: it is not in view
 };
 
-/// What one technique made in a frame.
+/// How one mirror was drawn.
+struct PlanEntry {
+    std::uint32_t mirror = 0; ///< its number, from 1
+    std::string name, technique;
+    std::vector<Setting> settings; ///< all knobs
+    std::string why;               ///< what decided so
+};
+
+/// What one technique, or plan, made in a frame.
 struct Part {
     std::string label;              ///< as it was asked for
     std::string prefix;             ///< of its passes' names; empty when it was alone
+    std::vector<PlanEntry> plan;    ///< of each mirror
     std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
     int scene_passes = 0;
     int scene_draws = 0;            ///< scene passes times the layers that each renders

@@ -1,4 +1,6 @@
 // The table of techniques as the outside sees it.
+#include "app/table.hpp"
+
 #include "app/engine.hpp"
 #include "app/plan_file.hpp"
 
@@ -22,7 +24,6 @@ std::vector<TechniqueInfo> techniques() {
     return infos;
 }
 
-/// All knobs.
 std::vector<Setting> settings_of(const reflect::Choice& choice) {
     std::vector<Setting> settings;
     const Settings defaults(choice.technique->knobs);

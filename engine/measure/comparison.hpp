@@ -62,11 +62,20 @@ struct HostParts {
     double record = 0;    ///< filling the command buffer
 };
 
+/// How one mirror was drawn.
+struct PlanEntry {
+    std::uint32_t mirror = 0; ///< its number, from 1
+    std::string name, technique;
+    std::vector<Setting> settings; ///< all knobs
+    std::string why;               ///< what decided so
+};
+
 /// One technique with its settings: what it cost and what it got wrong.
 struct Row {
-    std::string technique;         ///< "naive"
+    std::string technique;         ///< "naive"; "plan" where several draw the mirrors
     std::string label;             ///< as it was asked for: "naive:bounces=1"
     std::vector<Setting> settings; ///< all knobs
+    std::vector<PlanEntry> plan;   ///< of each mirror
     std::string model = "everything";
     int scene_passes =
         0; ///< counted in the executed plan; a cube counts once, as in the seed report

@@ -27,12 +27,13 @@ Look look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings
     render::MirrorLook look; // black
     const int bounces = settings.integer("bounces");
     for (int bounce = 1; bounce <= bounces; ++bounce) {
-        const auto captures = std::make_shared<const render::Captures>(
-            render::declare_captures(graph, inputs, "bounce" + std::to_string(bounce),
-                                     std::vector(inputs.scene.mirror_count(), options)));
-        const bool last = bounce == bounces;
-        render::add_captures(graph, inputs, *captures, render::same_look(inputs.scene, look),
-                             last ? captured.mirrors : std::vector<std::uint32_t>{});
+        render::CaptureOptions of_others = options;
+        if (bounce == bounces) of_others.face = 0;
+        std::vector of_mirrors(inputs.scene.mirror_count(), of_others);
+        for (const std::uint32_t mirror : captured.mirrors) of_mirrors[mirror] = options;
+        const auto captures = std::make_shared<const render::Captures>(render::declare_captures(
+            graph, inputs, "bounce" + std::to_string(bounce), std::move(of_mirrors)));
+        render::add_captures(graph, inputs, *captures, render::same_look(inputs.scene, look));
         look = look_into({captures, captured.lighting, captured.mirrors}, "reflect/naive.frag",
                          settings);
     }

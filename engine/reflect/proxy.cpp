@@ -32,7 +32,7 @@ graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs
     const render::CaptureOptions& options = captures->options.front();
     if (captures->table) {
         state.shader += "#arrays";
-        pass.reads(*captures->table, graph::Use::storage_read);
+        pass.reads(*captures->table, graph::Use::sampled);
     } else {
         state.constants = {{"stored_unit", options.stored_unit},
                            {"range_ends", options.distance == Format::r8_unorm ? 1u : 0u}};
@@ -43,7 +43,7 @@ graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs
             commands.bind("distance_faces", faces);
             commands.bind("Proxies", proxies);
             commands.bind("nearest_texels", graph::Filter::nearest);
-            if (table) commands.bind("CapturePlaces", *table);
+            if (table) commands.bind("Captures", *table);
             commands.dispatch(mirrors, 1);
         });
     return proxies;

@@ -11,9 +11,6 @@ namespace catoptric::render {
 
 namespace {
 
-/// Captures keep the numbers of mirrors as halves, which hold so many exactly.
-constexpr std::size_t kMostCaptured = 2048;
-
 /// What captures of one array have in common, but for the edge.
 using Contents = std::tuple<Format, std::optional<Format>, bool, bool, float>;
 
@@ -88,18 +85,20 @@ Cubes declare_cubes(graph::Graph& graph, const std::string& name, const CaptureO
 
 /// A buffer that a pass of its own fills with where each mirror's capture is.
 graph::Buffer add_table(graph::Graph& graph, const std::string& name, const Captures& captures) {
-    std::vector<shared::CapturePlace> places;
+    shared::CaptureTable places{};
     for (std::size_t i = 0; i < captures.places.size(); ++i) {
+        const auto& [array, cube] = captures.places[i];
+        places.places[i] = array << 16 | cube;
+        if (!captures.places[i].exists()) continue;
         const CaptureOptions& options = captures.options[i];
-        places.push_back({captures.places[i].array, captures.places[i].cube, options.stored_unit,
-                          options.distance == Format::r8_unorm ? 1u : 0u});
+        places.arrays[array] = {options.stored_unit,
+                                options.distance == Format::r8_unorm ? 1u : 0u};
     }
-    const graph::Buffer table = graph.buffer(
-        {name + ".table", places.size() * sizeof(shared::CapturePlace)});
+    const graph::Buffer table = graph.buffer({name + ".table", sizeof places});
     graph.pass(name + ".table")
         .writes(table, graph::Use::copy_to)
-        .record([table, places = std::move(places)](graph::Commands& commands) {
-            commands.update(table, std::as_bytes(std::span(places)));
+        .record([table, places](graph::Commands& commands) {
+            commands.update(table, std::as_bytes(std::span(&places, 1)));
         });
     return table;
 }
@@ -115,10 +114,10 @@ Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::s
     while (arrays_for(kinds, most_cubes) > shared::kMostArrays && merge(kinds, captures.notes)) {
     }
     const std::size_t count = arrays_for(kinds, most_cubes);
-    check(count <= shared::kMostArrays && options.size() <= kMostCaptured, Failure::exhausted,
-          "captures of ", options.size(), " mirrors in ", kinds.size(), " sizes and formats want ",
-          count, " arrays of at most ", most_cubes, " cubes; a frame has ", shared::kMostArrays,
-          ", of ", kMostCaptured, " mirrors");
+    check(count <= shared::kMostArrays && options.size() <= shared::kMostCaptured,
+          Failure::exhausted, "captures of ", options.size(), " mirrors in ", kinds.size(),
+          " sizes and formats want ", count, " arrays of at most ", most_cubes,
+          " cubes; a frame has ", shared::kMostArrays, ", of ", shared::kMostCaptured, " mirrors");
     captures.places.resize(options.size());
     for (const auto& [kind, mirrors] : kinds) {
         for (std::size_t first = 0; first < mirrors.size(); first += most_cubes) {

@@ -47,7 +47,7 @@ struct Captures {
     std::vector<CaptureOptions> options; ///< of each mirror
     std::vector<CapturePlace> places;    ///< of each mirror
     std::vector<Cubes> arrays;           ///< 1 to shared::kMostArrays
-    /// shared::CapturePlace of each mirror; none where mirror n is cube n of the only array.
+    /// shared::CaptureTable; none where mirror n is cube n of the only array.
     std::optional<graph::Buffer> table;
     std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
 };

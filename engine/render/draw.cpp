@@ -67,9 +67,20 @@ void bind_captures(Commands& commands, const Captures& captures) {
         commands.bind("distance_cubes_nearest", distances);
         return;
     }
-    commands.bind("CapturePlaces", *captures.table);
+    commands.bind("Captures", *captures.table);
     commands.bind("linear_texels", Filter::linear);
     commands.bind("nearest_texels", Filter::nearest);
+}
+
+/// What the shader is built for: where captures are kept.
+void add_places(const Captures& captures, gpu::Constants& constants) {
+    const auto unit_of = [](const CaptureOptions& options) { return options.stored_unit; };
+    const float unit = unit_of(captures.options.front());
+    const bool same = std::ranges::all_of(
+        captures.options, [&](float other) { return other == unit; }, unit_of);
+    if (captures.arrays.front().distance && same) constants.emplace_back("stored_unit", unit);
+    if (captures.table)
+        constants.emplace_back("array_count", static_cast<std::uint32_t>(captures.arrays.size()));
 }
 
 /// The build of the fragment shader that the look asks for.
@@ -92,8 +103,7 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Picture& pict
                                   picture.lighting.shadow_map.has_value());
         state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
         if (look.captures) bind_captures(commands, *look.captures);
-        if (look.captures && !look.captures->table && look.captures->arrays.front().distance)
-            state.constants.emplace_back("stored_unit", look.captures->options.front().stored_unit);
+        if (look.captures) add_places(*look.captures, state.constants);
         for (const auto& [name, images] : look.images) commands.bind(name, images);
         for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
     }

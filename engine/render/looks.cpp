@@ -17,10 +17,10 @@ struct Reads {
         images.push_back(image);
         pass.reads(image, graph::Use::sampled);
     }
-    void add(graph::Buffer buffer) {
+    void add(graph::Buffer buffer, graph::Use use) {
         if (std::ranges::find(buffers, buffer) != buffers.end()) return;
         buffers.push_back(buffer);
-        pass.reads(buffer, graph::Use::storage_read);
+        pass.reads(buffer, use);
     }
 };
 
@@ -40,10 +40,10 @@ void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const
             if (cubes.distance) reads.add(*cubes.distance);
             if (cubes.surfaces) reads.add(*cubes.surfaces);
         }
-        if (look.captures->table) reads.add(*look.captures->table);
+        if (look.captures->table) reads.add(*look.captures->table, graph::Use::sampled);
         for (const auto& [name, images] : look.images)
             for (const graph::Image& image : images) reads.add(image);
-        for (const auto& [name, buffer] : look.buffers) reads.add(buffer);
+        for (const auto& [name, buffer] : look.buffers) reads.add(buffer, graph::Use::storage_read);
     }
 }
 

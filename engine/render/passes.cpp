@@ -102,11 +102,11 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
 }
 
 void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
-                  Looks looks, const std::vector<std::uint32_t>& only) {
+                  Looks looks) {
     const auto shared = std::make_shared<const Looks>(std::move(looks));
-    const auto add = [&](std::uint32_t mirror) {
+    for (std::uint32_t mirror = 0; mirror < captures.options.size(); ++mirror) {
+        if (!captures.places[mirror].exists()) continue;
         const auto& [array, cube] = captures.places[mirror];
-        if (!captures.places[mirror].exists()) return;
         const CaptureOptions& options = captures.options[mirror];
         const Cubes& cubes = captures.arrays[array];
         const auto part_of = [&, first = 6 * cube](std::optional<Image> image) {
@@ -120,10 +120,7 @@ void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures
             add_capture(graph, inputs, options, mirror, captures.name + "2" + number,
                         {cubes.face, *part_of(cubes.colour2), part_of(cubes.distance2), {}, {}, {}},
                         shared, first.distance);
-    };
-    for (const std::uint32_t mirror : only) add(mirror);
-    for (std::uint32_t mirror = 0; only.empty() && mirror < captures.options.size(); ++mirror)
-        add(mirror);
+    }
 }
 
 View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, Looks looks,

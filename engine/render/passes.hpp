@@ -18,10 +18,10 @@ inline constexpr std::uint32_t kReferenceDepth = 16;
 std::optional<graph::Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs,
                                        std::uint32_t edge, const std::string& suffix = "");
 
-/// One pass a mirror, six faces at once; two with a second layer. `looks`: of the other mirrors;
-/// mirror n is left out of its own capture. `only`: of these mirrors, from 0; empty: of all.
+/// One pass a mirror that has a capture, six faces at once; two with a second layer. `looks`: of
+/// the other mirrors; mirror n is left out of its own capture.
 void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
-                  Looks looks, const std::vector<std::uint32_t>& only = {});
+                  Looks looks);
 
 /// The camera's picture.
 struct View {

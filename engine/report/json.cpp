@@ -119,6 +119,13 @@ Json to_json(const Row& row) {
     json["label"] = row.label;
     json["model"] = row.model;
     add_figures(json, row);
+    json["plan"] = Json::array();
+    for (const measure::PlanEntry& entry : row.plan)
+        json["plan"].push_back({{"mirror", entry.mirror},
+                                {"name", entry.name},
+                                {"technique", entry.technique},
+                                {"settings", to_json(entry.settings)},
+                                {"why", entry.why}});
     json["image"] = "images/" + row.image + ".png";
     json["is_reference"] = row.is_reference;
     return json;

@@ -14,7 +14,9 @@ layout(set = 0, binding = 7) uniform textureCubeArray distance_cubes[kMostArrays
 layout(set = 0, binding = 17) uniform textureCubeArray surface_cubes[kMostArrays]; // see lib/surface.glsl
 layout(set = 0, binding = 8) uniform sampler linear_texels;
 layout(set = 0, binding = 18) uniform sampler nearest_texels;
-layout(set = 0, binding = 19, scalar) readonly buffer CapturePlaces { CapturePlace places[]; };
+// Uniform, not storage: a software driver reads that without a branch, and what is computed around a branch it rounds
+// otherwise than what is computed around none.
+layout(set = 0, binding = 19, scalar) uniform Captures { CaptureTable captures; };
 
 #define COLOUR_CUBES(i) samplerCubeArray(colour_cubes[i], linear_texels)
 #define DISTANCE_CUBES(i) samplerCubeArray(distance_cubes[i], linear_texels)
@@ -25,25 +27,28 @@ layout(set = 0, binding = 19, scalar) readonly buffer CapturePlaces { CapturePla
 #define FACES_OF(name, i) sampler2DArray(name[i], nearest_texels)
 #define WHOLE_FACES(name) utexture2DArray name[kMostArrays]
 #define WHOLE_FACES_OF(name, i) usampler2DArray(name[i], nearest_texels)
+// Arrays that there are: what is decided here costs nothing, and leaves the compiler with the code of the other builds.
+layout(constant_id = ARRAY_COUNT_CONSTANT) const uint array_count = kMostArrays;
+layout(constant_id = STORED_UNIT_CONSTANT) const float stored_unit = 0.0; // 0: not the same for all
+uint array_of(uint mirror) { return captures.places[mirror] >> 16u; }
+bool is_in(uint mirror, uint array) { return array < array_count && array_of(mirror) == array; }
 // The end of a function: READ of the array that has the mirror's capture.
 #define RETURN_OF_ARRAY(mirror, READ)                                                                                  \
-    switch (places[mirror].array) {                                                                                    \
-    case 1u: return READ(1);                                                                                           \
-    case 2u: return READ(2);                                                                                           \
-    case 3u: return READ(3);                                                                                           \
-    case 4u: return READ(4);                                                                                           \
-    case 5u: return READ(5);                                                                                           \
-    case 6u: return READ(6);                                                                                           \
-    case 7u: return READ(7);                                                                                           \
-    default: return READ(0);                                                                                           \
-    }
+    if (is_in(mirror, 1u)) return READ(1);                                                                             \
+    if (is_in(mirror, 2u)) return READ(2);                                                                             \
+    if (is_in(mirror, 3u)) return READ(3);                                                                             \
+    if (is_in(mirror, 4u)) return READ(4);                                                                             \
+    if (is_in(mirror, 5u)) return READ(5);                                                                             \
+    if (is_in(mirror, 6u)) return READ(6);                                                                             \
+    if (is_in(mirror, 7u)) return READ(7);                                                                             \
+    return READ(0);
 
-uint cube_of(uint mirror) { return places[mirror].cube; }
-bool is_captured(uint mirror) { return places[mirror].array < kMostArrays; }
+uint cube_of(uint mirror) { return captures.places[mirror] & 0xffffu; }
+bool is_captured(uint mirror) { return array_of(mirror) < kMostArrays; }
 // Scene units of a stored 1: 1 for float formats, the range for unorm8.
-float stored_unit_of(uint mirror) { return places[mirror].stored_unit; }
+float stored_unit_of(uint mirror) { return stored_unit > 0.0 ? stored_unit : captures.arrays[array_of(mirror)].stored_unit; }
 // With unorm8 a stored 1 is the end of the range, whatever lies there.
-bool range_ends_of(uint mirror) { return places[mirror].range_ends != 0u; }
+bool range_ends_of(uint mirror) { return captures.arrays[array_of(mirror)].range_ends != 0u; }
 
 #else
 

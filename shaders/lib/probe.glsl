@@ -109,7 +109,8 @@ float captured_distance(uint mirror, vec3 direction) {
 #endif
     float d = stored_distance(mirror, direction);
     if (tests_void != 0u && is_miss(d)) d = nearest_stored_distance(mirror, direction);
-    return d * stored_unit_of(mirror);
+    precise float in_units = d * stored_unit_of(mirror); // or what follows could be reordered around it
+    return in_units;
 }
 
 #endif

@@ -1,10 +1,10 @@
 // What a frame takes of the heap: the same for each frame of a steady scene.
 #include "allocations/counting.hpp"
-#include "reflect/technique.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/passes.hpp"
 #include "scene/load.hpp"
 #include "support/device.hpp"
+#include "support/techniques.hpp"
 
 #include <iostream>
 #include <set>
@@ -34,7 +34,6 @@ TEST_P(SteadyFrame, TakesTheSameOfTheHeapEachTime) {
     const scene::Scene scene = scene::cornell_mirrors();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {32, 32}, 0);
-    const reflect::Choice choice = reflect::parse_choice(GetParam());
     graph::Runner runner(device, pipelines, 2);
     std::set<Taken> seen;
     std::size_t passes = 0;
@@ -42,7 +41,7 @@ TEST_P(SteadyFrame, TakesTheSameOfTheHeapEachTime) {
         const std::size_t before = test::allocations();
         graph::Graph graph(runner.history());
         const render::FrameInputs inputs{gpu_scene, {32, 32}, ""};
-        graph.want(choice.technique->add(graph, inputs, choice.settings).hdr);
+        graph.want(test::add_technique(graph, inputs, GetParam()).hdr);
         const std::size_t declared = test::allocations();
         runner.submit(graph, graph::Timing::isolated);
         const std::size_t recorded = test::allocations();

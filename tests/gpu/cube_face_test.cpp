@@ -79,8 +79,7 @@ TEST(CubeFace, ALookupAlongAWorldDirectionFindsIt) {
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
     render::CaptureOptions options;
     options.face = 256, options.distance = Format::r32f;
-    const render::Cubes cubes = render::declare_cubes(graph, inputs, options);
-    render::add_captures(graph, inputs, options, cubes);
+    const render::Cubes cubes = test::add_black_captures(graph, inputs, options);
     const graph::Buffer found = graph.buffer({"found", directions.size() * sizeof(vec4)});
     graph.pass("look")
         .reads(cubes.colour, graph::Use::sampled)

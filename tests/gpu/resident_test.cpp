@@ -1,9 +1,9 @@
 // A scene that stays on the device: what is written of it, which hierarchies are made, and that
 // pictures cannot tell it from one that was made for the frame.
-#include "reflect/technique.hpp"
 #include "support/device.hpp"
 #include "support/numbers.hpp"
 #include "support/scenes.hpp"
+#include "support/techniques.hpp"
 
 #include <cstring>
 
@@ -20,9 +20,7 @@ std::vector<std::byte> picture(const render::GpuScene& scene, const std::string&
     auto& [device, pipelines] = test::bench();
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
-    const reflect::Choice choice = reflect::parse_choice(technique);
-    const reflect::Outputs outputs = choice.technique->add(graph, {scene, kSize, ""},
-                                                           choice.settings);
+    const reflect::Outputs outputs = test::add_technique(graph, {scene, kSize, ""}, technique);
     graph.want(outputs.hdr);
     scene.prepare();
     test::run(runner, graph);

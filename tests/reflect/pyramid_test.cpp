@@ -2,10 +2,10 @@
 // exact.
 #include "core/half.hpp"
 #include "core/shader_math.hpp"
-#include "reflect/technique.hpp"
 #include "stress/glyph_room.hpp"
 #include "support/captures.hpp"
 #include "support/searches.hpp"
+#include "support/techniques.hpp"
 
 #include <random>
 
@@ -54,7 +54,7 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
     graph::Graph graph;
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
     const reflect::Choice choice = reflect::parse_choice(technique);
-    choice.technique->add(graph, inputs, choice.settings);
+    test::add_technique(graph, inputs, technique);
     const graph::Image pyramid = image_called(graph, "pyramid"),
                        colour = image_called(graph, "capture/cubes.colour");
     const graph::Image distance = image_called(graph, "capture/cubes.distance");

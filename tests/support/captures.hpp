@@ -1,9 +1,9 @@
 #pragma once
 
 #include "render/captured.hpp"
-#include "render/passes.hpp"
 #include "support/device.hpp"
 #include "support/scenes.hpp"
+#include "support/techniques.hpp"
 
 #include <ostream>
 #include <utility>
@@ -36,8 +36,7 @@ inline Captured capture(const scene::Scene& scene, std::uint32_t face, Format di
     options.face = face;
     options.distance = distance;
     if (distance == Format::r8_unorm) options.stored_unit = gpu_scene.space().length(range_world);
-    const render::Cubes cubes = render::declare_cubes(graph, inputs, options);
-    render::add_captures(graph, inputs, options, cubes);
+    const render::Cubes cubes = add_black_captures(graph, inputs, options);
     graph.want(cubes.colour);
     graph.want(*cubes.distance);
     run(runner, graph);
@@ -59,8 +58,7 @@ inline std::pair<Captured, Captured> capture_layers(const scene::Scene& scene, s
     options.distance = distance;
     options.second_layer = true;
     if (distance == Format::r8_unorm) options.stored_unit = gpu_scene.space().length(10);
-    const render::Cubes cubes = render::declare_cubes(graph, inputs, options);
-    render::add_captures(graph, inputs, options, cubes);
+    const render::Cubes cubes = add_black_captures(graph, inputs, options);
     for (const graph::Image image :
          {cubes.colour, *cubes.distance, *cubes.colour2, *cubes.distance2})
         graph.want(image);

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/setting.hpp"
+#include "reflect/technique.hpp"
+
+#include <vector>
+
+namespace catoptric::app {
+
+/// All knobs of a technique, with their values.
+std::vector<Setting> settings_of(const reflect::Choice& choice);
+
+} // namespace catoptric::app

@@ -1,0 +1,271 @@
+// Several techniques in one frame, each mirror by its own: their pixels against those of runs in
+// which all mirrors share one.
+#include "measure/lookup.hpp"
+#include "support/rendering.hpp"
+
+#include <map>
+
+namespace {
+
+using namespace catoptric;
+
+/// Pixels of one mirror that say nothing of another: compared, and those that are not the same.
+struct Alike {
+    std::size_t compared = 0, other = 0, off = 0; ///< off: by more than 1/255 in some channel
+};
+
+bool is_off(const vec3& a, const vec3& b) {
+    for (int i = 0; i < 3; ++i)
+        if (!(std::abs(std::clamp(a[i], 0.f, 1.f) - std::clamp(b[i], 0.f, 1.f)) <= 1.f / 255))
+            return true;
+    return false;
+}
+
+/// Whether a ball other than `mirror`, from 0, may lie within 1.5 texels of a direction from its
+/// capture's centre, whatever hides it.
+bool may_show_mirror(const scene::Scene& scene, std::size_t mirror, const dvec3& direction,
+                     int face) {
+    const std::vector<std::size_t> mirrors = scene::mirrors(scene);
+    const dvec3 centre = scene::bounds(scene, scene.objects[mirrors[mirror]]).centre();
+    for (std::size_t i = 0; i < mirrors.size(); ++i) {
+        if (i == mirror) continue;
+        const scene::Sphere& ball = *scene.objects[mirrors[i]].sphere;
+        const dvec3 to_ball = ball.centre - centre;
+        const double reach = std::asin(ball.radius / glm::length(to_ball)) + 1.5 * 2.0 / face;
+        if (glm::dot(glm::normalize(to_ball), direction) > std::cos(reach)) return true;
+    }
+    return false;
+}
+
+Alike alike(const scene::Scene& scene, const app::Part& mixed, const app::Part& uniform,
+            const app::Part& truth, MirrorId mirror, int face) {
+    Alike result;
+    for (std::size_t i = 0; i < truth.hits.size(); ++i) {
+        if (measure::first_mirror(truth.hits[i]) != mirror) continue;
+        if (measure::second_mirror(truth.hits[i]) != MirrorId{}) continue;
+        if (!uniform.lookup.empty()) {
+            const vec4& lookup = uniform.lookup[i];
+            const int looked_into = static_cast<int>(lookup.w) / 8;
+            if (lookup.w == 0 || looked_into != static_cast<int>(mirror.index())) continue;
+            if (may_show_mirror(scene, mirror.index(), dvec3(lookup), face)) continue;
+        }
+        ++result.compared;
+        const vec3 &a = mixed.hdr.pixels[i], &b = uniform.hdr.pixels[i];
+        if (std::memcmp(&a, &b, sizeof a) != 0) ++result.other;
+        if (is_off(a, b)) ++result.off;
+    }
+    return result;
+}
+
+TEST(Plan, EveryMirrorIsDrawnAsInAFrameOfItsOwnTechnique) {
+    constexpr uvec2 kSize{192, 192};
+    constexpr int kFrames = 4;
+    const scene::Scene scene = scene::cornell_mirrors();
+    const app::Part truth = test::render(scene, "raytrace", kSize);
+    app::Request asked = test::request(
+        scene, {"1=reuse:face=64 2=hybrid 3=secant *=raytrace:shadow=map"}, kSize);
+    asked.warmup = kFrames - 1;
+    const app::Part mixed = std::move(app::run(test::engine(), asked).parts.front());
+    EXPECT_EQ(mixed.scene_passes, 4 + 2); // mirror 4 is captured for the others to show it
+    const std::vector<std::string> uniform{"reuse:face=64", "hybrid", "secant",
+                                           "raytrace:shadow=map"};
+    for (std::size_t i = 0; i < uniform.size(); ++i) {
+        const bool is_traced = i == 3;
+        asked.techniques = {uniform[i]};
+        asked.with_lookup = !is_traced;
+        const app::Part part = std::move(app::run(test::engine(), asked).parts.front());
+        const Alike found = alike(scene, mixed, part, truth, MirrorId::at(i), i == 0 ? 64 : 256);
+        EXPECT_GT(found.compared, 100u) << uniform[i];
+        EXPECT_LE(found.off, 3u) << uniform[i] << " of " << found.compared;
+        if (!is_traced) {
+            EXPECT_LE(found.other, 3u) << uniform[i] << " of " << found.compared;
+        }
+    }
+}
+
+/// Three balls in a row, with boards between them that hide each from the others, and by so much
+/// that no search takes one to be in sight (a ball's radius, see shaders/lib/mirror.glsl).
+scene::Scene walled_off() {
+    scene::Scene scene = test::room(0, 2);
+    scene.name = "walled off";
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+    const std::size_t white = add_material(scene, {.name = "board", .albedo = {.6f, .5f, .4f}});
+    const std::array<double, 3> places{-1.3, 0, 1.3};
+    for (std::size_t i = 0; i < places.size(); ++i)
+        test::add_ball(scene, "ball" + std::to_string(i + 1), mirror, {places[i], -.4, .6}, .25);
+    for (const double x : {-.65, .65})
+        test::add_quad(scene, "board", white, {x, -2, -.8}, {x, -2, 2}, {x, 2, 2}, {x, 2, -.8});
+    scene.cameras.front().target = {0, -.4, .6};
+    scene.cameras.front().vertical_fov_degrees = 20;
+    return scene;
+}
+
+TEST(Plan, MirrorsThatNeverSeeEachOtherAreTheSameToTheByte) {
+    constexpr uvec2 kSize{256, 96};
+    const scene::Scene scene = walled_off();
+    const app::Part truth = test::render(scene, "raytrace", kSize);
+    app::Request asked = test::request(scene, {}, kSize);
+    asked.warmup = 2;
+    asked.with_lookup = true;
+    const auto rendered = [&](const std::string& technique) {
+        asked.techniques = {technique};
+        return std::move(app::run(test::engine(), asked).parts.front());
+    };
+    for (const std::vector<std::string>& rows :
+         {std::vector<std::string>{"reuse:face=32", "secant:face=64", "pyramid:face=48"},
+          {"march:face=40", "layered:face=32", "proxy:face=64,distance=unorm8"},
+          {"naive:bounces=2,face=64", "parallax:face=64,distance=r16f", "reuse:shadow=none"},
+          {"parallax:shadow_map=256", "march:colour=float", "pyramid:captures=all"}}) {
+        const app::Part mixed = rendered("1=" + rows[0] + " 2=" + rows[1] + " *=" + rows[2]);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const app::Part uniform = rendered(rows[i]);
+            std::size_t pixels = 0, other = 0;
+            for (std::size_t p = 0; p < truth.hits.size(); ++p) {
+                // Where the ray met a mirror and the rasteriser did too.
+                if (measure::first_mirror(truth.hits[p]) != MirrorId::at(i)) continue;
+                if (uniform.lookup[p].w == 0) continue;
+                ++pixels;
+                other += mixed.hdr.pixels[p] != uniform.hdr.pixels[p];
+            }
+            EXPECT_GT(pixels, 300u);
+            EXPECT_EQ(other, 0u) << rows[i] << " of " << pixels << " pixels";
+        }
+    }
+}
+
+TEST(Plan, OfOneTechniqueIsThatTechnique) {
+    const scene::Scene scene = test::room(3, 1);
+    for (const std::string technique : {"hybrid", "naive:bounces=2", "raytrace:shadow=map"}) {
+        const app::Part alone = test::render(scene, technique, {64, 48}, 2),
+                        plan = test::render(scene, "2=" + technique + " *=" + technique, {64, 48},
+                                            2);
+        EXPECT_TRUE(test::same_bytes(alone.hdr, plan.hdr)) << technique;
+        EXPECT_EQ(alone.scene_passes, plan.scene_passes) << technique;
+        EXPECT_EQ(alone.hits, plan.hits) << technique;
+    }
+}
+
+TEST(Plan, AMirrorWithoutACaptureIsBlackInTheOthers) {
+    // In a furnace of radiance 1, mirrors halve one channel each: what is black met a mirror that
+    // nobody captured.
+    const scene::Scene scene = test::hall();
+    const uvec2 size{96, 72};
+    const app::Part shown = test::render(scene, "1=secant:face=64 *=raytrace", size, 3),
+                    black = test::render(scene, "1=secant:face=64 *=raytrace:capture=none", size,
+                                         3),
+                    truth = test::render(scene, "raytrace", size);
+    EXPECT_EQ(shown.scene_passes, black.scene_passes + 2) << "two captures less";
+    std::size_t dark = 0, lit = 0;
+    for (std::size_t i = 0; i < truth.hits.size(); ++i) {
+        if (measure::first_mirror(truth.hits[i]) != MirrorId(1)) {
+            EXPECT_EQ(shown.hdr.pixels[i], black.hdr.pixels[i]);
+            continue;
+        }
+        if (measure::second_mirror(truth.hits[i]) == MirrorId{}) continue;
+        dark += black.hdr.pixels[i] == vec3(0);
+        lit += shown.hdr.pixels[i] != vec3(0);
+    }
+    EXPECT_GT(dark, 20u);
+    EXPECT_GT(lit, 20u);
+}
+
+TEST(Plan, OfTracingsDrawsNoCaptures) {
+    const scene::Scene scene = test::room(3, 1);
+    const uvec2 size{96, 72};
+    const app::Part mixed = test::render(
+        scene,
+        "1=raytrace:depth=1,shadow=map 2=raytrace:depth=3,shadow=map "
+        "*=raytrace:depth=8,shadow=map,samples=4",
+        size);
+    EXPECT_EQ(mixed.scene_passes, 2); // shadow map and view
+    const app::Part truth = test::render(scene, "raytrace", size);
+    for (const auto& [mirror, technique] : {std::pair{1u, "raytrace:depth=1,shadow=map"},
+                                            {2u, "raytrace:depth=3,shadow=map"},
+                                            {3u, "raytrace:depth=8,shadow=map,samples=4"}}) {
+        const app::Part alone = test::render(scene, technique, size);
+        std::size_t pixels = 0, off = 0;
+        for (std::size_t i = 0; i < truth.hits.size(); ++i) {
+            if (measure::first_mirror(truth.hits[i]) != MirrorId(mirror)) continue;
+            ++pixels;
+            off += is_off(mixed.hdr.pixels[i], alone.hdr.pixels[i]);
+        }
+        EXPECT_GT(pixels, 100u);
+        EXPECT_LE(off, 3u) << technique << " of " << pixels;
+    }
+    ASSERT_TRUE(mixed.rays && mixed.traced_fraction);
+    EXPECT_EQ(*mixed.traced_fraction, 1);
+}
+
+/// So many exact balls in a room that one array does not hold their captures.
+scene::Scene many_balls(int count) {
+    scene::Scene scene = test::room(0, 1);
+    scene.name = "many balls";
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+    for (int i = 0; i < count; ++i)
+        test::add_ball(scene, "ball" + std::to_string(i + 1), mirror,
+                       {-1.6 + .16 * (i % 21), -1.7 + .18 * (i / 21 % 18), .4 + .3 * (i % 3)}, .06,
+                       0);
+    return scene;
+}
+
+TEST(Plan, MoreMirrorsThanAnArrayHoldsAreCapturedInSeveral) {
+    const scene::Scene scene = many_balls(350);
+    const uvec2 size{64, 64};
+    const std::vector<std::string> techniques{"parallax:face=4"};
+    const app::Part part = test::render(scene, techniques.front(), size, 1);
+    EXPECT_EQ(part.scene_passes, 350 + 2);
+    const app::Part truth = test::render(scene, "raytrace:depth=1", size);
+    // Against a scene without the first ten, of whose captures one array holds all: the other
+    // mirrors are black in captures of a first frame, so what changes is where these were.
+    scene::Scene fewer = scene;
+    const std::size_t first = scene::mirrors(scene).front();
+    const auto begin = fewer.objects.begin() + static_cast<std::ptrdiff_t>(first);
+    fewer.objects.erase(begin, begin + 10);
+    const app::Part alone = test::render(fewer, techniques.front(), size, 1);
+    std::size_t pixels = 0, other = 0;
+    for (std::size_t i = 0; i < truth.hits.size(); ++i) {
+        const MirrorId mirror = measure::first_mirror(truth.hits[i]);
+        if (mirror.number() <= 100) continue; // far from those left out
+        ++pixels;
+        other += is_off(part.hdr.pixels[i], alone.hdr.pixels[i]);
+    }
+    EXPECT_GT(pixels, 100u);
+    EXPECT_LT(static_cast<double>(other), .02 * static_cast<double>(pixels)) << other;
+}
+
+TEST(Plan, EdgesThatAreTooManyAreEnlargedAndThatIsSaid) {
+    const scene::Scene scene = many_balls(10);
+    std::string plan;
+    for (int i = 1; i <= 10; ++i)
+        plan += std::to_string(i) + "=reuse:face=" + std::to_string(8 + i) + " ";
+    const app::Part part = test::render(scene, plan, {32, 32});
+    ASSERT_EQ(part.notes.size(), 2u);
+    EXPECT_EQ(part.notes[0],
+              "1 captures of 9 texels an edge are made with 10: a frame has at most 8 arrays of "
+              "them");
+    EXPECT_EQ(part.notes[1],
+              "1 captures of 11 texels an edge are made with 12: a frame has at most 8 arrays of "
+              "them");
+    EXPECT_EQ(part.scene_passes, 12);
+    test::expect_refused(
+        [&] {
+            std::string kinds;
+            for (int i = 1; i <= 10; ++i)
+                kinds += std::to_string(i) +
+                         "=parallax:face=8,distance=unorm8,range=" + std::to_string(i) + " ";
+            test::render(scene, kinds, {32, 32});
+        },
+        Failure::exhausted, {"10 arrays", "a frame has 8"});
+}
+
+TEST(Plan, ThatDoesNotFitTheSceneIsRefused) {
+    const scene::Scene scene = test::room(3, 1);
+    const auto refused = [&](const std::string& plan, const std::vector<std::string>& words) {
+        test::expect_refused([&] { test::render(scene, plan, {16, 16}); }, Failure::usage, words);
+    };
+    refused("1=reuse 2=secant", {"no rule for mirror 3 'ball3'", "'*=TECHNIQUE'"});
+    refused("4=reuse *=secant", {"pattern '4' matches no mirror", "3 mirrors", "2 'ball2'"});
+    refused("bal1=reuse *=secant", {"pattern 'bal1'", "did you mean 'ball1'"});
+}
+
+} // namespace

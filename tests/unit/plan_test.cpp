@@ -1,0 +1,161 @@
+// Plans as text: which rule takes which mirror, and what is refused. Nothing is rendered.
+#include "app/plan_file.hpp"
+#include "reflect/plan.hpp"
+#include "support/folder.hpp"
+
+#include "core/file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace catoptric;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::vector<std::string> kMirrors{"left ball", "front", "back", "far ball"};
+
+/// The technique of each mirror, as it was asked for.
+std::vector<std::string> labels(const std::string& text,
+                                const std::vector<std::string>& names = kMirrors) {
+    const reflect::Assignment assignment = reflect::assign(reflect::parse_plan(text), names);
+    std::vector<std::string> result;
+    for (const std::uint32_t choice : assignment.of_mirror)
+        result.push_back(assignment.choices[choice].label);
+    return result;
+}
+
+TEST(PlanText, OneTechniqueIsForAllMirrorsAndForNone) {
+    EXPECT_THAT(labels("secant:face=64"), ElementsAre("secant:face=64", "secant:face=64",
+                                                      "secant:face=64", "secant:face=64"));
+    EXPECT_EQ(reflect::assign(reflect::parse_plan("reuse"), {}).choices.size(), 1u);
+}
+
+TEST(PlanText, ANumberGoesBeforeANameThatBeforeTheRest) {
+    EXPECT_THAT(labels("*=reuse *ball=secant 4=march"),
+                ElementsAre("secant", "reuse", "reuse", "march"));
+    EXPECT_THAT(labels("4=march *ball=secant *=reuse"),
+                ElementsAre("secant", "reuse", "reuse", "march"));
+    // A wildcard that matches all is still a name, which `*` alone is not.
+    EXPECT_THAT(labels("*=reuse ?*=secant"), ElementsAre("secant", "secant", "secant", "secant"));
+}
+
+TEST(PlanText, OfEqualsTheFirstWins) {
+    EXPECT_THAT(labels("2=march 2=secant *=reuse *=parallax"),
+                ElementsAre("reuse", "march", "reuse", "reuse"));
+    EXPECT_THAT(labels("b*=march *k=secant *=reuse"),
+                ElementsAre("reuse", "reuse", "march", "reuse"));
+}
+
+TEST(PlanText, ListsMixNumbersAndNames) {
+    EXPECT_THAT(labels("3,front=secant:steps=1 *=reuse"),
+                ElementsAre("reuse", "secant:steps=1", "secant:steps=1", "reuse"));
+    // Each item counts for itself: 2 as a number beats the name, far* does not beat 4.
+    EXPECT_THAT(labels("front=march 2,far*=secant 4=layered *=reuse"),
+                ElementsAre("reuse", "secant", "reuse", "layered"));
+}
+
+TEST(PlanText, ANumberIsAPlaceNotAName) {
+    EXPECT_THAT(labels("2=march *=reuse", {"2", "1"}), ElementsAre("reuse", "march"));
+}
+
+TEST(PlanText, RulesThatSayTheSameShareAChoice) {
+    const reflect::Assignment assignment = reflect::assign(
+        reflect::parse_plan("1=reuse:face=256 2=march *=reuse"), kMirrors);
+    EXPECT_EQ(assignment.choices.size(), 2u);
+    EXPECT_THAT(assignment.of_mirror, ElementsAre(0, 1, 0, 0));
+    EXPECT_THAT(assignment.patterns, ElementsAre("1", "2", "*", "*"));
+}
+
+void expect_refused(const std::string& text, const std::vector<std::string>& words,
+                    Failure failure = Failure::usage) {
+    try {
+        reflect::assign(app::read_plan(text), kMirrors);
+        ADD_FAILURE() << "'" << text << "' was taken";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, failure) << text;
+        for (const std::string& word : words) EXPECT_THAT(error.what(), HasSubstr(word));
+    }
+}
+
+TEST(PlanText, WhatIsWrongIsNamed) {
+    expect_refused("9=reuse *=march", {"pattern '9'", "matches no mirror", "4 mirrors",
+                                       "1 'left ball'", "4 'far ball'"});
+    expect_refused("0=reuse *=march", {"pattern '0'"});
+    expect_refused("2,frnt=reuse *=march", {"pattern 'frnt'", "did you mean 'front'"});
+    expect_refused("1=reuse 2=march 4=secant", {"no rule for mirror 3 'back'"});
+    expect_refused("1=rouse *=march", {"no technique 'rouse'", "did you mean 'reuse'"});
+    expect_refused("1=reuse:fase=3 *=march", {"fase"});
+    expect_refused("1=reuse secant", {"wanted PATTERN=TECHNIQUE, found 'secant'"});
+    expect_refused("=reuse *=march", {"found '=reuse'"});
+    expect_refused("1,,2=reuse *=march", {"pattern '1,,2' has an empty entry"});
+    expect_refused("1= *=march", {"no technique ''"});
+}
+
+TEST(PlanText, NamesAFile) {
+    EXPECT_EQ(reflect::parse_plan("secant:face=64").file_name(), "secant-face64");
+    EXPECT_EQ(reflect::parse_plan("1=reuse 2,3=secant:face=64 *=march").file_name(),
+              "plan-1reuse-2-3secant-face64--march");
+    std::string a = "1=reuse:face=1", b;
+    for (int i = 0; i < 30; ++i) a += " 1=reuse:face=2";
+    b = a + "3";
+    EXPECT_LE(reflect::parse_plan(a).file_name().size(), 80u);
+    EXPECT_NE(reflect::parse_plan(a).file_name(), reflect::parse_plan(b).file_name());
+}
+
+class PlanFile : public test::InFolder {
+protected:
+    std::string file(const std::string& content) {
+        const std::string path = (folder / "plan.json").string();
+        write_file(path, content);
+        return "plan:" + path;
+    }
+};
+
+TEST_F(PlanFile, SaysWhatTheTextSays) {
+    const reflect::Plan text = reflect::parse_plan("1=reuse:face=64 2,back=hybrid *=march");
+    EXPECT_TRUE(app::read_plan(file(R"([{"mirror": 1, "technique": "reuse:face=64"},
+                                        {"mirror": "2,back", "technique": "hybrid"},
+                                        {"mirror": "*", "technique": "march"}])"))
+                    .same_as(text));
+    // As a report's row has it.
+    const reflect::Plan row = app::read_plan(
+        file(R"({"plan": [{"mirror": 1, "name": "left ball", "technique": "reuse",
+                           "settings": {"face": 64, "colour": "half"}, "why": "rule '1'"},
+                          {"mirror": "2,back", "technique": "hybrid", "settings": {}},
+                          {"mirror": "*", "technique": "march"}]})"));
+    EXPECT_TRUE(row.same_as(text));
+    EXPECT_TRUE(row.label.starts_with("plan:"));
+    EXPECT_TRUE(app::read_plan(file(R"([{"mirror": "*", "technique": "reuse",
+                                         "settings": {"face": "auto"}}])"))
+                    .same_as(reflect::parse_plan("*=reuse:face=auto")));
+}
+
+TEST_F(PlanFile, WhatIsWrongIsNamedWithItsPlace) {
+    const auto bad = [&](const std::string& content, const std::vector<std::string>& words,
+                         Failure failure = Failure::bad_data) {
+        expect_refused(file(content), words, failure);
+    };
+    bad("{", {"plan.json", "wanted JSON"});
+    bad("[]", {"wanted a list of rules"});
+    bad(R"({"plans": []})", {"wanted a list of rules", "an object"});
+    bad(R"([{"mirror": -1, "technique": "reuse"}])",
+        {"plan[0].mirror: wanted a mirror's number or a pattern, found -1"});
+    bad(R"([{"mirror": 1}])", {"plan[0].technique: wanted text, found nothing"});
+    bad(R"([{"mirror": 1, "technique": "reuse", "settings": [1]}])",
+        {"plan[0].settings: wanted an object, found a list"});
+    bad(R"([{"mirror": 1, "technique": "reuse", "settings": {"face": null}}])",
+        {"plan[0].settings.face: wanted a number or text, found null"});
+    bad(R"([{"mirror": "*", "technique": "reuse"}, {"mirrors": 2, "technique": "reuse"}])",
+        {"plan[1]: wanted mirror, technique and settings, found 'mirrors'"});
+    bad(R"([{"mirror": 1, "technique": "rouse"}])", {"did you mean 'reuse'"}, Failure::usage);
+    bad(R"([{"mirror": 9, "technique": "reuse"}])", {"pattern '9' matches no mirror"},
+        Failure::usage);
+    expect_refused("plan:" + (folder / "none.json").string(), {"none.json"},
+                   Failure::missing_input);
+    expect_refused("plan:" + folder.string(), {"wanted a file with a plan"},
+                   Failure::bad_data);
+}
+
+} // namespace
