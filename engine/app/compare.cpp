@@ -67,6 +67,7 @@ void fill_times(report::Row& row, const std::vector<FrameTimes>& frames,
         for (const PassTime& pass : frame.passes) sum += mine(pass) ? pass.ms() : 0;
         return sum;
     });
+    row.wait_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.wait_ms; });
     row.cpu_record_ms = over_frames(frames,
                                     [](const FrameTimes& frame) { return frame.record_ms; });
     row.wall_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.wall_ms; });
@@ -148,7 +149,8 @@ report::Row make_row(const std::string& text, const Part& part,
 class Comparer {
 public:
     Comparer(Engine& engine, const CompareRequest& request)
-        : engine_(engine), request_(request), session_(engine, request.base.scene) {
+        : engine_(engine), request_(request), compiled_before_(engine.compiled()),
+          session_(engine, request.base.scene) {
         if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
         check_rows(request_.base.techniques); // before any work
         check_has_mirror(request_.base.scene);
@@ -173,6 +175,7 @@ public:
             if (comparison_.rows.empty()) throw;
             comparison_.stopped = Error(Failure::exhausted, "out of memory");
         }
+        fill_setup();
         return std::move(comparison_);
     }
 
@@ -203,6 +206,18 @@ private:
         comparison_.timing = base.timing == Timing::isolated ? "isolated" : "pipelined";
         comparison_.together = request_.together;
         comparison_.warnings = base.scene.warnings;
+    }
+
+    void fill_setup() {
+        const Setup setup = session_.setup();
+        const Compiled compiled = engine_.compiled();
+        constexpr const char* kCacheUse[] = {"none", "made", "used"}; // by CacheUse
+        comparison_.setup = {request_.base.load_ms,
+                             setup.upload_ms,
+                             setup.hierarchy_ms,
+                             compiled.ms - compiled_before_.ms,
+                             compiled.pipelines - compiled_before_.pipelines,
+                             kCacheUse[static_cast<std::size_t>(engine_.cache_use())]};
     }
 
     Result frames_of(const Request& request) {
@@ -318,7 +333,8 @@ private:
         tell();
     }
 
-    void tell() const {
+    void tell() {
+        fill_setup();
         if (request_.on_finished_row) request_.on_finished_row(comparison_);
     }
 
@@ -351,7 +367,8 @@ private:
 
     Engine& engine_;
     CompareRequest request_;
-    Session session_; ///< of all rows
+    Compiled compiled_before_; ///< by the engine, for others
+    Session session_;          ///< of all rows
     std::size_t mirrors_ = 0;
     std::map<std::string, Truth> truths_;
     std::vector<std::uint32_t> hits_;

@@ -8,9 +8,10 @@ namespace catoptric::app {
 
 /// A run of frames: what the first shows, in which scene, and how many follow.
 struct Request : FrameSpec {
-    scene::Scene scene; ///< at rest
-    int frames = 20;    ///< measured
-    int warmup = 8;     ///< before them; frames count from 1 at cold history, these included
+    scene::Scene scene;            ///< at rest
+    std::optional<double> load_ms; ///< that the caller took to read or make it
+    int frames = 20;               ///< measured
+    int warmup = 8; ///< before them; frames count from 1 at cold history, these included
     /// End with the first frame that cannot change any more: at once where nothing is remembered,
     /// else when a frame's linear pictures and all captures equal those of the frame before, byte
     /// for byte.
