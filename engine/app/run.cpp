@@ -32,10 +32,10 @@ bool Frames::next() {
 
 Result Frames::result() const { return {frame_->read_all(), times_, settled_}; }
 
-Result run(Session& session, const Request& request) {
+Result run(Session& session, const Request& request, const Watcher& watcher) {
     Frames frames(session, request);
-    while (frames.next()) {
-    }
+    watcher.check_stopped();
+    while (frames.next()) watcher.frame(frames.number(), request.total());
     return frames.result();
 }
 

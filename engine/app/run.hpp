@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/session.hpp"
+#include "app/watcher.hpp"
 
 #include <vector>
 
@@ -54,8 +55,8 @@ private:
     std::vector<std::byte> state_; ///< of the frame before, with `until_settled`
 };
 
-/// All frames of a request in a session of its scene.
-Result run(Session& session, const Request& request);
+/// All frames of a request in a session of its scene. The watcher is told of each and may end them.
+Result run(Session& session, const Request& request, const Watcher& watcher = {});
 /// The same in a session of its own.
 Result run(Engine& engine, const Request& request);
 
