@@ -1,43 +1,23 @@
 #include "app/compare.hpp"
 
 #include "app/causes.hpp"
+#include "app/compare_row.hpp"
 #include "app/lag.hpp"
 #include "app/oracle.hpp"
+#include "app/truths.hpp"
 #include "core/error.hpp"
 #include "measure/difference.hpp"
-#include "measure/flip.hpp"
 #include "measure/judge.hpp"
 #include "measure/masks.hpp"
 #include "reflect/technique.hpp"
 #include "scene/load.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <map>
 #include <new>
 
 namespace catoptric::app {
 
 namespace {
-
-/// What a row is judged against: the reference at the row's own sample count.
-struct Truth {
-    Part part;
-    std::vector<double> gpu_ms;
-};
-
-std::string sample_count(const TechniqueChoice& choice) {
-    for (const auto& setting : choice.settings)
-        if (choice.technique == "raytrace" && setting.name == "samples") return setting.text;
-    return "1";
-}
-
-/// The text of the reference with `samples` set; text without that knob stays as it is.
-std::string reference_at(const std::string& reference, const std::string& samples) {
-    if (samples == "1" || parse_technique(reference).technique != "raytrace") return reference;
-    return reference + (reference.find(':') == std::string::npos ? ":" : ",") +
-           "samples=" + samples;
-}
 
 bool same(const TechniqueChoice& a, const TechniqueChoice& b) {
     return a.technique == b.technique && a.settings == b.settings;
@@ -49,106 +29,13 @@ bool is_set(const report::Row& row, std::string_view knob, std::string_view text
     });
 }
 
-template <typename Value>
-measure::Summary over_frames(const std::vector<FrameTimes>& frames, Value&& value) {
-    std::vector<double> samples;
-    for (const FrameTimes& frame : frames) samples.push_back(value(frame));
-    return measure::summarise(samples);
-}
-
-/// Times of the passes whose name begins with `prefix`, and of them together. Alone, the frame
-/// counts from its first to its last stamp.
-void fill_times(report::Row& row, const std::vector<FrameTimes>& frames,
-                const std::string& prefix) {
-    const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
-    row.gpu_ms = over_frames(frames, [&](const FrameTimes& frame) {
-        if (prefix.empty()) return frame.gpu_ms;
-        double sum = 0;
-        for (const PassTime& pass : frame.passes) sum += mine(pass) ? pass.ms() : 0;
-        return sum;
-    });
-    row.cpu_record_ms = over_frames(frames,
-                                    [](const FrameTimes& frame) { return frame.record_ms; });
-    row.wall_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.wall_ms; });
-    row.closure = over_frames(
-        frames, [](const FrameTimes& frame) { return frame.passes_ms() / frame.wall_ms; });
-    row.host_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.host.sum(); });
-    row.frame_ms = over_frames(frames, [&](const FrameTimes& frame) { return frame.frame_ms(); });
-    const auto part = [&](double HostTimes::*which) {
-        return over_frames(frames, [&](const FrameTimes& frame) { return frame.host.*which; })
-            .median;
-    };
-    row.host_parts = {part(&HostTimes::update), part(&HostTimes::hierarchy),
-                      part(&HostTimes::compile), part(&HostTimes::record)};
-    const std::vector<PassTime>& passes = frames.front().passes;
-    for (std::size_t i = 0; i < passes.size(); ++i)
-        if (mine(passes[i]))
-            row.passes.push_back({passes[i].name, over_frames(frames, [&](const FrameTimes& frame) {
-                                      return frame.passes[i].ms();
-                                  })});
-}
-
-/// Whether a picture shows nothing in its mirrors, but for pixels at their outlines, where the
-/// reference shows something.
-bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture& truth,
-                         const std::vector<std::uint32_t>& hits) {
-    std::size_t pixels = 0, black = 0, wanted_black = 0;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (!measure::first_mirror(hits[i])) continue;
-        ++pixels;
-        black += picture.pixels[i] == vec3(0);
-        wanted_black += truth.pixels[i] == vec3(0);
-    }
-    constexpr double kMost = .99;
-    return pixels > 0 && static_cast<double>(black) >= kMost * static_cast<double>(pixels) &&
-           static_cast<double>(wanted_black) < kMost * static_cast<double>(pixels);
-}
-
-void fill_errors(report::Row& row, const Part& part, const Part& truth,
-                 const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
-    row.flip_map = measure::flip(part.display, truth.display);
-    const auto against = [&](const measure::Mask& mask) {
-        return measure::difference(part.hdr, truth.hdr, mask, row.flip_map);
-    };
-    row.error = against(measure::mirrors(hits));
-    row.error_first_order = against(measure::first_order(hits));
-    row.error_mirror_in_mirror = against(measure::mirror_in_mirror(hits));
-    row.error_non_mirror = against(measure::non_mirror(hits));
-    row.error_all = against(measure::all_pixels(hits));
-    for (std::size_t i = 0; i < mirrors; ++i)
-        row.error_per_mirror.push_back(against(measure::of_mirror(hits, MirrorId::at(i))));
-    row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
-    row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
-    row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
-}
-
-report::Row make_row(const std::string& text, const Part& part,
-                     const std::vector<FrameTimes>& frames) {
-    const TechniqueChoice choice = parse_technique(text);
-    report::Row row;
-    row.technique = choice.technique;
-    row.label = choice.label;
-    row.settings = choice.settings;
-    row.image = choice.file_name;
-    row.scene_passes = part.scene_passes;
-    row.scene_draws = part.scene_draws;
-    row.memory_bytes = part.memory_bytes;
-    if (part.rays)
-        row.rays = report::Rays{part.rays->primary, part.rays->mirror, part.rays->shadow};
-    row.traced_fraction = part.traced_fraction;
-    if (part.auto_face)
-        row.auto_face = report::AutoFace{part.auto_face->edge, part.auto_face->needs};
-    row.hdr = part.hdr;
-    row.display = part.display;
-    fill_times(row, frames, part.prefix);
-    return row;
-}
-
 /// Runs rows one by one or together, judges each against the reference at its sample count.
 class Comparer {
 public:
     Comparer(Engine& engine, const CompareRequest& request)
-        : engine_(engine), request_(request), session_(engine, request.base.scene) {
+        : engine_(engine), request_(request), compiled_before_(engine.compiled()),
+          session_(engine, request.base.scene),
+          truths_(session_, request_.base, request_.reference, request_.watcher) {
         if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
         check_rows(request_.base.techniques); // before any work
         check_has_mirror(request_.base.scene);
@@ -159,8 +46,7 @@ public:
         start();
         try {
             // Masks: what one ray through each pixel centre meets.
-            hits_ = truth("1").part.hits;
-            if (hits_.empty()) hits_ = traced_hits();
+            hits_ = truths_.hits();
             fill_reference();
             fill_clear();
             request_.together ? run_together() : run_apart();
@@ -173,6 +59,7 @@ public:
             if (comparison_.rows.empty()) throw;
             comparison_.stopped = Error(Failure::exhausted, "out of memory");
         }
+        fill_setup();
         return std::move(comparison_);
     }
 
@@ -205,11 +92,16 @@ private:
         comparison_.warnings = base.scene.warnings;
     }
 
-    Result frames_of(const Request& request) {
-        Frames frames(session_, request);
-        request_.watcher.check_stopped();
-        while (frames.next()) request_.watcher.frame(frames.number(), request.total());
-        return frames.result();
+    void fill_setup() {
+        const Setup setup = session_.setup();
+        const Compiled compiled = engine_.compiled();
+        constexpr const char* kCacheUse[] = {"none", "made", "used"}; // by CacheUse
+        comparison_.setup = {request_.base.load_ms,
+                             setup.upload_ms,
+                             setup.hierarchy_ms,
+                             compiled.ms - compiled_before_.ms,
+                             compiled.pipelines - compiled_before_.pipelines,
+                             kCacheUse[static_cast<std::size_t>(engine_.cache_use())]};
     }
 
     /// What it costs to clear the cubes of all mirrors once and draw nothing.
@@ -224,32 +116,13 @@ private:
         comparison_.clear_ms = measure::summarise(samples);
     }
 
-    /// The reference, rendered once for each sample count.
-    const Truth& truth(const std::string& samples) {
-        const auto found = truths_.find(samples);
-        if (found != truths_.end()) return found->second;
-        Request request = request_.base;
-        request.techniques = {reference_at(request_.reference, samples)};
-        Result result = frames_of(request);
-        Truth made{std::move(result.parts.front()), {}};
-        for (const FrameTimes& frame : result.frames) made.gpu_ms.push_back(frame.gpu_ms);
-        return truths_.emplace(samples, std::move(made)).first->second;
-    }
-
-    /// For a reference that traces no rays of its own.
-    std::vector<std::uint32_t> traced_hits() {
-        Request request = request_.base;
-        request.techniques = {"raytrace:depth=1"};
-        return std::move(frames_of(request).parts.front().hits);
-    }
-
     void fill_reference() {
         const TechniqueChoice choice = parse_technique(request_.reference);
         comparison_.reference_technique = choice.technique;
         comparison_.reference_label = choice.label;
         comparison_.reference_settings = choice.settings;
-        comparison_.reference_gpu_ms = measure::summarise(truth("1").gpu_ms);
-        comparison_.reference_display = truth("1").part.display;
+        comparison_.reference_gpu_ms = measure::summarise(truths_.at("1").gpu_ms);
+        comparison_.reference_display = truths_.at("1").part.display;
     }
 
     /// Where the row's mirrors looked and what its captures cut off: a run of its own, since saying
@@ -262,7 +135,7 @@ private:
         request.time = request_.base.instant(request_.base.total());
         request.animate = false;
         request.with_lookup = true;
-        Part part = std::move(frames_of(request).parts.front());
+        Part part = std::move(app::run(session_, request, request_.watcher).parts.front());
         const bool looks = std::ranges::any_of(part.lookup,
                                                [](const vec4& pixel) { return pixel.w > 0; });
         if (!looks) part.lookup.clear();
@@ -274,14 +147,15 @@ private:
     report::Causes causes_of(const std::string& text, const report::Row& row,
                              const std::vector<vec4>& lookup) {
         if (!finder_)
-            finder_.emplace(session_, request_.base, truth("1").part.hdr, hits_, request_.watcher);
+            finder_.emplace(session_, request_.base, truths_.at("1").part.hdr, hits_,
+                            request_.watcher);
         report::Causes causes = finder_->find(text);
         const auto face = std::ranges::find(row.settings, "face", &report::Setting::name);
         const double edge = row.auto_face ? row.auto_face->edge : face->number.value();
         measure::Mask at_edges = oracle_->at_light_edges(lookup, static_cast<std::uint32_t>(edge));
         for (std::size_t i = 0; i < at_edges.size(); ++i)
             if (!measure::first_mirror(hits_[i])) at_edges[i] = 0;
-        const measure::Difference there = measure::difference(row.hdr, truth("1").part.hdr,
+        const measure::Difference there = measure::difference(row.hdr, truths_.at("1").part.hdr,
                                                               at_edges, row.flip_map);
         const auto sum = [](const measure::Difference& error) {
             return error.pixels > 0 ? error.rmse * error.rmse * static_cast<double>(error.pixels)
@@ -307,7 +181,7 @@ private:
             row.lookup = measure::lookup_error(
                 oracle_->judge(lookup, is_set(row, "mirrors", "left_out")));
         const std::string samples = sample_count(parse_technique(text));
-        fill_errors(row, part, truth(samples).part, hits_, mirrors_);
+        fill_errors(row, part, truths_.at(samples).part, hits_, mirrors_);
         if (!lookup.empty() && request_.causes &&
             same(parse_technique(request_.reference), parse_technique(kReference)))
             row.causes = causes_of(text, row, lookup);
@@ -318,7 +192,8 @@ private:
         tell();
     }
 
-    void tell() const {
+    void tell() {
+        fill_setup();
         if (request_.on_finished_row) request_.on_finished_row(comparison_);
     }
 
@@ -328,14 +203,14 @@ private:
             request_.watcher.row(texts[i], i, texts.size());
             Request request = request_.base;
             request.techniques = {texts[i]};
-            const Result result = frames_of(request);
+            const Result result = app::run(session_, request, request_.watcher);
             add(texts[i], result.parts.front(), result.frames);
         }
     }
 
     void run_together() {
         request_.watcher.row("all rows in one frame", 0, 1);
-        const Result result = frames_of(request_.base);
+        const Result result = app::run(session_, request_.base, request_.watcher);
         for (std::size_t i = 0; i < result.parts.size(); ++i)
             add(request_.base.techniques[i], result.parts[i], result.frames);
     }
@@ -351,9 +226,10 @@ private:
 
     Engine& engine_;
     CompareRequest request_;
-    Session session_; ///< of all rows
+    Compiled compiled_before_; ///< by the engine, for others
+    Session session_;          ///< of all rows
     std::size_t mirrors_ = 0;
-    std::map<std::string, Truth> truths_;
+    Truths truths_;
     std::vector<std::uint32_t> hits_;
     std::optional<Oracle> oracle_;
     std::optional<CauseFinder> finder_;

@@ -27,6 +27,12 @@ Engine::~Engine() = default;
 
 const DeviceInfo& Engine::device() const { return impl_->info; }
 const std::string& Engine::warning() const { return impl_->pipelines.cache().warning(); }
+Compiled Engine::compiled() const { return {impl_->pipelines.made(), impl_->pipelines.ms()}; }
+CacheUse Engine::cache_use() const {
+    const gpu::PipelineCache& cache = impl_->pipelines.cache();
+    if (!cache.is_kept()) return CacheUse::none;
+    return cache.loaded_bytes() > 0 ? CacheUse::used : CacheUse::made;
+}
 bool Engine::usable() const { return !impl_->device.abandoned(); }
 void Engine::check_validation() const { impl_->device.check_validation(); }
 

@@ -61,6 +61,17 @@ std::string commit();  ///< abbreviated, "unknown" outside a checkout
 /// ends with std::_Exit.
 bool any_abandoned();
 
+/// What an engine has compiled so far. A software driver compiles more of a pipeline within the
+/// frame that first uses it.
+struct Compiled {
+    std::size_t pipelines = 0;
+    double ms = 0; ///< of the host, from the shader's words to the driver's pipeline
+};
+
+/// What became of the cache on disk: there is none; it is new or was not whole; the driver was
+/// given what it holds.
+enum class CacheUse { none, made, used };
+
 /// A device with what has been compiled for it. One thread at a time.
 ///
 /// Making one sets variables of this process's environment, before threads of the program should
@@ -79,6 +90,8 @@ public:
     const DeviceInfo& device() const;
     /// What its user should know: a cache that cannot be used. Empty where all is well.
     const std::string& warning() const;
+    Compiled compiled() const;
+    CacheUse cache_use() const;
     /// Throws `internal` with the first message of the validation layer, when there is any.
     void check_validation() const;
 

@@ -19,6 +19,8 @@ bool Frames::next() {
     FrameSpec spec = request_;
     spec.time = request_.instant(number_);
     frame_ = session_.frame(spec);
+    // The first measured frame is not to wait for those before it.
+    if (number_ == request_.warmup) frame_->times();
     if (number_ > request_.warmup) times_.push_back(frame_->times());
     if (request_.until_settled) {
         std::vector<std::byte> state = frame_->state();
@@ -30,10 +32,10 @@ bool Frames::next() {
 
 Result Frames::result() const { return {frame_->read_all(), times_, settled_}; }
 
-Result run(Session& session, const Request& request) {
+Result run(Session& session, const Request& request, const Watcher& watcher) {
     Frames frames(session, request);
-    while (frames.next()) {
-    }
+    watcher.check_stopped();
+    while (frames.next()) watcher.frame(frames.number(), request.total());
     return frames.result();
 }
 

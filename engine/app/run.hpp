@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/session.hpp"
+#include "app/watcher.hpp"
 
 #include <vector>
 
@@ -8,9 +9,10 @@ namespace catoptric::app {
 
 /// A run of frames: what the first shows, in which scene, and how many follow.
 struct Request : FrameSpec {
-    scene::Scene scene; ///< at rest
-    int frames = 20;    ///< measured
-    int warmup = 8;     ///< before them; frames count from 1 at cold history, these included
+    scene::Scene scene;            ///< at rest
+    std::optional<double> load_ms; ///< that the caller took to read or make it
+    int frames = 20;               ///< measured
+    int warmup = 8; ///< before them; frames count from 1 at cold history, these included
     /// End with the first frame that cannot change any more: at once where nothing is remembered,
     /// else when a frame's linear pictures and all captures equal those of the frame before, byte
     /// for byte.
@@ -53,8 +55,8 @@ private:
     std::vector<std::byte> state_; ///< of the frame before, with `until_settled`
 };
 
-/// All frames of a request in a session of its scene.
-Result run(Session& session, const Request& request);
+/// All frames of a request in a session of its scene. The watcher is told of each and may end them.
+Result run(Session& session, const Request& request, const Watcher& watcher = {});
 /// The same in a session of its own.
 Result run(Engine& engine, const Request& request);
 

@@ -29,7 +29,7 @@ struct Standing {
 };
 
 FrameTimes to_times(const graph::FrameTimes& times) {
-    FrameTimes frame{{}, times.span_ms, times.record_ms, times.wall_ms, {}};
+    FrameTimes frame{{}, times.span_ms, times.record_ms, times.wall_ms, times.wait_ms, {}};
     frame.host.compile = times.compile_ms, frame.host.record = times.record_ms;
     for (const graph::PassTime& pass : times.passes)
         frame.passes.push_back({pass.name, pass.begin_ms, pass.end_ms});
@@ -140,6 +140,10 @@ Counts Session::counts() const {
     counts.hierarchies_built = impl_->resident->hierarchies_built();
     counts.hierarchies_refitted = impl_->resident->hierarchies_refitted();
     return counts;
+}
+
+Setup Session::setup() const {
+    return {impl_->resident->first_upload_ms(), impl_->resident->first_build_ms()};
 }
 
 Frame Session::frame(const FrameSpec& spec) {

@@ -65,6 +65,9 @@ struct FrameTimes {
     double gpu_ms = 0;    ///< first to last stamp
     double record_ms = 0; ///< filling the command buffer
     double wall_ms = 0;   ///< submit until done, without recording and read-back
+    /// The host stood still for the device: for a place among the frames in flight, and until this
+    /// one had ended. No work, and added to nothing.
+    double wait_ms = 0;
     HostTimes host;
     double passes_ms() const {
         double sum = 0;
@@ -163,6 +166,12 @@ struct Counts {
     std::uint64_t hierarchies_built = 0, hierarchies_refitted = 0;
 };
 
+/// What a scene needed once, milliseconds of the host each.
+struct Setup {
+    double upload_ms = 0;    ///< laid out for the device and written to it
+    double hierarchy_ms = 0; ///< trees for tracing, built; 0: no pass has traced
+};
+
 /// A scene on a device, for as many frames as one likes: what is uploaded, compiled or remembered
 /// stays from frame to frame. One thread at a time. A device error ends it, and its engine, which
 /// must outlive it and its frames.
@@ -192,6 +201,8 @@ public:
     /// any capture costs before it shows something. History stays.
     FrameTimes clear_cubes();
     Counts counts() const;
+    /// Of the scene as it is resident now.
+    Setup setup() const;
 
 private:
     friend class Frame;

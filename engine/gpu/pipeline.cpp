@@ -1,5 +1,6 @@
 #include "gpu/pipeline.hpp"
 
+#include "core/stopwatch.hpp"
 #include "shared.h"
 
 #include <algorithm>
@@ -225,6 +226,7 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
         key += state.hidden == Winding::clockwise ? "/no clockwise" : "/no counterclockwise";
     if (const auto found = made_.find(key); found != made_.end()) return found->second;
 
+    const Stopwatch watch(ms_);
     Pipeline pipeline;
     std::vector<Stage> stages;
     stages.emplace_back(device_, variant_of(state.vertex), VK_SHADER_STAGE_VERTEX_BIT,
@@ -246,6 +248,7 @@ const Pipeline& Pipelines::compute(const ComputeState& state) {
     const std::string key = state.shader + key_of(state.constants);
     if (const auto found = made_.find(key); found != made_.end()) return found->second;
 
+    const Stopwatch watch(ms_);
     Pipeline pipeline;
     pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
     Stage stage(device_, variant_of(state.shader), VK_SHADER_STAGE_COMPUTE_BIT, state.constants);

@@ -63,6 +63,8 @@ public:
     const Pipeline& raster(const RasterState& state, const Attachments& attachments);
     const Pipeline& compute(const ComputeState& state);
     const PipelineCache& cache() const { return cache_; }
+    std::size_t made() const { return made_.size(); }
+    double ms() const { return ms_; } ///< of the host, for all that were made
 
 private:
     const std::string& variant_of(const std::string& shader) const;
@@ -70,6 +72,7 @@ private:
     std::map<std::string, std::string> variants_;
     PipelineCache cache_;
     std::map<std::string, Pipeline> made_;
+    double ms_ = 0;
 };
 
 } // namespace catoptric::gpu

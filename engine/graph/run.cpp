@@ -173,8 +173,8 @@ void Runner::finish(Slot& slot) {
     const VkResult result = vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0});
     if (result != VK_SUCCESS)
         device_.check_waited(result, "run " + name_of_frame(slot.frame, *slot.shape));
-    slot.times.wall_ms = milliseconds_since(slot.submitted);
     const double waited = milliseconds_since(begin);
+    slot.times.wall_ms = milliseconds_since(slot.submitted);
     slot.times.wait_ms += waited;
     wait_ms_ += waited;
     slot.ended = true;

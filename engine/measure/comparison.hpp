@@ -39,6 +39,16 @@ struct SceneFacts {
     CameraFacts camera;
 };
 
+/// What the rows needed once, milliseconds of the host each; no row's times hold it.
+struct SetupFacts {
+    std::optional<double> load_ms; ///< the scene read or made, where the caller told
+    double upload_ms = 0;          ///< laid out for the device and written to it
+    double hierarchy_ms = 0;       ///< trees for tracing, built; 0: no row traced
+    double compile_ms = 0; ///< pipelines, up to what a driver leaves for the first frame with one
+    std::size_t pipelines = 0;
+    std::string pipeline_cache = "none"; ///< on disk: "none", "made" (empty before) or "used"
+};
+
 struct PassFacts {
     std::string name;
     Summary gpu_ms;
@@ -81,6 +91,7 @@ struct Row {
         0; ///< counted in the executed plan; a cube counts once, as in the seed report
     int scene_draws = 0; ///< the same with every cube face counted
     Summary gpu_ms, cpu_record_ms, wall_ms;
+    Summary wait_ms;  ///< the host stood still for the device: part of nothing else
     Summary host_ms;  ///< the processor's work before the device could begin; waiting is none
     Summary frame_ms; ///< host_ms and the device's time, frame by frame: they do not overlap
     HostParts host_parts;
@@ -121,6 +132,7 @@ struct Comparison {
     std::optional<Error> stopped; ///< what ended it early
     DeviceFacts device;
     SceneFacts scene;
+    SetupFacts setup; ///< so far
     int width = 0, height = 0;
     int frames = 0, warmup = 0;
     double time = 0, ambient = 0.05, exposure = 0;

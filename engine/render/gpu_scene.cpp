@@ -1,9 +1,9 @@
 #include "render/gpu_scene.hpp"
 
+#include "core/stopwatch.hpp"
 #include "render/enclosure.hpp"
 #include "render/footprint.hpp"
 #include "render/limits.hpp"
-#include "render/stopwatch.hpp"
 #include "render/views.hpp"
 
 #include <algorithm>
@@ -109,6 +109,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     fill_frame(ambient);
     write(slot);
     complete_ = true;
+    if (first_update_ms_ == 0) first_update_ms_ = watch.ms();
 }
 
 /// What differs from the scene of the last update, which `now` becomes.

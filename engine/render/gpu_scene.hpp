@@ -79,6 +79,10 @@ public:
     /// Milliseconds of the host since this update began.
     double update_ms() const { return update_ms_; }
     double hierarchy_ms() const { return tracing_->ms() - hierarchy_ms_before_; }
+    /// The first update, and the first way of a hierarchy to the device; building that apart, 0
+    /// where nobody traces.
+    double first_upload_ms() const { return first_update_ms_ + tracing_->first_write_ms(); }
+    double first_build_ms() const { return tracing_->first_build_ms(); }
     /// Since the scene was made: writes of device memory, and what became of hierarchies.
     std::size_t uploads() const { return uploads_ + tracing_->writes(); }
     std::size_t hierarchies_built() const { return tracing_->built(); }
@@ -141,7 +145,7 @@ private:
     bool anything_moves_ = false, has_own_spaces_ = false;
     std::uint32_t shadow_faces_ = 6;
     std::size_t slot_ = 0, uploads_ = 0;
-    double update_ms_ = 0, hierarchy_ms_before_ = 0;
+    double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
     Resident still_vertices_, moving_vertices_, indices_, frame_, view_buffer_, surface_buffer_,
         light_buffer_, probe_buffer_;
     std::unique_ptr<Tracing> tracing_;

@@ -1,7 +1,7 @@
 #include "render/tracing.hpp"
 
 #include "core/error.hpp"
-#include "render/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 
 #include <bit>
 
@@ -105,8 +105,7 @@ void Tracing::fill(const Geometry& geometry) {
     normals_buffer_.set(normals_);
 }
 
-void Tracing::prepare(gpu::Device& device, const Geometry& geometry, std::size_t slot) {
-    const Stopwatch watch(ms_);
+void Tracing::bring_up_to_date(const Geometry& geometry) {
     if (!laid_out_) {
         triangles_.resize(geometry.indices.size() / 3);
         normals_.resize(geometry.indices.size());
@@ -123,8 +122,16 @@ void Tracing::prepare(gpu::Device& device, const Geometry& geometry, std::size_t
     }
     laid_out_ = true;
     moved_.clear();
+}
+
+void Tracing::prepare(gpu::Device& device, const Geometry& geometry, std::size_t slot) {
+    const Stopwatch watch(ms_);
+    const bool is_first = built_ == 0;
+    bring_up_to_date(geometry);
+    const double build_ms = watch.ms();
     for (Resident* buffer : {&nodes_buffer_, &triangles_buffer_, &normals_buffer_})
         writes_ += buffer->write(device, slot);
+    if (is_first) first_build_ms_ = build_ms, first_write_ms_ = watch.ms() - build_ms;
 }
 
 void Tracing::bind(graph::Commands& commands, std::size_t slot) const {

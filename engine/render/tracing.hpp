@@ -33,12 +33,17 @@ public:
     std::size_t refitted() const { return refitted_; }
     std::size_t writes() const { return writes_; } ///< of device memory, all together
     double ms() const { return ms_; }              ///< of the host, all together
+    /// Of the host, what is in `ms` of the first time that somebody asked: trees, and their way to
+    /// the device.
+    double first_build_ms() const { return first_build_ms_; }
+    double first_write_ms() const { return first_write_ms_; }
 
 private:
     struct Move {
         std::size_t object;
         bool vertices;
     };
+    void bring_up_to_date(const Geometry& geometry);
     void build(const Geometry& geometry);
     void refit(const Geometry& geometry);
     void build_own(const Geometry& geometry, std::size_t object);
@@ -54,7 +59,7 @@ private:
     std::vector<Move> moved_; ///< since the hierarchy was made
     Resident nodes_buffer_, triangles_buffer_, normals_buffer_;
     std::size_t built_ = 0, refitted_ = 0, writes_ = 0;
-    double ms_ = 0;
+    double ms_ = 0, first_build_ms_ = 0, first_write_ms_ = 0;
 };
 
 } // namespace catoptric::render

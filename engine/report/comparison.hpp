@@ -19,5 +19,6 @@ using measure::Rays;
 using measure::Row;
 using measure::SceneFacts;
 using measure::Settling;
+using measure::SetupFacts;
 
 } // namespace catoptric::report

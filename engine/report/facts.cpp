@@ -20,7 +20,23 @@ std::string settings_of(const Comparison& comparison) {
                        comparison.ambient, comparison.exposure, comparison.model);
 }
 
+std::string cache_text(const std::string& cache) {
+    if (cache == "used") return "with the cache on disk";
+    return cache == "made" ? "the cache on disk was empty" : "no cache on disk";
+}
+
 } // namespace
+
+std::string setup_text(const SetupFacts& setup) {
+    std::vector<std::string> parts;
+    if (setup.load_ms) parts.push_back("load " + ms_text(*setup.load_ms) + " ms");
+    parts.push_back("upload " + ms_text(setup.upload_ms) + " ms");
+    parts.push_back(setup.hierarchy_ms > 0 ? "hierarchy " + ms_text(setup.hierarchy_ms) + " ms"
+                                           : "no hierarchy");
+    parts.push_back(fmt::format("{} pipelines {} ms, {}", setup.pipelines,
+                                ms_text(setup.compile_ms), cache_text(setup.pipeline_cache)));
+    return joined(parts, "; ");
+}
 
 std::vector<Fact> facts(const Comparison& comparison) {
     return {

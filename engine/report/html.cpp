@@ -210,7 +210,8 @@ std::string to_html(const Comparison& comparison, const EncodedPictures& encoded
     if (!sentences.empty())
         html += "<section><h2>" + findings_title(comparison) + "</h2>" + list_of(sentences) +
                 "</section>\n";
-    html += to_html(rows_table(comparison), "all", true) +
+    html += "<section><h2>Set-up, once</h2><p>" + html_escaped(setup_text(comparison.setup)) +
+            "</p></section>\n" + to_html(rows_table(comparison), "all", true) +
             to_html(mirror_table(comparison), "mirrors", true) +
             to_html(lookup_table(comparison), "lookups", true) +
             to_html(cause_table(comparison), "causes", false) + lag_plots(comparison) +

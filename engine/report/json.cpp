@@ -143,6 +143,15 @@ Json to_json(const measure::CameraFacts& camera) {
             {"vertical_fov_degrees", number(camera.vertical_fov_degrees)}};
 }
 
+Json to_json(const SetupFacts& setup) {
+    return {{"load_ms", setup.load_ms ? number(*setup.load_ms) : Json(nullptr)},
+            {"upload_ms", number(setup.upload_ms)},
+            {"hierarchy_ms", number(setup.hierarchy_ms)},
+            {"compile_ms", number(setup.compile_ms)},
+            {"pipelines", setup.pipelines},
+            {"pipeline_cache", setup.pipeline_cache}};
+}
+
 void add_circumstances(Json& json, const Comparison& comparison) {
     const DeviceFacts& device = comparison.device;
     json["device"] = {{"name", device.name},
@@ -156,6 +165,7 @@ void add_circumstances(Json& json, const Comparison& comparison) {
                      {"mirrors", scene.mirrors},
                      {"hash", scene.hash},
                      {"camera", to_json(scene.camera)}};
+    json["setup"] = to_json(comparison.setup);
     json["size"] = Json::array({comparison.width, comparison.height});
     json["frames"] = comparison.frames;
     json["warmup"] = comparison.warmup;

@@ -41,6 +41,8 @@ struct Fact {
     std::string value;
 };
 std::vector<Fact> facts(const Comparison& comparison);
+/// What was needed once, in a line; stands above the rows.
+std::string setup_text(const SetupFacts& setup);
 /// What to keep in mind while reading: a processor as device, a run cut short, rows together,
 /// warnings.
 std::vector<std::string> cautions(const Comparison& comparison);

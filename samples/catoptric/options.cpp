@@ -3,6 +3,7 @@
 #include "app/seeded_camera.hpp"
 #include "core/error.hpp"
 #include "core/knob.hpp"
+#include "core/stopwatch.hpp"
 #include "core/text.hpp"
 #include "parse.hpp"
 #include "scene/load.hpp"
@@ -173,7 +174,12 @@ app::Request make_request(const Common& common,
                           const std::function<void(const scene::Scene&)>& check) {
     app::Request request;
     request.seed = common.seed;
-    request.scene = scene::load(common.scene, {.root = common.root});
+    double load_ms = 0;
+    {
+        const Stopwatch watch(load_ms);
+        request.scene = scene::load(common.scene, {.root = common.root});
+    }
+    request.load_ms = load_ms;
     if (check) check(request.scene);
     for (const std::string& warning : request.scene.warnings) warn(warning);
     request.camera = choose_camera(common, request.scene);

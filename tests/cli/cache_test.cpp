@@ -36,6 +36,24 @@ TEST_F(Cache, IsMadeWhereTheUserKeepsCaches) {
     EXPECT_FALSE(fs::exists(folder / "relative")) << "no absolute path counts as none";
 }
 
+TEST_F(Cache, IsSaidToBeUsedWhereItWas) {
+    test::Start asked = start({"compare", "-o", "out", "--techniques", "raytrace:depth=0", "--size",
+                               "16x16", "--frames", "1", "--warmup", "0", "--reference",
+                               "raytrace:depth=0", "-q"});
+    const auto setup = [&](const std::string& cache_home) {
+        asked.environment = {{"XDG_CACHE_HOME", cache_home}, {"HOME", ""}};
+        EXPECT_EQ(test::run_process(asked).exit_code, 0);
+        return nlohmann::json::parse(read("out/report.json"))["setup"];
+    };
+    EXPECT_EQ(setup("")["pipeline_cache"], "none");
+    EXPECT_EQ(setup(folder.string())["pipeline_cache"], "made");
+    const nlohmann::json last = setup(folder.string());
+    EXPECT_EQ(last["pipeline_cache"], "used");
+    EXPECT_GT(last["pipelines"], 0);
+    for (const char* part : {"load_ms", "upload_ms", "hierarchy_ms", "compile_ms"})
+        EXPECT_GT(last[part], 0) << part;
+}
+
 TEST_F(Cache, ThatIsBrokenIsSaidOnceAndMadeAnew) {
     ASSERT_EQ(render(folder.string()).exit_code, 0);
     const std::string wanted = picture();

@@ -16,6 +16,11 @@ using namespace catoptric;
 
 constexpr uvec2 kSize{48, 40};
 
+double milliseconds_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+        .count();
+}
+
 app::FrameSpec spec_of(const scene::Scene& scene, const std::string& technique) {
     return test::request(scene, {technique}, kSize);
 }
@@ -229,13 +234,80 @@ TEST(Session, WhatIsWaitedIsNoWork) {
         spec.time = .1 * k;
         const auto begin = std::chrono::steady_clock::now();
         const app::FrameTimes times = session.frame(spec).times();
-        const double all = std::chrono::duration<double, std::milli>(
-                               std::chrono::steady_clock::now() - begin)
-                               .count();
+        const double all = milliseconds_since(begin);
         EXPECT_GT(times.host.sum(), 0);
         EXPECT_LE(times.host.sum() + times.wall_ms, all);
         EXPECT_LE(times.frame_ms(), all);
+        EXPECT_GT(times.wait_ms, 0);
+        EXPECT_LE(times.wait_ms, times.wall_ms) << "it begins after the submit";
+        EXPECT_EQ(times.frame_ms(), times.host.sum() + times.gpu_ms);
     }
+}
+
+/// Whoever comes after the end waits for nothing, and whoever finds all places taken for another
+/// frame.
+TEST(Session, WaitsOnlyForWhatHasNotEnded) {
+    const scene::Scene scene = scene::cornell_mirrors();
+    app::FrameSpec spec = spec_of(scene, "raytrace");
+    spec.size = {256, 256};
+    app::Session two(test::engine(), scene, 2), one(test::engine(), scene);
+    int ended = 0, taken = 0;
+    for (int k = 0; k < 5; ++k) { // some, since others may take the processor at any time
+        const app::Frame first = two.frame(spec), second = two.frame(spec);
+        second.times();
+        ended += first.times().wait_ms < first.times().gpu_ms;
+        one.frame(spec);
+        const app::FrameTimes times = one.frame(spec).times();
+        taken += times.wait_ms > times.wall_ms;
+        EXPECT_LT(times.host.sum(), times.wait_ms);
+    }
+    EXPECT_GT(ended, 0);
+    EXPECT_GT(taken, 0);
+}
+
+TEST(Session, TellsWhatWasNeededOnce) {
+    const scene::Scene scene = test::room(2, 1);
+    const auto begin = std::chrono::steady_clock::now();
+    app::Session session(test::engine(), scene);
+    EXPECT_EQ(session.setup().upload_ms, 0) << "nothing is written before the first frame";
+    session.frame(spec_of(scene, "reuse:face=16"));
+    const app::Setup raster = session.setup();
+    EXPECT_GT(raster.upload_ms, 0);
+    EXPECT_EQ(raster.hierarchy_ms, 0) << "nobody has traced";
+    session.frame(spec_of(scene, "raytrace"));
+    const app::Setup traced = session.setup();
+    EXPECT_GT(traced.hierarchy_ms, 0);
+    EXPECT_GT(traced.upload_ms, raster.upload_ms) << "the trees' way to the device";
+    EXPECT_LE(traced.upload_ms + traced.hierarchy_ms, milliseconds_since(begin));
+    const std::size_t ball = scene::mirrors(scene).front();
+    dmat4 place = scene.objects[ball].world_from_object;
+    place[3].x += .1;
+    session.change(scene::move(ball, place));
+    app::FrameSpec spec = spec_of(scene, "raytrace");
+    spec.camera.eye.x += .1;
+    session.frame(spec);
+    EXPECT_EQ(session.setup().upload_ms, traced.upload_ms) << "once";
+    EXPECT_EQ(session.setup().hierarchy_ms, traced.hierarchy_ms);
+}
+
+TEST(Session, PipelinesAreCompiledOnceAnEngine) {
+    const scene::Scene scene = test::room(1, 1);
+    const auto begin = std::chrono::steady_clock::now();
+    app::Engine engine({});
+    EXPECT_EQ(engine.compiled().pipelines, 0u);
+    EXPECT_EQ(engine.cache_use(), app::CacheUse::none);
+    const app::FrameSpec spec = spec_of(scene, "raytrace:depth=1");
+    app::Session(engine, scene).frame(spec).times();
+    const app::Compiled once = engine.compiled();
+    EXPECT_GT(once.pipelines, 0u);
+    EXPECT_GT(once.ms, 0);
+    EXPECT_LE(once.ms, milliseconds_since(begin));
+    app::Session(engine, scene).frame(spec).times();
+    EXPECT_EQ(engine.compiled().pipelines, once.pipelines);
+    EXPECT_EQ(engine.compiled().ms, once.ms);
+    app::Session(engine, scene).frame(spec_of(scene, "naive:bounces=0")).times();
+    EXPECT_GT(engine.compiled().pipelines, once.pipelines);
+    EXPECT_GT(engine.compiled().ms, once.ms);
 }
 
 TEST(Session, OtherUnitsWaitForFramesUnderWay) {

@@ -184,7 +184,7 @@ TEST(ReportFigures, TimesAreThoseOfTheFramesAndTheirPasses) {
     for (const json& row : document["rows"]) {
         SCOPED_TRACE(row["label"]);
         for (const char* name :
-             {"gpu_ms", "cpu_record_ms", "wall_ms", "closure", "host_ms", "frame_ms"})
+             {"gpu_ms", "cpu_record_ms", "wall_ms", "closure", "host_ms", "frame_ms", "wait_ms"})
             expect_summary(row[name]);
         for (const json& pass : row["passes"]) expect_summary(pass["gpu_ms"]);
         for (int k = 0; k < kFrames; ++k) {
@@ -196,8 +196,17 @@ TEST(ReportFigures, TimesAreThoseOfTheFramesAndTheirPasses) {
             const double host = row["host_ms"]["samples"][k];
             EXPECT_NEAR(row["frame_ms"]["samples"][k].get<double>(), host + gpu, 1e-9);
             EXPECT_LE(row["cpu_record_ms"]["samples"][k].get<double>(), host);
+            EXPECT_LE(row["wait_ms"]["samples"][k].get<double>(), wall)
+                << "for this frame, not for one of the warm-up";
         }
     }
+    const json& setup = document["setup"];
+    EXPECT_TRUE(setup["load_ms"].is_null()) << "nobody has read a file";
+    EXPECT_GT(setup["upload_ms"], 0);
+    EXPECT_GT(setup["hierarchy_ms"], 0);
+    EXPECT_GE(setup["compile_ms"], 0);
+    EXPECT_GE(setup["pipelines"], 0) << "those of other tests are there";
+    EXPECT_EQ(setup["pipeline_cache"], "none");
     expect_summary(document["reference"]["gpu_ms"]);
 }
 

@@ -46,6 +46,7 @@ public:
         set(row.wall_ms, "/wall_ms", "wall_ms");
         set(row.host_ms, "/host_ms", "host_ms");
         set(row.frame_ms, "/frame_ms", "frame_ms");
+        set(row.wait_ms, "/wait_ms", "wait_ms");
         set(row.host_parts.update, "/host_parts/update", "host_parts_update");
         set(row.host_parts.hierarchy, "/host_parts/hierarchy", "host_parts_hierarchy");
         set(row.host_parts.compile, "/host_parts/compile", "host_parts_compile");
@@ -208,6 +209,27 @@ TEST(ReportFields, JsonHoldsTheCamera) {
                               "up": [0, 0, 1], "vertical_fov_degrees": 37.5})"));
 }
 
+TEST(ReportFields, WhatWasNeededOnceStandsInJsonAndAboveTheRows) {
+    Comparison made = distinct(Filler());
+    made.setup = {1.5, 2.25, 33.5, 444.5, 6, "used"};
+    EXPECT_EQ(json::parse(to_json(made))["setup"],
+              json::parse(R"({"load_ms": 1.5, "upload_ms": 2.25, "hierarchy_ms": 33.5,
+                              "compile_ms": 444.5, "pipelines": 6, "pipeline_cache": "used"})"));
+    const std::string line = "load 1.50 ms; upload 2.25 ms; hierarchy 33.5 ms; "
+                             "6 pipelines 444 ms, with the cache on disk";
+    for (const std::string& page : {to_markdown(made), to_html(made)}) {
+        ASSERT_NE(page.find(line), page.npos) << page.substr(0, 4000);
+        EXPECT_LT(page.find(line), page.find("Every row"));
+        EXPECT_EQ(page.find(line), page.rfind(line)) << "told once";
+    }
+    made.setup = {{}, 2.25, 0, 444.5, 6, "made"};
+    EXPECT_TRUE(json::parse(to_json(made))["setup"]["load_ms"].is_null());
+    EXPECT_EQ(setup_text(made.setup), "upload 2.25 ms; no hierarchy; 6 pipelines 444 ms, the "
+                                      "cache on disk was empty");
+    made.setup.pipeline_cache = "none";
+    EXPECT_THAT(setup_text(made.setup), testing::EndsWith("444 ms, no cache on disk"));
+}
+
 /// The pointers of all numbers in a document.
 void collect_numbers(const json& document, const std::string& at, std::vector<std::string>& found) {
     if (document.is_number()) found.push_back(at);
@@ -336,7 +358,8 @@ TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
         {"Remark", "failed"}};
     for (const auto& [title, value] : {std::pair("record ms", row.cpu_record_ms.median),
                                        {"host ms", row.host_ms.median},
-                                       {"frame ms", row.frame_ms.median}}) {
+                                       {"frame ms", row.frame_ms.median},
+                                       {"wait ms", row.wait_ms.median}}) {
         EXPECT_NEAR(std::stod(cells[title]), value, 1e-3) << title;
         cells.erase(title);
     }

@@ -2,18 +2,21 @@
 
 #include <chrono>
 
-namespace catoptric::render {
+namespace catoptric {
 
 /// Adds the milliseconds of its life to a sum.
 class Stopwatch {
 public:
     explicit Stopwatch(double& sum_ms) : sum_ms_(sum_ms) {}
-    ~Stopwatch() {
-        const std::chrono::duration<double, std::milli> life = Clock::now() - begin_;
-        sum_ms_ += life.count();
-    }
+    ~Stopwatch() { sum_ms_ += ms(); }
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
+
+    /// Milliseconds so far.
+    double ms() const {
+        const std::chrono::duration<double, std::milli> life = Clock::now() - begin_;
+        return life.count();
+    }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -21,4 +24,4 @@ private:
     Clock::time_point begin_ = Clock::now();
 };
 
-} // namespace catoptric::render
+} // namespace catoptric

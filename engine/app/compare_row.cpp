@@ -1,0 +1,109 @@
+#include "app/compare_row.hpp"
+
+#include "measure/difference.hpp"
+#include "measure/flip.hpp"
+#include "measure/masks.hpp"
+
+namespace catoptric::app {
+
+namespace {
+
+template <typename Value>
+measure::Summary over_frames(const std::vector<FrameTimes>& frames, Value&& value) {
+    std::vector<double> samples;
+    for (const FrameTimes& frame : frames) samples.push_back(value(frame));
+    return measure::summarise(samples);
+}
+
+/// Times of the passes whose name begins with `prefix`, and of them together. Alone, the frame
+/// counts from its first to its last stamp.
+void fill_times(report::Row& row, const std::vector<FrameTimes>& frames,
+                const std::string& prefix) {
+    const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
+    row.gpu_ms = over_frames(frames, [&](const FrameTimes& frame) {
+        if (prefix.empty()) return frame.gpu_ms;
+        double sum = 0;
+        for (const PassTime& pass : frame.passes) sum += mine(pass) ? pass.ms() : 0;
+        return sum;
+    });
+    row.wait_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.wait_ms; });
+    row.cpu_record_ms = over_frames(frames,
+                                    [](const FrameTimes& frame) { return frame.record_ms; });
+    row.wall_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.wall_ms; });
+    row.closure = over_frames(
+        frames, [](const FrameTimes& frame) { return frame.passes_ms() / frame.wall_ms; });
+    row.host_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.host.sum(); });
+    row.frame_ms = over_frames(frames, [&](const FrameTimes& frame) { return frame.frame_ms(); });
+    const auto part = [&](double HostTimes::*which) {
+        return over_frames(frames, [&](const FrameTimes& frame) { return frame.host.*which; })
+            .median;
+    };
+    row.host_parts = {part(&HostTimes::update), part(&HostTimes::hierarchy),
+                      part(&HostTimes::compile), part(&HostTimes::record)};
+    const std::vector<PassTime>& passes = frames.front().passes;
+    for (std::size_t i = 0; i < passes.size(); ++i)
+        if (mine(passes[i]))
+            row.passes.push_back({passes[i].name, over_frames(frames, [&](const FrameTimes& frame) {
+                                      return frame.passes[i].ms();
+                                  })});
+}
+
+/// Whether a picture shows nothing in its mirrors, but for pixels at their outlines, where the
+/// reference shows something.
+bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture& truth,
+                         const std::vector<std::uint32_t>& hits) {
+    std::size_t pixels = 0, black = 0, wanted_black = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (!measure::first_mirror(hits[i])) continue;
+        ++pixels;
+        black += picture.pixels[i] == vec3(0);
+        wanted_black += truth.pixels[i] == vec3(0);
+    }
+    constexpr double kMost = .99;
+    return pixels > 0 && static_cast<double>(black) >= kMost * static_cast<double>(pixels) &&
+           static_cast<double>(wanted_black) < kMost * static_cast<double>(pixels);
+}
+
+} // namespace
+
+void fill_errors(report::Row& row, const Part& part, const Part& truth,
+                 const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
+    row.flip_map = measure::flip(part.display, truth.display);
+    const auto against = [&](const measure::Mask& mask) {
+        return measure::difference(part.hdr, truth.hdr, mask, row.flip_map);
+    };
+    row.error = against(measure::mirrors(hits));
+    row.error_first_order = against(measure::first_order(hits));
+    row.error_mirror_in_mirror = against(measure::mirror_in_mirror(hits));
+    row.error_non_mirror = against(measure::non_mirror(hits));
+    row.error_all = against(measure::all_pixels(hits));
+    for (std::size_t i = 0; i < mirrors; ++i)
+        row.error_per_mirror.push_back(against(measure::of_mirror(hits, MirrorId::at(i))));
+    row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
+    row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
+    row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
+}
+
+report::Row make_row(const std::string& text, const Part& part,
+                     const std::vector<FrameTimes>& frames) {
+    const TechniqueChoice choice = parse_technique(text);
+    report::Row row;
+    row.technique = choice.technique;
+    row.label = choice.label;
+    row.settings = choice.settings;
+    row.image = choice.file_name;
+    row.scene_passes = part.scene_passes;
+    row.scene_draws = part.scene_draws;
+    row.memory_bytes = part.memory_bytes;
+    if (part.rays)
+        row.rays = report::Rays{part.rays->primary, part.rays->mirror, part.rays->shadow};
+    row.traced_fraction = part.traced_fraction;
+    if (part.auto_face)
+        row.auto_face = report::AutoFace{part.auto_face->edge, part.auto_face->needs};
+    row.hdr = part.hdr;
+    row.display = part.display;
+    fill_times(row, frames, part.prefix);
+    return row;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/session.hpp"
+#include "report/comparison.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+// What a comparison says of one row.
+namespace catoptric::app {
+
+/// What the row is, what it cost and its pictures. `frames`: the measured ones, of which the row's
+/// are the passes that bear its part's prefix. Errors are not in it.
+report::Row make_row(const std::string& text, const Part& part,
+                     const std::vector<FrameTimes>& frames);
+/// Its errors against the truth, over all masks. `hits`: of the same picture, see Part::hits.
+void fill_errors(report::Row& row, const Part& part, const Part& truth,
+                 const std::vector<std::uint32_t>& hits, std::size_t mirrors);
+
+} // namespace catoptric::app

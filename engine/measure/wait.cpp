@@ -1,0 +1,19 @@
+// How long the host stood still for the device, which is nobody's work.
+#include "measure/quantity.hpp"
+
+namespace catoptric::measure {
+
+namespace {
+
+const Registered kWaitTime{
+    {.name = "wait_ms",
+     .unit = "ms",
+     .help = "the host stood still for the device; in none of the other times, added to nothing",
+     .better = Better::less,
+     .order = 28,
+     .columns = {{.title = "wait ms", .style = Style::own_times, .order = 992}},
+     .get = [](const Row& row) -> Value { return row.wait_ms; }}};
+
+} // namespace
+
+} // namespace catoptric::measure
