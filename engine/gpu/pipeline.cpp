@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <tuple>
 
 namespace catoptric::gpu {
 
@@ -25,13 +26,31 @@ VkDescriptorType descriptor_type(BindingKind kind) {
 
 namespace {
 
-std::string key_of(const Constants& constants) {
-    std::string key;
-    for (const auto& [name, value] : constants)
-        key += ";" + name + "=" +
-               std::visit([](auto v) { return std::to_string(std::bit_cast<std::uint32_t>(v)); },
-                          value);
-    return key;
+std::uint32_t bits_of(const std::variant<std::uint32_t, float>& value) {
+    return std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value);
+}
+
+std::string name_of(const Constants& constants) {
+    std::string name;
+    for (const auto& [constant, value] : constants)
+        name += ";" + constant + "=" + std::to_string(bits_of(value));
+    return name;
+}
+
+std::string name_of(const RasterState& state, const Attachments& attachments) {
+    std::string name = state.vertex + "+" + state.fragment + name_of(state.constants);
+    for (Format format : attachments.colour) name += "/" + std::string(catoptric::name_of(format));
+    if (attachments.depth) name += "/depth";
+    if (state.hidden != Winding::none)
+        name += state.hidden == Winding::clockwise ? "/no clockwise" : "/no counterclockwise";
+    return name;
+}
+
+/// By name, then by bits: a float that is no number is one constant, too.
+bool before(const Constants& a, const Constants& b) {
+    return std::ranges::lexicographical_compare(a, b, [](const auto& x, const auto& y) {
+        return x.first != y.first ? x.first < y.first : bits_of(x.second) < bits_of(y.second);
+    });
 }
 
 /// One stage: its module and its specialisation, which must outlive the create call.
@@ -54,8 +73,7 @@ struct Stage {
             const auto found = std::ranges::find(reflection.constants, constant, &Constant::name);
             if (found == reflection.constants.end()) continue;
             entries.push_back({found->id, static_cast<std::uint32_t>(values.size() * 4), 4});
-            values.push_back(
-                std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value));
+            values.push_back(bits_of(value));
         }
     }
     VkPipelineShaderStageCreateInfo info() {
@@ -218,15 +236,26 @@ const std::string& Pipelines::variant_of(const std::string& shader) const {
     return found == variants_.end() ? shader : found->second;
 }
 
+bool Pipelines::Before::operator()(const RasterView& a, const RasterView& b) const {
+    const auto first = [](const RasterView& view) {
+        const auto& [state, attachments] = view;
+        return std::tie(state.hidden, attachments.depth, attachments.colour, state.fragment,
+                        state.vertex);
+    };
+    const auto order = first(a) <=> first(b);
+    return order != 0 ? order < 0 : before(a.first.constants, b.first.constants);
+}
+
+bool Pipelines::Before::operator()(const ComputeState& a, const ComputeState& b) const {
+    return a.shader != b.shader ? a.shader < b.shader : before(a.constants, b.constants);
+}
+
 const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& attachments) {
-    std::string key = state.vertex + "+" + state.fragment + key_of(state.constants);
-    for (Format format : attachments.colour) key += "/" + std::string(catoptric::name_of(format));
-    if (attachments.depth) key += "/depth";
-    if (state.hidden != Winding::none)
-        key += state.hidden == Winding::clockwise ? "/no clockwise" : "/no counterclockwise";
-    if (const auto found = made_.find(key); found != made_.end()) return found->second;
+    const auto found = rasters_.find(RasterView(state, attachments));
+    if (found != rasters_.end()) return found->second;
 
     const Stopwatch watch(ms_);
+    const std::string name = name_of(state, attachments);
     Pipeline pipeline;
     std::vector<Stage> stages;
     stages.emplace_back(device_, variant_of(state.vertex), VK_SHADER_STAGE_VERTEX_BIT,
@@ -234,35 +263,35 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
     if (!state.fragment.empty())
         stages.emplace_back(device_, variant_of(state.fragment), VK_SHADER_STAGE_FRAGMENT_BIT,
                             state.constants);
-    lay_out(device_, key, stages, state.constants, pipeline);
+    lay_out(device_, name, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
     for (Stage& stage : stages) infos.push_back(stage.info());
     pipeline.pipeline = {device_.handle(), make_raster(device_, cache_.handle(), infos, attachments,
-                                                       state.hidden, pipeline.layout, key)};
+                                                       state.hidden, pipeline.layout, name)};
     device_.set_name(VK_OBJECT_TYPE_PIPELINE,
-                     reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), key);
-    return made_.emplace(key, std::move(pipeline)).first->second;
+                     reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), name);
+    return rasters_.emplace(Raster(state, attachments), std::move(pipeline)).first->second;
 }
 
 const Pipeline& Pipelines::compute(const ComputeState& state) {
-    const std::string key = state.shader + key_of(state.constants);
-    if (const auto found = made_.find(key); found != made_.end()) return found->second;
+    if (const auto found = computes_.find(state); found != computes_.end()) return found->second;
 
     const Stopwatch watch(ms_);
+    const std::string name = state.shader + name_of(state.constants);
     Pipeline pipeline;
     pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
     Stage stage(device_, variant_of(state.shader), VK_SHADER_STAGE_COMPUTE_BIT, state.constants);
-    lay_out(device_, key, {&stage, 1}, state.constants, pipeline);
+    lay_out(device_, name, {&stage, 1}, state.constants, pipeline);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = stage.info();
     create.layout = pipeline.layout;
     VkPipeline handle = VK_NULL_HANDLE;
     check_vk(
         vkCreateComputePipelines(device_.handle(), cache_.handle(), 1, &create, nullptr, &handle),
-        "create pipeline '" + key + "'");
+        "create pipeline '" + name + "'");
     pipeline.pipeline = {device_.handle(), handle};
-    device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), key);
-    return made_.emplace(key, std::move(pipeline)).first->second;
+    device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), name);
+    return computes_.emplace(state, std::move(pipeline)).first->second;
 }
 
 } // namespace catoptric::gpu

@@ -63,15 +63,25 @@ public:
     const Pipeline& raster(const RasterState& state, const Attachments& attachments);
     const Pipeline& compute(const ComputeState& state);
     const PipelineCache& cache() const { return cache_; }
-    std::size_t made() const { return made_.size(); }
+    std::size_t made() const { return rasters_.size() + computes_.size(); }
     double ms() const { return ms_; } ///< of the host, for all that were made
 
 private:
+    using Raster = std::pair<RasterState, Attachments>;
+    using RasterView = std::pair<const RasterState&, const Attachments&>;
+    /// An order of what was asked for, so that asking again makes no text of it.
+    struct Before {
+        using is_transparent = void;
+        bool operator()(const RasterView& a, const RasterView& b) const;
+        bool operator()(const ComputeState& a, const ComputeState& b) const;
+    };
+
     const std::string& variant_of(const std::string& shader) const;
     Device& device_;
     std::map<std::string, std::string> variants_;
     PipelineCache cache_;
-    std::map<std::string, Pipeline> made_;
+    std::map<Raster, Pipeline, Before> rasters_;
+    std::map<ComputeState, Pipeline, Before> computes_;
     double ms_ = 0;
 };
 

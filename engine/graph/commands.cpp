@@ -3,6 +3,7 @@
 #include "graph/record.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace catoptric::graph {
 
@@ -75,10 +76,11 @@ void Commands::bind(std::string_view name, const gpu::Buffer& buffer) {
 }
 
 void Commands::geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices) {
-    const VkBuffer buffer = vertices.handle();
     const VkDeviceSize offset = 0;
-    vkCmdBindVertexBuffers(commands_, 0, 1, &buffer, &offset);
-    vkCmdBindIndexBuffer(commands_, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+    if (const VkBuffer buffer = vertices.handle(); std::exchange(vertices_, buffer) != buffer)
+        vkCmdBindVertexBuffers(commands_, 0, 1, &buffer, &offset);
+    if (const VkBuffer buffer = indices.handle(); std::exchange(indices_, buffer) != buffer)
+        vkCmdBindIndexBuffer(commands_, buffer, 0, VK_INDEX_TYPE_UINT32);
 }
 
 void Commands::draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer,

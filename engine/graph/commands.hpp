@@ -103,6 +103,7 @@ private:
     std::string pipeline_name_;
     std::map<std::string, Bound, std::less<>> bound_;
     bool dirty_ = true;
+    VkBuffer vertices_ = VK_NULL_HANDLE, indices_ = VK_NULL_HANDLE; ///< bound by this pass
     std::vector<std::byte> push_;
 };
 

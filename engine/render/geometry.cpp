@@ -1,10 +1,7 @@
 #include "render/geometry.hpp"
 
-#include "bvh/two_level.hpp"
 #include "scene/transform.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace catoptric::render {
@@ -19,113 +16,45 @@ bool runs_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& tr
                a.normal + b.normal + c.normal) < 0;
 }
 
-/// A float turns a ray into a space by a matrix that stretches no more than this.
-constexpr double kWorstStretch = 64;
-
-double largest(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
-
-/// The power of two that makes `size` about 1.
-double unit_of(double size) { return std::exp2(-std::ceil(std::log2(size))); }
-
-bool is_small(const scene::Scene& now, const scene::Object& object, const Space& space) {
-    const Bounds<double> box = scene::bounds(now, object);
-    if (box.empty()) return false;
-    const double size = largest(box.extent()) * space.scale,
-                 distance = largest(
-                     glm::max(glm::abs(space.place(box.lo)), glm::abs(space.place(box.hi))));
-    return size > 0 && size < kSmallPart * distance;
-}
-
-Bounds<double> mesh_bounds(const scene::Mesh& mesh) {
-    Bounds<double> box;
-    for (const dvec3& position : mesh.positions) box.add(position);
-    return box;
-}
-
-/// Middle and unit of the mesh's space, in the mesh's own units.
-std::pair<dvec3, double> mesh_space(const scene::Mesh& mesh) {
-    const Bounds<double> box = mesh_bounds(mesh);
-    return {box.centre(), unit_of(largest(box.extent()))};
-}
-
-/// By object, whether its mesh is one whose copies are too many.
-std::vector<bool> shared_meshes(const scene::Scene& now) {
-    std::vector<std::uint64_t> uses(now.meshes.size());
-    for (const scene::Object& object : now.objects) ++uses[object.mesh];
-    std::uint64_t copied = 0;
-    std::vector<bool> shared(now.meshes.size());
-    for (std::size_t i = 0; i < uses.size(); ++i) {
-        const std::uint64_t triangles = now.meshes[i].triangles.size();
-        shared[i] = uses[i] > 1 && triangles > 0 &&
-                    copied + (uses[i] - 1) * triangles > kMostCopied;
-        if (!shared[i] && uses[i] > 1) copied += (uses[i] - 1) * triangles;
+/// Writes the object's triangles.
+void store_indices(Geometry& geometry, const scene::Mesh& mesh, const DrawRange& range) {
+    std::size_t index = range.first_index;
+    for (uvec3 triangle : mesh.triangles) {
+        triangle += range.first_vertex;
+        if (range.one_sided && runs_clockwise(geometry.vertices, triangle))
+            std::swap(triangle.y, triangle.z);
+        for (int i = 0; i < 3; ++i) geometry.indices[index++] = triangle[i];
     }
-    return shared;
 }
 
-bool can_share(const scene::Scene& now, const scene::Object& object) {
-    if (scene::is_one_sided(now.materials[object.material])) return false;
-    const scene::Mesh& mesh = now.meshes[object.mesh];
-    return largest(mesh_bounds(mesh).extent()) > 0 &&
-           bvh::stretch(dmat3(object.world_from_object)) <= kWorstStretch;
+/// The vertices that all copies of a mesh share; returns their space.
+MeshSpace store_shared(Geometry& geometry, const scene::Mesh& mesh, const DrawRange& range) {
+    MeshSpace space = space_of_mesh(mesh);
+    const dmat3 to_own(space.unit), normal_to_own(1);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const vec3 position(to_own * (mesh.positions[i] - space.middle));
+        space.box.add(dvec3(position));
+        geometry.vertices[range.first_vertex + i] = {
+            position, vec3(scene::world_normal(normal_to_own, dvec3(mesh.normals[i])))};
+    }
+    store_indices(geometry, mesh, range);
+    return space;
 }
 
-/// Of a mesh that others share: the mesh's axes, its bounds' middle.
-OwnSpace space_of_mesh(const scene::Scene& now, const scene::Object& object, const Space& space) {
-    const auto [middle, unit] = mesh_space(now.meshes[object.mesh]);
-    OwnSpace own;
-    own.scene_from_own = dmat3(object.world_from_object) * (space.scale / unit);
-    own.centre = space.place(scene::transform_point(object.world_from_object, middle));
-    const dmat3 inverse = glm::inverse(own.scene_from_own);
-    own.least = 1 / std::sqrt(dot(inverse[0], inverse[0]) + dot(inverse[1], inverse[1]) +
-                              dot(inverse[2], inverse[2]));
-    return own;
-}
-
-/// Of a single object: the world's axes, so that nothing turns on its way; the middle is that of
-/// its exact sphere or of its bounds.
-OwnSpace space_of_object(const scene::Scene& now, const scene::Object& object, const Space& space) {
-    const Bounds<double> box = scene::bounds(now, object);
-    const double unit = unit_of(largest(box.extent())); // own units in one of the world
-    OwnSpace own;
-    own.scene_from_own = dmat3(space.scale / unit);
-    own.centre = space.place(object.sphere ? object.sphere->centre : box.centre());
-    own.least = space.scale / unit;
-    if (object.sphere) own.radius = static_cast<float>(object.sphere->radius * unit);
-    return own;
-}
-
-/// Where a range's bounds are, with the roundings of what becomes float.
-Bounds<float> scene_bounds(const OwnSpace& own, const Bounds<double>& box) {
-    constexpr double kRoundings = 0x1p-22;
-    Bounds<double> result;
-    for (int corner = 0; corner < 8; ++corner)
-        result.add(own.centre + own.scene_from_own * dvec3((corner & 1 ? box.lo : box.hi).x,
-                                                           (corner & 2 ? box.lo : box.hi).y,
-                                                           (corner & 4 ? box.lo : box.hi).z));
-    const dvec3 pad = kRoundings * glm::max(glm::abs(result.lo), glm::abs(result.hi));
-    return {vec3(result.lo - pad), vec3(result.hi + pad)};
-}
-
-/// The object's vertices in its own space.
+/// The vertices of a single object in its own space; whether they changed.
 bool move_own(Geometry& geometry, const scene::Scene& now, const Space& space, std::size_t index) {
     const scene::Object& object = now.objects[index];
     const scene::Mesh& mesh = now.meshes[object.mesh];
     DrawRange& range = geometry.ranges[index];
-    range.own = range.shares ? space_of_mesh(now, object, space)
-                             : space_of_object(now, object, space);
-    const auto [middle, unit] = mesh_space(mesh);
-    // The turned mesh relative to the space's middle; by itself where the mesh's space is shared.
-    const dmat3 turn = range.shares ? dmat3(unit)
-                                    : glm::inverse(range.own->scene_from_own) * space.scale *
-                                          dmat3(object.world_from_object);
-    const dvec3 at_middle = range.shares ? dvec3(0)
-                                         : glm::inverse(range.own->scene_from_own) *
-                                               (space.place(scene::transform_point(
-                                                    object.world_from_object, middle)) -
-                                                range.own->centre);
-    const dmat3 normal_to_own = range.shares ? dmat3(1)
-                                             : scene::normal_matrix(object.world_from_object);
+    range.own = own_space_of(now, object, space);
+    // The turned mesh relative to the space's middle.
+    const dvec3 middle = space_of_mesh(mesh).middle;
+    const dmat3 own_from_scene = glm::inverse(range.own->scene_from_own),
+                turn = own_from_scene * space.scale * dmat3(object.world_from_object),
+                normal_to_own = scene::normal_matrix(object.world_from_object);
+    const dvec3 at_middle = own_from_scene *
+                            (space.place(scene::transform_point(object.world_from_object, middle)) -
+                             range.own->centre);
     Bounds<double> box;
     bool changed = false;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -141,29 +70,39 @@ bool move_own(Geometry& geometry, const scene::Scene& now, const Space& space, s
     return changed;
 }
 
-} // namespace
-
-Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces spaces) {
-    Geometry geometry{.core = space.core, .spaces = spaces};
-    const std::vector<bool> shared = shared_meshes(now);
-    for (const scene::Object& object : now.objects) {
-        const scene::Mesh& mesh = now.meshes[object.mesh];
-        const scene::Material& material = now.materials[object.material];
-        DrawRange range;
-        range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
-        range.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
-        range.mirror = material.mirror;
-        range.casts_shadow = material.emission == vec3(0);
-        range.seen_by_camera = object.seen_by_camera;
-        range.exact_sphere = object.sphere.has_value();
-        range.one_sided = scene::is_one_sided(material);
-        range.storage = static_cast<std::uint32_t>(geometry.ranges.size());
-        if (spaces == Spaces::own) {
-            range.shares = shared[object.mesh] && can_share(now, object);
-            if (range.shares || is_small(now, object, space)) range.own.emplace();
-        }
-        geometry.ranges.push_back(range);
+/// The object's vertices in scene units.
+void move_flat(Geometry& geometry, const scene::Scene& now, const Space& space, std::size_t index) {
+    const dmat4& world_from_object = now.objects[index].world_from_object;
+    const scene::Mesh& mesh = now.meshes[now.objects[index].mesh];
+    const dmat3 normal_to_world = scene::normal_matrix(world_from_object);
+    DrawRange& range = geometry.ranges[index];
+    range.bounds = {};
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const vec3 position = space.point(dvec3(world_from_object * dvec4(mesh.positions[i], 1)));
+        range.bounds.add(position);
+        geometry.vertices[range.first_vertex + i] = {
+            position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))};
     }
+}
+
+/// What is known of an object without its place.
+DrawRange range_of(const scene::Scene& now, const scene::Object& object) {
+    const scene::Mesh& mesh = now.meshes[object.mesh];
+    const scene::Material& material = now.materials[object.material];
+    DrawRange range;
+    range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+    range.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
+    range.mirror = material.mirror;
+    range.casts_shadow = material.emission == vec3(0);
+    range.seen_by_camera = object.seen_by_camera;
+    range.exact_sphere = object.sphere.has_value();
+    range.one_sided = scene::is_one_sided(material);
+    return range;
+}
+
+/// Gives every range its part of both lists: what is in scene units comes first, copies of a mesh
+/// that share have one part.
+void lay_out(Geometry& geometry, const scene::Scene& now) {
     std::uint32_t vertices = 0, indices = 0;
     const auto store = [&](DrawRange& range) {
         range.first_index = indices, range.first_vertex = vertices;
@@ -188,7 +127,30 @@ Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces space
     }
     geometry.vertices.resize(vertices);
     geometry.indices.resize(indices);
-    for (std::size_t i = 0; i < now.objects.size(); ++i) move_object(geometry, now, space, i);
+}
+
+} // namespace
+
+Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces spaces) {
+    Geometry geometry{.core = space.core, .spaces = spaces};
+    const std::vector<bool> shared = spaces == Spaces::own ? shared_objects(now)
+                                                           : std::vector<bool>(now.objects.size());
+    for (std::size_t i = 0; i < now.objects.size(); ++i) {
+        DrawRange range = range_of(now, now.objects[i]);
+        range.storage = static_cast<std::uint32_t>(i);
+        range.shares = shared[i];
+        if (range.shares || (spaces == Spaces::own && is_small(now, now.objects[i], space)))
+            range.own.emplace();
+        geometry.ranges.push_back(range);
+    }
+    lay_out(geometry, now);
+    for (std::size_t i = 0; i < now.objects.size(); ++i) {
+        const DrawRange& range = geometry.ranges[i];
+        const std::size_t mesh = now.objects[i].mesh;
+        if (range.shares && range.storage == i)
+            geometry.mesh_spaces[mesh] = store_shared(geometry, now.meshes[mesh], range);
+        move_object(geometry, now, space, i);
+    }
     return geometry;
 }
 
@@ -196,37 +158,26 @@ bool changes_space(const Geometry& geometry, const scene::Scene& now, const Spac
                    std::size_t object) {
     if (geometry.spaces == Spaces::one) return false;
     const DrawRange& range = geometry.ranges[object];
-    if (range.shares) return !can_share(now, now.objects[object]);
+    if (range.shares) return !may_share(now, now.objects[object]);
     return range.own.has_value() != is_small(now, now.objects[object], space);
 }
 
 bool move_object(Geometry& geometry, const scene::Scene& now, const Space& space,
-                 std::size_t object) {
-    const dmat4& world_from_object = now.objects[object].world_from_object;
-    const scene::Mesh& mesh = now.meshes[now.objects[object].mesh];
-    const dmat3 normal_to_world = scene::normal_matrix(world_from_object);
-    DrawRange& range = geometry.ranges[object];
-    bool changed = true;
-    if (range.own) {
-        changed = move_own(geometry, now, space, object);
+                 std::size_t index) {
+    const scene::Object& object = now.objects[index];
+    DrawRange& range = geometry.ranges[index];
+    bool changed = !range.shares;
+    if (range.shares) {
+        const MeshSpace& mesh = geometry.mesh_spaces.at(object.mesh);
+        range.own = own_space_of(mesh, object.world_from_object, space);
+        range.bounds = scene_bounds(*range.own, mesh.box);
+    } else if (range.own) {
+        changed = move_own(geometry, now, space, index);
     } else {
-        range.bounds = {};
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-            const vec3 position = space.point(
-                dvec3(world_from_object * dvec4(mesh.positions[i], 1)));
-            range.bounds.add(position);
-            geometry.vertices[range.first_vertex + i] = {
-                position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))};
-        }
+        move_flat(geometry, now, space, index);
     }
-    check_reach(range.bounds, now.objects[object].name);
-    std::size_t index = range.first_index;
-    for (uvec3 triangle : mesh.triangles) {
-        triangle += range.first_vertex;
-        if (range.one_sided && runs_clockwise(geometry.vertices, triangle))
-            std::swap(triangle.y, triangle.z);
-        for (int i = 0; i < 3; ++i) geometry.indices[index++] = triangle[i];
-    }
+    check_reach(range.bounds, object.name);
+    if (!range.shares) store_indices(geometry, now.meshes[object.mesh], range);
     return changed;
 }
 

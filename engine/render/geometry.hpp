@@ -1,34 +1,20 @@
 #pragma once
 
-#include "render/space.hpp"
+#include "render/own_space.hpp"
 #include "shared.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
 namespace catoptric::render {
 
-/// A space of its own for an object's vertices: scene = centre + scene_from_own * own, own about 1.
-struct OwnSpace {
-    dmat3 scene_from_own{1};
-    dvec3 centre{0};  ///< scene units
-    double least = 1; ///< no length in own units becomes less than this many times it
-    float radius = 0; ///< own units, of the exact sphere around the middle; 0: none
-    dvec3 point(const dvec3& scene) const {
-        return glm::inverse(scene_from_own) * (scene - centre);
-    }
-};
-
 /// Which objects keep a space of their own.
 enum class Spaces {
     one, ///< none: all vertices are in scene units
-    own  ///< see own_space_of
+    own  ///< see make_geometry
 };
-
-/// Copies of shared meshes are put into scene units up to so many triangles (some 50 MB); those of
-/// the meshes above that keep the mesh's space and one set of vertices.
-inline constexpr std::uint64_t kMostCopied = 1u << 18;
 
 /// The triangles of one object in the shared buffers.
 struct DrawRange {
@@ -55,14 +41,14 @@ struct Geometry {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<DrawRange> ranges;
-    Bounds<float> core; ///< where most of it is (Space::core)
+    std::map<std::size_t, MeshSpace> mesh_spaces; ///< by mesh, of those that share
+    Bounds<float> core;                           ///< where most of it is (Space::core)
     Spaces spaces = Spaces::one;
     std::uint32_t flat_indices = 0; ///< of what is in scene units
 };
-/// With Spaces::own an object keeps its own space where it is smaller than kSmallPart of its
-/// distance from the origin, or where its mesh is one of those that share (kMostCopied) and it is
-/// no lamp of one side, whose corners may have to be swapped, and its transform no worse than a
-/// float can turn a ray by.
+/// With Spaces::own an object keeps its own space where it is small (is_small) or one of many
+/// copies (shared_objects). Costs O(n) in vertices and triangles that are stored; a copy of a mesh
+/// that shares costs O(1).
 Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces spaces = Spaces::one);
 
 /// Whether `make_geometry` would now give the object another kind of space than it has.
@@ -73,7 +59,7 @@ bool changes_space(const Geometry& geometry, const scene::Scene& now, const Spac
 /// `make_geometry`. Returns whether vertices changed: not where only an own space moved. Throws as
 /// check_reach does.
 bool move_object(Geometry& geometry, const scene::Scene& now, const Space& space,
-                 std::size_t object);
+                 std::size_t index);
 
 /// Squared distance from p to the triangle (Ericson, Real-Time Collision Detection, 5.1.5).
 float squared_distance(vec3 p, vec3 a, vec3 b, vec3 c);

@@ -2,6 +2,7 @@
 
 #include "bvh/bvh.hpp"
 #include "core/error.hpp"
+#include "render/own_space.hpp"
 #include "shared.h"
 
 #include <limits>
@@ -16,11 +17,16 @@ constexpr std::uint64_t kTexelBytes = 16, kTexelsOfTriangle = 3, kTexelsOfNode =
 
 Amounts amounts_of(const scene::Scene& scene) {
     Amounts amounts;
-    for (const scene::Object& object : scene.objects) {
+    const std::vector<bool> shared = shared_objects(scene);
+    std::vector<bool> stored(scene.meshes.size()); // once for all its copies
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const scene::Object& object = scene.objects[i];
         const scene::Mesh& mesh = scene.meshes[object.mesh];
+        amounts.mirrors += scene.materials[object.material].mirror ? 1 : 0;
+        if (shared[i] && stored[object.mesh]) continue;
+        if (shared[i]) stored[object.mesh] = true;
         amounts.vertices += mesh.positions.size();
         amounts.triangles += mesh.triangles.size();
-        amounts.mirrors += scene.materials[object.material].mirror ? 1 : 0;
     }
     amounts.objects = scene.objects.size();
     return amounts;

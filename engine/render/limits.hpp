@@ -6,11 +6,12 @@
 
 namespace catoptric::render {
 
-/// How much of everything a scene shows.
+/// How much of everything a scene takes: vertices and triangles as they are stored, so those of a
+/// mesh whose copies share them count once (own_space.hpp).
 struct Amounts {
     std::uint64_t vertices = 0, triangles = 0, objects = 0, mirrors = 0;
 };
-/// O(objects).
+/// Costs what shared_objects does.
 Amounts amounts_of(const scene::Scene& scene);
 
 /// What a device can hold.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace catoptric::render {
 
@@ -13,30 +14,41 @@ namespace {
 
 double largest(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
-/// The bounds of mirrors that would lose half of a float's digits to their distance; may be empty.
-Bounds<double> small_mirrors(const scene::Scene& scene, const dvec3& origin) {
-    Bounds<double> small;
+bool is_inside(const Bounds<double>& box, const Bounds<double>& core) {
+    return all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
+}
+
+dvec3 origin_of(const scene::Scene& scene, const Bounds<double>& core) {
+    std::vector<Bounds<double>> small;
+    Bounds<double> around;
     for (const std::size_t mirror : scene::mirrors(scene)) {
         const Bounds<double> box = scene::bounds(scene, scene.objects[mirror]);
-        if (box.empty()) continue;
-        const double distance = largest(
-            glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
-        if (largest(box.extent()) < kSmallPart * distance) small.add(box);
+        if (!is_inside(box, core) || !is_small(box, core.centre())) continue;
+        small.push_back(box), around.add(box);
     }
-    return small;
+    const dvec3 theirs = around.centre();
+    const bool helps = !small.empty() && std::ranges::none_of(small, [&](const auto& box) {
+        return is_small(box, theirs);
+    });
+    return helps ? theirs : core.centre();
 }
 
 } // namespace
+
+bool is_small(const Bounds<double>& box, const dvec3& origin) {
+    if (box.empty()) return false;
+    const double size = largest(box.extent()),
+                 distance = largest(glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
+    return size > 0 && size < kSmallPart * distance;
+}
 
 Space space_of(const scene::Scene& scene) {
     const Bounds<double> core = scene::core_bounds(scene);
     if (core.empty()) return {};
     Space space;
-    space.origin_world = core.centre();
+    space.origin_world = origin_of(scene, core);
     if (const double extent = largest(core.extent()); extent > 0)
         space.scale = std::exp2(-std::ceil(std::log2(extent)));
-    const Bounds<double> small = small_mirrors(scene, space.origin_world);
-    if (!small.empty()) space.origin_world = small.centre();
     space.core = {space.point(core.lo), space.point(core.hi)};
     return space;
 }

@@ -22,9 +22,15 @@ struct Space {
 /// Smaller than this part of its distance from the origin, a thing loses half of a float's digits.
 inline constexpr double kSmallPart = 0x1p-12;
 
+/// Whether it is, its distance that of its farthest corner; world units. Not of what is a point or
+/// nothing.
+bool is_small(const Bounds<double>& box, const dvec3& origin);
+
 /// Of the scene at rest; the same for all its frames, so that motion does not move the units. The
-/// origin is the core's centre or, where mirrors are smaller than 2^-12 of their distance from
-/// there (a float has 2^-24 of it), the centre of these mirrors.
+/// origin is the core's centre. Where mirrors in the core are small from there but not from the
+/// centre of their bounds, it is that: reflections are looked at next to them, with a float's
+/// digits. Mirrors that no one place suits, and those outside the core, which would take the digits
+/// from all else, do not move it: what is small keeps a space of its own (own_space.hpp).
 Space space_of(const scene::Scene& scene);
 
 /// Throws `exhausted` naming the object where a corner of `box` (scene units) is farther away than

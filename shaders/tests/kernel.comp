@@ -9,6 +9,7 @@
 layout(local_size_x = TRACE_LOCAL_SIZE) in;
 layout(set = 0, binding = 2, std430) readonly buffer Rays { uvec4 rays[]; };  // origin, t_max; direction, leaves
 layout(set = 0, binding = 3, std430) writeonly buffer Hits { uvec4 hits[]; }; // t, weights; triangle, object, outcome, steps
+layout(set = 0, binding = 4, std430) readonly buffer Lows { uvec4 lows[]; };  // what origins lack
 layout(push_constant) uniform Push {
     uint count;
     uint skipped;  // flags of triangles that the rays pass by
@@ -24,6 +25,7 @@ void main() {
     uvec4 along = rays[2u * i + 1u];
     Ray ray = Ray(uintBitsToFloat(from.xyz), uintBitsToFloat(along.xyz), along.w);
     float t_max = uintBitsToFloat(from.w);
+    trace_low = uintBitsToFloat(lows[i].xyz);
     Hit hit = Hit(0.0, vec3(0), 0u, 0u, 0u, 0u);
     bool found = occluded != 0u ? any_hit(ray, t_max, skipped) : closest_hit(ray, t_max, skipped, hit);
     if (!found || occluded != 0u) hit = Hit(0.0, vec3(0), 0u, 0u, 0u, 0u);

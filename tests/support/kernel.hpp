@@ -74,30 +74,42 @@ public:
     const bvh::Bvh& hierarchy() const { return hierarchy_; }
 
     /// What each ray meets first, triangles with a flag of `skipped` left out. At most 4 million
-    /// rays.
-    std::vector<KernelHit> closest(const std::vector<KernelRay>& rays, std::uint32_t skipped = 0) {
-        return run<KernelHit>("tests/kernel.comp", "Rays", rays, "Hits",
-                              std::array{size_of(rays), skipped, 0u});
+    /// rays. `lows`: what their origins lack as sums of two floats; none: nothing.
+    std::vector<KernelHit> closest(const std::vector<KernelRay>& rays, std::uint32_t skipped = 0,
+                                   const std::vector<vec4>& lows = {}) {
+        return walk(rays, skipped, lows, 0);
     }
     /// Whether each ray meets anything; of a hit only `outcome` and `steps` are told.
-    std::vector<KernelHit> any(const std::vector<KernelRay>& rays, std::uint32_t skipped = 0) {
-        return run<KernelHit>("tests/kernel.comp", "Rays", rays, "Hits",
-                              std::array{size_of(rays), skipped, 1u});
+    std::vector<KernelHit> any(const std::vector<KernelRay>& rays, std::uint32_t skipped = 0,
+                               const std::vector<vec4>& lows = {}) {
+        return walk(rays, skipped, lows, 1);
     }
     std::vector<KernelLeaving> leave(const std::vector<KernelStart>& starts) {
-        return run<KernelLeaving>("tests/spawn.comp", "Starts", starts, "Leavings",
+        return run<KernelLeaving>("tests/spawn.comp", rules, "Starts", starts, "Leavings",
                                   std::array{size_of(starts)});
     }
 
 private:
+    std::vector<KernelHit> walk(const std::vector<KernelRay>& rays, std::uint32_t skipped,
+                                const std::vector<vec4>& lows, std::uint32_t occluded) {
+        gpu::Constants constants = rules;
+        const bool own_spaces = hierarchy_.nodes[2].x > 0; // bvh/two_level.hpp
+        constants.emplace_back("own_spaces", own_spaces ? 1u : 0u);
+        upload(bench().device, lows_, "lows",
+               lows.empty() ? std::vector<vec4>(rays.size(), vec4(0)) : lows,
+               gpu::BufferUse::plain);
+        return run<KernelHit>("tests/kernel.comp", constants, "Rays", rays, "Hits",
+                              std::array{size_of(rays), skipped, occluded});
+    }
+
     template <typename In>
     static std::uint32_t size_of(const std::vector<In>& list) {
         return static_cast<std::uint32_t>(list.size());
     }
 
     template <typename Out, typename In, typename Push>
-    std::vector<Out> run(const char* shader, const char* input, const std::vector<In>& in,
-                         const char* output, const Push& push) {
+    std::vector<Out> run(const char* shader, const gpu::Constants& constants, const char* input,
+                         const std::vector<In>& in, const char* output, const Push& push) {
         upload(bench().device, input_, "input", in, gpu::BufferUse::plain);
         graph::Graph graph;
         const graph::Buffer out = graph.buffer({"output", in.size() * sizeof(Out)});
@@ -107,8 +119,9 @@ private:
                 commands.bind("bvh_nodes", nodes_);
                 commands.bind("bvh_triangles", triangles_);
                 commands.bind(input, input_);
+                commands.bind("Lows", lows_);
                 commands.bind(output, out);
-                commands.use(gpu::ComputeState{shader, rules});
+                commands.use(gpu::ComputeState{shader, constants});
                 commands.push(push);
                 commands.dispatch((size_of(in) + 63) / 64, 1);
             });
@@ -119,7 +132,7 @@ private:
 
     bvh::Bvh hierarchy_;
     graph::Runner runner_;
-    gpu::Buffer nodes_, triangles_, input_;
+    gpu::Buffer nodes_, triangles_, input_, lows_;
 };
 
 inline std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
@@ -140,10 +153,10 @@ inline bool same(const KernelHit& a, const KernelHit& b) {
 
 /// What the C++ mirror of the walk answers.
 inline KernelHit mirror_of(const bvh::Bvh& hierarchy, const KernelRay& ray,
-                           std::uint32_t skipped = 0) {
+                           std::uint32_t skipped = 0, const vec3& low = vec3(0)) {
     bvh::Steps steps;
     const auto hit = bvh::closest_hit<float>(hierarchy, {ray.origin, ray.direction, ray.leaves},
-                                             ray.t_max, skipped, &steps);
+                                             ray.t_max, skipped, &steps, low);
     KernelHit result;
     if (hit) result = {hit->t, hit->barycentric, hit->triangle, hit->object, 1, 0};
     result.steps = static_cast<std::uint32_t>(steps.total());
@@ -171,10 +184,11 @@ inline std::string text(const KernelRay& ray) {
 /// both answers. `stride`: every how many-th ray the mirror is asked.
 inline std::size_t differences(const Kernel& kernel, const std::vector<KernelRay>& rays,
                                const std::vector<KernelHit>& hits, std::uint32_t skipped = 0,
-                               std::size_t stride = 1) {
+                               std::size_t stride = 1, const std::vector<vec4>& lows = {}) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < rays.size(); i += stride) {
-        const KernelHit expected = mirror_of(kernel.hierarchy(), rays[i], skipped);
+        const KernelHit expected = mirror_of(kernel.hierarchy(), rays[i], skipped,
+                                             lows.empty() ? vec3(0) : vec3(lows[i]));
         if (same(hits[i], expected)) continue;
         if (count++ == 0)
             ADD_FAILURE() << "ray " << i << ", " << text(rays[i]) << "\n  device: " << text(hits[i])

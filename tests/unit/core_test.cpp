@@ -91,18 +91,54 @@ TEST(Core, UnitsOfTheRoomStayWhateverStrays) {
     }
 }
 
+/// A room about 5 long with mirror balls of these radii and places.
+scene::Scene room_with(const std::vector<std::pair<double, dvec3>>& mirrors) {
+    scene::Scene scene = test::room(0, 1);
+    const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
+    for (const auto& [radius, place] : mirrors)
+        test::add_ball(scene, "ball", mirror, place, radius);
+    return scene;
+}
+
+dvec3 origin_with(const std::vector<std::pair<double, dvec3>>& mirrors) {
+    return render::space_of(room_with(mirrors)).origin_world;
+}
+
 /// A float keeps 24 bits: a mirror that is small beside its distance from the origin becomes it.
 TEST(Core, SmallMirrorsAreTheOrigin) {
-    const auto origin = [](double radius) {
-        scene::Scene scene = test::room(0, 1); // about 5 long
-        const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
-        test::add_ball(scene, "ball", mirror, {1.5, -1, 1}, radius);
-        return render::space_of(scene).origin_world;
-    };
-    const dvec3 middle = scene::bounds(test::room(0, 1)).centre();
-    EXPECT_EQ(origin(.1), middle);
-    EXPECT_EQ(origin(.001), middle) << "2^-11 of the distance";
-    EXPECT_LT(glm::length(origin(1e-4) - dvec3(1.5, -1, 1)), 1e-5);
+    const dvec3 place(1.5, -1, 1), middle = scene::bounds(test::room(0, 1)).centre();
+    EXPECT_EQ(origin_with({{.1, place}}), middle);
+    EXPECT_EQ(origin_with({{.001, place}}), middle) << "2^-11 of the distance";
+    EXPECT_LT(glm::length(origin_with({{1e-4, place}}) - place), 1e-5);
+    EXPECT_EQ(origin_with({{0, place}}), middle) << "a point reflects nothing";
+    EXPECT_LT(glm::length(origin_with({{1e-4, place}, {.3, -place}}) - place), 1e-5)
+        << "whatever larger ones there are";
+    EXPECT_LT(glm::length(origin_with({{1e-4, place}, {1e-4, place + dvec3(.1, 0, 0)}}) -
+                          (place + dvec3(.05, 0, 0))),
+              1e-5)
+        << "neighbours share it";
+}
+
+TEST(Core, MirrorsThatNoOriginSuitsDoNotMoveIt) {
+    const dvec3 place(1.5, -1, 1), middle = scene::bounds(test::room(0, 1)).centre();
+    const std::vector<std::pair<double, dvec3>> apart{{1e-4, place}, {1e-4, -place}};
+    EXPECT_EQ(origin_with(apart), middle);
+    const scene::Scene scene = room_with(apart);
+    const render::Geometry geometry = render::make_geometry(scene, render::space_of(scene),
+                                                            render::Spaces::own);
+    for (const std::size_t mirror : scene::mirrors(scene))
+        EXPECT_TRUE(geometry.ranges[mirror].own) << mirror;
+}
+
+/// One that strays is small beside its distance, and would take the room its digits.
+TEST(Core, AMirrorThatStraysDoesNotMoveTheOrigin) {
+    const scene::Scene scene = room_with({{.5, {1e6, 2e5, 0}}});
+    const render::Space space = render::space_of(scene);
+    EXPECT_EQ(space.origin_world, scene::bounds(test::room(0, 1)).centre());
+    const render::Geometry geometry = render::make_geometry(scene, space, render::Spaces::own);
+    EXPECT_TRUE(geometry.ranges.back().own);
+    for (std::size_t i = 0; i + 1 < geometry.ranges.size(); ++i)
+        EXPECT_FALSE(geometry.ranges[i].own) << scene.objects[i].name;
 }
 
 TEST(Core, WhatFloatsCannotReachIsNamed) {

@@ -1,5 +1,6 @@
 // What a device cannot hold is refused by its numbers, before anything is made of it.
 #include "core/error.hpp"
+#include "render/geometry.hpp"
 #include "render/limits.hpp"
 #include "support/scenes.hpp"
 
@@ -28,6 +29,45 @@ TEST(Limits, CountWhatASceneShows) {
     EXPECT_EQ(amounts.objects, 9u);
     EXPECT_EQ(amounts.mirrors, 2u);
     EXPECT_EQ(refusal(amounts, kRoomy), "");
+}
+
+/// Balls of 4096 triangles that are all one mesh, on top of a room.
+scene::Scene copies(int count) {
+    scene::Scene scene = test::room(0, 1);
+    scene.meshes.push_back(scene::ball("ball", 5));
+    for (int i = 0; i < count; ++i)
+        scene.objects.push_back({.name = "ball", .mesh = scene.meshes.size() - 1, .material = 0});
+    return scene;
+}
+
+TEST(Limits, CountCopiesOnceWhereTheyShare) {
+    const render::Amounts room = render::amounts_of(copies(0)),
+                          few = render::amounts_of(copies(65)),
+                          many = render::amounts_of(copies(66));
+    EXPECT_EQ(few.triangles, room.triangles + 65 * 4096) << "2^18 and one are put where they are";
+    EXPECT_EQ(many.triangles, room.triangles + 4096);
+    EXPECT_EQ(many.vertices, room.vertices + 2050);
+    EXPECT_EQ(many.objects, room.objects + 66);
+    scene::Scene flattened = copies(66); // no float turns a ray into the space of this one
+    flattened.objects.back().world_from_object = dmat4(1, 0, 0, 0, 1, 1e-3, 0, 0, 0, 0, 1, 0, 0, 0,
+                                                       0, 1);
+    EXPECT_EQ(render::amounts_of(flattened).triangles, room.triangles + 2 * 4096);
+    render::Limits tight = kRoomy;
+    tight.memory_bytes = 1 << 20;
+    EXPECT_EQ(refusal(many, tight), "");
+    EXPECT_NE(refusal(few, tight), "");
+}
+
+/// What is counted is what is stored.
+TEST(Limits, CountWhatTheGeometryHolds) {
+    for (const int count : {0, 3, 65, 66, 80}) {
+        const scene::Scene scene = copies(count);
+        const render::Geometry geometry = render::make_geometry(scene, render::space_of(scene),
+                                                                render::Spaces::own);
+        const render::Amounts amounts = render::amounts_of(scene);
+        EXPECT_EQ(geometry.vertices.size(), amounts.vertices) << count;
+        EXPECT_EQ(geometry.indices.size(), 3 * amounts.triangles) << count;
+    }
 }
 
 TEST(Limits, NameWhatIsWantedAndWhatThereIs) {

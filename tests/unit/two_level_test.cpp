@@ -2,7 +2,7 @@
 #include "bvh/closest_hit.hpp"
 #include "bvh/two_level.hpp"
 #include "scene/shapes.hpp"
-#include "support/kernel_shapes.hpp"
+#include "support/crowd.hpp"
 #include "support/numbers.hpp"
 
 #include <gtest/gtest.h>
@@ -18,17 +18,12 @@ std::vector<Triangle> ball(int levels) {
     return *test::placed(scene::ball("ball", levels), .5, dvec3(0));
 }
 
-dmat3 turned(test::Numbers& numbers, double size, double squeeze) {
-    const dvec3 x(numbers.direction()), y = glm::normalize(cross(x, dvec3(numbers.direction())));
-    return dmat3(x, y, cross(x, y)) * dmat3(size, 0, 0, 0, size * squeeze, 0, 0, 0, -size);
-}
-
 /// One thing, anywhere in a unit cube, of a size from 1e-8 to 1, turned, squeezed and mirrored.
 struct Alone {
     explicit Alone(const Bvh& tree, test::Numbers& numbers)
         : instance{.tree = &tree,
-                   .scene_from_own = turned(numbers, std::pow(10., numbers.between(-8, 0)),
-                                            numbers.between(.1f, 1)),
+                   .scene_from_own = test::turned_to(numbers, std::pow(10., numbers.between(-8, 0)),
+                                                     numbers.between(.1f, 1)),
                    .centre = dvec3(numbers.in_cube()) + 1e-9 * dvec3(numbers.in_cube()),
                    .shift = 100},
           whole(assemble(build({}, {vec3(-1), vec3(1)}), std::span(&instance, 1))),
@@ -116,8 +111,9 @@ TEST(TwoLevel, RaysMeetWhatTheyMeetInOneTree) {
     std::vector<Instance> instances;
     for (std::uint32_t k = 0; k < 30; ++k) {
         const auto first = static_cast<std::uint32_t>(all.size());
-        instances.push_back({&tree, turned(numbers, .5, .6), 2.0 * dvec3(numbers.in_cube()), k + 1,
-                             k % 5 == 0 ? kHidden : 0, first});
+        instances.push_back({&tree, test::turned_to(numbers, .5, .6),
+                             2.0 * dvec3(numbers.in_cube()), k + 1, k % 5 == 0 ? kHidden : 0,
+                             first});
         for (const Triangle& t : shape) {
             const auto put = [&](const vec3& p) {
                 return vec3(instances[k].centre + instances[k].scene_from_own * dvec3(p));
@@ -151,6 +147,32 @@ TEST(TwoLevel, RaysMeetWhatTheyMeetInOneTree) {
     }
     EXPECT_GT(found, 2000u);
     EXPECT_LE(apart, 10u) << "at edges, where either is right";
+}
+
+/// N2b: powers of two, of the scene or of the things' own spaces, change no bit but those of t.
+TEST(TwoLevel, PowersOfTwoChangeNoBit) {
+    test::Crowd crowd(35);
+    const std::vector<test::CrowdRay> rays = crowd.rays(1000);
+    const Bvh whole = crowd.hierarchy();
+    std::size_t found = 0;
+    const auto walk = [](const Bvh& bvh, const test::CrowdRay& r) {
+        return closest_hit<float>(bvh, r.ray, r.t_max, 0, nullptr, r.low);
+    };
+    for (int k = -20; k <= 20; ++k)
+        for (const bool scene : {true, false}) {
+            const float s = std::ldexp(1.0f, k), in_scene = scene ? s : 1, in_own = scene ? 1 : s;
+            const Bvh scaled = crowd.hierarchy(in_scene, in_own);
+            ASSERT_EQ(node_count(scaled), node_count(whole));
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const bool direction = i % 8 < 4;
+                auto wanted = walk(whole, rays[i]);
+                if (wanted && !direction) wanted->t *= in_scene;
+                ASSERT_EQ(walk(scaled, test::scaled(rays[i], in_scene, direction)), wanted)
+                    << (scene ? "scene" : "own spaces") << " x 2^" << k << ", ray " << i;
+                found += wanted.has_value();
+            }
+        }
+    EXPECT_GT(found, 41 * rays.size());
 }
 
 TEST(TwoLevel, WithoutThingsOfTheirOwnTheTreeStays) {

@@ -1,0 +1,133 @@
+// Things in spaces of their own: the device walks their trees as its mirror in C++ does, bit for
+// bit, and no power of two changes what it meets.
+#include "support/crowd.hpp"
+#include "support/kernel.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+using test::Crowd;
+using test::CrowdRay;
+using test::Kernel;
+using test::KernelHit;
+using test::KernelRay;
+
+/// As the kernel takes them.
+struct Batch {
+    explicit Batch(const std::vector<CrowdRay>& from) {
+        for (const CrowdRay& ray : from) {
+            rays.push_back({ray.ray.origin, ray.t_max, ray.ray.direction, ray.ray.leaves});
+            lows.emplace_back(ray.low, 0.0f);
+        }
+    }
+    std::vector<KernelRay> rays;
+    std::vector<vec4> lows;
+};
+
+std::size_t found(const std::vector<KernelHit>& hits) {
+    return static_cast<std::size_t>(std::ranges::count_if(hits, &KernelHit::found));
+}
+
+TEST(KernelOwnSpaces, HitsAreThoseOfTheMirror) {
+    Crowd crowd(41);
+    const Batch batch(crowd.rays(40000));
+    Kernel kernel(crowd.hierarchy());
+    for (const std::uint32_t skipped : {0u, bvh::kHidden, bvh::kHidden | bvh::kOneSided}) {
+        const std::vector<KernelHit> hits = kernel.closest(batch.rays, skipped, batch.lows),
+                                     shadows = kernel.any(batch.rays, skipped, batch.lows);
+        EXPECT_EQ(test::differences(kernel, batch.rays, hits, skipped, 1, batch.lows), 0u);
+        std::size_t inside = 0, other_shadows = 0;
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            inside += hits[i].found() && hits[i].object > 0;
+            other_shadows += hits[i].found() != shadows[i].found();
+        }
+        std::cout << "[ MEASURED ] own spaces: " << found(hits) << " hits, " << inside
+                  << " of them in one\n";
+        EXPECT_EQ(other_shadows, 0u);
+        EXPECT_GT(inside, hits.size() / 4);
+    }
+}
+
+/// Without what the origins lack, rays start beside small things elsewhere: the test would notice.
+TEST(KernelOwnSpaces, OriginsAreSumsOfTwoFloats) {
+    Crowd crowd(41);
+    const Batch batch(crowd.rays(40000));
+    Kernel kernel(crowd.hierarchy());
+    const std::vector<KernelHit> with = kernel.closest(batch.rays, 0, batch.lows),
+                                 without = kernel.closest(batch.rays);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < with.size(); ++i) different += !test::same(with[i], without[i]);
+    EXPECT_GT(different, with.size() / 100);
+}
+
+/// The scene's lengths, or those of the things' spaces, times a power of two: every rounding is the
+/// same.
+TEST(KernelOwnSpaces, N2b_PowersOfTwoChangeNoBit) {
+    Crowd crowd(42);
+    const std::vector<CrowdRay> rays = crowd.rays(10000);
+    const Batch batch(rays);
+    const std::vector<KernelHit> one = Kernel(crowd.hierarchy()).closest(batch.rays, 0, batch.lows);
+    std::size_t changed = 0, hit = 0;
+    for (int k = -20; k <= 20; k += 4)
+        for (const bool scene : {true, false}) {
+            const float s = std::ldexp(1.0f, k), in_scene = scene ? s : 1, in_own = scene ? 1 : s;
+            std::vector<CrowdRay> moved;
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                moved.push_back(test::scaled(rays[i], in_scene, i % 8 < 4)); // of others t grows
+            const Batch next(moved);
+            const std::vector<KernelHit> hits =
+                Kernel(crowd.hierarchy(in_scene, in_own)).closest(next.rays, 0, next.lows);
+            hit += found(hits);
+            for (std::size_t i = 0; i < hits.size(); ++i) {
+                KernelHit expected = one[i];
+                if (i % 8 >= 4) expected.t *= in_scene;
+                if (!test::same(hits[i], expected) && changed++ == 0)
+                    ADD_FAILURE() << (scene ? "scene" : "own spaces") << " x 2^" << k << ", ray "
+                                  << i << "\n  at 1: " << test::text(one[i])
+                                  << "\n  scaled: " << test::text(hits[i]);
+            }
+        }
+    std::cout << "[ MEASURED ] N2b own spaces: " << changed << " of " << 22 * rays.size()
+              << " hits changed, " << hit << " hits\n";
+    EXPECT_EQ(changed, 0u);
+    EXPECT_GT(hit, 22 * rays.size() / 2);
+}
+
+/// Things that stand for exact spheres are met as such where spheres are exact, and as meshes where
+/// not.
+TEST(KernelOwnSpaces, ExactSpheresAreMetInTheirSpaces) {
+    Crowd crowd(43);
+    for (bvh::Instance& thing : crowd.things())
+        if (thing.object % 2 == 0) thing.radius = .5f, thing.flags = bvh::kSphere;
+    const Batch batch(crowd.rays(20000));
+    Kernel kernel(crowd.hierarchy());
+    EXPECT_EQ(test::differences(kernel, batch.rays, kernel.closest(batch.rays, 0, batch.lows), 0, 1,
+                                batch.lows),
+              0u);
+    const std::vector<KernelHit> hits = kernel.closest(batch.rays, bvh::kSphere, batch.lows);
+    std::size_t different = 0, on_spheres = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const vec3 low(batch.lows[i]);
+        const KernelRay& ray = batch.rays[i];
+        KernelHit wanted = test::mirror_of(kernel.hierarchy(), ray, bvh::kSphere, low);
+        float nearest = wanted.found() ? wanted.t : ray.t_max, t;
+        for (const bvh::Instance& thing : crowd.things())
+            if (thing.radius > 0 &&
+                f32::sphere_test(vec3(0), thing.radius,
+                                 f32::own_ray(test::place_of(thing),
+                                              {ray.origin, ray.direction, ray.leaves}, low),
+                                 nearest, t))
+                nearest = t, wanted = {t, vec3(0), 0, thing.object, 1};
+        on_spheres += wanted.found() && wanted.object > 0 && wanted.object % 2 == 0;
+        // The device's square roots are its own.
+        const float apart = std::abs(wanted.t - hits[i].t);
+        different += wanted.found() != hits[i].found() || wanted.object != hits[i].object ||
+                     !(apart <= 1e-5f * std::max(wanted.t, 1e-3f));
+    }
+    EXPECT_LE(different, 10u) << "where rays graze";
+    EXPECT_GT(on_spheres, hits.size() / 10);
+}
+
+} // namespace

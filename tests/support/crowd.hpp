@@ -1,0 +1,134 @@
+#pragma once
+
+#include "bvh/closest_hit.hpp"
+#include "bvh/two_level.hpp"
+#include "support/kernel_shapes.hpp"
+
+/// A room in which things have spaces of their own, and rays through it, all from a seed.
+namespace test {
+
+/// With what its origin lacks as a sum of two floats.
+struct CrowdRay {
+    f32::Ray ray;
+    vec3 low{0};
+    float t_max = std::numeric_limits<float>::infinity();
+};
+
+/// What an instance's record says (bvh/two_level.hpp).
+inline f32::Place place_of(const bvh::Instance& instance) {
+    const dmat3 to = instance.scene_from_own, back = glm::transpose(glm::inverse(to));
+    return {vec3(back[0]), vec3(back[1]), vec3(back[2]),         vec3(to[0]),
+            vec3(to[1]),   vec3(to[2]),   vec3(instance.centre), bvh::low_part(instance.centre)};
+}
+
+/// A turn, then a size along each axis; mirrored.
+inline dmat3 turned_to(Numbers& numbers, double size, double squeeze) {
+    const dvec3 x(numbers.direction()), y = glm::normalize(cross(x, dvec3(numbers.direction())));
+    return dmat3(x, y, cross(x, y)) * dmat3(size, 0, 0, 0, size * squeeze, 0, 0, 0, -size);
+}
+
+/// Sixty balls and tori of 1e-6 to 1, turned, squeezed and mirrored, among forty triangles.
+class Crowd {
+public:
+    explicit Crowd(std::uint64_t seed) : numbers_(seed) {
+        for (int i = 0; i < 40; ++i) {
+            const vec3 a = numbers_.in_cube();
+            room_.push_back({a, a + numbers_.in_cube(), a + numbers_.in_cube(), 0, flags()});
+        }
+        auto next = static_cast<std::uint32_t>(room_.size());
+        for (std::uint32_t k = 0; k < 60; ++k) {
+            const double size = std::pow(10., numbers_.between(-6, 0)),
+                         squeeze = numbers_.between(.1f, 1);
+            const dmat3 to = turned_to(numbers_, size, squeeze);
+            const dvec3 fine = 1e-9 * dvec3(numbers_.in_cube());
+            things_.push_back(
+                {nullptr, to, dvec3(numbers_.in_cube()) + fine, k + 1, flags(), next});
+            next += static_cast<std::uint32_t>(shape_of(k).size());
+        }
+    }
+
+    const std::vector<bvh::Instance>& things() const { return things_; }
+    std::vector<bvh::Instance>& things() { return things_; }
+
+    /// With the scene's lengths times `scene` and those of the things' own spaces times `own`,
+    /// both powers of two; everything stays where it is beside the rest.
+    bvh::Bvh hierarchy(float scene = 1, float own = 1) const {
+        const bvh::Bvh trees[]{bvh::build(scaled(shapes_[0], own)),
+                               bvh::build(scaled(shapes_[1], own))};
+        std::vector<bvh::Instance> placed = things_;
+        for (std::size_t k = 0; k < placed.size(); ++k) {
+            placed[k].tree = &trees[k % 2];
+            placed[k].scene_from_own *= double{scene} / double{own};
+            placed[k].centre *= double{scene};
+            placed[k].radius *= own;
+        }
+        return bvh::assemble(bvh::build(scaled(room_, scene)), placed);
+    }
+
+    /// In turn: anywhere; from beside a thing to a place on it; from a triangle of a thing; from
+    /// afar to a thing's middle. Some end early.
+    std::vector<CrowdRay> rays(std::size_t count) {
+        std::vector<CrowdRay> rays(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t k = numbers_.below(things_.size());
+            rays[i] = i % 4 == 1 ? beside(k) : i % 4 == 2 ? leaving(k) : anywhere();
+            if (i % 4 == 3) rays[i].ray.direction = vec3(things_[k].centre) - rays[i].ray.origin;
+            if (numbers_.word() % 4 == 0) rays[i].t_max = numbers_.between(0, 2);
+        }
+        return rays;
+    }
+
+private:
+    using Triangles = std::vector<bvh::Triangle>;
+
+    const Triangles& shape_of(std::size_t thing) const { return shapes_[thing % 2]; }
+    std::uint32_t flags() {
+        constexpr std::uint32_t kFlags[]{0, 0, bvh::kHidden, bvh::kOneSided};
+        return kFlags[numbers_.below(4)];
+    }
+    static Triangles scaled(Triangles triangles, float times) {
+        for (bvh::Triangle& t : triangles) t.a *= times, t.b *= times, t.c *= times;
+        return triangles;
+    }
+    CrowdRay anywhere() {
+        const vec3 origin = 2.0f * numbers_.in_cube();
+        return {{origin, numbers_.direction(), 0}};
+    }
+    CrowdRay beside(std::size_t thing) {
+        const f32::Place place = place_of(things_[thing]);
+        const bvh::Triangle& aim = shape_of(thing)[numbers_.below(shape_of(thing).size())];
+        const vec3 from = 2.0f * numbers_.in_cube(), at = aim.a + numbers_.unit() * (aim.b - aim.a);
+        CrowdRay result;
+        result.ray = {scene_point(place, arm_of(place, from), result.low), arm_of(place, at - from),
+                      0};
+        return result;
+    }
+    CrowdRay leaving(std::size_t thing) {
+        const f32::Place place = place_of(things_[thing]);
+        const std::size_t number = numbers_.below(shape_of(thing).size());
+        const bvh::Triangle& t = shape_of(thing)[number];
+        const vec3 w = numbers_.weights(), own = w.x * t.a + w.y * t.b + w.z * t.c;
+        CrowdRay result;
+        result.ray = {scene_point(place, arm_of(place, own), result.low), numbers_.direction(),
+                      things_[thing].shift + static_cast<std::uint32_t>(number) + 1};
+        return result;
+    }
+
+    Numbers numbers_;
+    Triangles room_;
+    Triangles shapes_[2]{*placed(scene::ball("ball", 2), .5, dvec3(0)),
+                         *placed(torus().mesh, .3, dvec3(0))};
+    std::vector<bvh::Instance> things_;
+};
+
+/// The ray times `scene`; its t stays where the direction grows as well.
+inline CrowdRay scaled(CrowdRay ray, float scene, bool direction) {
+    ray.ray.origin *= scene, ray.low *= scene;
+    if (direction)
+        ray.ray.direction *= scene;
+    else
+        ray.t_max *= scene;
+    return ray;
+}
+
+} // namespace test
