@@ -4,6 +4,7 @@
 #include "app/compare_row.hpp"
 #include "app/lag.hpp"
 #include "app/oracle.hpp"
+#include "app/plan_file.hpp"
 #include "app/truths.hpp"
 #include "core/error.hpp"
 #include "measure/difference.hpp"
@@ -38,6 +39,8 @@ public:
           truths_(session_, request_.base, request_.reference, request_.watcher) {
         if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
         check_rows(request_.base.techniques); // before any work
+        for (const std::string& text : request_.base.techniques)
+            reflect::assign(read_plan(text), mirror_names(request_.base.scene));
         check_has_mirror(request_.base.scene);
         mirrors_ = scene::mirrors(request_.base.scene).size();
     }
@@ -177,12 +180,15 @@ private:
             comparison_.warnings.push_back(
                 "'" + text + "': " + std::to_string(*looked.saturated) +
                 " texels of its captures are brighter than 65504, where colour=half ends");
+        for (const std::string& note : part.notes)
+            comparison_.warnings.push_back("'" + text + "': " + note);
         if (!lookup.empty())
             row.lookup = measure::lookup_error(
                 oracle_->judge(lookup, is_set(row, "mirrors", "left_out")));
         const std::string samples = sample_count(parse_technique(text));
         fill_errors(row, part, truths_.at(samples).part, hits_, mirrors_);
-        if (!lookup.empty() && request_.causes &&
+        const bool is_plan = !read_plan(text).is_technique; // which no one search can be blamed for
+        if (!lookup.empty() && request_.causes && !is_plan &&
             same(parse_technique(request_.reference), parse_technique(kReference)))
             row.causes = causes_of(text, row, lookup);
         row.is_reference = same(parse_technique(text),
@@ -255,13 +261,13 @@ void check_has_mirror(const scene::Scene& scene) {
 }
 
 void check_rows(const std::vector<std::string>& techniques) {
-    std::vector<TechniqueChoice> choices;
+    std::vector<reflect::Plan> plans;
     for (const std::string& text : techniques) {
-        const TechniqueChoice choice = parse_technique(text);
-        for (const TechniqueChoice& other : choices)
-            check(!same(choice, other), Failure::usage, "technique '", text,
+        reflect::Plan plan = read_plan(text);
+        for (const reflect::Plan& other : plans)
+            check(!plan.same_as(other), Failure::usage, "technique '", text,
                   "' is asked for twice");
-        choices.push_back(choice);
+        plans.push_back(std::move(plan));
     }
 }
 

@@ -92,6 +92,7 @@ report::Row make_row(const std::string& text, const Part& part,
     row.label = choice.label;
     row.settings = choice.settings;
     row.image = choice.file_name;
+    row.plan = part.plan;
     row.scene_passes = part.scene_passes;
     row.scene_draws = part.scene_draws;
     row.memory_bytes = part.memory_bytes;

@@ -38,7 +38,8 @@ bool reads_previous(const FrameGraph& frame, const graph::Plan& plan, const std:
 
 measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Declared& declared,
                           uvec2 size);
-/// `part`: index into the frame's parts; `mirrors`: their names. Throws `exhausted` where rays gave up.
+/// `part`: index into the frame's parts; `mirrors`: their names. Throws `exhausted` where rays gave
+/// up.
 Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& frame,
                std::size_t part, const std::vector<std::string>& mirrors,
                const render::GpuScene& scene, const FrameSpec& spec);

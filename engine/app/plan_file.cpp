@@ -86,4 +86,11 @@ reflect::Plan read_plan(const std::string& text) {
     return plan;
 }
 
+std::vector<std::string> mirror_names(const scene::Scene& scene) {
+    std::vector<std::string> names;
+    for (const std::size_t object : scene::mirrors(scene))
+        names.push_back(scene.objects[object].name);
+    return names;
+}
+
 } // namespace catoptric::app

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reflect/plan.hpp"
+#include "scene/scene.hpp"
 
 #include <string>
 
@@ -12,5 +13,8 @@ namespace catoptric::app {
 /// {knob: value}}; `name` and `why` of a report are passed over, `settings` may be left out. Throws
 /// `missing_input`, `io`, `bad_data` with place, wanted and found, and `usage` as parse_plan does.
 reflect::Plan read_plan(const std::string& text);
+
+/// Names of the scene's mirrors, in their order.
+std::vector<std::string> mirror_names(const scene::Scene& scene);
 
 } // namespace catoptric::app

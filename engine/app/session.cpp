@@ -2,6 +2,7 @@
 
 #include "app/engine_impl.hpp"
 #include "app/frame_graph.hpp"
+#include "app/plan_file.hpp"
 #include "core/error.hpp"
 #include "graph/dump.hpp"
 #include "render/captured.hpp"
@@ -52,13 +53,7 @@ struct Session::Impl {
         : engine(shared), scene(std::move(at_rest)),
           resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
           runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {
-        name_mirrors();
-    }
-
-    void name_mirrors() {
-        mirrors.clear();
-        for (const std::size_t object : scene::mirrors(scene))
-            mirrors.push_back(scene.objects[object].name);
+        mirrors = mirror_names(scene);
     }
 
     /// Writes what the specification asks for and the device does not have yet; milliseconds of
@@ -185,7 +180,7 @@ void Session::change(const scene::Edit& edit) {
         self.resident = std::move(made);
     }
     self.scene = std::move(edited);
-    self.name_mirrors();
+    self.mirrors = mirror_names(self.scene);
     self.standing.reset();
 }
 
@@ -264,8 +259,7 @@ measure::Picture Frame::hdr(std::size_t part) const {
 Part Frame::read(std::size_t part) const {
     if (impl_->spec.with_lookup) impl_->check_last();
     return read_part(impl_->runner(), impl_->ticket, impl_->frame, part, impl_->session->mirrors,
-                     *impl_->session->resident,
-                     impl_->spec);
+                     *impl_->session->resident, impl_->spec);
 }
 
 std::vector<Part> Frame::read_all() const {

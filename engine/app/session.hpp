@@ -2,6 +2,7 @@
 
 #include "app/engine.hpp"
 #include "core/math.hpp"
+#include "core/plan_entry.hpp"
 #include "measure/picture.hpp"
 #include "scene/edit.hpp"
 #include "scene/scene.hpp"
@@ -88,14 +89,6 @@ struct AutoFace {
     std::uint32_t edge = 0; ///< used for every mirror's capture, texels
     std::vector<double>
         needs; ///< texels along an edge, entry n-1 of mirror n; 0: it is not in view
-};
-
-/// How one mirror was drawn.
-struct PlanEntry {
-    std::uint32_t mirror = 0; ///< its number, from 1
-    std::string name, technique;
-    std::vector<Setting> settings; ///< all knobs
-    std::string why;               ///< what decided so
 };
 
 /// What one technique, or plan, made in a frame.

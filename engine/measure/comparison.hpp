@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/error.hpp"
-#include "core/setting.hpp"
+#include "core/plan_entry.hpp"
 #include "measure/causes.hpp"
 #include "measure/difference.hpp"
 #include "measure/lag.hpp"
@@ -70,14 +70,6 @@ struct HostParts {
     double hierarchy = 0; ///< trees for tracing, built or refitted
     double compile = 0;   ///< passes declared, and planned where their shape is new
     double record = 0;    ///< filling the command buffer
-};
-
-/// How one mirror was drawn.
-struct PlanEntry {
-    std::uint32_t mirror = 0; ///< its number, from 1
-    std::string name, technique;
-    std::vector<Setting> settings; ///< all knobs
-    std::string why;               ///< what decided so
 };
 
 /// One technique with its settings: what it cost and what it got wrong.

@@ -120,7 +120,7 @@ Json to_json(const Row& row) {
     json["model"] = row.model;
     add_figures(json, row);
     json["plan"] = Json::array();
-    for (const measure::PlanEntry& entry : row.plan)
+    for (const PlanEntry& entry : row.plan)
         json["plan"].push_back({{"mirror", entry.mirror},
                                 {"name", entry.name},
                                 {"technique", entry.technique},

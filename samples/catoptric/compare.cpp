@@ -133,9 +133,11 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
     verb.examples(kExamples);
     verb.option("-o,--output", "DIR", "folder for the report; required, made if missing",
                 options->folder);
-    verb.option("--techniques", "T",
-                "name[:knob=value,...] each, see 'list techniques' (the default list)",
-                options->techniques);
+    verb.option(
+        "--techniques", "T",
+        "name[:knob=value,...], plan:FILE.json or \"PATTERN=name ...\" each, see 'list techniques' "
+        "(the default list)",
+        options->techniques);
     verb.flag("--together", "all rows in one command buffer, on one timeline", options->together);
     verb.flag("--no-causes", "leave out the split of each row's error by cause",
               options->no_causes);

@@ -1,6 +1,7 @@
 // catoptric graph: the compiled plan of a frame.
 #include "app/session.hpp"
 #include "core/error.hpp"
+#include "drawn.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "places.hpp"
@@ -17,13 +18,15 @@ constexpr const char* kExamples = R"(Examples:
   catoptric graph --technique naive:bounces=2
   catoptric graph scene.glb --technique reuse --format dot | dot -Tsvg > reuse.svg
   catoptric graph --technique parallax --json
+  catoptric graph --plan "1=reuse:face=64 *=raytrace"
 
 The plan of a frame with a frame before it: passes in order, what each reads and writes, what was
 left out and why, memory that images share.)";
 
 struct Options {
     Common common;
-    std::string technique;
+    Drawn drawn;
+    std::string technique; ///< of the two, checked
     std::optional<app::PlanFormat> format;
 };
 
@@ -37,9 +40,6 @@ app::PlanFormat format_of(const Options& options) {
 }
 
 int run(const Options& options) {
-    require_given(!options.technique.empty(), "graph", "--technique T",
-                  "see 'catoptric list techniques'");
-    app::parse_technique(options.technique);
     const app::PlanFormat format = format_of(options);
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
@@ -59,15 +59,17 @@ void add_graph(CommandLine& program) {
     const auto options = std::make_shared<Options>();
     Verb& verb = program.add("graph", "the compiled plan of a technique's frame");
     verb.examples(kExamples);
-    verb.option("--technique", "T", "name[:knob=value,...], see 'list techniques'; required",
-                options->technique);
+    add_drawn(verb, options->drawn);
     verb.option("--format", "F", "text, dot or json (text)", [options](const std::string& text) {
         constexpr app::PlanFormat kFormats[] = {app::PlanFormat::text, app::PlanFormat::dot,
                                                 app::PlanFormat::json};
         options->format = kFormats[parse_choice("--format", text, {"text", "dot", "json"})];
     });
     add_common(verb, options->common);
-    verb.does([options] { return run(*options); });
+    verb.does([options] {
+        options->technique = checked(options->drawn, "graph");
+        return run(*options);
+    });
 }
 
 } // namespace catoptric::cli

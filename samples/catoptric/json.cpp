@@ -49,9 +49,9 @@ Json passes_json(const std::vector<app::FrameTimes>& frames) {
     return passes;
 }
 
-Json settings_json(const app::TechniqueChoice& choice) {
+Json settings_json(const std::vector<Setting>& list) {
     Json settings = Json::object();
-    for (const auto& setting : choice.settings)
+    for (const Setting& setting : list)
         settings[setting.name] = setting.number ? Json(std::stoll(setting.text))
                                                 : Json(setting.text);
     return settings;
@@ -104,7 +104,15 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["timing"] = request.timing == app::Timing::isolated ? "isolated" : "pipelined";
     document["technique"] = choice.technique;
     document["label"] = choice.label;
-    document["settings"] = settings_json(choice);
+    document["settings"] = settings_json(choice.settings);
+    document["plan"] = Json::array();
+    for (const PlanEntry& entry : part.plan)
+        document["plan"].push_back({{"mirror", entry.mirror},
+                                    {"name", entry.name},
+                                    {"technique", entry.technique},
+                                    {"settings", settings_json(entry.settings)},
+                                    {"why", entry.why}});
+    document["notes"] = part.notes;
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
     // The frames of a still compile what they use first: their times say nothing.

@@ -64,9 +64,13 @@ void add_choices(Verb& verb, Common& common) {
     verb.option("--model", "M",
                 "everything: each mirror, six faces, every frame. required: not there yet",
                 take_model);
-    verb.option(
-        "--reference", "T", "technique that compare judges against (raytrace:depth=16)",
-        [&](const std::string& text) { common.reference = app::parse_technique(text).label; });
+    verb.option("--reference", "T", "technique that compare judges against (raytrace:depth=16)",
+                [&](const std::string& text) {
+                    const app::TechniqueChoice choice = app::parse_technique(text);
+                    check(choice.technique != "plan", Failure::usage,
+                          "--reference: wanted one technique for all mirrors, found '", text, "'");
+                    common.reference = choice.label;
+                });
     verb.option("--device", "D",
                 "index from 0 or part of a name, see 'list devices' (the fastest kind)",
                 [&](const std::string& text) { common.device = text; });

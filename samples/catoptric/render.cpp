@@ -2,6 +2,7 @@
 #include "app/run.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "drawn.hpp"
 #include "json.hpp"
 #include "measure/difference.hpp"
 #include "measure/picture_file.hpp"
@@ -26,6 +27,7 @@ constexpr const char* kExamples = R"(Examples:
   catoptric render scene.glb --technique raytrace:depth=4,samples=16 -o truth.exr
   catoptric render --technique reuse --animate --frames 60 --trace frame.json -o last.png
   catoptric render --technique naive:bounces=2 -o - | display
+  catoptric render --plan "1=hybrid 2,3=secant:face=64 *=reuse" -o mixed.png
 
 A still takes the frames that it needs: one, or with last frame's captures as many as change anything, at most
 28. With --animate, --frames, --warmup or --trace frames are counted and timed as in compare; the picture is the
@@ -33,7 +35,8 @@ last one. EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)"
 
 struct Options {
     Common common;
-    std::string technique;
+    Drawn drawn;
+    std::string technique; ///< of the two, checked
     std::string output;
     std::string trace;
 };
@@ -93,6 +96,7 @@ std::vector<double> gpu_times(const app::Result& result) {
 void describe(const Options& options, const app::Request& request, const app::Result& result) {
     const Manners& manners = options.common.manners;
     const app::Part& part = result.parts.front();
+    for (const std::string& what : part.notes) note(manners, part.label + ": " + what);
     const measure::Mean mean = measure::mean_of(part.hdr, measure::Range::clamped);
     const std::string output = is_stdout(options) ? "stdout" : options.output;
     std::string frames = fmt::format("{} frame{}", result.frames.size(),
@@ -118,8 +122,6 @@ void warn_of_nonfinite(const measure::Picture& picture) {
 
 int run(const Options& options) {
     const Manners& manners = options.common.manners;
-    require_given(!options.technique.empty(), "render", "--technique T",
-                  "see 'catoptric list techniques'");
     const app::TechniqueChoice choice = app::parse_technique(options.technique);
     check_output(options);
     app::Request request = make_render_request(options);
@@ -154,8 +156,7 @@ void add_render(CommandLine& program) {
     const auto options = std::make_shared<Options>();
     Verb& verb = program.add("render", "one picture by one technique");
     verb.examples(kExamples);
-    verb.option("--technique", "T", "name[:knob=value,...], see 'list techniques'; required",
-                options->technique);
+    add_drawn(verb, options->drawn);
     verb.option("-o,--output", "OUT", "OUT.exr, OUT.png or - for a PNG on stdout; required",
                 options->output);
     verb.option("--trace", "T.json",
@@ -165,7 +166,10 @@ void add_render(CommandLine& program) {
         fail(Failure::usage, "--profile: is not there yet; give --technique name:knob=value,...");
     });
     add_common(verb, options->common);
-    verb.does([options] { return run(*options); });
+    verb.does([options] {
+        options->technique = checked(options->drawn, "render");
+        return run(*options);
+    });
 }
 
 } // namespace catoptric::cli

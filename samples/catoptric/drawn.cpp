@@ -1,0 +1,38 @@
+#include "drawn.hpp"
+
+#include "app/engine.hpp"
+#include "core/error.hpp"
+#include "options.hpp"
+
+namespace catoptric::cli {
+
+void add_drawn(Verb& verb, Drawn& drawn) {
+    verb.option("--technique", "T",
+                "name[:knob=value,...] for all mirrors, see 'list techniques'; this or --plan",
+                drawn.technique);
+    verb.option("--plan", "P",
+                "\"PATTERN=T ...\" or a file.json with a plan: a technique per mirror. PATTERN: "
+                "number from 1, list 2,3, name with * and ?, or * for the rest",
+                drawn.plan);
+}
+
+std::string checked(const Drawn& drawn, const std::string& verb) {
+    const auto& [technique, plan] = drawn;
+    check(technique.empty() || plan.empty(), Failure::usage,
+          "--technique and --plan: wanted one of them, found both");
+    if (plan.empty()) {
+        require_given(!technique.empty(), verb, "--technique T",
+                      "see 'catoptric list techniques'; or --plan");
+        check(app::parse_technique(technique).technique != "plan", Failure::usage,
+              "--technique: wanted one technique for all mirrors, found '", technique,
+              "'; --plan takes several");
+        return technique;
+    }
+    std::string text = plan.ends_with(".json") ? "plan:" + plan : plan;
+    check(app::parse_technique(text).technique == "plan", Failure::usage,
+          "--plan: wanted \"PATTERN=TECHNIQUE ...\" or a file that ends in .json, found '", plan,
+          "'; --technique takes one technique for all mirrors");
+    return text;
+}
+
+} // namespace catoptric::cli

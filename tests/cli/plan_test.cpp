@@ -1,0 +1,88 @@
+// A technique per mirror, as a user asks for it and reads it back.
+#include "cli/program.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kMixed = "1=reuse:face=16 2=hybrid:face=16 *=raytrace:shadow=map";
+
+TEST_F(Cli, PlanIsReadBackFromRenderAsItWasDrawn) {
+    const test::Ended ended = cli({"render", "--plan", kMixed, "--size", "16x16", "--frames", "1",
+                                   "--warmup", "0", "-o", "p.png", "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const Json document = Json::parse(ended.out);
+    EXPECT_EQ(document["technique"], "plan");
+    EXPECT_EQ(document["label"], kMixed);
+    EXPECT_EQ(document["scene_passes"], 4 + 2);
+    const Json& plan = document["plan"];
+    ASSERT_EQ(plan.size(), 4u);
+    EXPECT_EQ(plan[0]["mirror"], 1);
+    EXPECT_EQ(plan[0]["name"], "ball1");
+    EXPECT_EQ(plan[0]["technique"], "reuse");
+    EXPECT_EQ(plan[0]["settings"]["face"], 16);
+    EXPECT_EQ(plan[0]["why"], "rule '1'");
+    EXPECT_EQ(plan[1]["technique"], "hybrid");
+    EXPECT_EQ(plan[3]["technique"], "raytrace");
+    EXPECT_EQ(plan[3]["settings"]["shadow"], "map");
+    EXPECT_EQ(plan[3]["settings"]["capture"], 256);
+    EXPECT_EQ(plan[3]["why"], "rule '*'");
+    // What was written is a plan again.
+    std::ofstream(folder / "saved.json") << document.dump();
+    const test::Ended again = cli({"render", "--plan", (folder / "saved.json").string(), "--size",
+                                   "16x16", "--frames", "1", "--warmup", "0", "-o", "q.png",
+                                   "--json"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(Json::parse(again.out)["mean"], document["mean"]);
+}
+
+TEST_F(Cli, PlansAreRowsOfACompare) {
+    std::ofstream(folder / "mixed.json") << R"([{"mirror": "ball1,2", "technique": "reuse:face=16"},
+               {"mirror": "*", "technique": "raytrace:capture=none"}])";
+    const std::string file = "plan:" + (folder / "mixed.json").string();
+    const test::Ended ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames", "1",
+                                   "--warmup", "1", "--techniques", "reuse:face=16", file, kMixed,
+                                   "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const Json rows = Json::parse(ended.out)["rows"];
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[1]["technique"], "plan");
+    EXPECT_EQ(rows[1]["label"], file);
+    EXPECT_EQ(rows[1]["scene_passes"], 2 + 2) << "two captures, shadow map and view";
+    EXPECT_EQ(rows[1]["plan"][1]["why"], "rule 'ball1,2'");
+    EXPECT_EQ(rows[1]["plan"][2]["why"], "rule '*'; black in the captures of others, capture=none");
+    EXPECT_EQ(rows[0]["plan"][0]["why"], "one technique was asked for");
+    EXPECT_EQ(rows[2]["label"], kMixed);
+    EXPECT_TRUE(rows[2]["causes"].is_null());
+    for (const Json& row : rows)
+        EXPECT_TRUE(exists(folder / "out" / row["image"].get<std::string>())) << row["image"];
+}
+
+TEST_F(Cli, PlanThatCannotBeIsRefused) {
+    const auto refused = [&](const std::vector<std::string>& options, int exit_code,
+                             const std::vector<std::string>& words) {
+        std::vector<std::string> arguments{"render", "-o", "x.png", "--size", "16x16"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expect_refused(arguments, exit_code, words);
+        EXPECT_FALSE(exists(folder / "x.png"));
+    };
+    refused({"--plan", "1=reuse 5=hybrid *=secant"}, 2,
+            {"pattern '5' matches no mirror", "4 mirrors", "1 'ball1'"});
+    refused({"--plan", "1=reuse 2,3=hybrid"}, 2, {"no rule for mirror 4 'ball4'"});
+    refused({"--plan", "secant"}, 2, {"--plan", "found 'secant'", "--technique"});
+    refused({"--technique", "1=secant *=reuse"}, 2, {"--technique", "--plan takes several"});
+    refused({"--technique", "reuse", "--plan", "*=reuse"}, 2, {"wanted one of them, found both"});
+    refused({"--plan", "none.json"}, 66, {"none.json"});
+    refused({"--plan", "*=reuse", "--reference", "1=reuse *=raytrace"}, 2, {"--reference"});
+    expect_refused({"compare", "-o", "out", "--techniques", "reuse", "7=reuse *=secant"}, 2,
+                   {"pattern '7' matches no mirror"});
+    EXPECT_FALSE(exists(folder / "out" / "report.json"));
+    expect_refused({"compare", "-o", "out", "--techniques", "1=reuse *=secant", "1=reuse *=secant"},
+                   2, {"asked for twice"});
+}
+
+} // namespace
