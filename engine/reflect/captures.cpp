@@ -34,7 +34,7 @@ bool visits_others(const Settings& settings) {
            (settings.has("captures") && settings.choice("captures") == "all");
 }
 
-render::MirrorLook look_into(const Captured& captured, std::string fragment,
+render::MirrorLook look_into(const Surroundings& around, std::string fragment,
                              const Settings& settings) {
     render::MirrorLook look;
     look.fragment = std::move(fragment);
@@ -46,9 +46,9 @@ render::MirrorLook look_into(const Captured& captured, std::string fragment,
                                          {"captures", "asks_others"},
                                          {"show", "show"}})
         if (settings.has(knob)) set(constant, settings.integer(knob));
-    const std::uint32_t array = captured.captures->places[captured.mirrors.front()].array;
-    if (captured.captures->arrays[array].surfaces) set("has_surfaces", 1);
-    look.captures = captured.captures;
+    const std::uint32_t array = around.captures->places[around.mirrors.front()].array;
+    if (around.captures->arrays[array].surfaces) set("has_surfaces", 1);
+    look.captures = around.captures;
     return look;
 }
 

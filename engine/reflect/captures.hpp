@@ -108,7 +108,7 @@ bool visits_others(const Settings& settings);
 
 /// A mirror that looks into the captures with the fragment shader; hops are set where there is a
 /// `continue`.
-render::MirrorLook look_into(const Captured& captured, std::string fragment,
+render::MirrorLook look_into(const Surroundings& around, std::string fragment,
                              const Settings& settings);
 
 /// R = N + 2 with one light.

@@ -20,14 +20,14 @@ render::CaptureOptions capture(const render::FrameInputs& inputs, const Settings
 }
 
 Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-          const Captured& captured) {
-    Look look{look_into(captured, "reflect/layered.frag", settings), {}};
+          const Surroundings& around) {
+    Look look{look_into(around, "reflect/layered.frag", settings), {}};
     look.mirror.constants.emplace_back("steps",
                                        static_cast<std::uint32_t>(settings.integer("steps")));
     // Captures that lack a layer are those of mirrors that nobody looks into with this shader.
     const auto images = [&](const char* name, auto&& image) {
         std::vector<graph::Image> list;
-        for (const render::Cubes& cubes : captured.captures->arrays) list.push_back(image(cubes));
+        for (const render::Cubes& cubes : around.captures->arrays) list.push_back(image(cubes));
         look.mirror.images.emplace_back(name, std::move(list));
     };
     images("distance1", [](const auto& cubes) { return cubes.distance.value_or(cubes.colour); });

@@ -14,8 +14,8 @@ constexpr auto kKnobs = search_knobs(
                     .value = 16}});
 
 Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-          const Captured& captured) {
-    Look look{look_into(captured, "reflect/march.frag", settings), {}};
+          const Surroundings& around) {
+    Look look{look_into(around, "reflect/march.frag", settings), {}};
     look.mirror.constants.emplace_back("steps",
                                        static_cast<std::uint32_t>(settings.integer("steps")));
     return look;

@@ -21,20 +21,20 @@ constexpr Knob kKnobs[] = {{.name = "bounces",
 
 /// Of the last bounce only the captures of the mirrors that look into them.
 Look look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-          const Captured& captured) {
+          const Surroundings& around) {
     render::CaptureOptions options = capture_options(inputs, settings);
-    options.lighting = captured.lighting;
+    options.lighting = around.lighting;
     render::MirrorLook look; // black
     const int bounces = settings.integer("bounces");
     for (int bounce = 1; bounce <= bounces; ++bounce) {
         render::CaptureOptions of_others = options;
         if (bounce == bounces) of_others.face = 0;
         std::vector of_mirrors(inputs.scene.mirror_count(), of_others);
-        for (const std::uint32_t mirror : captured.mirrors) of_mirrors[mirror] = options;
+        for (const std::uint32_t mirror : around.mirrors) of_mirrors[mirror] = options;
         const auto captures = std::make_shared<const render::Captures>(render::declare_captures(
             graph, inputs, "bounce" + std::to_string(bounce), std::move(of_mirrors)));
         render::add_captures(graph, inputs, *captures, render::same_look(inputs.scene, look));
-        look = look_into({captures, captured.lighting, captured.mirrors}, "reflect/naive.frag",
+        look = look_into({captures, around.lighting, around.mirrors}, "reflect/naive.frag",
                          settings);
     }
     return {std::move(look), {}};

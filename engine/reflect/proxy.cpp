@@ -50,9 +50,9 @@ graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs
 }
 
 Look look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-          const Captured& captured) {
-    Look look{look_into(captured, "reflect/proxy.frag", settings), {}};
-    look.mirror.buffers.emplace_back("Proxies", add_proxies(graph, inputs, captured.captures));
+          const Surroundings& around) {
+    Look look{look_into(around, "reflect/proxy.frag", settings), {}};
+    look.mirror.buffers.emplace_back("Proxies", add_proxies(graph, inputs, around.captures));
     look.mirror.constants.emplace_back("shape",
                                        static_cast<std::uint32_t>(settings.integer("shape")));
     return look;

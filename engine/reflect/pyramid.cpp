@@ -56,9 +56,9 @@ std::vector<graph::Image> add_pyramid(graph::Graph& graph, const render::FrameIn
 } // namespace
 
 Look look_through_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                          const Settings& settings, const Captured& captured) {
-    Look look{look_into(captured, "reflect/pyramid.frag", settings), {}};
-    look.mirror.images.emplace_back("bounds", add_pyramid(graph, inputs, *captured.captures));
+                          const Settings& settings, const Surroundings& around) {
+    Look look{look_into(around, "reflect/pyramid.frag", settings), {}};
+    look.mirror.images.emplace_back("bounds", add_pyramid(graph, inputs, *around.captures));
     return look;
 }
 

@@ -6,6 +6,6 @@
 namespace catoptric::reflect {
 
 Look look_through_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                          const Settings& settings, const Captured& captured);
+                          const Settings& settings, const Surroundings& around);
 
 } // namespace catoptric::reflect

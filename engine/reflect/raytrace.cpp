@@ -62,10 +62,10 @@ Outputs picture(graph::Graph& graph, const render::FrameInputs& inputs, const Se
 }
 
 Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-          const Captured& captured) {
+          const Surroundings& around) {
     Look look;
     look.mirror.fragment = "reflect/traced.frag";
-    look.tracer = tracer_of(settings, captured.lighting);
+    look.tracer = tracer_of(settings, around.lighting);
     return look;
 }
 

@@ -21,8 +21,8 @@ constexpr Technique kReuse{
     .capture = capture_options,
     .in_captures = kFragment,
     .look = [](graph::Graph&, const render::FrameInputs&, const Settings& settings,
-               const Captured& captured) {
-        return Look{look_into(captured, kFragment, settings), {}};
+               const Surroundings& around) {
+        return Look{look_into(around, kFragment, settings), {}};
     }};
 const Registered kRow{kReuse};
 

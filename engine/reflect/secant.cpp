@@ -14,11 +14,11 @@ constexpr auto kKnobs = search_knobs(
                     .value = 2}});
 
 Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-          const Captured& captured) {
+          const Surroundings& around) {
     const int steps = settings.integer("steps");
     if (steps == 0) // parallax has no other knobs
-        return {look_into(captured, "reflect/parallax.frag", Settings({})), {}};
-    Look look{look_into(captured, "reflect/secant.frag", settings), {}};
+        return {look_into(around, "reflect/parallax.frag", Settings({})), {}};
+    Look look{look_into(around, "reflect/secant.frag", settings), {}};
     look.mirror.constants.emplace_back("steps", static_cast<std::uint32_t>(steps));
     return look;
 }

@@ -24,7 +24,7 @@ struct Outputs {
 };
 
 /// What the mirrors that share a technique and its settings may look into.
-struct Captured {
+struct Surroundings {
     std::shared_ptr<const render::Captures> captures; ///< of all mirrors; none was asked for: null
     render::Lighting lighting;                        ///< as the settings ask for it
     std::vector<std::uint32_t> mirrors;               ///< those that share it, from 0
@@ -52,7 +52,7 @@ struct Technique {
     const char* in_captures = nullptr; ///< path of a fragment shader
     /// How its mirrors are drawn; declares what passes that takes.
     Look (*look)(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                 const Captured& captured) = nullptr;
+                 const Surroundings& around) = nullptr;
     /// The whole picture where all mirrors are its own, without a view that is drawn. Null: drawn.
     Outputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
                        const Settings& settings, const render::Lighting& lighting) = nullptr;

@@ -14,7 +14,7 @@ namespace {
 /// What captures of one array have in common, but for the edge.
 using Contents = std::tuple<Format, std::optional<Format>, bool, bool, float>;
 
-Contents format_of(const CaptureOptions& options) {
+Contents contents_of(const CaptureOptions& options) {
     return {options.colour, options.distance, options.second_layer, options.surfaces,
             options.stored_unit};
 }
@@ -26,7 +26,7 @@ Kinds kinds_of(const std::vector<CaptureOptions>& options) {
     Kinds kinds;
     for (std::uint32_t mirror = 0; mirror < options.size(); ++mirror)
         if (options[mirror].face > 0)
-            kinds[{format_of(options[mirror]), options[mirror].face}].push_back(mirror);
+            kinds[{contents_of(options[mirror]), options[mirror].face}].push_back(mirror);
     return kinds;
 }
 
@@ -45,17 +45,19 @@ bool merge(Kinds& kinds, std::vector<std::string>& notes) {
     for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
         const auto next = std::next(kind);
         if (next == kinds.end() || next->first.first != kind->first.first) continue;
-        const auto edge = [](const auto& entry) { return double{1} * entry.first.second; };
+        const auto edge = [](const auto& entry) { return static_cast<double>(entry.first.second); };
         const double more = static_cast<double>(kind->second.size()) *
                             (edge(*next) * edge(*next) - edge(*kind) * edge(*kind));
         if (cheapest == kinds.end() || more < least) cheapest = kind, least = more;
     }
     if (cheapest == kinds.end()) return false;
     const auto next = std::next(cheapest);
-    notes.push_back(std::to_string(cheapest->second.size()) + " captures of " +
-                    std::to_string(cheapest->first.second) + " texels an edge are made with " +
-                    std::to_string(next->first.second) + ": a frame has at most " +
-                    std::to_string(shared::kMostArrays) + " arrays of them");
+    const std::size_t count = cheapest->second.size();
+    notes.push_back(std::to_string(count) + (count == 1 ? " mirror is" : " mirrors are") +
+                    " captured with " + std::to_string(next->first.second) +
+                    " texels an edge instead of " + std::to_string(cheapest->first.second) +
+                    ": a frame has at most " + std::to_string(shared::kMostArrays) +
+                    " arrays of captures");
     next->second.insert(next->second.end(), cheapest->second.begin(), cheapest->second.end());
     std::ranges::sort(next->second);
     kinds.erase(cheapest);
@@ -111,8 +113,9 @@ Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::s
     captures.name = std::move(name);
     Kinds kinds = kinds_of(options);
     const std::size_t most_cubes = inputs.scene.most_cubes();
-    while (arrays_for(kinds, most_cubes) > shared::kMostArrays && merge(kinds, captures.notes)) {
-    }
+    bool merged = true;
+    while (merged && arrays_for(kinds, most_cubes) > shared::kMostArrays)
+        merged = merge(kinds, captures.notes);
     const std::size_t count = arrays_for(kinds, most_cubes);
     check(count <= shared::kMostArrays && options.size() <= shared::kMostCaptured,
           Failure::exhausted, "captures of ", options.size(), " mirrors in ", kinds.size(),

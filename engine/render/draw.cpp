@@ -95,19 +95,19 @@ std::string build_of(const MirrorLook& look, bool peeled, bool shadow_map) {
     return look.fragment + (build.empty() ? "" : "#" + build);
 }
 
-void draw_mirrors(Commands& commands, const GpuScene& scene, const Picture& picture,
+void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& drawing,
                   const MirrorLook& look, const std::string& black, const Wanted& wanted) {
-    gpu::RasterState state{"scene.vert", black, picture.store};
+    gpu::RasterState state{"scene.vert", black, drawing.store};
     if (!look.fragment.empty() && !look.blank) {
-        state.fragment = build_of(look, picture.peeled.has_value(),
-                                  picture.lighting.shadow_map.has_value());
+        state.fragment = build_of(look, drawing.peeled.has_value(),
+                                  drawing.lighting.shadow_map.has_value());
         state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
         if (look.captures) bind_captures(commands, *look.captures);
         if (look.captures) add_places(*look.captures, state.constants);
         for (const auto& [name, images] : look.images) commands.bind(name, images);
         for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
     }
-    draw_objects(commands, scene, state, picture.first_view, picture.layers, look.mended, wanted);
+    draw_objects(commands, scene, state, drawing.first_view, drawing.layers, look.mended, wanted);
 }
 
 } // namespace
@@ -125,9 +125,9 @@ void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState st
     }
 }
 
-void draw_scene(Commands& commands, const GpuScene& scene, const Picture& picture,
+void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawing,
                 const Wanted& wanted) {
-    const auto& [first_view, layers, lighting, looks, store, peeled] = picture;
+    const auto& [first_view, layers, lighting, looks, store, peeled] = drawing;
     std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed",
                 black = "mirror_black.frag";
     scene.bind(commands);
@@ -151,7 +151,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Picture& pictur
         return first_view == GpuScene::kCameraView && scene.hides_all_from_camera(object);
     };
     for (std::uint32_t look = 0; look < looks->looks.size(); ++look)
-        draw_mirrors(commands, scene, picture, looks->looks[look], black, [&](std::size_t i) {
+        draw_mirrors(commands, scene, drawing, looks->looks[look], black, [&](std::size_t i) {
             const std::uint32_t mirror = scene.mirror_of(i);
             return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) && !is_black(i);
         });

@@ -17,7 +17,7 @@ void draw_objects(graph::Commands& commands, const GpuScene& scene, gpu::RasterS
                   const Wanted& wanted);
 
 /// What a picture of the scene is made with.
-struct Picture {
+struct Drawing {
     std::uint32_t first_view = 0, layers = 1;
     Lighting lighting;
     std::shared_ptr<const Looks> looks; ///< of mirrors
@@ -27,7 +27,7 @@ struct Picture {
 };
 
 /// Everything that is no mirror, then the mirrors, of what is wanted.
-void draw_scene(graph::Commands& commands, const GpuScene& scene, const Picture& picture,
+void draw_scene(graph::Commands& commands, const GpuScene& scene, const Drawing& drawing,
                 const Wanted& wanted);
 
 } // namespace catoptric::render

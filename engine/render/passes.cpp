@@ -36,22 +36,22 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
     pass.writes(cubes.colour, Use::colour, kBlack);
     if (cubes.distance) pass.writes(*cubes.distance, Use::colour, Clear{nothing, 0, 0, 0});
     if (cubes.surfaces) pass.writes(*cubes.surfaces, Use::colour, Clear{});
-    Picture picture{.first_view = inputs.scene.capture_view(mirror),
+    Drawing drawing{.first_view = inputs.scene.capture_view(mirror),
                     .layers = 6,
                     .lighting = options.lighting,
                     .looks = looks,
                     .store = {{"distance_scale", 1 / options.stored_unit}},
                     .peeled = peeled};
     if (options.colour == Format::rgba16f && options.saturates)
-        picture.store.emplace_back("largest_colour", kLargestHalf);
-    if (cubes.surfaces) picture.store.emplace_back("keeps_surface", 1u);
+        drawing.store.emplace_back("largest_colour", kLargestHalf);
+    if (cubes.surfaces) drawing.store.emplace_back("keeps_surface", 1u);
     if (peeled && options.distance == Format::r8_unorm)
-        picture.store.emplace_back("half_step", 0.5f / 255);
+        drawing.store.emplace_back("half_step", 0.5f / 255);
     pass.writes(depth, Use::depth, kFarthest)
         .layers(6)
-        .record([&scene = inputs.scene, mirror, picture = std::move(picture),
+        .record([&scene = inputs.scene, mirror, drawing = std::move(drawing),
                  leaves_out = options.leaves_out_spheres](Commands& commands) {
-            draw_scene(commands, scene, picture, [&](std::size_t object) {
+            draw_scene(commands, scene, drawing, [&](std::size_t object) {
                 const DrawRange& range = scene.ranges()[object];
                 return object != scene.mirror_object(mirror) &&
                        !(leaves_out && range.mirror && range.exact_sphere);
@@ -139,17 +139,17 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
         view.lookup = graph.image({inputs.prefix + "lookup", Format::rgba32f, size.x, size.y});
         pass.writes(*view.tracers, Use::colour, Clear{}).writes(*view.lookup, Use::colour, Clear{});
     }
-    Picture picture{
+    Drawing drawing{
         .first_view = GpuScene::kCameraView,
         .layers = 1,
         .lighting = lighting,
         .looks = std::make_shared<const Looks>(mended(std::move(looks), inputs, lighting)),
         .store = {},
         .peeled = {}};
-    if (is_traced) picture.store.emplace_back("distance_scale", 0.0f);
+    if (is_traced) drawing.store.emplace_back("distance_scale", 0.0f);
     pass.writes(depth, Use::depth, kFarthest)
-        .record([&scene = inputs.scene, picture = std::move(picture)](Commands& commands) {
-            draw_scene(commands, scene, picture,
+        .record([&scene = inputs.scene, drawing = std::move(drawing)](Commands& commands) {
+            draw_scene(commands, scene, drawing,
                        [&](std::size_t object) { return scene.ranges()[object].seen_by_camera; });
         });
     return view;

@@ -212,6 +212,7 @@ std::string to_html(const Comparison& comparison, const EncodedPictures& encoded
                 "</section>\n";
     html += "<section><h2>Set-up, once</h2><p>" + html_escaped(setup_text(comparison.setup)) +
             "</p></section>\n" + to_html(rows_table(comparison), "all", true) +
+            to_html(plan_table(comparison), "plans", true) +
             to_html(mirror_table(comparison), "mirrors", true) +
             to_html(lookup_table(comparison), "lookups", true) +
             to_html(cause_table(comparison), "causes", false) + lag_plots(comparison) +

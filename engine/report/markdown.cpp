@@ -80,9 +80,10 @@ std::string to_markdown(const Comparison& comparison) {
         text += "> " + escaped(caution) + "\n>\n";
     text += "\n" + (comparison.scene.is_seed ? to_markdown(seed_table(comparison)) : "") +
             "**Set-up**, once: " + escaped(setup_text(comparison.setup)) + "\n\n" +
-            to_markdown(rows_table(comparison)) + to_markdown(mirror_table(comparison)) +
-            to_markdown(lookup_table(comparison)) + to_markdown(cause_table(comparison)) +
-            to_markdown(lag_table(comparison)) + to_markdown(settling_table(comparison));
+            to_markdown(rows_table(comparison)) + to_markdown(plan_table(comparison)) +
+            to_markdown(mirror_table(comparison)) + to_markdown(lookup_table(comparison)) +
+            to_markdown(cause_table(comparison)) + to_markdown(lag_table(comparison)) +
+            to_markdown(settling_table(comparison));
     text += "## The Pareto front: time against FLIP\n\n" + list_of(front_in_words(comparison));
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty())

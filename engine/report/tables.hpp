@@ -28,6 +28,8 @@ std::string to_markdown(const Table& table);
 Table seed_table(const Comparison& comparison);
 /// Every row, every figure; the rows on the Pareto front are marked.
 Table rows_table(const Comparison& comparison);
+/// What draws each mirror, for rows that are plans; no rows when none is.
+Table plan_table(const Comparison& comparison);
 /// rmse by mirror.
 Table mirror_table(const Comparison& comparison);
 /// Where mirrors looked, for rows that search; no rows when none does.

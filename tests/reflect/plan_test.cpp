@@ -240,12 +240,14 @@ TEST(Plan, EdgesThatAreTooManyAreEnlargedAndThatIsSaid) {
         plan += std::to_string(i) + "=reuse:face=" + std::to_string(8 + i) + " ";
     const app::Part part = test::render(scene, plan, {32, 32});
     ASSERT_EQ(part.notes.size(), 2u);
-    EXPECT_EQ(part.notes[0],
-              "1 captures of 9 texels an edge are made with 10: a frame has at most 8 arrays of "
-              "them");
-    EXPECT_EQ(part.notes[1],
-              "1 captures of 11 texels an edge are made with 12: a frame has at most 8 arrays of "
-              "them");
+    EXPECT_EQ(
+        part.notes[0],
+        "1 mirror is captured with 10 texels an edge instead of 9: a frame has at most 8 arrays "
+        "of captures");
+    EXPECT_EQ(
+        part.notes[1],
+        "1 mirror is captured with 12 texels an edge instead of 11: a frame has at most 8 arrays "
+        "of captures");
     EXPECT_EQ(part.scene_passes, 12);
     test::expect_refused(
         [&] {

@@ -386,6 +386,29 @@ TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
                   {"Traced, %", percent(*row.traced_fraction)}}));
 }
 
+/// What draws each mirror stands in JSON for every row, and in a table for rows that are plans.
+TEST(ReportFields, APlanIsReadMirrorByMirror) {
+    using namespace catoptric::report::sample;
+    Row one = row("reuse", 5, .1, .2), plan = row("1=reuse 2=secant:face=64", 7, .1, .1);
+    plan.technique = "plan";
+    one.plan = {{1, "left", "reuse", {number("face", 256)}, "one technique was asked for"}};
+    plan.plan = {
+        {1, "left", "reuse", {number("face", 256)}, "rule '1'"},
+        {2, "right", "secant", {number("face", 64, true), choice("colour", "half")}, "rule '2'"}};
+    const Comparison both = comparison({one, plan});
+    const Table table = plan_table(both);
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_EQ(table.rows[1],
+              (std::vector<std::string>{plan.label, "2", "right", "secant:face=64", "rule '2'"}));
+    EXPECT_TRUE(plan_table(comparison({one})).rows.empty());
+    const auto rows = json::parse(to_json(both))["rows"];
+    EXPECT_EQ(rows[0]["plan"][0]["why"], "one technique was asked for");
+    EXPECT_EQ(rows[1]["plan"][1],
+              json::parse(R"({"mirror": 2, "name": "right", "technique": "secant",
+                                        "settings": {"face": 64, "colour": "half"},
+                                        "why": "rule '2'"})"));
+}
+
 /// What a row is judged by, and so the front, is FLIP over the mirrors and the median time.
 TEST(ReportFields, ARowIsJudgedByFlipOverTheMirrors) {
     Filler filler;
