@@ -114,8 +114,10 @@ TEST(Plan, MirrorsThatNeverSeeEachOtherAreTheSameToTheByte) {
     for (const std::vector<std::string>& rows :
          {std::vector<std::string>{"reuse:face=32", "secant:face=64", "pyramid:face=48"},
           {"march:face=40", "layered:face=32", "proxy:face=64,distance=unorm8"},
-          {"naive:bounces=2,face=64", "parallax:face=64,distance=r16f", "reuse:shadow=none"},
-          {"parallax:shadow_map=256", "march:colour=float", "pyramid:captures=all"}}) {
+          {"naive:bounces=2,face=64", "parallax:face=64,distance=r16f",
+           "reuse:shadow=none,face=48"},
+          {"parallax:shadow_map=256,face=48", "march:colour=float,face=56",
+           "pyramid:captures=all,face=64"}}) {
         const app::Part mixed = rendered("1=" + rows[0] + " 2=" + rows[1] + " *=" + rows[2]);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const app::Part uniform = rendered(rows[i]);
