@@ -221,8 +221,7 @@ TEST(Bvh, CopiesInOneObjectCountAsOne) {
     EXPECT_EQ(bvh.copies, triangles.size() - 16);
     EXPECT_EQ(bvh.dropped, 0u);
     for (std::size_t i = 0; i < 16; ++i)
-        EXPECT_LT(number_of(bvh.triangles[3 * i + 1].w), 16u)
-            << "the lowest number of each stays";
+        EXPECT_LT(number_of(bvh.triangles[3 * i + 1].w), 16u) << "the lowest number of each stays";
     const std::vector<Triangle> few(kMaxLeaf, triangles.front());
     EXPECT_EQ(build(few).copies, 0u) << "a leaf has room for them";
 }
