@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bvh/bvh.hpp"
+#include "bvh/words.hpp"
 
 #include <array>
 #include <bit>
@@ -42,9 +43,6 @@ using f32::own_ray, f64::own_ray;
 using f32::ray_shear, f64::ray_shear;
 using f32::triangle_test, f64::triangle_test;
 
-inline std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
-inline std::uint32_t number(float value) { return bits(value) & f32::kBvhIdMask; }
-
 template <typename Real>
 Vec<Real> corner(const vec4& texel) {
     return Vec<Real>(vec3(texel));
@@ -82,8 +80,8 @@ struct Search {
     void test(std::uint32_t place) {
         const vec4* texel = &bvh.triangles[3 * std::size_t{place}];
         const vec4* of = &bvh.nodes[4 * std::size_t{record}];
-        const std::uint32_t triangle = number(texel[1].w) + (record ? number(of[2].w) : 0);
-        const std::uint32_t flags = number(record ? of[3].w : texel[2].w);
+        const std::uint32_t triangle = number_of(texel[1].w) + (record ? number_of(of[2].w) : 0);
+        const std::uint32_t flags = number_of(record ? of[3].w : texel[2].w);
         const std::uint32_t skips = flags & skipped_flags;
         if ((skips & ~f32::kBvhOneSided) != 0 || triangle + 1 == ray.leaves) return;
         if (skips != 0 && is_from_behind(corner<Real>(texel[0]), corner<Real>(texel[1]),
@@ -97,7 +95,7 @@ struct Search {
         if (t < t_max || (best && t == t_max && triangle < best->triangle)) {
             t_max = t;
             best = Hit<Real>{t,        barycentric(weights),
-                             triangle, number((record ? of[1] : texel[0]).w),
+                             triangle, number_of((record ? of[1] : texel[0]).w),
                              place,    record};
         }
     }

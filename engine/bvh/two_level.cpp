@@ -1,5 +1,7 @@
 #include "bvh/two_level.hpp"
 
+#include "bvh/box.hpp"
+#include "bvh/words.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -12,12 +14,7 @@ namespace catoptric::bvh {
 
 namespace {
 
-using Box = Bounds<float>;
-
 constexpr double kRoundings = 0x1p-22; // of a box that becomes float
-
-std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
-float word(std::uint32_t number) { return std::bit_cast<float>(f32::kBvhTag | number); }
 
 Box own_bounds(const Bvh& tree) { return {vec3(tree.nodes[0]), vec3(tree.nodes[1])}; }
 
@@ -107,8 +104,7 @@ Bvh build_over(std::span<const Instance> instances, const Box& core, double time
             float& child = top.nodes[4 * node + side].w;
             const std::uint32_t leaf = bits(child);
             if (leaf == f32::kBvhNothing || f32::bvh_is_inner(leaf)) continue;
-            const std::uint32_t number = bits(top.triangles[3 * f32::bvh_index(leaf) + 1].w) &
-                                         f32::kBvhIdMask;
+            const std::uint32_t number = number_of(top.triangles[3 * f32::bvh_index(leaf) + 1].w);
             child = word(f32::kBvhEnters << f32::kBvhCountShift |
                          (first_record + f32::kBvhRecordNodes * number));
         }
@@ -180,11 +176,8 @@ Bvh assemble(const Bvh& flat, std::span<const Instance> instances) {
     check(node_count(result) <= f32::kBvhIndexMask && triangle_count(result) <= f32::kBvhIndexMask,
           Failure::exhausted, "bounding volume hierarchy wants ", node_count(result), " nodes and ",
           triangle_count(result), " triangles, its words hold ", f32::kBvhIndexMask, " each");
-    const auto number = [](std::size_t n) {
-        return word(static_cast<std::uint32_t>(n) & f32::kBvhIdMask);
-    };
-    result.nodes[0] = vec4(core.lo, number(triangle_count(result)));
-    result.nodes[1] = vec4(core.hi, number(node_count(result)));
+    result.nodes[0] = vec4(core.lo, id_word(triangle_count(result)));
+    result.nodes[1] = vec4(core.hi, id_word(node_count(result)));
     result.nodes[2].x = static_cast<float>(times);
     result.nodes[4] = vec4(in_flat.lo, std::bit_cast<float>(flat_root));
     result.nodes[5] = vec4(in_flat.hi, std::bit_cast<float>(top_root));

@@ -2,6 +2,7 @@
 
 #include "core/stopwatch.hpp"
 #include "render/enclosure.hpp"
+#include "render/face_needs.hpp"
 #include "render/footprint.hpp"
 #include "render/limits.hpp"
 #include "render/views.hpp"
@@ -28,39 +29,17 @@ shared::Surface surface_of(const scene::Object& object, const scene::Material& m
     return surface;
 }
 
-bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
-    return a.has_value() == b.has_value() &&
-           (!a || (a->centre == b->centre && a->radius == b->radius));
-}
-
-bool same(const scene::Material& a, const scene::Material& b) {
-    return a.albedo == b.albedo && a.emission == b.emission && a.mirror == b.mirror &&
-           a.reflectance == b.reflectance && a.two_sided == b.two_sided;
-}
-
 bool same(const scene::Camera& a, const scene::Camera& b) {
     return a.eye == b.eye && a.target == b.target && a.up == b.up &&
            a.vertical_fov_degrees == b.vertical_fov_degrees;
 }
 
-bool glows(const scene::Material& material) { return material.emission != vec3(0); }
-
-/// Whether the object is drawn, traced and counted in the same way with either material.
-bool same_kind(const scene::Material& a, const scene::Material& b) {
-    return a.mirror == b.mirror && glows(a) == glows(b) &&
-           scene::is_one_sided(a) == scene::is_one_sided(b);
-}
-
-/// All vertices, of which those of an object in its own space become arms from its middle.
-std::vector<shared::Vertex> arms_of(const Geometry& geometry, const DrawRange& range) {
-    std::vector<shared::Vertex> vertices = geometry.vertices;
-    const dmat3 turn = range.own->scene_from_own, normals = glm::transpose(glm::inverse(turn));
-    for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
-        shared::Vertex& vertex = vertices[range.first_vertex + i];
-        vertex = {vec3(turn * dvec3(vertex.position)),
-                  vec3(glm::normalize(normals * dvec3(vertex.normal)))};
-    }
-    return vertices;
+/// By object.
+std::vector<bool> expected_motion(const scene::Scene& scene) {
+    std::vector<bool> moves;
+    for (const scene::Object& object : scene.objects)
+        moves.push_back(!std::holds_alternative<std::monostate>(object.motion));
+    return moves;
 }
 
 /// The scene, once its numbers are known to fit.
@@ -76,25 +55,19 @@ const scene::Scene& fitting(const gpu::Device& device, const scene::Scene& scene
 
 GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots)
     : device_(device), space_(space_of(fitting(device, scene))),
-      still_vertices_("vertices", gpu::BufferUse::vertex, slots),
-      moving_vertices_("moving vertices", gpu::BufferUse::vertex, slots),
-      indices_("indices", gpu::BufferUse::index, slots),
-      frame_("frame", gpu::BufferUse::uniform, slots),
+      vertices_(expected_motion(scene), slots), frame_("frame", gpu::BufferUse::uniform, slots),
       view_buffer_("views", gpu::BufferUse::plain, slots),
       surface_buffer_("surfaces", gpu::BufferUse::plain, slots),
       light_buffer_("lights", gpu::BufferUse::uniform, slots),
       probe_buffer_("probes", gpu::BufferUse::plain, slots),
-      tracing_(std::make_unique<Tracing>(slots)) {
-    for (const scene::Object& object : scene.objects)
-        places_.push_back({!std::holds_alternative<std::monostate>(object.motion), 0});
-}
+      tracing_(std::make_unique<Tracing>(slots)) {}
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
                       double ambient, std::size_t slot) {
     update_ms_ = 0, hierarchy_ms_before_ = tracing_->ms();
     const Stopwatch watch(update_ms_);
     slot_ = slot, wants_tracing_ = false;
-    const Changes changes = take_over(now);
+    const Changes changes = seen_.take_over(now, !complete_);
     complete_ = false; // until the end: whatever throws, the next update starts anew
     if (changes.layout)
         lay_out(now);
@@ -105,38 +78,13 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     if (changes.shapes() || changes.lights || changes.materials) fill_probes(now, changes);
     if (changes.shapes() || changes.lights || !same(camera_, camera) || size_ != size)
         fill_views(camera, size);
-    if (face_needs_.empty()) find_face_needs(size);
+    if (face_needs_.empty())
+        face_needs_ = find_face_needs(geometry_, mirror_objects_, probes_, views_[kCameraView],
+                                      eye_, size.y);
     fill_frame(ambient);
     write(slot);
     complete_ = true;
     if (first_update_ms_ == 0) first_update_ms_ = watch.ms();
-}
-
-/// What differs from the scene of the last update, which `now` becomes.
-GpuScene::Changes GpuScene::take_over(const scene::Scene& now) {
-    Changes changes;
-    changes.layout = !complete_ || seen_.size() != now.objects.size();
-    seen_.resize(now.objects.size());
-    places_.resize(now.objects.size());
-    for (std::size_t i = 0; i < now.objects.size(); ++i) {
-        const scene::Object& object = now.objects[i];
-        const scene::Material& material = now.materials[object.material];
-        Seen& seen = seen_[i];
-        const bool moved = seen.world_from_object != object.world_from_object;
-        const bool repainted = !same(seen.material, material);
-        changes.layout = changes.layout || seen.mesh != object.mesh ||
-                         seen.seen_by_camera != object.seen_by_camera ||
-                         seen.sphere.has_value() != object.sphere.has_value() ||
-                         !same_kind(seen.material, material);
-        changes.lights = changes.lights ||
-                         ((moved || repainted) && (glows(seen.material) || glows(material)));
-        changes.materials = changes.materials || repainted || !same(seen.sphere, object.sphere);
-        if (moved) changes.moved.push_back(i);
-        seen = {object.mesh, material, object.world_from_object, object.sphere,
-                object.seen_by_camera};
-    }
-    changes.lights = changes.lights || changes.layout;
-    return changes;
 }
 
 void GpuScene::lay_out(const scene::Scene& now) {
@@ -146,7 +94,7 @@ void GpuScene::lay_out(const scene::Scene& now) {
     mirror_objects_ = scene::mirrors(now);
     nearest_.lay_out(geometry_);
     tracing_->lay_out();
-    place_vertices();
+    vertices_.lay_out(geometry_);
 }
 
 void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& objects) {
@@ -154,46 +102,18 @@ void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& obj
             return changes_space(geometry_, now, space_, object);
         }))
         return lay_out(now);
-    bool places = false, turned = false;
+    bool anew = false;
     for (const std::size_t object : objects) {
-        const bool vertices = move_object(geometry_, now, space_, object);
+        const bool changed = move_object(geometry_, now, space_, object);
         nearest_.move(object);
-        tracing_->move(object, vertices);
-        turned = turned || geometry_.ranges[object].one_sided; // which may change its indices
-        places = places || (vertices && !places_[object].moves);
-        places_[object].moves = places_[object].moves || vertices;
+        tracing_->move(object, changed);
+        const bool unexpected = changed && vertices_.move(object);
+        anew = anew || unexpected || geometry_.ranges[object].one_sided; // indices may change
     }
-    if (places || turned) place_vertices();
-    if (objects.empty()) return;
-    std::vector<shared::Vertex> moving;
-    for (std::size_t i = 0; i < geometry_.ranges.size(); ++i) {
-        const DrawRange& range = geometry_.ranges[i];
-        const auto first = geometry_.vertices.begin() + range.first_vertex;
-        if (places_[i].moves && range.storage == i)
-            moving.insert(moving.end(), first, first + range.vertex_count);
-    }
-    moving_vertices_.set(moving);
-}
-
-/// What stands still has one copy on the device, apart from what moves.
-void GpuScene::place_vertices() {
-    std::vector<shared::Vertex> still, moving;
-    std::vector<std::uint32_t> indices(geometry_.indices.size());
-    for (std::size_t i = 0; i < geometry_.ranges.size(); ++i) {
-        const DrawRange& range = geometry_.ranges[i];
-        if (range.shares) places_[i].moves = false; // the mesh's vertices never do
-        if (range.storage != i) continue;
-        std::vector<shared::Vertex>& home = places_[i].moves ? moving : still;
-        places_[i].first = static_cast<std::uint32_t>(home.size());
-        const auto first = geometry_.vertices.begin() + range.first_vertex;
-        home.insert(home.end(), first, first + range.vertex_count);
-        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k)
-            indices[k] = geometry_.indices[k] - range.first_vertex + places_[i].first;
-    }
-    anything_moves_ = std::ranges::any_of(places_, &Place::moves);
-    still_vertices_.set(still);
-    moving_vertices_.set(moving);
-    indices_.set(indices);
+    if (anew)
+        vertices_.lay_out(geometry_);
+    else if (!objects.empty())
+        vertices_.follow(geometry_);
 }
 
 void GpuScene::fill_surfaces(const scene::Scene& now) {
@@ -313,35 +233,14 @@ void GpuScene::fill_frame(double ambient) {
                                     static_cast<std::uint32_t>(surfaces_.size()), shadow_faces_}});
 }
 
-void GpuScene::find_face_needs(uvec2 size) {
-    for (std::uint32_t mirror = 0; mirror < mirror_count(); ++mirror) {
-        Pixels pixels{views_[kCameraView], size.y};
-        const DrawRange& range = geometry_.ranges[mirror_objects_[mirror]];
-        vec3 sphere = probes_[mirror].sphere;
-        std::vector<shared::Vertex> arms; // of an own space, from its middle
-        if (range.own) {
-            pixels.view.eye = vec3(eye_ - range.own->centre), sphere = vec3(0);
-            arms = arms_of(geometry_, range);
-        }
-        const std::span<const shared::Vertex> vertices = range.own ? arms : geometry_.vertices;
-        if (!range.seen_by_camera || !may_meet(views_[kCameraView], range.bounds))
-            face_needs_.push_back(0);
-        else if (probes_[mirror].radius > 0)
-            face_needs_.push_back(sphere_need(pixels, sphere, double{probes_[mirror].radius}));
-        else
-            face_needs_.push_back(mesh_need(
-                pixels, vertices,
-                std::span(geometry_.indices).subspan(range.first_index, range.index_count)));
-    }
-}
-
 std::uint32_t GpuScene::common_face() const {
     return common_edge(face_needs_, device_.limits().maxImageDimensionCube);
 }
 
 void GpuScene::write(std::size_t slot) {
-    for (Resident* buffer : {&still_vertices_, &moving_vertices_, &indices_, &frame_, &view_buffer_,
-                             &surface_buffer_, &light_buffer_, &probe_buffer_})
+    uploads_ += vertices_.write(device_, slot);
+    for (Resident* buffer :
+         {&frame_, &view_buffer_, &surface_buffer_, &light_buffer_, &probe_buffer_})
         uploads_ += buffer->write(device_, slot);
 }
 
@@ -351,13 +250,11 @@ void GpuScene::bind(graph::Commands& commands) const {
     commands.bind("Surfaces", surface_buffer_.at(slot_));
     commands.bind("Lights", light_buffer_.at(slot_));
     commands.bind("Probes", probe_buffer_.at(slot_));
-    commands.geometry(still_vertices_.at(slot_), indices_.at(slot_));
+    vertices_.bind(commands, slot_);
 }
 
 void GpuScene::bind_vertices(graph::Commands& commands, std::size_t object) const {
-    if (!anything_moves_) return;
-    const Resident& vertices = places_[object].moves ? moving_vertices_ : still_vertices_;
-    commands.geometry(vertices.at(slot_), indices_.at(slot_));
+    vertices_.bind(commands, slot_, object);
 }
 
 void GpuScene::prepare() const {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "graph/commands.hpp"
+#include "render/changes.hpp"
 #include "render/nearest.hpp"
 #include "render/resident.hpp"
 #include "render/tracing.hpp"
+#include "render/vertices.hpp"
 
 #include <memory>
 
@@ -89,37 +91,13 @@ public:
     std::size_t hierarchies_refitted() const { return tracing_->refitted(); }
 
 private:
-    /// What an object looked like at the last update.
-    struct Seen {
-        std::size_t mesh = 0;
-        scene::Material material;
-        dmat4 world_from_object{1};
-        std::optional<scene::Sphere> sphere;
-        bool seen_by_camera = true;
-    };
-    /// Where an object's vertices are on the device.
-    struct Place {
-        bool moves = false; ///< among those that are written again
-        std::uint32_t first = 0;
-    };
-    struct Changes {
-        bool layout = false;
-        bool materials = false; ///< or exact spheres
-        bool lights = false;
-        std::vector<std::size_t> moved;
-        bool shapes() const { return layout || !moved.empty(); }
-    };
-
-    Changes take_over(const scene::Scene& now);
     void lay_out(const scene::Scene& now);
     void move(const scene::Scene& now, const std::vector<std::size_t>& objects);
-    void place_vertices();
     void fill_surfaces(const scene::Scene& now);
     void fill_lights(const scene::Scene& now, bool others);
     void fill_probes(const scene::Scene& now, const Changes& changes);
     void fill_views(const scene::Camera& camera, uvec2 size);
     void fill_frame(double ambient);
-    void find_face_needs(uvec2 size);
     const dvec3& eye_of(std::uint32_t view) const;
     void write(std::size_t slot);
 
@@ -127,8 +105,8 @@ private:
     Space space_;
     Geometry geometry_;
     Nearest nearest_;
-    std::vector<Seen> seen_;
-    std::vector<Place> places_;
+    Seen seen_;
+    Vertices vertices_;
     std::vector<shared::View> views_, scene_views_;  ///< all; those of mirrors and lights
     std::vector<dvec3> probe_places_, light_places_; ///< scene units
     dvec3 eye_{0};
@@ -142,12 +120,11 @@ private:
     scene::Camera camera_; ///< of the last update
     uvec2 size_{0};
     bool complete_ = false; ///< the last update came to its end
-    bool anything_moves_ = false, has_own_spaces_ = false;
+    bool has_own_spaces_ = false;
     std::uint32_t shadow_faces_ = 6;
     std::size_t slot_ = 0, uploads_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
-    Resident still_vertices_, moving_vertices_, indices_, frame_, view_buffer_, surface_buffer_,
-        light_buffer_, probe_buffer_;
+    Resident frame_, view_buffer_, surface_buffer_, light_buffer_, probe_buffer_;
     std::unique_ptr<Tracing> tracing_;
     mutable bool wants_tracing_ = false;
 };

@@ -117,8 +117,11 @@ void Nearest::look_at(const Geometry& geometry, std::size_t object, const vec3& 
 
 void Nearest::look_at_own(const Geometry& geometry, std::size_t object, const dvec3& point,
                           float& squared) {
+    constexpr double kRoundings = 1e-5; // more than those of the way there and back
     const OwnSpace& own = *geometry.ranges[object].own;
-    float own_squared = std::numeric_limits<float>::infinity();
+    // No farther than what is known already.
+    const double known = std::sqrt(double{squared}) / own.least * (1 + kRoundings);
+    float own_squared = static_cast<float>(known * known);
     look_at(geometry, object, vec3(own.point(point)), own_squared);
     const double gap = std::sqrt(double{own_squared}) * own.least;
     squared = std::min(squared, static_cast<float>(gap * gap));

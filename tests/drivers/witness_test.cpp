@@ -76,7 +76,7 @@ std::array<double, 3> to_edges(const bvh::Triangle& t, const KernelRay& ray) {
 }
 
 /// How far the roundings of a float may move a ray where it meets the triangle: 16 of them, as in
-/// box_ray (shaders/lib/math.glsl), of the offset of its farthest corner.
+/// box_ray (shaders/lib/math/ray.glsl), of the offset of its farthest corner.
 double slack(const bvh::Triangle& t, const KernelRay& ray) {
     double reach = 0;
     for (const dvec3& corner : corners(t))

@@ -66,7 +66,7 @@ struct Census {
             const vec4* node = &bvh.nodes[4 * std::size_t{first}];
             for (int i : {0, 1}) {
                 const Bounds<float> stored{vec3(node[2 * i]), vec3(node[2 * i + 1])};
-                const Bounds<float> below = visit(detail::bits(node[i].w), depth + 1);
+                const Bounds<float> below = visit(bits(node[i].w), depth + 1);
                 EXPECT_EQ(stored.lo, below.lo);
                 EXPECT_EQ(stored.hi, below.hi);
                 box.add(below);
@@ -89,8 +89,8 @@ void expect_sound(const Bvh& bvh, std::size_t triangles) {
     EXPECT_EQ(all.lo, vec3(bvh.nodes[0]));
     EXPECT_EQ(all.hi, vec3(bvh.nodes[1]));
     EXPECT_EQ(census.triangles, triangles);
-    EXPECT_EQ(detail::number(bvh.nodes[0].w), triangles);
-    EXPECT_EQ(detail::number(bvh.nodes[1].w), node_count(bvh));
+    EXPECT_EQ(number_of(bvh.nodes[0].w), triangles);
+    EXPECT_EQ(number_of(bvh.nodes[1].w), node_count(bvh));
     EXPECT_EQ(census.nodes + 1, node_count(bvh));
     EXPECT_LE(census.deepest, kMaxDepth);
     // Words survive being read as floats; the second half of a node has none.
@@ -221,8 +221,7 @@ TEST(Bvh, CopiesInOneObjectCountAsOne) {
     EXPECT_EQ(bvh.copies, triangles.size() - 16);
     EXPECT_EQ(bvh.dropped, 0u);
     for (std::size_t i = 0; i < 16; ++i)
-        EXPECT_LT(detail::number(bvh.triangles[3 * i + 1].w), 16u)
-            << "the lowest number of each stays";
+        EXPECT_LT(number_of(bvh.triangles[3 * i + 1].w), 16u) << "the lowest number of each stays";
     const std::vector<Triangle> few(kMaxLeaf, triangles.front());
     EXPECT_EQ(build(few).copies, 0u) << "a leaf has room for them";
 }

@@ -64,6 +64,37 @@ TEST(Nearest, IsWhatLookingAtAllFindsAlsoAfterMoves) {
     }
 }
 
+/// Small balls in spaces of their own, each asked alone: what is known of one takes nothing from
+/// the next.
+TEST(Nearest, OfThingsInTheirOwnSpacesIsThatOfTheNearest) {
+    test::Numbers numbers(7);
+    scene::Scene scene = test::room(0, 1);
+    for (int i = 0; i < 40; ++i)
+        test::add_ball(scene, "ball", 0, 2.0 * dvec3(numbers.in_cube()), 1e-4, 2);
+    const render::Geometry geometry = render::make_geometry(scene, render::space_of(scene),
+                                                            render::Spaces::own);
+    render::Nearest nearest;
+    nearest.lay_out(geometry);
+    std::size_t in_own_spaces = 0;
+    for (int k = 0; k < 200; ++k) {
+        const render::DrawRange& near = geometry.ranges[numbers.below(geometry.ranges.size())];
+        const dvec3 point = dvec3(near.bounds.centre()) + .02 * dvec3(numbers.in_cube());
+        float wanted = std::numeric_limits<float>::infinity();
+        std::size_t which = 0;
+        for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
+            const float alone = nearest.distance(
+                geometry, point,
+                [&](std::size_t other, const render::DrawRange&) { return other != i; });
+            if (alone < wanted) wanted = alone, which = i;
+        }
+        in_own_spaces += geometry.ranges[which].own.has_value();
+        ASSERT_EQ(nearest.distance(geometry, point,
+                                   [](std::size_t, const render::DrawRange&) { return false; }),
+                  wanted);
+    }
+    EXPECT_GT(in_own_spaces, 100u);
+}
+
 TEST(Nearest, OfNothingIsInfinity) {
     const render::Geometry geometry;
     render::Nearest nearest;

@@ -1,0 +1,52 @@
+#include "render/changes.hpp"
+
+namespace catoptric::render {
+
+namespace {
+
+bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
+    return a.has_value() == b.has_value() &&
+           (!a || (a->centre == b->centre && a->radius == b->radius));
+}
+
+bool same(const scene::Material& a, const scene::Material& b) {
+    return a.albedo == b.albedo && a.emission == b.emission && a.mirror == b.mirror &&
+           a.reflectance == b.reflectance && a.two_sided == b.two_sided;
+}
+
+bool glows(const scene::Material& material) { return material.emission != vec3(0); }
+
+/// Whether the object is drawn, traced and counted in the same way with either material.
+bool same_kind(const scene::Material& a, const scene::Material& b) {
+    return a.mirror == b.mirror && glows(a) == glows(b) &&
+           scene::is_one_sided(a) == scene::is_one_sided(b);
+}
+
+} // namespace
+
+Changes Seen::take_over(const scene::Scene& now, bool anew) {
+    Changes changes;
+    changes.layout = anew || objects_.size() != now.objects.size();
+    objects_.resize(now.objects.size());
+    for (std::size_t i = 0; i < now.objects.size(); ++i) {
+        const scene::Object& object = now.objects[i];
+        const scene::Material& material = now.materials[object.material];
+        Object& seen = objects_[i];
+        const bool moved = seen.world_from_object != object.world_from_object;
+        const bool repainted = !same(seen.material, material);
+        changes.layout = changes.layout || seen.mesh != object.mesh ||
+                         seen.seen_by_camera != object.seen_by_camera ||
+                         seen.sphere.has_value() != object.sphere.has_value() ||
+                         !same_kind(seen.material, material);
+        changes.lights = changes.lights ||
+                         ((moved || repainted) && (glows(seen.material) || glows(material)));
+        changes.materials = changes.materials || repainted || !same(seen.sphere, object.sphere);
+        if (moved) changes.moved.push_back(i);
+        seen = {object.mesh, material, object.world_from_object, object.sphere,
+                object.seen_by_camera};
+    }
+    changes.lights = changes.lights || changes.layout;
+    return changes;
+}
+
+} // namespace catoptric::render

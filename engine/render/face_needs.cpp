@@ -1,0 +1,58 @@
+#include "render/face_needs.hpp"
+
+#include "render/footprint.hpp"
+#include "render/views.hpp"
+
+namespace catoptric::render {
+
+namespace {
+
+/// The vertices of an object in its own space, as arms from its middle.
+std::vector<shared::Vertex> arms_of(const Geometry& geometry, const DrawRange& range) {
+    std::vector<shared::Vertex> arms;
+    const dmat3 turn = range.own->scene_from_own, normals = glm::transpose(glm::inverse(turn));
+    for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
+        const shared::Vertex& vertex = geometry.vertices[range.first_vertex + i];
+        arms.push_back({vec3(turn * dvec3(vertex.position)),
+                        vec3(glm::normalize(normals * dvec3(vertex.normal)))});
+    }
+    return arms;
+}
+
+/// The object's triangles by its vertices alone.
+std::vector<std::uint32_t> own_indices(const Geometry& geometry, const DrawRange& range) {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k)
+        indices.push_back(geometry.indices[k] - range.first_vertex);
+    return indices;
+}
+
+} // namespace
+
+std::vector<double> find_face_needs(const Geometry& geometry, std::span<const std::size_t> mirrors,
+                                    std::span<const shared::Probe> probes,
+                                    const shared::View& camera, const dvec3& eye,
+                                    std::uint32_t height) {
+    std::vector<double> needs;
+    for (std::size_t mirror = 0; mirror < mirrors.size(); ++mirror) {
+        const DrawRange& range = geometry.ranges[mirrors[mirror]];
+        const double radius{probes[mirror].radius};
+        Pixels pixels{camera, height};
+        if (range.own) pixels.view.eye = vec3(eye - range.own->centre);
+        if (!range.seen_by_camera || !may_meet(camera, range.bounds))
+            needs.push_back(0);
+        else if (radius > 0)
+            needs.push_back(
+                sphere_need(pixels, range.own ? vec3(0) : probes[mirror].sphere, radius));
+        else if (range.own)
+            needs.push_back(
+                mesh_need(pixels, arms_of(geometry, range), own_indices(geometry, range)));
+        else
+            needs.push_back(mesh_need(
+                pixels, geometry.vertices,
+                std::span(geometry.indices).subspan(range.first_index, range.index_count)));
+    }
+    return needs;
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,63 @@
+#include "render/vertices.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace catoptric::render {
+
+Vertices::Vertices(const std::vector<bool>& moves, std::size_t slots)
+    : still_("vertices", gpu::BufferUse::vertex, slots),
+      moving_("moving vertices", gpu::BufferUse::vertex, slots),
+      indices_("indices", gpu::BufferUse::index, slots) {
+    for (const bool one : moves) places_.push_back({one, 0});
+}
+
+void Vertices::lay_out(const Geometry& geometry) {
+    places_.resize(geometry.ranges.size());
+    std::vector<shared::Vertex> still, moving;
+    std::vector<std::uint32_t> indices(geometry.indices.size());
+    for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
+        const DrawRange& range = geometry.ranges[i];
+        if (range.shares) places_[i].moves = false; // the mesh's vertices never do
+        if (range.storage != i) continue;
+        std::vector<shared::Vertex>& home = places_[i].moves ? moving : still;
+        places_[i].first = static_cast<std::uint32_t>(home.size());
+        const auto first = geometry.vertices.begin() + range.first_vertex;
+        home.insert(home.end(), first, first + range.vertex_count);
+        for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k)
+            indices[k] = geometry.indices[k] - range.first_vertex + places_[i].first;
+    }
+    anything_moves_ = std::ranges::any_of(places_, &Place::moves);
+    still_.set(still);
+    moving_.set(moving);
+    indices_.set(indices);
+}
+
+bool Vertices::move(std::size_t object) { return !std::exchange(places_[object].moves, true); }
+
+void Vertices::follow(const Geometry& geometry) {
+    std::vector<shared::Vertex> moving;
+    for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
+        const DrawRange& range = geometry.ranges[i];
+        const auto first = geometry.vertices.begin() + range.first_vertex;
+        if (places_[i].moves && range.storage == i)
+            moving.insert(moving.end(), first, first + range.vertex_count);
+    }
+    moving_.set(moving);
+}
+
+std::size_t Vertices::write(gpu::Device& device, std::size_t slot) {
+    return still_.write(device, slot) + moving_.write(device, slot) + indices_.write(device, slot);
+}
+
+void Vertices::bind(graph::Commands& commands, std::size_t slot) const {
+    commands.geometry(still_.at(slot), indices_.at(slot));
+}
+
+void Vertices::bind(graph::Commands& commands, std::size_t slot, std::size_t object) const {
+    if (!anything_moves_) return;
+    const Resident& vertices = places_[object].moves ? moving_ : still_;
+    commands.geometry(vertices.at(slot), indices_.at(slot));
+}
+
+} // namespace catoptric::render

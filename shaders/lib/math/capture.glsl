@@ -1,0 +1,47 @@
+// Part of lib/math.glsl, which alone includes it.
+// Captures: cube maps around a centre.
+
+// Distances of a capture: "nothing there" is +infinity.
+INLINE bool is_miss(real distance) { return isnan(distance) || distance > kLargest; }
+
+// Direction from the capture's centre to the point that a ray from `offset` (relative to that
+// centre) along unit `dir` would meet, if what it meets is `distance` from the centre. One step of
+// the secant iteration. Nothing met, or met at the centre itself: `dir` as it is.
+INLINE vec3 parallax_direction(vec3 offset, vec3 dir, real distance) {
+    if (is_miss(distance)) return dir;
+    vec3 p = offset + dir * (distance - dot(offset, dir));
+    real size = largest(abs(p));
+    if (!is_finite(size) || size <= real(0)) return dir;
+    return normalize(p / size);
+}
+
+// Face of a cube map (+X, -X, +Y, -Y, +Z, -Z) that a direction meets; equals go to z, then y.
+INLINE int cube_face(vec3 dir) {
+    vec3 size = abs(dir);
+    if (size.z >= size.x && size.z >= size.y) return dir.z < real(0) ? 5 : 4;
+    if (size.y >= size.x) return dir.y < real(0) ? 3 : 2;
+    return dir.x < real(0) ? 1 : 0;
+}
+
+// (sc, tc, ma) of the direction on the face: sc right, tc down, ma > 0 towards the face.
+INLINE vec3 cube_coordinates(int face, vec3 dir) {
+    if (face == 0) return vec3(-dir.z, -dir.y, dir.x);
+    if (face == 1) return vec3(dir.z, -dir.y, -dir.x);
+    if (face == 2) return vec3(dir.x, dir.z, dir.y);
+    if (face == 3) return vec3(dir.x, -dir.z, -dir.y);
+    if (face == 4) return vec3(dir.x, -dir.y, dir.z);
+    return vec3(-dir.x, -dir.y, -dir.z);
+}
+
+// The direction whose coordinates on the face are (sc, tc, ma); inverse of cube_coordinates.
+INLINE vec3 cube_direction(int face, vec3 coordinates) {
+    real s = coordinates.x;
+    real t = coordinates.y;
+    real m = coordinates.z;
+    if (face == 0) return vec3(m, -t, -s);
+    if (face == 1) return vec3(-m, -t, s);
+    if (face == 2) return vec3(s, m, t);
+    if (face == 3) return vec3(s, -m, -t);
+    if (face == 4) return vec3(s, -t, m);
+    return vec3(-s, -t, -m);
+}

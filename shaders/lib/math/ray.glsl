@@ -1,0 +1,193 @@
+// Part of lib/math.glsl, which alone includes it.
+// Rays and what they meet: triangles, boxes, spheres.
+
+struct Ray {
+    vec3 origin;
+    vec3 direction; // any length but zero
+    uint leaves;    // 1 + original number of the triangle it starts on; 0: it starts in space
+};
+
+INLINE bool is_valid(Ray ray) {
+    return is_finite(ray.origin) && is_finite(ray.direction) &&
+           largest(abs(ray.direction)) > real(0);
+}
+
+// What the triangle test needs of a ray (Woop, Benthin, Wald 2013): the dominant axis becomes z,
+// and the ray is sheared onto it.
+struct RayShear {
+    int axis;
+    vec3 shear; // d.x / d.z, d.y / d.z, 1 / d.z of the turned direction
+};
+
+// The vector turned so that component `axis` comes last.
+INLINE vec3 turned(vec3 v, int axis) {
+    return axis == 2 ? v : (axis == 0 ? vec3(v.y, v.z, v.x) : vec3(v.z, v.x, v.y));
+}
+
+INLINE RayShear ray_shear(vec3 direction) {
+    vec3 size = abs(direction);
+    RayShear result;
+    result.axis = size.z >= size.x && size.z >= size.y ? 2 : (size.y >= size.x ? 1 : 0);
+    precise vec3 d = turned(direction, result.axis);
+    precise real x = d.x / d.z;
+    precise real y = d.y / d.z;
+    result.shear = vec3(x, y, real(1) / d.z);
+    return result;
+}
+
+// a * b - fl(a * b) without error, barring overflow and underflow (Dekker 1971, Veltkamp split).
+INLINE real product_error(real a, real b) {
+    precise real ta = kSplitter * a;
+    precise real tb = kSplitter * b;
+    precise real a_high = ta - (ta - a);
+    precise real b_high = tb - (tb - b);
+    precise real a_low = a - a_high;
+    precise real b_low = b - b_high;
+    precise real product = a * b;
+    precise real high = (a_high * b_high - product) + a_high * b_low + a_low * b_high;
+    precise real error = high + a_low * b_low;
+    return error;
+}
+
+// a * b - c * d with the exact sign, barring overflow and underflow. Rounding is monotone, so only
+// a difference of exactly 0 can have lost its sign, and then the products' errors hold it.
+INLINE real edge_function(real a, real b, real c, real d) {
+    precise real difference = a * b - c * d;
+    if (difference == real(0)) {
+        precise real rest = product_error(a, b) - product_error(c, d);
+        difference = rest;
+    }
+    return difference;
+}
+
+// The smaller (larger); a NaN candidate (0 * infinity, a ray in a box's plane) changes nothing.
+INLINE real least(real kept, real candidate) { return candidate < kept ? candidate : kept; }
+INLINE real greatest(real kept, real candidate) { return candidate > kept ? candidate : kept; }
+
+// The two shorter edges of a triangle, whose roundings turn its plane least, and which corner lies
+// between them: 0, 1 or 2. cross(e, f) points to the counter-clockwise side.
+INLINE int short_edges(vec3 a, vec3 b, vec3 c, OUT(vec3) e, OUT(vec3) f) {
+    precise vec3 ab = b - a;
+    precise vec3 bc = c - b;
+    precise vec3 ca = a - c;
+    real ab_size = largest(abs(ab));
+    real bc_size = largest(abs(bc));
+    real ca_size = largest(abs(ca));
+    bool ab_longest = ab_size >= bc_size && ab_size >= ca_size;
+    bool bc_longest = !ab_longest && bc_size >= ca_size;
+    e = ab_longest ? bc : (bc_longest ? ca : ab);
+    f = ab_longest ? ca : (bc_longest ? ab : bc);
+    return ab_longest ? 2 : (bc_longest ? 0 : 1);
+}
+
+// Watertight triangle test, both sides. True when the ray meets the triangle at a finite t > 0;
+// weights / (their sum) are the barycentric weights of a, b, c (see `barycentric`).
+INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT(real) t,
+                          OUT(vec3) weights) {
+    precise vec3 ta = turned(a - origin, ray.axis);
+    precise vec3 tb = turned(b - origin, ray.axis);
+    precise vec3 tc = turned(c - origin, ray.axis);
+    precise real ax = ta.x - ray.shear.x * ta.z;
+    precise real ay = ta.y - ray.shear.y * ta.z;
+    precise real bx = tb.x - ray.shear.x * tb.z;
+    precise real by = tb.y - ray.shear.y * tb.z;
+    precise real cx = tc.x - ray.shear.x * tc.z;
+    precise real cy = tc.y - ray.shear.y * tc.z;
+    precise real u = edge_function(cx, by, cy, bx);
+    precise real v = edge_function(ax, cy, ay, cx);
+    precise real w = edge_function(bx, ay, by, ax);
+    t = real(0);
+    weights = vec3(u, v, w);
+    bool inside = (u >= real(0) && v >= real(0) && w >= real(0)) ||
+                  (u <= real(0) && v <= real(0) && w <= real(0));
+    precise real det = u + v + w;
+    if (!inside || det == real(0)) return false;
+    // Where the ray meets the plane: the weights of a triangle a thousand times longer than high
+    // would put that a thousand times further off.
+    vec3 e, f;
+    int between = short_edges(a, b, c, e, f);
+    vec3 corner = between == 0 ? ta : (between == 1 ? tb : tc);
+    precise vec3 normal = turned(vec3(e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z,
+                                      e.x * f.y - e.y * f.x), ray.axis);
+    precise real height = normal.x * corner.x + normal.y * corner.y + normal.z * corner.z;
+    precise real slope = normal.x * ray.shear.x + normal.y * ray.shear.y + normal.z;
+    // A plane seen edge-on within roundings is met anywhere: there the weights know better.
+    real doubt = gamma_bound(64) * (abs(normal.x * ray.shear.x) + abs(normal.y * ray.shear.y) + abs(normal.z));
+    precise vec3 at = ray.shear.z * vec3(ta.z, tb.z, tc.z);
+    precise real at_weights = (u * at.x + v * at.y + w * at.z) / det;
+    precise real at_plane = abs(slope) > doubt ? ray.shear.z * (height / slope) : at_weights;
+    // Never before the first corner or behind the last; without a normal it is NaN or infinite.
+    real first = min(at.x, min(at.y, at.z));
+    t = least(largest(at), greatest(first, at_plane));
+    return t > real(0) && t <= kLargest;
+}
+
+// Whether a ray comes from behind a triangle: corners run clockwise for it.
+INLINE bool is_from_behind(vec3 a, vec3 b, vec3 c, vec3 direction) {
+    return dot(cross(b - a, c - a), direction) > real(0);
+}
+
+INLINE vec3 barycentric(vec3 weights) {
+    precise real det = weights.x + weights.y + weights.z;
+    return weights / det;
+}
+
+// What the box test needs of a ray. The triangle test sees a sheared ray that is off by roundings
+// relative to its distance from the vertices; origins moved by that much keep every box that holds
+// a triangle the test would accept (Woop et al. 2013, section 4).
+struct BoxRay {
+    vec3 near_origin; // for the planes where the ray enters
+    vec3 far_origin;  // for the planes where it leaves
+    vec3 inverse;     // 1 / direction, infinite where that is 0
+};
+
+// `lo`, `hi`: bounds of what the ray may meet; boxes of anything outside are wider by themselves (engine/bvh/bvh.cpp).
+// `times`: how much wider boxes are for things in spaces of their own below them (engine/bvh/two_level.hpp); else 1.
+INLINE BoxRay box_ray(Ray ray, vec3 lo, vec3 hi, real times) {
+    real reach = largest(max(abs(lo - ray.origin), abs(hi - ray.origin)));
+    real slack = gamma_bound(16) * reach * times;
+    BoxRay result;
+    result.inverse = vec3(real(1)) / ray.direction;
+    vec3 step = vec3(result.inverse.x < real(0) ? -slack : slack,
+                     result.inverse.y < real(0) ? -slack : slack,
+                     result.inverse.z < real(0) ? -slack : slack);
+    result.near_origin = ray.origin + step;
+    result.far_origin = ray.origin - step;
+    return result;
+}
+
+// Does the ray meet the box in [0, t_max]; enters at t_near.
+INLINE bool slab_test(vec3 lo, vec3 hi, BoxRay ray, real t_max, OUT(real) t_near) {
+    bool back_x = ray.inverse.x < real(0);
+    bool back_y = ray.inverse.y < real(0);
+    bool back_z = ray.inverse.z < real(0);
+    vec3 enter = vec3(back_x ? hi.x : lo.x, back_y ? hi.y : lo.y, back_z ? hi.z : lo.z);
+    vec3 leave = vec3(back_x ? lo.x : hi.x, back_y ? lo.y : hi.y, back_z ? lo.z : hi.z);
+    vec3 t_enter = (enter - ray.near_origin) * ray.inverse;
+    vec3 t_leave = (leave - ray.far_origin) * ray.inverse;
+    t_near = greatest(greatest(greatest(real(0), t_enter.x), t_enter.y), t_enter.z);
+    real t_far = least(least(least(t_max, t_leave.x), t_leave.y), t_leave.z);
+    return t_near <= t_far * (real(1) + real(2) * gamma_bound(3));
+}
+
+// Nearest t in (0, t_max) where the ray meets the sphere, from outside or inside
+// (Haines, Gunther, Akenine-Moller 2019: no difference of nearly equal squares).
+INLINE bool sphere_test(vec3 centre, real radius, Ray ray, real t_max, OUT(real) t) {
+    vec3 f = ray.origin - centre;
+    real a = dot(ray.direction, ray.direction);
+    real b = -dot(f, ray.direction);
+    vec3 closest = f + b / a * ray.direction;
+    real gap = length(closest);
+    real quarter = (radius - gap) * (radius + gap);
+    t = real(0);
+    if (!(quarter >= real(0))) return false;
+    real root = sqrt(a) * sqrt(quarter);
+    real q = b < real(0) ? b - root : b + root;
+    real size = length(f);
+    real t0 = (size - radius) * (size + radius) / q;
+    real t1 = q / a;
+    real first = t0 < t1 ? t0 : t1;
+    real second = t0 < t1 ? t1 : t0;
+    t = first > real(0) ? first : second;
+    return t > real(0) && t < t_max;
+}
