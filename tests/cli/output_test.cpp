@@ -119,14 +119,14 @@ TEST_F(Cli, InterruptedCompareKeepsItsRows) {
                                  "--progress",
                                  "always",
                                  "--techniques",
-                                 "reuse",
-                                 "parallax",
-                                 "naive:bounces=1",
-                                 "naive:bounces=2",
-                                 "naive:bounces=3",
-                                 "naive:bounces=4",
-                                 "naive:bounces=5",
-                                 "naive:bounces=6"});
+                                 "reuse:face=64",
+                                 "parallax:face=64",
+                                 "naive:face=64,bounces=1",
+                                 "naive:face=64,bounces=2",
+                                 "naive:face=64,bounces=3",
+                                 "naive:face=64,bounces=4",
+                                 "naive:face=64,bounces=5",
+                                 "naive:face=64,bounces=6"});
     process.signal = SIGINT;
     process.signal_at = "[2/8]";
     const test::Ended ended = test::run_process(process);

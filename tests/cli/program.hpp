@@ -1,5 +1,6 @@
 #pragma once
 
+#include "catoptric/program.hpp"
 #include "places.hpp"
 #include "support/folder.hpp"
 #include "support/process.hpp"
@@ -11,7 +12,8 @@
 #include <fstream>
 #include <iterator>
 
-/// The built program in a folder of its own that is gone after the test.
+/// The program in a folder of its own that is gone after the test: as it was built by `start`, its
+/// code in a copy of this process by `cli`.
 class Cli : public test::InFolder {
 protected:
     using Words = std::vector<std::string>;
@@ -22,7 +24,11 @@ protected:
         start.folder = folder;
         return start;
     }
-    test::Ended cli(const Words& words) const { return test::run_process(start(words)); }
+    test::Ended cli(const Words& words) const {
+        test::Start quick = start(words);
+        quick.main = catoptric::cli::run_program;
+        return test::run_process(quick);
+    }
 
     /// A verb that renders, small and quick.
     static Words quick(Words words) {

@@ -57,7 +57,7 @@ TEST_F(Cli, InfoParses) {
 
 TEST_F(Cli, SameCommandSameBytes) {
     for (const std::string ending : {".png", ".exr"})
-        for (const std::string technique : {"raytrace:samples=3", "parallax"}) {
+        for (const std::string technique : {"raytrace:samples=3", "parallax:face=32"}) {
             ASSERT_EQ(
                 cli(quick({"render", "--technique", technique, "-o", "a" + ending})).exit_code, 0);
             ASSERT_EQ(
@@ -300,8 +300,8 @@ TEST_F(Cli, CompareSaysTheLagWhenAsked) {
 }
 
 TEST_F(Cli, WatchedByTheValidationLayer) {
-    const test::Ended ended = cli(
-        quick({"compare", "-o", "out", "--validate", "--techniques", "parallax", "raytrace"}));
+    const test::Ended ended = cli(quick(
+        {"compare", "-o", "out", "--validate", "--techniques", "parallax:face=32", "raytrace"}));
     if (ended.err.find("vulkan-validationlayers") != std::string::npos) GTEST_SKIP() << ended.err;
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
 }

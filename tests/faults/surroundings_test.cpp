@@ -1,4 +1,4 @@
-// R6: a reader that has gone, and a shader cache that cannot be kept. R7: signals in mid-run.
+// R6: a reader that has gone, and a shader cache that cannot be kept.
 #include "faults/faults.hpp"
 
 namespace {
@@ -45,56 +45,6 @@ TEST_F(Surroundings, CacheFolderThatCannotBeWritten) {
         EXPECT_EQ(ended.err.find("catoptric: "), ended.err.rfind("catoptric: ")) << ended.err;
         EXPECT_TRUE(fs::exists(folder / "x.png"));
     }
-}
-
-constexpr double kLongest = 2; // seconds from the signal to the end
-
-TEST_F(Surroundings, SignalKeepsTheRowsAndIsHeardSoon) {
-    double longest = 0;
-    const Words words{"compare", "-o",       "old", "--size",      "16x16",        "--frames",
-                      "1",       "--warmup", "0",   "--no-causes", "--techniques", "reuse:face=8"};
-    ASSERT_EQ(cli(words).exit_code, 0);
-    for (const auto& [signal, exit_code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}})
-        for (const std::string at : {"[1/4]", "[3/4]"}) {
-            fs::remove_all(folder / "out");
-            fs::copy(folder / "old", folder / "out", fs::copy_options::recursive);
-            test::Start process = start({"compare", "-o", "out", "--size", "32x32", "--frames", "5",
-                                         "--warmup", "1", "--progress", "always", "--techniques",
-                                         "reuse:face=16", "raytrace:depth=1", "parallax:face=16",
-                                         "raytrace:depth=0"});
-            process.signal = signal;
-            process.signal_at = at;
-            const test::Ended ended = test::run_process(process);
-            EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
-            EXPECT_LE(ended.seconds_after_signal, kLongest) << at;
-            longest = std::max(longest, ended.seconds_after_signal);
-            const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
-            if (document["complete"] == true) { // no row was done: the report of before stands
-                EXPECT_EQ(at, "[1/4]");
-                EXPECT_EQ(read("out/report.json"), read("old/report.json"));
-                EXPECT_THAT(ended.err, testing::HasSubstr("0 of 4 rows; nothing was written"));
-                continue;
-            }
-            EXPECT_GE(document["rows"].size(), static_cast<std::size_t>(at[1] - '1')) << at;
-            EXPECT_LT(document["rows"].size(), 4U) << at;
-            for (const auto& row : document["rows"])
-                EXPECT_TRUE(fs::exists(folder / "out/images" /
-                                       fs::path(row["image"].get<std::string>()).filename()));
-        }
-    std::printf("  from the signal to the end: at most %.2f s\n", longest);
-}
-
-/// A frame is one submit, which ends; what it showed is not written.
-TEST_F(Surroundings, SignalInTheLastFrameStopsToo) {
-    test::Start process = start({"render", "--technique", "raytrace:samples=128", "--size",
-                                 "256x256", "--frames", "1", "--warmup", "0", "--progress",
-                                 "always", "-o", "x.png"});
-    process.signal = SIGINT;
-    process.signal_at = "[1/1]";
-    process.signal_after = std::chrono::milliseconds(1000);
-    const test::Ended ended = test::run_process(process);
-    EXPECT_EQ(ended.exit_code, 130) << ended.err;
-    EXPECT_FALSE(fs::exists(folder / "x.png"));
 }
 
 } // namespace

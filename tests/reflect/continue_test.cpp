@@ -20,7 +20,8 @@ ColourError error_of(const scene::Scene& scene, const std::string& technique) {
     if (!truths.contains(scene.name))
         truths.emplace(scene.name, test::render(scene, app::kReference, kSize));
     const app::Part& truth = truths.at(scene.name);
-    const measure::Picture picture = test::render(scene, technique, kSize, kFrames).hdr;
+    const measure::Picture picture =
+        test::last_of(test::request(scene, {technique}, kSize), kFrames).front().hdr;
     const auto of = [&](const measure::Mask& mask) { return test::rmse(picture, truth.hdr, mask); };
     const ColourError error{of(measure::mirrors(truth.hits)), of(measure::first_order(truth.hits)),
                             of(measure::mirror_in_mirror(truth.hits))};

@@ -5,6 +5,7 @@
 #include "support/scenes.hpp"
 #include "support/techniques.hpp"
 
+#include <optional>
 #include <ostream>
 #include <utility>
 
@@ -20,10 +21,16 @@ namespace test {
 
 using render::Captured;
 
+/// The layers of cubes that were asked for.
+struct Layers {
+    Captured first;
+    std::optional<Captured> second; ///< where the options ask for it
+};
+
 /// Captures every mirror once, without shadows; the other mirrors are black. `range_world`: of
 /// r8_unorm.
-inline Captured capture(const scene::Scene& scene, std::uint32_t face, Format distance,
-                        double range_world = 1, bool staged = false) {
+inline Layers captured(const scene::Scene& scene, render::CaptureOptions options,
+                       double range_world, bool staged = false) {
     auto& [device, pipelines] = bench(staged);
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene,
@@ -32,39 +39,36 @@ inline Captured capture(const scene::Scene& scene, std::uint32_t face, Format di
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
-    render::CaptureOptions options;
-    options.face = face;
-    options.distance = distance;
-    if (distance == Format::r8_unorm) options.stored_unit = gpu_scene.space().length(range_world);
+    if (options.distance == Format::r8_unorm)
+        options.stored_unit = gpu_scene.space().length(range_world);
     const render::Cubes cubes = add_black_captures(graph, inputs, options);
-    graph.want(cubes.colour);
-    graph.want(*cubes.distance);
+    for (const std::optional<graph::Image>& image :
+         {std::optional(cubes.colour), cubes.distance, cubes.colour2, cubes.distance2})
+        if (image) graph.want(*image);
     run(runner, graph);
-    return {face, runner.read(cubes.colour), runner.read(*cubes.distance), gpu_scene.space()};
+    const auto read = [&](graph::Image colour, graph::Image distance) {
+        return Captured{options.face, runner.read(colour), runner.read(distance),
+                        gpu_scene.space()};
+    };
+    Layers layers{read(cubes.colour, *cubes.distance), {}};
+    if (options.second_layer) layers.second = read(*cubes.colour2, *cubes.distance2);
+    return layers;
 }
 
-/// Both layers around every mirror, without shadows; other mirrors are black. Eight bits range over
-/// 10 world units.
+inline Captured capture(const scene::Scene& scene, std::uint32_t face, Format distance,
+                        double range_world = 1, bool staged = false) {
+    render::CaptureOptions options;
+    options.face = face, options.distance = distance;
+    return captured(scene, options, range_world, staged).first;
+}
+
+/// Both layers. Eight bits range over 10 world units.
 inline std::pair<Captured, Captured> capture_layers(const scene::Scene& scene, std::uint32_t face,
                                                     Format distance) {
-    auto& [device, pipelines] = bench();
-    render::GpuScene gpu_scene(device, scene);
-    gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
-    graph::Runner runner(device, pipelines);
-    graph::Graph graph;
-    const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
     render::CaptureOptions options;
-    options.face = face;
-    options.distance = distance;
-    options.second_layer = true;
-    if (distance == Format::r8_unorm) options.stored_unit = gpu_scene.space().length(10);
-    const render::Cubes cubes = add_black_captures(graph, inputs, options);
-    for (const graph::Image image :
-         {cubes.colour, *cubes.distance, *cubes.colour2, *cubes.distance2})
-        graph.want(image);
-    run(runner, graph);
-    return {{face, runner.read(cubes.colour), runner.read(*cubes.distance), gpu_scene.space()},
-            {face, runner.read(*cubes.colour2), runner.read(*cubes.distance2), gpu_scene.space()}};
+    options.face = face, options.distance = distance, options.second_layer = true;
+    Layers layers = captured(scene, options, 10);
+    return {std::move(layers.first), std::move(*layers.second)};
 }
 
 } // namespace test

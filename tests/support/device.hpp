@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/run.hpp"
-#include "core/error.hpp"
 #include "graph/run.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -94,20 +94,6 @@ std::vector<T> read_as(graph::Runner& runner, Resource resource) {
     std::vector<T> values(bytes.size() / sizeof(T));
     std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
     return values;
-}
-
-/// Expects `Error(failure)` whose text holds every one of the words.
-inline void expect_refused(const std::function<void()>& action, Failure failure,
-                           const std::vector<std::string>& words) {
-    try {
-        action();
-        ADD_FAILURE() << "not refused";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.failure, failure) << error.what();
-        for (const std::string& word : words)
-            EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
-                << "'" << error.what() << "' does not say '" << word << "'";
-    }
 }
 
 } // namespace test

@@ -41,6 +41,17 @@ inline app::Part render(const scene::Scene& scene, const std::string& technique,
     return std::move(app::run(engine(), asked).parts.front());
 }
 
+/// The last of so many frames of a still, of which only that one is as large as asked for and says
+/// where mirrors looked: what captures hold, all that it has of those before, is the same whatever
+/// the picture's size. Not for face=auto.
+inline std::vector<app::Part> last_of(const app::Request& asked, int frames) {
+    app::Session session(engine(), asked.scene);
+    app::FrameSpec early = asked;
+    early.size = {16, 16}, early.with_lookup = false;
+    for (int k = 1; k < frames; ++k) session.frame(early);
+    return session.frame(asked).read_all();
+}
+
 /// "name:knob=value,..." of those wanted settings that the technique has a knob for.
 inline std::string with(const app::TechniqueInfo& technique,
                         const std::vector<std::pair<std::string, std::string>>& settings) {

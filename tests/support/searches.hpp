@@ -81,9 +81,8 @@ inline app::Request request_from(const scene::Scene& scene, const Look& look,
 inline Judged judge(const scene::Scene& scene, const Look& look, const std::string& technique,
                     const Truth& truth) {
     app::Request asked = request_from(scene, look, technique);
-    asked.warmup = kConvergedFrames - 1;
     asked.with_lookup = true;
-    const app::Part part = std::move(app::run(engine(), asked).parts.front());
+    const app::Part part = std::move(last_of(asked, kConvergedFrames).front());
     const Judged error{rmse(part.hdr, truth.part.hdr, measure::mirrors(truth.part.hits)),
                        rmse(part.hdr, truth.part.hdr, measure::first_order(truth.part.hits)),
                        rmse(part.hdr, truth.part.hdr, measure::mirror_in_mirror(truth.part.hits)),
@@ -131,8 +130,7 @@ inline std::vector<measure::Difference> seen_in_mirrors(const scene::Scene& scen
     app::Request asked = request(scene, techniques, kContractSize);
     asked.camera = look.camera;
     asked.time = look.time;
-    asked.warmup = 1;
-    const std::vector<app::Part> parts = app::run(engine(), asked).parts;
+    const std::vector<app::Part> parts = last_of(asked, 2);
     const app::Part& truth = parts.back();
     std::vector<measure::Difference> seen;
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {

@@ -1,6 +1,6 @@
 #include "measure/difference.hpp"
 
-#include "core/error.hpp"
+#include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -164,27 +164,21 @@ TEST(Difference, AgreesWithAPlainWitness) {
     EXPECT_NEAR(d.psnr.value(), -10 * std::log10(static_cast<double>(squares) / 768), 1e-11);
 }
 
-template <typename Call>
-std::string message(Call call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.failure, Failure::bad_data);
-        return error.what();
-    }
-    return "accepted";
-}
-
 TEST(Difference, SizesMustAgree) {
     const std::vector<float> map(6);
-    EXPECT_EQ(message([&] { difference(Picture(3, 2), Picture(2, 3), {}, map); }),
+    EXPECT_EQ(test::refusal(Failure::bad_data,
+                            [&] { difference(Picture(3, 2), Picture(2, 3), {}, map); }),
               "a difference wants two pictures of the same size, found 3x2 and 2x3");
-    EXPECT_EQ(message([&] { difference(Picture(3, 2), Picture(3, 2), Mask(5), map); }),
+    EXPECT_EQ(test::refusal(Failure::bad_data,
+                            [&] { difference(Picture(3, 2), Picture(3, 2), Mask(5), map); }),
               "a difference of 6 pixels wants a mask of as many, found 5");
-    EXPECT_EQ(message([&] { difference(Picture(3, 2), Picture(3, 2), {}, std::vector<float>(7)); }),
-              "a difference of 6 pixels wants a FLIP map of as many, found 7");
-    EXPECT_THAT(message([&] { mean_of(Picture(3, 2), Range::clamped, Mask(5)); }),
-                HasSubstr("a mean of 6 pixels wants a mask of as many, found 5"));
+    EXPECT_EQ(
+        test::refusal(Failure::bad_data,
+                      [&] { difference(Picture(3, 2), Picture(3, 2), {}, std::vector<float>(7)); }),
+        "a difference of 6 pixels wants a FLIP map of as many, found 7");
+    EXPECT_THAT(
+        test::refusal(Failure::bad_data, [&] { mean_of(Picture(3, 2), Range::clamped, Mask(5)); }),
+        HasSubstr("a mean of 6 pixels wants a mask of as many, found 5"));
 }
 
 TEST(Mean, PlainAndClamped) {

@@ -1,6 +1,6 @@
 #include "measure/flip.hpp"
 
-#include "core/error.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -143,21 +143,22 @@ TEST(Flip, MeanCountsOnlyTheMask) {
     EXPECT_THROW(flip_mean(map, {1, 0}), Error);
 }
 
-std::string refusal(int width_a, int height_a, int width_b, int height_b, double ppd = 67) {
-    try {
-        flip(Picture(width_a, height_a), Picture(width_b, height_b), ppd);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "accepted";
+std::string refusal(catoptric::Failure failure, int width_a, int height_a, int width_b,
+                    int height_b, double ppd = 67) {
+    return test::refusal(
+        failure, [&] { flip(Picture(width_a, height_a), Picture(width_b, height_b), ppd); });
 }
 
 TEST(Flip, RefusesWhatHasNoAnswer) {
-    EXPECT_EQ(refusal(4, 3, 3, 4), "FLIP wants two pictures of the same size, found 4x3 and 3x4");
-    EXPECT_EQ(refusal(0, 0, 0, 0), "FLIP wants at least one pixel, found 0x0");
-    EXPECT_EQ(refusal(4, 3, 4, 3, 0), "FLIP wants 1 to 1000 pixels per degree, found 0");
-    EXPECT_EQ(refusal(4, 3, 4, 3, std::numeric_limits<double>::quiet_NaN()),
-              "FLIP wants 1 to 1000 pixels per degree, found nan");
+    EXPECT_EQ(refusal(catoptric::Failure::bad_data, 4, 3, 3, 4),
+              "FLIP wants two pictures of the same size, found 4x3 and 3x4");
+    EXPECT_EQ(refusal(catoptric::Failure::bad_data, 0, 0, 0, 0),
+              "FLIP wants at least one pixel, found 0x0");
+    EXPECT_EQ(refusal(catoptric::Failure::usage, 4, 3, 4, 3, 0),
+              "FLIP wants 1 to 1000 pixels per degree, found 0");
+    EXPECT_EQ(
+        refusal(catoptric::Failure::usage, 4, 3, 4, 3, std::numeric_limits<double>::quiet_NaN()),
+        "FLIP wants 1 to 1000 pixels per degree, found nan");
 }
 
 } // namespace

@@ -1,8 +1,8 @@
 // Kept and imported resources, mips, attachments that nobody reads: what the plan makes of them,
 // and the words with which wrong ones are refused.
-#include "core/error.hpp"
 #include "graph/dump.hpp"
 #include "graph/shape.hpp"
+#include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
 
@@ -19,14 +19,7 @@ void nothing(Commands&) {}
 Plan planned(const Graph& graph) { return plan(graph, {}, plain_sizer()); }
 
 std::string refusal(const Graph& graph) {
-    try {
-        planned(graph);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.failure, Failure::internal);
-        return error.what();
-    }
-    ADD_FAILURE() << "the graph was accepted";
-    return "";
+    return test::refusal(Failure::internal, [&] { planned(graph); });
 }
 
 /// "image 0 mips [0,1) layers [0,2) before > after", with what else is waited for counted.

@@ -1,7 +1,7 @@
 #include "measure/heat.hpp"
 
-#include "core/error.hpp"
 #include "measure/srgb.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,12 +52,8 @@ TEST(Heat, MapKeepsItsPlacesAndScales) {
 }
 
 std::string refusal(std::size_t size, float high) {
-    try {
-        heat(std::vector<float>(size), 2, 2, high);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "accepted";
+    return test::refusal(catoptric::Failure::internal,
+                         [&] { heat(std::vector<float>(size), 2, 2, high); });
 }
 
 TEST(Heat, RefusesAMapOfAnotherSizeAndAScaleWithoutATop) {

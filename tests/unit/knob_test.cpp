@@ -1,6 +1,6 @@
 // A knob's text to its value and back.
-#include "core/error.hpp"
 #include "core/knob.hpp"
+#include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
 
@@ -14,13 +14,7 @@ constexpr Knob kKnobs[] = {
 
 std::string refusal(std::string_view knob, std::string_view text) {
     Settings settings(kKnobs);
-    try {
-        settings.set("row", knob, text);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.failure, Failure::usage);
-        return error.what();
-    }
-    return "not refused";
+    return test::refusal(Failure::usage, [&] { settings.set("row", knob, text); });
 }
 
 TEST(Knob, ASpecialWordStandsInPlaceOfANumber) {

@@ -49,8 +49,6 @@ Comparison with_lag() {
     return made;
 }
 
-std::string said(const Comparison& made) { return catoptric::report::to_markdown(made); }
-
 TEST(LagReport, IsSilentWhereNobodyAsked) {
     EXPECT_THAT(said(usual()), Not(HasSubstr("Lag")));
     EXPECT_THAT(catoptric::report::to_html(usual()), Not(HasSubstr("Lag")));

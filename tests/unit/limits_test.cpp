@@ -1,7 +1,7 @@
 // What a device cannot hold is refused by its numbers, before anything is made of it.
-#include "core/error.hpp"
 #include "render/geometry.hpp"
 #include "render/limits.hpp"
+#include "support/refusal.hpp"
 #include "support/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -13,13 +13,7 @@ using namespace catoptric;
 constexpr render::Limits kRoomy{1u << 27, 1u << 27, 1u << 30, 1ull << 31};
 
 std::string refusal(const render::Amounts& amounts, const render::Limits& limits) {
-    try {
-        render::check_limits("s", amounts, limits);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.failure, Failure::exhausted);
-        return error.what();
-    }
-    return "";
+    return test::refusal(Failure::exhausted, [&] { render::check_limits("s", amounts, limits); });
 }
 
 TEST(Limits, CountWhatASceneShows) {
@@ -28,7 +22,7 @@ TEST(Limits, CountWhatASceneShows) {
     EXPECT_EQ(amounts.triangles, scene::triangle_count(room));
     EXPECT_EQ(amounts.objects, 9u);
     EXPECT_EQ(amounts.mirrors, 2u);
-    EXPECT_EQ(refusal(amounts, kRoomy), "");
+    EXPECT_NO_THROW(render::check_limits("s", amounts, kRoomy));
 }
 
 /// Balls of 4096 triangles that are all one mesh, on top of a room.
@@ -54,8 +48,8 @@ TEST(Limits, CountCopiesOnceWhereTheyShare) {
     EXPECT_EQ(render::amounts_of(flattened).triangles, room.triangles + 2 * 4096);
     render::Limits tight = kRoomy;
     tight.memory_bytes = 1 << 20;
-    EXPECT_EQ(refusal(many, tight), "");
-    EXPECT_NE(refusal(few, tight), "");
+    EXPECT_NO_THROW(render::check_limits("s", many, tight));
+    EXPECT_THROW(render::check_limits("s", few, tight), Error);
 }
 
 /// What is counted is what is stored.

@@ -1,8 +1,8 @@
 #include "measure/picture_file.hpp"
 
-#include "core/error.hpp"
 #include "core/file.hpp"
 #include "support/folder.hpp"
+#include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -96,18 +96,6 @@ Picture awkward() {
     return picture;
 }
 
-template <typename Call>
-std::string message(Failure wanted, Call call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(static_cast<int>(error.failure), static_cast<int>(wanted)) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing was refused";
-    return "";
-}
-
 TEST_F(PictureFile, ExrKeepsEveryBit) {
     const Picture picture = awkward();
     write_exr(picture, folder / "a.exr");
@@ -179,25 +167,26 @@ TEST_F(PictureFile, TheNameDoesNotDecide) {
 TEST_F(PictureFile, MaskIsWhatIsNotZero) {
     EXPECT_EQ(read_mask(file("a.png", kRgb8), 2, 2), (Mask{255, 255, 0, 255}));
     EXPECT_EQ(read_mask(file("b.png", kRgba8), 3, 1), (Mask{255, 0, 255}));
-    EXPECT_THAT(message(Failure::bad_data, [&] { read_mask(folder / "a.png", 4, 2); }),
+    EXPECT_THAT(test::refusal(Failure::bad_data, [&] { read_mask(folder / "a.png", 4, 2); }),
                 HasSubstr("a.png: wanted a mask of 4x2 as the pictures, found 2x2"));
-    EXPECT_THAT(message(Failure::bad_data, [&] { read_mask(file("c.exr", half_exr()), 2, 1); }),
-                HasSubstr("c.exr: wanted a PNG as mask, found OpenEXR"));
+    EXPECT_THAT(
+        test::refusal(Failure::bad_data, [&] { read_mask(file("c.exr", half_exr()), 2, 1); }),
+        HasSubstr("c.exr: wanted a PNG as mask, found OpenEXR"));
 }
 
 TEST_F(PictureFile, MissingAndUndecodableInput) {
-    EXPECT_THAT(message(Failure::missing_input, [&] { read_picture(folder / "no.png"); }),
+    EXPECT_THAT(test::refusal(Failure::missing_input, [&] { read_picture(folder / "no.png"); }),
                 HasSubstr("no.png"));
-    EXPECT_THAT(message(Failure::bad_data, [&] { read_picture(file("t.png", "Hello")); }),
+    EXPECT_THAT(test::refusal(Failure::bad_data, [&] { read_picture(file("t.png", "Hello")); }),
                 HasSubstr("t.png: wanted an OpenEXR or PNG picture, found 5 bytes"));
-    EXPECT_THAT(message(Failure::bad_data, [&] { read_picture(file("e.png", "")); }),
+    EXPECT_THAT(test::refusal(Failure::bad_data, [&] { read_picture(file("e.png", "")); }),
                 HasSubstr("found 0 bytes"));
 }
 
 TEST_F(PictureFile, CutFilesAreRefusedWhereverTheyEnd) {
     const auto refuses = [&](const std::string& name, const std::string& whole, std::size_t size) {
         const fs::path path = file(name, whole.substr(0, size));
-        const std::string text = message(Failure::bad_data, [&] { read_picture(path); });
+        const std::string text = test::refusal(Failure::bad_data, [&] { read_picture(path); });
         EXPECT_THAT(text, HasSubstr(name)) << size << " of " << whole.size();
         EXPECT_THAT(text, Not(HasSubstr("\n")));
     };
@@ -209,19 +198,19 @@ TEST_F(PictureFile, CutFilesAreRefusedWhereverTheyEnd) {
 
 TEST_F(PictureFile, AFailureKeepsTheOldFile) {
     const fs::path old = file("old.png", "old");
-    EXPECT_THAT(message(Failure::internal, [&] { write_png(Picture(), old); }),
+    EXPECT_THAT(test::refusal(Failure::internal, [&] { write_png(Picture(), old); }),
                 HasSubstr("a picture of 0x0 cannot be written"));
     EXPECT_EQ(read_file(old), "old");
 }
 
 TEST_F(PictureFile, PlacesThatCannotBeWritten) {
     const Picture picture(2, 2);
-    EXPECT_THAT(message(Failure::cannot_create, [&] { write_png(picture, folder); }),
+    EXPECT_THAT(test::refusal(Failure::cannot_create, [&] { write_png(picture, folder); }),
                 HasSubstr(folder.string()));
-    EXPECT_THAT(
-        message(Failure::cannot_create, [&] { write_exr(picture, folder / "none" / "a.exr"); }),
-        HasSubstr("none/a.exr"));
-    EXPECT_THAT(message(Failure::io, [&] { write_png(picture, "/dev/full"); }),
+    EXPECT_THAT(test::refusal(Failure::cannot_create,
+                              [&] { write_exr(picture, folder / "none" / "a.exr"); }),
+                HasSubstr("none/a.exr"));
+    EXPECT_THAT(test::refusal(Failure::io, [&] { write_png(picture, "/dev/full"); }),
                 HasSubstr("/dev/full")); // a disk without room
 }
 

@@ -2,6 +2,7 @@
 #include "app/plan_file.hpp"
 #include "reflect/plan.hpp"
 #include "support/folder.hpp"
+#include "support/refusal.hpp"
 
 #include "core/file.hpp"
 
@@ -12,7 +13,6 @@ namespace {
 
 using namespace catoptric;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 const std::vector<std::string> kMirrors{"left ball", "front", "back", "far ball"};
 
@@ -70,13 +70,7 @@ TEST(PlanText, RulesThatSayTheSameShareAChoice) {
 
 void expect_refused(const std::string& text, const std::vector<std::string>& words,
                     Failure failure = Failure::usage) {
-    try {
-        reflect::assign(app::read_plan(text), kMirrors);
-        ADD_FAILURE() << "'" << text << "' was taken";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.failure, failure) << text;
-        for (const std::string& word : words) EXPECT_THAT(error.what(), HasSubstr(word));
-    }
+    test::expect_refused([&] { reflect::assign(app::read_plan(text), kMirrors); }, failure, words);
 }
 
 TEST(PlanText, WhatIsWrongIsNamed) {
@@ -154,8 +148,7 @@ TEST_F(PlanFile, WhatIsWrongIsNamedWithItsPlace) {
         Failure::usage);
     expect_refused("plan:" + (folder / "none.json").string(), {"none.json"},
                    Failure::missing_input);
-    expect_refused("plan:" + folder.string(), {"wanted a file with a plan"},
-                   Failure::bad_data);
+    expect_refused("plan:" + folder.string(), {"wanted a file with a plan"}, Failure::bad_data);
 }
 
 } // namespace

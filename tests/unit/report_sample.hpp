@@ -102,4 +102,7 @@ inline Comparison usual() {
     return made;
 }
 
+/// What report.md says.
+inline std::string said(const Comparison& made) { return to_markdown(made); }
+
 } // namespace catoptric::report::sample

@@ -26,8 +26,6 @@ using testing::Not;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-std::string said(const Comparison& made) { return catoptric::report::to_markdown(made); }
-
 TEST(ReportJson, HasTheContractsFieldsInItsOrder) {
     const std::string text = catoptric::report::to_json(usual());
     const auto document = nlohmann::ordered_json::parse(text);

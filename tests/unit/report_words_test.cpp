@@ -13,8 +13,6 @@ using namespace catoptric::report::sample;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string said(const Comparison& made) { return catoptric::report::to_markdown(made); }
-
 TEST(ReportMarkdown, SetsTheSeedTableBesideOurs) {
     const std::string text = said(usual());
     EXPECT_TRUE(std::regex_search(

@@ -1,6 +1,6 @@
 #include "measure/statistics.hpp"
 
-#include "core/error.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,12 +57,7 @@ TEST(Summary, OrderDoesNotMatterAndScaleScales) {
 }
 
 std::string refusal(const std::vector<double>& samples) {
-    try {
-        summarise(samples);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "accepted";
+    return test::refusal(catoptric::Failure::internal, [&] { summarise(samples); });
 }
 
 TEST(Summary, RefusesWhatHasNoAnswer) {

@@ -1,6 +1,6 @@
 // Graphs that cannot mean anything, and the words with which each is refused.
-#include "core/error.hpp"
 #include "graph/plan.hpp"
+#include "support/refusal.hpp"
 
 #include <gmock/gmock.h>
 
@@ -16,14 +16,7 @@ constexpr Clear kBlack{};
 
 /// What `plan` says; fails the test when it says nothing or fails in another way.
 std::string refusal(const Graph& graph, Failure failure = Failure::internal, Limits limits = {}) {
-    try {
-        plan(graph, limits, plain_sizer());
-    } catch (const Error& error) {
-        EXPECT_EQ(error.failure, failure) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "the graph was accepted";
-    return "";
+    return test::refusal(failure, [&] { plan(graph, limits, plain_sizer()); });
 }
 
 /// A graph with one image that pass 'make' writes; tests add what is wrong.

@@ -1,0 +1,73 @@
+// catoptric VERB ...: one file a verb. Errors become exit codes here and nowhere else.
+#include "program.hpp"
+
+#include "app/engine.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <new>
+
+namespace catoptric::cli {
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  catoptric compare -o out                     every technique against the reference
+  catoptric render --technique parallax -o parallax.png
+  catoptric diff a.exr b.exr --max-flip 0.01
+  catoptric VERB --help                        options of a verb
+
+Exit codes: 0 ok; 1 over a threshold; 2 usage; 65 bad input; 66 input missing; 69 no Vulkan device;
+70 internal; 73 cannot create output; 74 I/O error; 75 out of memory or over a device limit;
+76 device lost; 129, 130, 143 stopped by a signal (rows so far are kept, after 75 and 76 too))";
+
+void say(const std::string& message) {
+    if (!message.empty()) std::cerr << "catoptric: " << printable(message, "\n") << std::endl;
+}
+
+int run(int argc, char** argv) {
+    const std::vector<std::string> words(argv, argv + argc);
+    CommandLine program("catoptric",
+                        "Measures what each way of rendering mirrors costs and gets wrong.",
+                        "catoptric " + app::version() + " (" + app::commit() + ")", kExamples);
+    add_compare(program, words);
+    add_render(program);
+    add_stress(program, words);
+    add_diff(program);
+    add_graph(program);
+    add_list(program);
+    add_info(program);
+    return program.parse({words.begin() + std::min(argc, 1), words.end()})();
+}
+
+/// Runs, and says on stderr what went wrong.
+int exit_code(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const Error& error) {
+        say(error.what());
+        return static_cast<int>(error.failure);
+    } catch (const std::bad_alloc&) {
+        say("out of memory");
+        return static_cast<int>(Failure::exhausted);
+    } catch (const std::exception& error) {
+        say(std::string("internal error: ") + error.what());
+        return static_cast<int>(Failure::internal);
+    }
+}
+
+} // namespace
+
+int run_program(int argc, char** argv) {
+    prepare_streams();
+    const int code = exit_code(argc, argv);
+    if (app::any_abandoned()) std::_Exit(code); // nothing is taken down under a driver at work
+    return code;
+}
+
+} // namespace catoptric::cli
