@@ -182,9 +182,10 @@ public:
     /// the scene is written to. Other techniques than those of the frame before begin without
     /// history. Throws `usage` for a specification that means nothing.
     Frame frame(const FrameSpec& spec);
-    /// Edits the scene; seen from the next frame on. History stays unless the edit makes the scene
-    /// so much larger or smaller that its units on the device are others. Throws `usage` for an
-    /// object or material that is not there.
+    /// Edits the scene; seen from the next frame on. History stays unless the edit changes the
+    /// scene's units on the device (render::space_of): it is much larger or smaller now, or what
+    /// its origin goes by stands elsewhere (an outermost object, small mirrors). Throws `usage` for
+    /// an object or material that is not there.
     void change(const scene::Edit& edit);
     /// A cut: the next frame begins without history.
     void forget();
