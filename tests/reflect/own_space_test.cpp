@@ -62,6 +62,7 @@ TEST(OwnSpace, RaysAgreeWithDoubles) {
         const app::Request request = test::request(scene, {"raytrace:sphere=exact"}, kSize);
         const app::Part part = test::render(scene, "raytrace:sphere=exact", kSize);
         const stress::DoubleTracer tracer(scene, request.ambient);
+        measure::Picture truth(static_cast<int>(kSize.x), static_cast<int>(kSize.y));
         std::size_t off = 0;
         for (std::uint32_t y = 0; y < kSize.y; ++y)
             for (std::uint32_t x = 0; x < kSize.x; ++x) {
@@ -69,8 +70,12 @@ TEST(OwnSpace, RaysAgreeWithDoubles) {
                             found(part.hdr.pixels[x + kSize.x * y]);
                 const dvec3 apart = glm::abs(wanted - found);
                 off += !(std::max({apart.x, apart.y, apart.z}) <= .01);
+                truth.pixels[x + kSize.x * y] = vec3(wanted);
             }
         EXPECT_LE(off, 20u) << "pixels of " << kSize.x * kSize.y << ", mirrors " << mirrors;
+        const double seen = measure::flip_mean(
+            measure::flip(measure::to_display(part.hdr), measure::to_display(truth)));
+        EXPECT_LE(seen, .001) << "mirrors " << mirrors;
     }
 }
 
