@@ -18,8 +18,9 @@ protected:
     /// memory. 0: it loads and renders.
     void expect(const std::string& what, const std::string& file, int exit_code,
                 const Words& parts = {}) const {
-        const test::Ended ended = cli(
-            quick({"render", file, "--technique", "raytrace", "-o", "x.png"}));
+        // The program as it is built: what it takes is what a user would see.
+        const test::Ended ended = test::run_process(
+            start(quick({"render", file, "--technique", "raytrace", "-o", "x.png"})));
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         for (const std::string& part : parts) EXPECT_THAT(ended.err, testing::HasSubstr(part));
         EXPECT_LE(ended.peak_bytes, 1ull << 30);
