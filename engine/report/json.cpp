@@ -114,18 +114,27 @@ Json to_json(const std::vector<Setting>& settings) {
     return json;
 }
 
+} // namespace
+
+Json plan_json(const std::vector<PlanEntry>& plan) {
+    Json json = Json::array();
+    for (const PlanEntry& entry : plan)
+        json.push_back({{"mirror", entry.mirror},
+                        {"name", entry.name},
+                        {"technique", entry.technique},
+                        {"settings", to_json(entry.settings)},
+                        {"why", entry.why}});
+    return json;
+}
+
+namespace {
+
 Json to_json(const Row& row) {
     Json json{{"technique", row.technique}, {"settings", to_json(row.settings)}};
     json["label"] = row.label;
     json["model"] = row.model;
     add_figures(json, row);
-    json["plan"] = Json::array();
-    for (const PlanEntry& entry : row.plan)
-        json["plan"].push_back({{"mirror", entry.mirror},
-                                {"name", entry.name},
-                                {"technique", entry.technique},
-                                {"settings", to_json(entry.settings)},
-                                {"why", entry.why}});
+    json["plan"] = plan_json(row.plan);
     json["image"] = "images/" + row.image + ".png";
     json["is_reference"] = row.is_reference;
     return json;

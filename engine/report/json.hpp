@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/plan_entry.hpp"
 #include "measure/quantity.hpp"
 #include "report/comparison.hpp"
 
@@ -16,5 +17,8 @@ Json number(double value);
 Json value_json(const measure::Value& value);
 /// The field "lag".
 Json to_json(const Lag& lag);
+
+/// A list with an object for each mirror: mirror, name, technique, settings, why.
+Json plan_json(const std::vector<PlanEntry>& plan);
 
 } // namespace catoptric::report

@@ -105,13 +105,7 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["technique"] = choice.technique;
     document["label"] = choice.label;
     document["settings"] = settings_json(choice.settings);
-    document["plan"] = Json::array();
-    for (const PlanEntry& entry : part.plan)
-        document["plan"].push_back({{"mirror", entry.mirror},
-                                    {"name", entry.name},
-                                    {"technique", entry.technique},
-                                    {"settings", settings_json(entry.settings)},
-                                    {"why", entry.why}});
+    document["plan"] = report::plan_json(part.plan);
     document["notes"] = part.notes;
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;

@@ -3,7 +3,7 @@
 #include "measure/lookup.hpp"
 #include "support/rendering.hpp"
 
-#include <map>
+#include <iostream>
 
 namespace {
 
@@ -75,6 +75,8 @@ TEST(Plan, EveryMirrorIsDrawnAsInAFrameOfItsOwnTechnique) {
         asked.with_lookup = !is_traced;
         const app::Part part = std::move(app::run(test::engine(), asked).parts.front());
         const Alike found = alike(scene, mixed, part, truth, MirrorId::at(i), i == 0 ? 64 : 256);
+        std::cout << "[ MEASURED ] " << uniform[i] << ": of " << found.compared << " pixels "
+                  << found.other << " differ, " << found.off << " by more than 1/255\n";
         EXPECT_GT(found.compared, 100u) << uniform[i];
         EXPECT_LE(found.off, 3u) << uniform[i] << " of " << found.compared;
         if (!is_traced) {
