@@ -9,6 +9,7 @@
 #include "measure/picture.hpp"
 #include "measure/statistics.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -72,8 +73,24 @@ struct HostParts {
     double record = 0;    ///< filling the command buffer
 };
 
+/// How far a picture is from the truth, over one set of pixels after the other.
+struct Errors {
+    Difference error;                  ///< over the pixels whose first hit is a mirror
+    Difference error_first_order;      ///< ... whose reflected ray meets no second mirror
+    Difference error_mirror_in_mirror; ///< ... whose reflected ray does
+    Difference error_non_mirror;       ///< everything else
+    Difference error_all;
+    std::vector<Difference> error_per_mirror; ///< by MirrorId::index
+};
+
+/// From where and when a picture shows a scene.
+struct View {
+    CameraFacts camera;
+    double time = 0; ///< seconds into the scene's motion
+};
+
 /// One technique with its settings: what it cost and what it got wrong.
-struct Row {
+struct Row : Errors {
     std::string technique;         ///< "naive"; "plan" where several draw the mirrors
     std::string label;             ///< as it was asked for: "naive:bounces=1"
     std::vector<Setting> settings; ///< all knobs
@@ -83,9 +100,11 @@ struct Row {
         0; ///< counted in the executed plan; a cube counts once, as in the seed report
     int scene_draws = 0; ///< the same with every cube face counted
     Summary gpu_ms, cpu_record_ms, wall_ms;
-    Summary wait_ms;  ///< the host stood still for the device: part of nothing else
-    Summary host_ms;  ///< the processor's work before the device could begin; waiting is none
-    Summary frame_ms; ///< host_ms and the device's time, frame by frame: they do not overlap
+    Summary cpu_ms;     ///< processor time of the process a frame; of cpu devices
+    bool noisy = false; ///< its threads waited for a processor: its times are not to be trusted
+    Summary wait_ms;    ///< the host stood still for the device: part of nothing else
+    Summary host_ms;    ///< the processor's work before the device could begin; waiting is none
+    Summary frame_ms;   ///< host_ms and the device's time, frame by frame: they do not overlap
     HostParts host_parts;
     bool moves = false; ///< the scene moved, so that every frame had work for the host
     /// What the row is ranked by: a moving scene's rows pay for it on the host too.
@@ -94,12 +113,6 @@ struct Row {
     /// Sum of all the frame's passes over wall_ms, frame by frame: near 1 where stamps tell the
     /// truth.
     Summary closure;
-    Difference error;                  ///< over the pixels whose first hit is a mirror
-    Difference error_first_order;      ///< ... whose reflected ray meets no second mirror
-    Difference error_mirror_in_mirror; ///< ... whose reflected ray does
-    Difference error_non_mirror;       ///< everything else
-    Difference error_all;
-    std::vector<Difference> error_per_mirror;    ///< by MirrorId::index
     std::uint64_t memory_bytes = 0;              ///< of the frame's images
     std::optional<Rays> rays;                    ///< of ray tracing, one frame
     std::optional<std::size_t> saturated_texels; ///< of captures that hold halves: cut off at 65504
@@ -107,6 +120,7 @@ struct Row {
     std::optional<Causes> causes;                ///< of rows that look into captures
     std::optional<double> traced_fraction;
     std::optional<AutoFace> auto_face;
+    std::vector<Errors> views; ///< of Comparison::views, in their order; empty: none were drawn
     Mean mean, mean_clamped;
     Picture hdr;                 ///< the last frame, linear
     Picture display;             ///< the same as shown
@@ -127,6 +141,8 @@ struct Comparison {
     SetupFacts setup; ///< so far
     int width = 0, height = 0;
     int frames = 0, warmup = 0;
+    int rounds = 0;                          ///< that the frames were measured in
+    double load_start = NAN, load_end = NAN; ///< of the machine, runnable threads; NaN: not known
     double time = 0, ambient = 0.05, exposure = 0;
     std::string timing = "isolated";
     std::string model = "everything";
@@ -138,6 +154,7 @@ struct Comparison {
     Picture reference_display;
     /// Clearing the cubes of all mirrors once and drawing nothing, at the default face size.
     std::optional<Summary> clear_ms;
+    std::vector<View> views; ///< drawn, over which errors are known beside the one of the pictures
     std::vector<Row> rows;
     std::vector<std::size_t> pareto; ///< rows on the front of gpu_ms.median against error.flip
     std::optional<Lag> lag;          ///< of the rows that remember, when it was asked for

@@ -38,12 +38,12 @@ std::size_t index_of(const Quantity& quantity) {
 }
 
 constexpr RowMask kMasks[] = {
-    {"error", "mirrors", "", &Row::error},
-    {"error_first_order", "first_order", "first order", &Row::error_first_order},
+    {"error", "mirrors", "", &Errors::error},
+    {"error_first_order", "first_order", "first order", &Errors::error_first_order},
     {"error_mirror_in_mirror", "mirror_in_mirror", "mirror in mirror",
-     &Row::error_mirror_in_mirror},
-    {"error_non_mirror", "non_mirror", "not a mirror", &Row::error_non_mirror},
-    {"error_all", "all", "all", &Row::error_all},
+     &Errors::error_mirror_in_mirror},
+    {"error_non_mirror", "non_mirror", "not a mirror", &Errors::error_non_mirror},
+    {"error_all", "all", "all", &Errors::error_all},
 };
 
 } // namespace

@@ -113,7 +113,7 @@ struct RowMask {
     std::string_view name;  ///< "first_order"
     std::string_view
         title; ///< in tables; empty: the mirrors, of which all speaks unless it says so
-    Difference Row::*error;
+    Difference Errors::*error;
 };
 std::span<const RowMask> masks();
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace catoptric::measure {
 
@@ -36,6 +37,19 @@ Summary summarise(std::span<const double> samples) {
     deviations.reserve(summary.n);
     for (const double sample : samples) deviations.push_back(std::abs(sample - summary.median));
     summary.mad = percentile(std::move(deviations), 0.5);
+    return summary;
+}
+
+Summary summarise(std::span<const std::vector<double>> rounds) {
+    std::vector<double> samples, medians;
+    for (const std::vector<double>& round : rounds) {
+        samples.insert(samples.end(), round.begin(), round.end());
+        medians.push_back(percentile(round, 0.5));
+    }
+    Summary summary = summarise(samples);
+    summary.median = percentile(medians, 0.5);
+    summary.ci95 = median_interval(medians);
+    summary.rounds = std::move(medians);
     return summary;
 }
 

@@ -1,0 +1,51 @@
+#include "measure/interval.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace catoptric::measure {
+
+namespace {
+
+/// The largest k, from 1, for which P(Binomial(n, 1/2) < k) <= 2.5 %; 0: none.
+std::size_t rank_of(std::size_t n) {
+    const auto count = static_cast<double>(n);
+    double log_term = -count * std::log(2.0); // of P(Binomial = k)
+    double below = 0;                         // P(Binomial < k)
+    std::size_t k = 0;
+    for (; k < n; ++k) {
+        below += std::exp(log_term);
+        if (below > .025) break;
+        log_term += std::log((count - static_cast<double>(k)) / (static_cast<double>(k) + 1));
+    }
+    return k;
+}
+
+template <typename Pair>
+Interval interval_of_pairs(std::span<const double> a, std::span<const double> b, Pair&& pair) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        values.push_back(pair(a[i], b[i]));
+    return median_interval(values);
+}
+
+} // namespace
+
+Interval median_interval(std::span<const double> values) {
+    const std::size_t rank = rank_of(values.size());
+    if (rank == 0 || std::ranges::any_of(values, [](double value) { return std::isnan(value); }))
+        return {};
+    std::vector<double> sorted(values.begin(), values.end());
+    std::ranges::sort(sorted);
+    return {sorted[rank - 1], sorted[sorted.size() - rank]};
+}
+
+Interval ratio_interval(std::span<const double> a, std::span<const double> b) {
+    return interval_of_pairs(a, b, [](double x, double y) { return x / y; });
+}
+
+Interval difference_interval(std::span<const double> a, std::span<const double> b) {
+    return interval_of_pairs(a, b, [](double x, double y) { return x - y; });
+}
+
+} // namespace catoptric::measure
