@@ -5,15 +5,20 @@
 #include "app/lag.hpp"
 #include "app/oracle.hpp"
 #include "app/plan_file.hpp"
+#include "app/processor.hpp"
+#include "app/row_run.hpp"
 #include "app/truths.hpp"
 #include "core/error.hpp"
 #include "measure/difference.hpp"
+#include "measure/interval.hpp"
 #include "measure/judge.hpp"
 #include "measure/masks.hpp"
 #include "reflect/technique.hpp"
 #include "scene/load.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <memory>
 #include <new>
 
 namespace catoptric::app {
@@ -24,13 +29,20 @@ bool same(const TechniqueChoice& a, const TechniqueChoice& b) {
     return a.technique == b.technique && a.settings == b.settings;
 }
 
+bool same_pixels(const measure::Picture& a, const measure::Picture& b) {
+    return std::ranges::equal(a.pixels, b.pixels, [](const vec3& x, const vec3& y) {
+        return std::memcmp(&x, &y, sizeof x) == 0; // NaN too
+    });
+}
+
 bool is_set(const report::Row& row, std::string_view knob, std::string_view text) {
     return std::ranges::any_of(row.settings, [&](const report::Setting& setting) {
         return setting.name == knob && setting.text == text;
     });
 }
 
-/// Runs rows one by one or together, judges each against the reference at its sample count.
+/// Measures rows in rounds, one by one or together in each frame, and judges each against the
+/// reference at its sample count.
 class Comparer {
 public:
     Comparer(Engine& engine, const CompareRequest& request)
@@ -42,17 +54,16 @@ public:
         for (const std::string& text : request_.base.techniques)
             reflect::assign(read_plan(text), mirror_names(request_.base.scene));
         check_has_mirror(request_.base.scene);
+        check_rounds(request_.rounds);
         mirrors_ = scene::mirrors(request_.base.scene).size();
     }
 
     report::Comparison run() {
         start();
         try {
-            // Masks: what one ray through each pixel centre meets.
-            hits_ = truths_.hits();
             fill_reference();
-            fill_clear();
-            request_.together ? run_together() : run_apart();
+            for (int round = 0; round < comparison_.rounds; ++round) measure_round(round);
+            if (request_.causes) add_causes();
             if (request_.lag) add_lag();
             comparison_.complete = true;
         } catch (const Error& error) {
@@ -62,7 +73,7 @@ public:
             if (comparison_.rows.empty()) throw;
             comparison_.stopped = Error(Failure::exhausted, "out of memory");
         }
-        fill_setup();
+        fill_circumstances();
         return std::move(comparison_);
     }
 
@@ -87,15 +98,17 @@ private:
         comparison_.height = static_cast<int>(base.size.y);
         comparison_.frames = base.frames;
         comparison_.warmup = base.warmup;
+        comparison_.rounds = rounds_of(base.frames, request_.rounds);
+        comparison_.load_start = machine_load();
         comparison_.time = base.time;
         comparison_.ambient = base.ambient;
         comparison_.exposure = base.exposure;
         comparison_.timing = base.timing == Timing::isolated ? "isolated" : "pipelined";
         comparison_.together = request_.together;
-        comparison_.warnings = base.scene.warnings;
     }
 
-    void fill_setup() {
+    /// What is known only while rows are measured.
+    void fill_circumstances() {
         const Setup setup = session_.setup();
         const Compiled compiled = engine_.compiled();
         constexpr const char* kCacheUse[] = {"none", "made", "used"}; // by CacheUse
@@ -105,18 +118,26 @@ private:
                              compiled.ms - compiled_before_.ms,
                              compiled.pipelines - compiled_before_.pipelines,
                              kCacheUse[static_cast<std::size_t>(engine_.cache_use())]};
+        comparison_.load_end = machine_load();
+        comparison_.warnings = request_.base.scene.warnings;
+        for (const std::vector<std::string>& warnings : row_warnings_)
+            comparison_.warnings.insert(comparison_.warnings.end(), warnings.begin(),
+                                        warnings.end());
+        comparison_.pareto = measure::front_of(comparison_.rows);
     }
 
-    /// What it costs to clear the cubes of all mirrors once and draw nothing.
-    void fill_clear() {
-        const Request& base = request_.base;
-        std::vector<double> samples;
-        for (int k = 1; k <= base.total(); ++k) {
+    /// What it costs to clear the cubes of all mirrors and draw nothing, as often as a row's
+    /// frames.
+    void measure_clear(int round) {
+        const int warmup = round == 0 ? request_.base.warmup : 0;
+        const int frames = frames_of_round(request_.base.frames, comparison_.rounds, round);
+        std::vector<double>& samples = clear_ms_.emplace_back();
+        for (int k = 0; k < warmup + frames; ++k) {
             const FrameTimes times = session_.clear_cubes();
-            if (k > base.warmup) samples.push_back(times.passes_ms());
+            if (k >= warmup) samples.push_back(times.passes_ms());
             request_.watcher.check_stopped();
         }
-        comparison_.clear_ms = measure::summarise(samples);
+        comparison_.clear_ms = measure::summarise(clear_ms_);
     }
 
     void fill_reference() {
@@ -130,34 +151,49 @@ private:
 
     /// Where the row's mirrors looked and what its captures cut off: a run of its own, since saying
     /// so costs time. No lookup for rows that do not look into captures.
-    Part looked_up(const std::string& text) {
-        Request request = request_.base;
+    Part looked_up(const std::string& text, int number) {
+        Request request = still(number);
         request.techniques = {text};
         request.frames = 1;
         request.warmup = 1;
-        request.time = request_.base.instant(request_.base.total());
-        request.animate = false;
         request.with_lookup = true;
         Part part = std::move(app::run(session_, request, request_.watcher).parts.front());
         const bool looks = std::ranges::any_of(part.lookup,
                                                [](const vec4& pixel) { return pixel.w > 0; });
         if (!looks) part.lookup.clear();
-        if (looks && !oracle_) oracle_.emplace(request);
         return part;
     }
 
+    /// What frame `number` shows, standing still.
+    Request still(int number) const {
+        Request request = request_.base;
+        request.time = request_.base.instant(number);
+        request.animate = false;
+        return request;
+    }
+
+    const Oracle& oracle_of(int number) {
+        if (!oracle_ || (request_.base.animate && number != oracle_frame_))
+            oracle_.emplace(still(number));
+        oracle_frame_ = number;
+        return *oracle_;
+    }
+
     /// Splits the row's error by cause.
-    report::Causes causes_of(const std::string& text, const report::Row& row,
-                             const std::vector<vec4>& lookup) {
+    report::Causes causes_of(const std::string& text, const report::Row& row) {
+        const int last = request_.base.total();
+        const std::vector<std::uint32_t>& hits = truths_.hits();
         if (!finder_)
-            finder_.emplace(session_, request_.base, truths_.at("1").part.hdr, hits_,
+            finder_.emplace(session_, request_.base, truths_.at("1").part.hdr, hits,
                             request_.watcher);
+        const std::vector<vec4> lookup = looked_up(text, last).lookup;
         report::Causes causes = finder_->find(text);
         const auto face = std::ranges::find(row.settings, "face", &report::Setting::name);
         const double edge = row.auto_face ? row.auto_face->edge : face->number.value();
-        measure::Mask at_edges = oracle_->at_light_edges(lookup, static_cast<std::uint32_t>(edge));
+        measure::Mask at_edges = oracle_of(last).at_light_edges(lookup,
+                                                                static_cast<std::uint32_t>(edge));
         for (std::size_t i = 0; i < at_edges.size(); ++i)
-            if (!measure::first_mirror(hits_[i])) at_edges[i] = 0;
+            if (!measure::first_mirror(hits[i])) at_edges[i] = 0;
         const measure::Difference there = measure::difference(row.hdr, truths_.at("1").part.hdr,
                                                               at_edges, row.flip_map);
         const auto sum = [](const measure::Difference& error) {
@@ -168,57 +204,103 @@ private:
         return causes;
     }
 
-    void add(const std::string& text, const Part& part, const std::vector<FrameTimes>& frames) {
-        report::Row row = make_row(text, part, frames);
+    /// The row's picture and all that is said of it, from its frame `number`.
+    void judge(std::size_t index, const Part& part, int number) {
+        const std::string& text = request_.base.techniques[index];
+        report::Row& row = comparison_.rows[index];
+        std::vector<std::string>& warnings = row_warnings_[index];
+        warnings.clear();
+        row.pictured = number;
+        const std::string samples = sample_count(parse_technique(text));
+        fill_errors(row, part, truths_.at(samples, number).part, truths_.hits(number), mirrors_);
+        const Part looked = !part.rays || part.traced_fraction ? looked_up(text, number) : Part();
+        row.saturated_texels = looked.saturated;
+        if (looked.saturated.value_or(0) > 0)
+            warnings.push_back(
+                "'" + text + "': " + std::to_string(*looked.saturated) +
+                " texels of its captures are brighter than 65504, where colour=half ends");
+        for (const std::string& note : part.notes) warnings.push_back("'" + text + "': " + note);
+        if (!looked.lookup.empty())
+            row.lookup = measure::lookup_error(
+                oracle_of(number).judge(looked.lookup, is_set(row, "mirrors", "left_out")));
+    }
+
+    void add(const std::string& text, const Part& part) {
+        report::Row row = make_row(text, part);
         // Together the host's work is that of all rows, which none can be blamed for.
         row.moves = request_.base.animate && !request_.together &&
                     scene::is_animated(request_.base.scene);
-        const Part looked = !part.rays || part.traced_fraction ? looked_up(text) : Part();
-        const std::vector<vec4>& lookup = looked.lookup;
-        row.saturated_texels = looked.saturated;
-        if (looked.saturated.value_or(0) > 0)
-            comparison_.warnings.push_back(
-                "'" + text + "': " + std::to_string(*looked.saturated) +
-                " texels of its captures are brighter than 65504, where colour=half ends");
-        for (const std::string& note : part.notes)
-            comparison_.warnings.push_back("'" + text + "': " + note);
-        if (!lookup.empty())
-            row.lookup = measure::lookup_error(
-                oracle_->judge(lookup, is_set(row, "mirrors", "left_out")));
         const std::string samples = sample_count(parse_technique(text));
-        fill_errors(row, part, truths_.at(samples).part, hits_, mirrors_);
-        const bool is_plan = !read_plan(text).is_technique; // which no one search can be blamed for
-        if (!lookup.empty() && request_.causes && !is_plan &&
-            same(parse_technique(request_.reference), parse_technique(kReference)))
-            row.causes = causes_of(text, row, lookup);
         row.is_reference = same(parse_technique(text),
                                 parse_technique(reference_at(request_.reference, samples)));
         comparison_.rows.push_back(std::move(row));
-        comparison_.pareto = measure::front_of(comparison_.rows);
-        tell();
+        row_warnings_.emplace_back();
+        prefixes_.push_back(part.prefix);
     }
 
     void tell() {
-        fill_setup();
+        fill_circumstances();
         if (request_.on_finished_row) request_.on_finished_row(comparison_);
     }
 
-    void run_apart() {
+    /// Rows whose frames are measured one by one; with `together` one of all of them.
+    std::vector<std::vector<std::string>> lanes() const {
         const std::vector<std::string>& texts = request_.base.techniques;
-        for (std::size_t i = 0; i < texts.size(); ++i) {
-            request_.watcher.row(texts[i], i, texts.size());
+        if (request_.together) return {texts};
+        std::vector<std::vector<std::string>> lanes;
+        for (const std::string& text : texts) lanes.push_back({text});
+        return lanes;
+    }
+
+    void measure_round(int round) {
+        measure_clear(round);
+        const std::vector<std::vector<std::string>> all = lanes();
+        for (std::size_t lane = 0; lane < all.size(); ++lane) {
+            const auto rounds = static_cast<std::size_t>(comparison_.rounds);
+            request_.watcher.row(request_.together ? "all rows in one frame" : all[lane].front(),
+                                 static_cast<std::size_t>(round) * all.size() + lane,
+                                 rounds * all.size());
+            measure(lane, all[lane], round);
+        }
+        if (round > 0) tell();
+    }
+
+    /// Rows are judged once they are there, and by their last picture where it is another one.
+    void measure(std::size_t lane, const std::vector<std::string>& texts, int round) {
+        const bool first = round == 0, last = round + 1 == comparison_.rounds;
+        if (first) {
             Request request = request_.base;
-            request.techniques = {texts[i]};
-            const Result result = app::run(session_, request, request_.watcher);
-            add(texts[i], result.parts.front(), result.frames);
+            request.techniques = texts;
+            runs_.push_back(std::make_unique<RowRun>(session_, request, request_.watcher));
+        }
+        RowRun& run = *runs_[lane];
+        run.measure(frames_of_round(request_.base.frames, comparison_.rounds, round));
+        const std::vector<Part> parts = first || last ? run.parts() : std::vector<Part>();
+        run.set_aside();
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            const std::size_t index = lane + i;
+            if (first) add(texts[i], parts[i]);
+            report::Row& row = comparison_.rows[index];
+            fill_times(row, run.rounds(), prefixes_[index], comparison_.device.type == "cpu");
+            row.noisy = run.is_noisy();
+            const bool changed = last && !first &&
+                                 (request_.base.animate || !same_pixels(row.hdr, parts[i].hdr));
+            if (first || changed) judge(index, parts[i], run.number());
+            if (first) tell();
         }
     }
 
-    void run_together() {
-        request_.watcher.row("all rows in one frame", 0, 1);
-        const Result result = app::run(session_, request_.base, request_.watcher);
-        for (std::size_t i = 0; i < result.parts.size(); ++i)
-            add(request_.base.techniques[i], result.parts[i], result.frames);
+    void add_causes() {
+        if (!same(parse_technique(request_.reference), parse_technique(kReference))) return;
+        for (std::size_t i = 0; i < comparison_.rows.size(); ++i) {
+            report::Row& row = comparison_.rows[i];
+            const std::string& text = request_.base.techniques[i];
+            const bool is_plan = !read_plan(text).is_technique; // no one search is to blame
+            if (!row.lookup || is_plan) continue;
+            request_.watcher.row("causes of " + text, i, comparison_.rows.size());
+            row.causes = causes_of(text, row);
+            tell();
+        }
     }
 
     void add_lag() {
@@ -236,9 +318,13 @@ private:
     Session session_;          ///< of all rows
     std::size_t mirrors_ = 0;
     Truths truths_;
-    std::vector<std::uint32_t> hits_;
     std::optional<Oracle> oracle_;
+    int oracle_frame_ = 0; ///< of whose instant it speaks
     std::optional<CauseFinder> finder_;
+    std::vector<std::unique_ptr<RowRun>> runs_; ///< of rows, or of all together
+    std::vector<std::string> prefixes_;         ///< of the rows' passes
+    std::vector<std::vector<double>> clear_ms_; ///< by round
+    std::vector<std::vector<std::string>> row_warnings_;
     report::Comparison comparison_;
 };
 
@@ -258,6 +344,11 @@ void check_has_mirror(const scene::Scene& scene) {
           "material metallicFactor 1, roughnessFactor 0 and a white base colour in glTF, or illum "
           "3 and "
           "Ks 1 1 1 in an .mtl");
+}
+
+void check_rounds(int rounds) {
+    check(rounds >= static_cast<int>(measure::kFewest), Failure::usage, "rounds: wanted at least ",
+          measure::kFewest, ", fewer bound no median, found ", rounds);
 }
 
 void check_rows(const std::vector<std::string>& techniques) {

@@ -8,44 +8,25 @@ namespace catoptric::app {
 
 namespace {
 
+using Rounds = std::vector<std::vector<FrameTimes>>;
+
 template <typename Value>
-measure::Summary over_frames(const std::vector<FrameTimes>& frames, Value&& value) {
-    std::vector<double> samples;
-    for (const FrameTimes& frame : frames) samples.push_back(value(frame));
+measure::Summary over_frames(const Rounds& rounds, Value&& value) {
+    std::vector<std::vector<double>> samples;
+    for (const std::vector<FrameTimes>& round : rounds) {
+        samples.emplace_back();
+        for (const FrameTimes& frame : round) samples.back().push_back(value(frame));
+    }
     return measure::summarise(samples);
 }
 
-/// Times of the passes whose name begins with `prefix`, and of them together. Alone, the frame
-/// counts from its first to its last stamp.
-void fill_times(report::Row& row, const std::vector<FrameTimes>& frames,
-                const std::string& prefix) {
-    const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
-    row.gpu_ms = over_frames(frames, [&](const FrameTimes& frame) {
-        if (prefix.empty()) return frame.gpu_ms;
-        double sum = 0;
-        for (const PassTime& pass : frame.passes) sum += mine(pass) ? pass.ms() : 0;
-        return sum;
-    });
-    row.wait_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.wait_ms; });
-    row.cpu_record_ms = over_frames(frames,
-                                    [](const FrameTimes& frame) { return frame.record_ms; });
-    row.wall_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.wall_ms; });
-    row.closure = over_frames(
-        frames, [](const FrameTimes& frame) { return frame.passes_ms() / frame.wall_ms; });
-    row.host_ms = over_frames(frames, [](const FrameTimes& frame) { return frame.host.sum(); });
-    row.frame_ms = over_frames(frames, [&](const FrameTimes& frame) { return frame.frame_ms(); });
+report::HostParts host_parts(const Rounds& rounds) {
     const auto part = [&](double HostTimes::*which) {
-        return over_frames(frames, [&](const FrameTimes& frame) { return frame.host.*which; })
+        return over_frames(rounds, [&](const FrameTimes& frame) { return frame.host.*which; })
             .median;
     };
-    row.host_parts = {part(&HostTimes::update), part(&HostTimes::hierarchy),
-                      part(&HostTimes::compile), part(&HostTimes::record)};
-    const std::vector<PassTime>& passes = frames.front().passes;
-    for (std::size_t i = 0; i < passes.size(); ++i)
-        if (mine(passes[i]))
-            row.passes.push_back({passes[i].name, over_frames(frames, [&](const FrameTimes& frame) {
-                                      return frame.passes[i].ms();
-                                  })});
+    return {part(&HostTimes::update), part(&HostTimes::hierarchy), part(&HostTimes::compile),
+            part(&HostTimes::record)};
 }
 
 /// Whether a picture shows nothing in its mirrors, but for pixels at their outlines, where the
@@ -68,6 +49,8 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
 
 void fill_errors(report::Row& row, const Part& part, const Part& truth,
                  const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
+    row.hdr = part.hdr;
+    row.display = part.display;
     row.flip_map = measure::flip(part.display, truth.display);
     const auto against = [&](const measure::Mask& mask) {
         return measure::difference(part.hdr, truth.hdr, mask, row.flip_map);
@@ -77,6 +60,7 @@ void fill_errors(report::Row& row, const Part& part, const Part& truth,
     row.error_mirror_in_mirror = against(measure::mirror_in_mirror(hits));
     row.error_non_mirror = against(measure::non_mirror(hits));
     row.error_all = against(measure::all_pixels(hits));
+    row.error_per_mirror.clear();
     for (std::size_t i = 0; i < mirrors; ++i)
         row.error_per_mirror.push_back(against(measure::of_mirror(hits, MirrorId::at(i))));
     row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
@@ -84,8 +68,7 @@ void fill_errors(report::Row& row, const Part& part, const Part& truth,
     row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);
 }
 
-report::Row make_row(const std::string& text, const Part& part,
-                     const std::vector<FrameTimes>& frames) {
+report::Row make_row(const std::string& text, const Part& part) {
     const TechniqueChoice choice = parse_technique(text);
     report::Row row;
     row.technique = choice.technique;
@@ -101,10 +84,38 @@ report::Row make_row(const std::string& text, const Part& part,
     row.traced_fraction = part.traced_fraction;
     if (part.auto_face)
         row.auto_face = report::AutoFace{part.auto_face->edge, part.auto_face->needs};
-    row.hdr = part.hdr;
-    row.display = part.display;
-    fill_times(row, frames, part.prefix);
     return row;
+}
+
+/// Alone, a frame counts from its first to its last stamp.
+void fill_times(report::Row& row, const Rounds& rounds, const std::string& prefix,
+                bool on_processor) {
+    const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
+    row.gpu_ms = over_frames(rounds, [&](const FrameTimes& frame) {
+        if (prefix.empty()) return frame.gpu_ms;
+        double sum = 0;
+        for (const PassTime& pass : frame.passes) sum += mine(pass) ? pass.ms() : 0;
+        return sum;
+    });
+    const auto summary = [&](double FrameTimes::*which) {
+        return over_frames(rounds, [&](const FrameTimes& frame) { return frame.*which; });
+    };
+    row.wait_ms = summary(&FrameTimes::wait_ms);
+    row.cpu_record_ms = summary(&FrameTimes::record_ms);
+    row.wall_ms = summary(&FrameTimes::wall_ms);
+    if (on_processor) row.cpu_ms = summary(&FrameTimes::cpu_ms);
+    row.closure = over_frames(
+        rounds, [](const FrameTimes& frame) { return frame.passes_ms() / frame.wall_ms; });
+    row.host_ms = over_frames(rounds, [](const FrameTimes& frame) { return frame.host.sum(); });
+    row.frame_ms = over_frames(rounds, [](const FrameTimes& frame) { return frame.frame_ms(); });
+    row.host_parts = host_parts(rounds);
+    row.passes.clear();
+    const std::vector<PassTime>& passes = rounds.front().front().passes;
+    for (std::size_t i = 0; i < passes.size(); ++i)
+        if (mine(passes[i]))
+            row.passes.push_back({passes[i].name, over_frames(rounds, [&](const FrameTimes& frame) {
+                                      return frame.passes[i].ms();
+                                  })});
 }
 
 } // namespace catoptric::app

@@ -10,11 +10,14 @@
 // What a comparison says of one row.
 namespace catoptric::app {
 
-/// What the row is, what it cost and its pictures. `frames`: the measured ones, of which the row's
-/// are the passes that bear its part's prefix. Errors are not in it.
-report::Row make_row(const std::string& text, const Part& part,
-                     const std::vector<FrameTimes>& frames);
-/// Its errors against the truth, over all masks. `hits`: of the same picture, see Part::hits.
+/// What the row is. What it cost, its picture and its errors are not in it.
+report::Row make_row(const std::string& text, const Part& part);
+/// What it cost, from the frames that were measured so far, round by round; the row's are the
+/// passes whose name begins with `prefix`. `on_processor`: the device is one.
+void fill_times(report::Row& row, const std::vector<std::vector<FrameTimes>>& rounds,
+                const std::string& prefix, bool on_processor);
+/// The picture of its last frame and the errors against the truth, over all masks. `hits`: of the
+/// same instant, see Part::hits.
 void fill_errors(report::Row& row, const Part& part, const Part& truth,
                  const std::vector<std::uint32_t>& hits, std::size_t mirrors);
 

@@ -1,5 +1,6 @@
 #include "app/run.hpp"
 
+#include "app/processor.hpp"
 #include "core/error.hpp"
 
 #include <utility>
@@ -15,13 +16,19 @@ Frames::Frames(Session& session, const Request& request) : session_(session), re
 
 bool Frames::next() {
     if (settled_ || number_ == request_.total()) return false;
+    if (aside_) session_.resume(std::move(*aside_));
+    aside_.reset();
     ++number_;
     FrameSpec spec = request_;
     spec.time = request_.instant(number_);
+    const double used_before = process_seconds();
     frame_ = session_.frame(spec);
     // The first measured frame is not to wait for those before it.
     if (number_ == request_.warmup) frame_->times();
-    if (number_ > request_.warmup) times_.push_back(frame_->times());
+    if (number_ > request_.warmup) {
+        times_.push_back(frame_->times());
+        times_.back().cpu_ms = 1e3 * (process_seconds() - used_before);
+    }
     if (request_.until_settled) {
         std::vector<std::byte> state = frame_->state();
         settled_ = state.empty() || state == state_;

@@ -39,9 +39,13 @@ public:
 
     /// Renders the next one; false after the last.
     bool next();
+    /// Other frames may follow in the session until the next call of `next`, which goes on as if
+    /// there had been none. What is not read of the last frame by then is lost.
+    void set_aside() { aside_.emplace(session_.set_aside()); }
     int number() const { return number_; } ///< of the frame that was rendered last, from 1
     const Frame& frame() const { return *frame_; }
     bool settled() const { return settled_; }
+    const std::vector<FrameTimes>& times() const { return times_; } ///< of the measured ones so far
     /// What there is after the frame that was rendered last.
     Result result() const;
 
@@ -51,6 +55,7 @@ private:
     int number_ = 0;
     bool settled_ = false;
     std::optional<Frame> frame_;
+    std::optional<Sequence> aside_;
     std::vector<FrameTimes> times_;
     std::vector<std::byte> state_; ///< of the frame before, with `until_settled`
 };

@@ -74,8 +74,21 @@ struct Session::Impl {
     std::optional<graph::Ticket> last;     ///< of the frame that was submitted last
     std::vector<std::uint64_t> read_by; ///< by copy of what is written: the last frame to read it
     std::size_t copy = 0;               ///< that frames read now
+    std::uint64_t units = 0;            ///< times that the scene's units on the device changed
     Counts counts;
 };
+
+struct Sequence::Impl {
+    graph::Leavings leavings;
+    std::vector<reflect::Plan> remembered;
+    std::vector<double> face_needs;
+    std::uint64_t units = 0; ///< in which distances were captured
+};
+
+Sequence::Sequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Sequence::Sequence(Sequence&&) noexcept = default;
+Sequence& Sequence::operator=(Sequence&&) noexcept = default;
+Sequence::~Sequence() = default;
 
 struct Frame::Impl {
     std::shared_ptr<Session::Impl> session;
@@ -98,7 +111,7 @@ struct Frame::Impl {
 
 double Session::Impl::stand(const FrameSpec& spec) {
     const Standing wanted{spec.time, spec.camera, spec.size, spec.ambient};
-    if (standing == wanted) return 0;
+    if (standing == wanted && resident->knows_face_needs()) return 0;
     // Another copy than frames on their way read.
     const std::size_t next = (copy + 1) % read_by.size();
     if (last && read_by[next] + read_by.size() > last->frame && read_by[next] > 0)
@@ -178,6 +191,7 @@ void Session::change(const scene::Edit& edit) {
                                                        self.read_by.size());
         self.runner.forget(); // waits for frames under way; captured distances were in other units
         self.resident = std::move(made);
+        ++self.units;
     }
     self.scene = std::move(edited);
     self.mirrors = mirror_names(self.scene);
@@ -188,6 +202,26 @@ void Session::forget() {
     impl_->runner.forget();
     impl_->resident->forget_face_needs();
     impl_->standing.reset();
+}
+
+Sequence Session::set_aside() {
+    Impl& self = *impl_;
+    auto sequence = std::make_unique<Sequence::Impl>(
+        Sequence::Impl{self.runner.set_aside(), std::exchange(self.remembered, {}),
+                       self.resident->face_needs(), self.units});
+    self.resident->forget_face_needs();
+    return Sequence(std::move(sequence));
+}
+
+void Session::resume(Sequence sequence) {
+    Impl& self = *impl_;
+    if (sequence.impl_->units != self.units) {
+        forget();
+        return;
+    }
+    self.runner.resume(std::move(sequence.impl_->leavings));
+    self.remembered = std::move(sequence.impl_->remembered);
+    self.resident->put_face_needs(std::move(sequence.impl_->face_needs));
 }
 
 std::string Session::plan(const FrameSpec& spec, PlanFormat format) {

@@ -69,6 +69,7 @@ struct FrameTimes {
     /// The host stood still for the device: for a place among the frames in flight, and until this
     /// one had ended. No work, and added to nothing.
     double wait_ms = 0;
+    double cpu_ms = 0; ///< of all the process's threads, while the frame was made and waited for
     HostTimes host;
     double passes_ms() const {
         double sum = 0;
@@ -159,6 +160,21 @@ struct Counts {
     std::uint64_t hierarchies_built = 0, hierarchies_refitted = 0;
 };
 
+/// Frames that followed one another in a session, set aside: what they have left for the next one.
+/// Only the session that gave it takes it back; the engine must outlive it.
+class Sequence {
+public:
+    Sequence(Sequence&&) noexcept;
+    Sequence& operator=(Sequence&&) noexcept;
+    ~Sequence();
+
+private:
+    friend class Session;
+    struct Impl;
+    explicit Sequence(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
 /// What a scene needed once, milliseconds of the host each.
 struct Setup {
     double upload_ms = 0;    ///< laid out for the device and written to it
@@ -189,6 +205,12 @@ public:
     void change(const scene::Edit& edit);
     /// A cut: the next frame begins without history.
     void forget();
+    /// A cut, after which `resume` can go on from here. Waits for what is in flight.
+    Sequence set_aside();
+    /// The next frame follows the last one of a sequence that was set aside; the one so far is
+    /// forgotten. Where the scene's units changed in between (see change) it begins without
+    /// history.
+    void resume(Sequence sequence);
     /// The plan of a frame that has a frame before it, written out.
     std::string plan(const FrameSpec& spec, PlanFormat format);
     /// A frame that clears the cubes of every mirror, 256 texels an edge, and draws nothing: what

@@ -1,5 +1,6 @@
 #include "app/truths.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace catoptric::app {
@@ -16,26 +17,32 @@ std::string reference_at(const std::string& reference, const std::string& sample
            "samples=" + samples;
 }
 
-Result Truths::rendered(const std::string& technique) const {
+Result Truths::rendered(const std::string& technique, int number) const {
     Request request = base_;
     request.techniques = {technique};
+    request.warmup = std::min(request.warmup, number - 1);
+    request.frames = number - request.warmup;
     return run(session_, request, watcher_);
 }
 
-const Truth& Truths::at(const std::string& samples) {
-    const auto found = truths_.find(samples);
+const Truth& Truths::at(const std::string& samples, int number) {
+    const std::pair key(samples, frame_of(number));
+    const auto found = truths_.find(key);
     if (found != truths_.end()) return found->second;
-    Result result = rendered(reference_at(reference_, samples));
+    Result result = rendered(reference_at(reference_, samples), key.second);
     Truth made{std::move(result.parts.front()), {}};
     for (const FrameTimes& frame : result.frames) made.gpu_ms.push_back(frame.gpu_ms);
-    return truths_.emplace(samples, std::move(made)).first->second;
+    return truths_.emplace(key, std::move(made)).first->second;
 }
 
-std::vector<std::uint32_t> Truths::hits() {
-    const std::vector<std::uint32_t>& known = at("1").part.hits;
+const std::vector<std::uint32_t>& Truths::hits(int number) {
+    const std::vector<std::uint32_t>& known = at("1", number).part.hits;
     if (!known.empty()) return known;
     // For a reference that traces no rays of its own.
-    return std::move(rendered("raytrace:depth=1").parts.front().hits);
+    std::vector<std::uint32_t>& traced = hits_[frame_of(number)];
+    if (traced.empty())
+        traced = std::move(rendered("raytrace:depth=1", frame_of(number)).parts.front().hits);
+    return traced;
 }
 
 } // namespace catoptric::app

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace catoptric::app {
@@ -20,7 +21,8 @@ std::string sample_count(const TechniqueChoice& choice);
 /// The text of the reference with `samples` set; text without that knob stays as it is.
 std::string reference_at(const std::string& reference, const std::string& samples);
 
-/// The reference of a comparison, rendered once for each sample count that is asked for.
+/// The reference of a comparison, rendered once for each sample count and instant that is asked
+/// for.
 class Truths {
 public:
     /// All must outlive this; `base` shows the session's scene.
@@ -28,19 +30,26 @@ public:
            const Watcher& watcher)
         : session_(session), base_(base), reference_(reference), watcher_(watcher) {}
 
-    /// Valid as long as this. Throws as the watcher does.
-    const Truth& at(const std::string& samples);
-    /// What one ray through each pixel centre meets: first mirror | second mirror << 16.
-    std::vector<std::uint32_t> hits();
+    /// Of a row's last frame. Valid as long as this. Throws as the watcher does.
+    const Truth& at(const std::string& samples) { return at(samples, base_.total()); }
+    /// Of its frame `number`, from 1.
+    const Truth& at(const std::string& samples, int number);
+    /// What one ray through each pixel centre meets: first mirror | second mirror << 16. Valid as
+    /// long as this.
+    const std::vector<std::uint32_t>& hits() { return hits(base_.total()); }
+    const std::vector<std::uint32_t>& hits(int number);
 
 private:
-    Result rendered(const std::string& technique) const;
+    /// The frame that stands for frame `number`: all of a still scene show the same.
+    int frame_of(int number) const { return base_.animate ? number : base_.total(); }
+    Result rendered(const std::string& technique, int number) const;
 
     Session& session_;
     const Request& base_;
     const std::string& reference_;
     const Watcher& watcher_;
-    std::map<std::string, Truth> truths_;
+    std::map<std::pair<std::string, int>, Truth> truths_; ///< by sample count and frame
+    std::map<int, std::vector<std::uint32_t>> hits_;      ///< by frame
 };
 
 } // namespace catoptric::app

@@ -4,8 +4,14 @@
 
 #include <functional>
 #include <map>
+#include <string>
+#include <utility>
 
 namespace catoptric::graph {
+
+/// What earlier frames have left for later ones, by the images' names. Taken out of a runner it can
+/// be given back to it; the device must outlive it.
+using Leavings = std::map<std::string, Kept>;
 
 /// The images of a runner that outlive frames, by their names.
 class KeptImages {
@@ -21,6 +27,8 @@ public:
     void advance(const Compiled& shape);
     /// All of it. Not while frames are in flight.
     void forget() { all_.clear(); }
+    Leavings take() { return std::exchange(all_, {}); }
+    void put(Leavings all) { all_ = std::move(all); }
     History history() const;
     /// Bytes that are taken of the device.
     std::uint64_t bytes() const;
@@ -30,7 +38,7 @@ private:
     Kept& provide(const ImageDesc& desc, Lifetime lifetime, const std::function<void()>& wait);
 
     gpu::Device& device_;
-    std::map<std::string, Kept> all_;
+    Leavings all_;
 };
 
 } // namespace catoptric::graph

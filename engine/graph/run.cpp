@@ -77,11 +77,26 @@ Runner::~Runner() {
     }
 }
 
-void Runner::forget() {
+/// No frame is under way any more, and none that has ended refers to what was kept.
+void Runner::let_go_of_kept() {
     finish_all();
     for (Slot& slot : slots_)
         if (slot.shape) slot.shape->kept.assign(slot.shape->kept.size(), nullptr);
+}
+
+void Runner::forget() {
+    let_go_of_kept();
     kept_.forget();
+}
+
+Leavings Runner::set_aside() {
+    let_go_of_kept();
+    return kept_.take();
+}
+
+void Runner::resume(Leavings leavings) {
+    let_go_of_kept();
+    kept_.put(std::move(leavings));
 }
 
 Limits Runner::limits() const {

@@ -31,6 +31,12 @@ public:
     /// Drops all that was kept of earlier frames: the next one is as the first. Waits for what is
     /// in flight.
     void forget();
+    /// All that was kept of earlier frames, taken away: the next frame is as the first. Waits for
+    /// what is in flight.
+    Leavings set_aside();
+    /// The next frame goes on from what was set aside; what is kept now is dropped. Waits for what
+    /// is in flight.
+    void resume(Leavings leavings);
     Limits limits() const;
     /// The plan of the graph's shape: found among those of the last 8 shapes, or made. Valid until
     /// 8 others were asked for. Throws what graph::plan throws.
@@ -70,6 +76,7 @@ private:
     void submit(Slot& slot, const Compiled& shape);
     void finish(Slot& slot);
     void finish_all();
+    void let_go_of_kept();
 
     gpu::Device& device_;
     Recorder recorder_;

@@ -122,8 +122,9 @@ struct Row : Errors {
     std::optional<AutoFace> auto_face;
     std::vector<Errors> views; ///< of Comparison::views, in their order; empty: none were drawn
     Mean mean, mean_clamped;
-    Picture hdr;                 ///< the last frame, linear
-    Picture display;             ///< the same as shown
+    int pictured = 0; ///< frame, from 1, that pictures and errors are of; later ones show the same
+    Picture hdr;      ///< linear
+    Picture display;  ///< the same as shown
     std::vector<float> flip_map; ///< against the reference, row-major
     std::string image;           ///< file name without folder and ending: "naive-bounces1"
     bool is_reference = false;   ///< same technique and settings as the reference

@@ -3,6 +3,8 @@
 #include "measure/judge.hpp"
 #include "measure/rows.hpp"
 
+#include <algorithm>
+
 namespace catoptric::measure {
 
 std::optional<ClearFinding> find_clears(const Comparison& comparison) {
@@ -15,9 +17,13 @@ std::optional<ClearFinding> find_clears(const Comparison& comparison) {
     const double clear = comparison.clear_ms->median;
     finding.clear_ms = clear;
     finding.gap = (one->time_ms().median + clear - two->time_ms().median) / two->time_ms().median;
+    std::vector<double> with_clear = one->time_ms().rounds;
+    const std::vector<double>& clears = comparison.clear_ms->rounds;
+    with_clear.resize(std::min(with_clear.size(), clears.size()));
+    for (std::size_t i = 0; i < with_clear.size(); ++i) with_clear[i] += clears[i];
     if (finding.one_is_slower)
         finding.verdict = Verdict::slower_without;
-    else if (!(one->time_ms().p05 + clear > two->time_ms().p95))
+    else if (!(ratio_interval(with_clear, two->time_ms().rounds).low > 1))
         finding.verdict = Verdict::too_little;
     return finding;
 }
@@ -55,7 +61,7 @@ std::optional<PriceFinding> find_price(const Comparison& comparison) {
     const Row* two = find_row(comparison, "reuse");
     const Row* three = find_parallax(comparison);
     if (two == nullptr || three == nullptr || !(two->time_ms().median > 0)) return {};
-    PriceFinding finding{two, three, is_tie(*two, *three)};
+    PriceFinding finding{two, three, is_tie(*two, *three), time_ratio(*three, *two)};
     finding.more = three->time_ms().median / two->time_ms().median - 1;
     if (three->memory_bytes > two->memory_bytes)
         finding.more_bytes = three->memory_bytes - two->memory_bytes;
@@ -66,7 +72,7 @@ std::optional<TracingFinding> find_tracing(const Comparison& comparison) {
     const Row* three = find_parallax(comparison);
     const Row* traced = find_ray_traced(comparison);
     if (three == nullptr || traced == nullptr || !(three->time_ms().median > 0)) return {};
-    return TracingFinding{three, traced, is_tie(*three, *traced),
+    return TracingFinding{three, traced, is_tie(*three, *traced), time_ratio(*traced, *three),
                           traced->time_ms().median / three->time_ms().median};
 }
 

@@ -52,6 +52,7 @@ std::optional<BounceFinding> find_bounces(const Comparison& comparison);
 struct PriceFinding {
     const Row *two, *three;
     bool tie = false;             ///< their times are not told apart
+    Interval ratio_ci95;          ///< of part three's time to part two's, round by round
     double more = 0;              ///< time, as a share of part two's; negative: less
     std::uint64_t more_bytes = 0; ///< of images; 0: no more
 };
@@ -61,6 +62,7 @@ std::optional<PriceFinding> find_price(const Comparison& comparison);
 struct TracingFinding {
     const Row *three, *traced;
     bool tie = false;
+    Interval ratio_ci95;
     double ratio = 1; ///< of their median times
 };
 std::optional<TracingFinding> find_tracing(const Comparison& comparison);

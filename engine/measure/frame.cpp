@@ -41,7 +41,7 @@ const Registered kGpuTime{{.name = "gpu_ms",
                            .help = "a frame on the device, first to last stamp",
                            .better = Better::less,
                            .order = 20,
-                           .columns = {{"ms", Style::times}, {"5–95 %", Style::time_range}},
+                           .columns = {{"ms", Style::times}, {"95 %", Style::time_interval}},
                            .get = [](const Row& row) -> Value { return row.gpu_ms; }}};
 const Registered kRecordTime{
     {.name = "cpu_record_ms",
@@ -58,6 +58,20 @@ const Registered kWallTime{{.name = "wall_ms",
                             .order = 22,
                             .columns = {{"wall ms", Style::times}},
                             .get = [](const Row& row) -> Value { return row.wall_ms; }}};
+const Registered kProcessorTime{
+    {.name = "cpu_ms",
+     .unit = "ms",
+     .help = "processor time of the whole process a frame; of devices that are processors",
+     .better = Better::less,
+     .order = 24,
+     .columns = {{.title = "cpu ms", .style = Style::times, .order = 22}},
+     .get = [](const Row& row) -> Value { return row.cpu_ms; }}};
+const Registered kNoisy{
+    {.name = "noisy",
+     .help = "its threads were ready but waited for a processor for more than 5 % of the time: "
+             "others were at work beside, and its times are not to be trusted",
+     .order = 29,
+     .get = [](const Row& row) -> Value { return row.noisy; }}};
 const Registered kPasses{{.name = "passes",
                           .unit = "ms",
                           .help = "each pass of the frame on the device, in order of execution",

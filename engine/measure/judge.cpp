@@ -32,21 +32,54 @@ bool judged(const Row* row) {
     return row != nullptr && !failed(*row) && std::isfinite(row->error.rmse);
 }
 
-Candidate candidate_of(const Row& row) {
-    if (failed(row)) return {NAN, NAN, NAN, NAN};
-    return {row.time_ms().median, row.time_ms().p05, row.time_ms().p95, row.error.flip};
+namespace {
+
+/// It has what a choice is made by.
+bool is_choice(const Row& row) {
+    return judged(&row) && !std::isnan(row.error.flip) && row.time_ms().median > 0;
 }
 
-bool beats(const Row& a, const Row& b) { return beats(candidate_of(a), candidate_of(b)); }
+} // namespace
 
-bool is_faster(const Row& a, const Row& b) { return a.time_ms().p95 < b.time_ms().p05; }
+Interval time_ratio(const Row& a, const Row& b) {
+    return ratio_interval(a.time_ms().rounds, b.time_ms().rounds);
+}
+
+bool is_faster(const Row& a, const Row& b) { return time_ratio(a, b).high < 1; }
 
 bool is_tie(const Row& a, const Row& b) { return !is_faster(a, b) && !is_faster(b, a); }
 
+bool is_closer(const Row& a, const Row& b) { return a.error.flip < b.error.flip; }
+
+bool beats(const Row& a, const Row& b) {
+    if (!is_choice(a) || !is_choice(b)) return false;
+    return (is_faster(a, b) && !is_closer(b, a)) || (is_closer(a, b) && !is_faster(b, a));
+}
+
 std::vector<std::size_t> front_of(const std::vector<Row>& rows) {
-    std::vector<Candidate> candidates;
-    for (const Row& row : rows) candidates.push_back(candidate_of(row));
-    return pareto_front(candidates);
+    std::vector<std::size_t> front;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (is_choice(rows[i]) &&
+            std::ranges::none_of(rows, [&](const Row& other) { return beats(other, rows[i]); }))
+            front.push_back(i);
+    std::ranges::stable_sort(front, {}, [&](std::size_t i) { return rows[i].time_ms().median; });
+    return front;
+}
+
+Places places_in_time(const Comparison& comparison, const Row& row) {
+    Places places{1, comparison.rows.size()};
+    for (const Row& other : comparison.rows) {
+        places.first += is_faster(other, row);
+        places.last -= is_faster(row, other);
+    }
+    return places;
+}
+
+std::vector<const Row*> noisy_rows(const Comparison& comparison) {
+    std::vector<const Row*> noisy;
+    for (const Row& row : comparison.rows)
+        if (row.noisy) noisy.push_back(&row);
+    return noisy;
 }
 
 bool on_front(const Comparison& comparison, const Row& row) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "measure/comparison.hpp"
-#include "measure/pareto.hpp"
 
 #include <vector>
 
@@ -12,19 +11,34 @@ namespace catoptric::measure {
 bool failed(const Row& row);
 /// Its error over the mirrors is known.
 bool judged(const Row* row);
-/// What the row is judged by: its median time with the band from the 5th to the 95th percentile,
-/// and its FLIP over the mirrors. All NaN where it failed.
-Candidate candidate_of(const Row& row);
-/// See beats of two candidates: no row beats another where their bands of time overlap and it is
-/// not closer.
-bool beats(const Row& a, const Row& b);
-/// Whether the bands of two rows' times do not overlap.
+/// Of the ratio of two rows' times, round by round: the rows are apart in time where it excludes 1.
+/// Unknown where they have too few rounds in common.
+Interval time_ratio(const Row& a, const Row& b);
+/// Whether a takes less time, and they are apart.
 bool is_faster(const Row& a, const Row& b);
 /// Neither is faster.
 bool is_tie(const Row& a, const Row& b);
+/// Whether a has less FLIP over the mirrors; where errors are known over views, whether the
+/// interval of the difference says so.
+bool is_closer(const Row& a, const Row& b);
+/// Whether a is the better choice: faster and not farther off, or closer and not slower. A row that
+/// is not judged or took no time beats nobody and is beaten by nobody.
+bool beats(const Row& a, const Row& b);
 
-/// Indices of the rows that no other row beats, in order of time: Comparison::pareto.
+/// Indices of the rows that no other row beats, in order of time, then index: Comparison::pareto.
+/// Rows that tie stay on it together. Costs O(n^2).
 std::vector<std::size_t> front_of(const std::vector<Row>& rows);
+
+/// Places in the order of time, from 1: one more than the rows that are faster, to the rows that
+/// it is not faster than. Rows that tie share a place.
+struct Places {
+    std::size_t first = 1, last = 1;
+};
+Places places_in_time(const Comparison& comparison, const Row& row);
+
+/// The rows whose threads waited for a processor: others were at work beside.
+std::vector<const Row*> noisy_rows(const Comparison& comparison);
+
 bool on_front(const Comparison& comparison, const Row& row);
 
 /// Rows that no other is faster than, mirrors drawn: one, or several that are not told apart.

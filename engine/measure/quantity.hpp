@@ -38,12 +38,12 @@ enum class Better : std::uint8_t { neither, less, more };
 
 /// How a value reads in a table's cell.
 enum class Style : std::uint8_t {
-    fixed,      ///< so many decimals
-    error,      ///< four decimals, a power of ten where that is 0
-    times,      ///< the median, at the decimals of the whole table
-    own_times,  ///< the median at three digits
-    time_range, ///< 5th to 95th percentile
-    percent,    ///< of a share, so many decimals
+    fixed,         ///< so many decimals
+    error,         ///< four decimals, a power of ten where that is 0
+    times,         ///< the median, at the decimals of the whole table
+    own_times,     ///< the median at three digits
+    time_interval, ///< of the median, with 95 % confidence
+    percent,       ///< of a share, so many decimals
     mebibytes,
 };
 enum class InTable : std::uint8_t { rows, lookup };

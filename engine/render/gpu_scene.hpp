@@ -48,6 +48,9 @@ public:
     const std::vector<double>& face_needs() const { return face_needs_; }
     /// They are found anew at the next update.
     void forget_face_needs() { face_needs_.clear(); }
+    bool knows_face_needs() const { return face_needs_.size() == mirror_objects_.size(); }
+    /// Those of another sequence of frames, in place of the ones found so far.
+    void put_face_needs(std::vector<double> needs) { face_needs_ = std::move(needs); }
     /// One edge for all: the largest need, as far as the device allows.
     std::uint32_t common_face() const;
     /// Cubes that the device keeps in one array.

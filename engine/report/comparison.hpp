@@ -11,6 +11,7 @@ using measure::Cause;
 using measure::Causes;
 using measure::Comparison;
 using measure::DeviceFacts;
+using measure::HostParts;
 using measure::Lag;
 using measure::LagAtSpeed;
 using measure::LagRow;

@@ -76,6 +76,9 @@ struct Adds {
         line.add(name + "_p95", times.p95);
         line.add(name + "_mad", times.mad);
         line.add(name + "_n", times.n);
+        line.add(name + "_ci95_low", times.ci95.low);
+        line.add(name + "_ci95_high", times.ci95.high);
+        line.add(name + "_rounds", list_text(times.rounds));
         line.add(name + "_samples", list_text(times.samples));
     }
     void operator()(const std::vector<double>& list) const { line.add(name, list_text(list)); }
@@ -143,6 +146,9 @@ void add_identity(Line& line, const Comparison& comparison, const Row& row) {
     line.add("exposure", comparison.exposure);
     line.add("frames", comparison.frames);
     line.add("warmup", comparison.warmup);
+    line.add("rounds", comparison.rounds);
+    line.add("load_start", comparison.load_start);
+    line.add("load_end", comparison.load_end);
     line.add("timing", comparison.timing);
     line.add("together", int{comparison.together});
     line.add("reference", comparison.reference_label);

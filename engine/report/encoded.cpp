@@ -15,13 +15,15 @@ std::string png_of(const measure::Picture& display) {
 
 void encode_new(EncodedPictures& pictures, const Comparison& comparison) {
     if (pictures.reference.empty()) pictures.reference = png_of(comparison.reference_display);
-    for (std::size_t i = pictures.rows.size(); i < comparison.rows.size(); ++i) {
+    pictures.rows.resize(comparison.rows.size());
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
+        if (pictures.rows[i].pictured == row.pictured) continue;
         const bool has_map = !row.flip_map.empty();
-        pictures.rows.push_back(
-            {png_of(row.display),
-             has_map ? png_of(measure::heat(row.flip_map, row.display.width, row.display.height))
-                     : std::string()});
+        pictures.rows[i] = {
+            row.pictured, png_of(row.display),
+            has_map ? png_of(measure::heat(row.flip_map, row.display.width, row.display.height))
+                    : std::string()};
     }
 }
 

@@ -7,9 +7,11 @@
 
 namespace catoptric::report {
 
-/// The pictures of a comparison as PNG, each encoded once however often the page is written.
+/// The pictures of a comparison as PNG, each encoded once however often the page is
+/// written.
 struct EncodedPictures {
     struct OfRow {
+        int pictured = -1;   ///< Row::pictured of the row that it was encoded from
         std::string picture; ///< as shown
         std::string error;   ///< heat map of its FLIP error; empty: it has none
     };
@@ -17,7 +19,7 @@ struct EncodedPictures {
     std::vector<OfRow> rows;
 };
 
-/// Encodes what has come since the last time: rows are only ever added.
+/// Encodes what has come since the last time: rows are added, and show a later frame.
 void encode_new(EncodedPictures& pictures, const Comparison& comparison);
 
 /// report.html with these pictures.

@@ -47,9 +47,13 @@ std::vector<Fact> facts(const Comparison& comparison) {
          fmt::format("{}x{}, {}", comparison.width, comparison.height, settings_of(comparison))},
         {"Device", device_text(comparison.device)},
         {"Driver", comparison.device.driver + ", " + comparison.device.api},
-        {"Timing", fmt::format("{}{}, {} frames after {} of warm-up", comparison.timing,
-                               comparison.together ? ", all rows in one command buffer" : "",
-                               comparison.frames, comparison.warmup)},
+        {"Timing",
+         fmt::format("{}{}, {} frames in {} rounds, one row after another, after {} of warm-up",
+                     comparison.timing,
+                     comparison.together ? ", all rows in one command buffer" : "",
+                     comparison.frames, comparison.rounds, comparison.warmup)},
+        {"Load", fmt::format("{} runnable threads at the start, {} at the end",
+                             fixed(comparison.load_start, 2), fixed(comparison.load_end, 2))},
         {"Reference",
          comparison.reference_label + ", " + ms_text(comparison.reference_gpu_ms.median) + " ms"},
         {"Program", fmt::format("catoptric {}, commit {}", comparison.version, comparison.commit)},
@@ -65,6 +69,14 @@ std::vector<std::string> cautions(const Comparison& comparison) {
             "This device is a processor: \"GPU time\" here is processor time of its "
             "software driver, and what it says of speed holds for such a device, not for "
             "a graphics card.");
+    if (const std::vector<const Row*> noisy = measure::noisy_rows(comparison); !noisy.empty()) {
+        std::vector<std::string> labels;
+        for (const Row* row : noisy) labels.push_back(row->label);
+        list.push_back(
+            fmt::format("Noisy: {} of {} rows had to wait for a processor, others were at work "
+                        "beside, and these times are not to be trusted: {}.",
+                        noisy.size(), comparison.rows.size(), joined(labels, ", ")));
+    }
     if (comparison.together)
         list.push_back("All rows ran in one command buffer: a row's ms is the sum of its passes.");
     for (const Row& row : comparison.rows)

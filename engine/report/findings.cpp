@@ -24,7 +24,13 @@ std::string both_times(const Row& a, const Row& b) {
     return ms_text(a.time_ms().median) + " against " + ms_text(b.time_ms().median) + " ms";
 }
 /// Where no more can be said.
-constexpr const char* kTie = ": their bands overlap, they are not told apart";
+constexpr const char* kTie = ": round by round neither is the faster, they are not told apart";
+
+/// " (95 %: 1.10 to 1.25)"; empty where it is not known.
+std::string interval_text(const measure::Interval& ratio) {
+    if (!ratio.is_known()) return "";
+    return fmt::format(" (95 %: {:.3g} to {:.3g})", ratio.low, ratio.high);
+}
 
 std::string clear_verdict(const measure::ClearFinding& finding) {
     using Verdict = measure::ClearFinding::Verdict;
@@ -116,7 +122,8 @@ Sentence price_of_correction(const Comparison& comparison) {
         text += "as long as part two (" + times + kTie + ")";
     else
         text += percent(std::abs(finding->more)) + (finding->more < 0 ? " less" : " more") +
-                " time than part two (" + times + ")";
+                " time than part two (" + times + "), " + ms_text(1 + finding->more) +
+                " times as much" + interval_text(finding->ratio_ci95);
     if (finding->more_bytes > 0)
         text += fmt::format(" and {} MiB more memory for the distances",
                             mebibytes(finding->more_bytes));
@@ -137,7 +144,8 @@ Sentence ray_tracing(const Comparison& comparison) {
     if (finding->tie)
         text += "as long as " + three.label + " (" + times + kTie + ")";
     else
-        text += ms_text(finding->ratio) + " times as long as " + three.label + " (" + times + ")";
+        text += ms_text(finding->ratio) + " times as long" + interval_text(finding->ratio_ci95) +
+                " as " + three.label + " (" + times + ")";
     return text + ".";
 }
 

@@ -47,9 +47,9 @@ std::vector<std::string> front_in_words(const Comparison& comparison) {
     if (standing.front.empty()) return {"No row could be judged, so there is no front."};
     std::vector<std::string> words{
         "On the front, by median time: " + figures_of(standing.front) +
-        ". A row beats another where it is faster (their bands from the 5th to the 95th percentile "
-        "do not "
-        "overlap) and no farther off, or closer and not slower; bands that overlap are a tie."};
+        ". A row beats another where it is faster (the ratio of their times, round by round, is "
+        "below 1 with 95 % confidence) and no farther off, or closer and not slower. Where that "
+        "interval holds 1, or is not known, times are a tie."};
     for (const auto& [winner, losers] : standing.wins)
         words.push_back(winner->label + " beats " + figures_of(losers) + ".");
     if (!standing.beaten_by_beaten.empty())

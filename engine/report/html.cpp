@@ -126,7 +126,8 @@ std::string article(const Comparison& comparison, const EncodedPictures& encoded
                                    html_escaped(row.label));
     for (const auto& [holds, name] :
          {std::pair(measure::on_front(comparison, row), "on the front"),
-          std::pair(row.is_reference, "the reference"), std::pair(measure::failed(row), "failed")})
+          std::pair(row.is_reference, "the reference"), std::pair(measure::failed(row), "failed"),
+          std::pair(row.noisy, "noisy")})
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
     html += "</div><div class=\"pair\">" +
             figure(row.display, encoded.rows[index].picture, "Picture by " + row.label, "Picture") +

@@ -19,16 +19,24 @@ Json number(double value) {
 
 namespace {
 
+Json list_json(const std::vector<double>& list) {
+    Json json = Json::array();
+    for (const double value : list) json.push_back(number(value));
+    return json;
+}
+
 Json to_json(const measure::Summary& summary) {
     if (summary.n == 0) return nullptr; // never measured
-    Json samples = Json::array();
-    for (const double sample : summary.samples) samples.push_back(number(sample));
     return {{"median", number(summary.median)},
             {"p05", number(summary.p05)},
             {"p95", number(summary.p95)},
             {"mad", number(summary.mad)},
+            {"ci95", summary.ci95.is_known()
+                         ? Json::array({number(summary.ci95.low), number(summary.ci95.high)})
+                         : Json(nullptr)},
+            {"rounds", list_json(summary.rounds)},
             {"n", summary.n},
-            {"samples", std::move(samples)}};
+            {"samples", list_json(summary.samples)}};
 }
 
 Json to_json(const std::vector<measure::Parts>& list) {
@@ -52,11 +60,7 @@ struct Writes {
         return place.x < 0 ? Json(nullptr) : Json::array({place.x, place.y});
     }
     Json operator()(const measure::Summary& times) const { return to_json(times); }
-    Json operator()(const std::vector<double>& list) const {
-        Json json = Json::array();
-        for (const double value : list) json.push_back(number(value));
-        return json;
-    }
+    Json operator()(const std::vector<double>& list) const { return list_json(list); }
     Json operator()(const std::vector<measure::Parts>& list) const { return to_json(list); }
 };
 
@@ -178,7 +182,9 @@ void add_circumstances(Json& json, const Comparison& comparison) {
     json["size"] = Json::array({comparison.width, comparison.height});
     json["frames"] = comparison.frames;
     json["warmup"] = comparison.warmup;
+    json["rounds"] = comparison.rounds;
     json["timing"] = comparison.timing;
+    json["load"] = Json::array({number(comparison.load_start), number(comparison.load_end)});
     json["time"] = number(comparison.time);
     json["ambient"] = number(comparison.ambient);
     json["exposure"] = number(comparison.exposure);

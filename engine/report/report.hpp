@@ -39,7 +39,7 @@ private:
     std::filesystem::path folder_;
     EncodedPictures pictures_;
     bool has_reference_ = false; ///< its picture is there
-    std::size_t rows_ = 0;       ///< whose pictures are there
+    std::vector<int> written_;   ///< Row::pictured of the pictures that lie there, by row
 };
 
 /// The files that a writer of rows with these `Row::image`s puts into its folder, relative to it.

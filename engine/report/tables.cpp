@@ -15,8 +15,16 @@ namespace {
 
 std::string nothing() { return std::string(kNothing); }
 
-std::string range_text(const measure::Summary& times, int decimals) {
-    return fixed(times.p05, decimals) + "–" + fixed(times.p95, decimals);
+/// Of the median.
+std::string interval_text(const measure::Summary& times, int decimals) {
+    if (!times.ci95.is_known()) return nothing();
+    return fixed(times.ci95.low, decimals) + "–" + fixed(times.ci95.high, decimals);
+}
+
+/// "3" or "3–5".
+std::string places_text(const measure::Places& places) {
+    const std::string first = std::to_string(places.first);
+    return places.first == places.last ? first : first + "–" + std::to_string(places.last);
 }
 
 const Row* ours(const Comparison& comparison, const measure::SeedRow& seed) {
@@ -34,12 +42,13 @@ std::vector<std::string> theirs(const measure::SeedRow& seed) {
             fixed(seed.fps, seed.fps < 20 ? 1 : 0), fixed(seed.ms, 1)};
 }
 
-std::vector<std::string> measured(const Row& row, int decimals) {
+std::vector<std::string> measured(const Comparison& comparison, const Row& row, int decimals) {
     return {row.label,
             std::to_string(row.scene_passes),
             std::to_string(row.scene_draws),
             fixed(row.time_ms().median, decimals),
-            range_text(row.time_ms(), decimals),
+            interval_text(row.time_ms(), decimals),
+            places_text(measure::places_in_time(comparison, row)),
             fps_text(row.time_ms().median),
             error_text(row.error.rmse),
             error_text(row.error.flip),
@@ -52,8 +61,8 @@ std::string seed_note(const Comparison& comparison) {
         "formula "
         "for four mirrors. Right: this run; R counted in the executed plan, a cube counted once, "
         "draws "
-        "with every face; ms the median and the 5th to 95th percentile; FPS = 1000 / ms; rmse and "
-        "FLIP "
+        "with every face; ms the median of the rounds' medians and its 95 % interval; place: from "
+        "the fastest, rows that tie share one; FPS = 1000 / ms; rmse and FLIP "
         "against the reference over the pixels whose first hit is a mirror; first order leaves out "
         "mirrors seen in mirrors.";
     if (comparison.scene.mirrors != measure::kSeedMirrors)
@@ -67,6 +76,7 @@ std::string remark(const Comparison& comparison, const Row& row) {
     if (measure::failed(row)) remarks.push_back("failed");
     if (row.is_reference) remarks.push_back("reference");
     if (measure::on_front(comparison, row)) remarks.push_back("front");
+    if (row.noisy) remarks.push_back("noisy");
     if (row.model != "everything") remarks.push_back("model " + row.model);
     return joined(remarks, ", ");
 }
@@ -76,7 +86,7 @@ std::string cell(const measure::Column& column, const measure::Value& value, int
     using measure::Style;
     if (measure::is_nothing(value)) return nothing();
     if (const auto* times = std::get_if<measure::Summary>(&value)) {
-        if (column.style == Style::time_range) return range_text(*times, decimals);
+        if (column.style == Style::time_interval) return interval_text(*times, decimals);
         return column.style == Style::times ? fixed(times->median, decimals)
                                             : ms_text(times->median);
     }
@@ -160,7 +170,8 @@ Table seed_table(const Comparison& comparison) {
                  {"R"},
                  {"Draws"},
                  {"ms"},
-                 {"5–95 %"},
+                 {"95 %"},
+                 {"Place"},
                  {"FPS"},
                  {"rmse"},
                  {"FLIP"},
@@ -173,7 +184,7 @@ Table seed_table(const Comparison& comparison) {
         std::vector<std::string> cells = theirs(seed);
         const Row* row = ours(comparison, seed);
         std::vector<std::string> right{"not in this run"};
-        if (row != nullptr) right = measured(*row, decimals);
+        if (row != nullptr) right = measured(comparison, *row, decimals);
         right.resize(table.columns.size() - cells.size(), nothing());
         cells.insert(cells.end(), right.begin(), right.end());
         table.rows.push_back(std::move(cells));
@@ -183,18 +194,22 @@ Table seed_table(const Comparison& comparison) {
 
 Table rows_table(const Comparison& comparison) {
     Table table{"Every row",
-                {{"Row", false}},
+                {{"Row", false}, {"Place"}},
                 {},
                 {},
-                "A row's name leaves out knobs that nobody set. Without another word, errors "
+                "A row's name leaves out knobs that nobody set. Place: in the order of time, from "
+                "the fastest; rows that tie share one. Without another word, errors "
                 "are over the pixels whose first hit is a mirror. wall: submit to fence; "
-                "record: filling the command buffer; MiB: the frame's images."};
+                "cpu: of all the process's threads; record: filling the command buffer; MiB: the "
+                "frame's images."};
     const std::vector<FigureColumn> columns = figure_columns(measure::InTable::rows);
     add_columns(table, columns);
     table.columns.push_back({"Remark", false});
     const int decimals = ms_decimals(comparison);
     for (const Row& row : comparison.rows) {
         table.rows.push_back(cells_of(row, columns, decimals));
+        table.rows.back().insert(table.rows.back().begin() + 1,
+                                 places_text(measure::places_in_time(comparison, row)));
         table.rows.back().push_back(remark(comparison, row));
         table.marked.push_back(measure::on_front(comparison, row));
     }

@@ -22,12 +22,14 @@ void Writer::write_pictures(const Comparison& comparison) {
         write_file(images / "reference.png", pictures_.reference);
         has_reference_ = true;
     }
-    for (; rows_ < comparison.rows.size(); ++rows_) {
-        const Row& row = comparison.rows[rows_];
-        if (row.hdr.pixels.empty()) continue;
+    written_.resize(comparison.rows.size(), -1);
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        const Row& row = comparison.rows[i];
+        if (row.hdr.pixels.empty() || written_[i] == row.pictured) continue;
         measure::write_exr(row.hdr, images / (row.image + ".exr"));
-        write_file(images / (row.image + ".png"), pictures_.rows[rows_].picture);
-        write_file(images / (row.image + "-error.png"), pictures_.rows[rows_].error);
+        write_file(images / (row.image + ".png"), pictures_.rows[i].picture);
+        write_file(images / (row.image + "-error.png"), pictures_.rows[i].error);
+        written_[i] = row.pictured;
     }
 }
 

@@ -2,13 +2,17 @@
 #include "app/compare.hpp"
 
 #include "core/error.hpp"
+#include "measure/judge.hpp"
 #include "options.hpp"
+#include "parse.hpp"
 #include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
 #include "scene/load.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
+
+#include <fmt/format.h>
 
 #include <memory>
 
@@ -29,7 +33,8 @@ struct Options {
     std::string folder;
     std::vector<std::string> techniques;
     bool together = false;
-    bool no_causes = false;
+    int rounds = app::kRounds;
+    bool causes = false;
     bool lag = false;
     std::vector<std::string> command;
 };
@@ -50,7 +55,8 @@ app::CompareRequest make_compare_request(const Options& options) {
     request.base.techniques = options.techniques;
     request.reference = options.common.reference;
     request.together = options.together;
-    request.causes = !options.no_causes;
+    request.rounds = options.rounds;
+    request.causes = options.causes;
     request.lag = options.lag;
     request.command = options.command;
     return request;
@@ -80,6 +86,10 @@ std::vector<std::string> broken_rows(const report::Comparison& comparison) {
 void show(const Options& options, const report::Comparison& comparison) {
     const Manners& manners = options.common.manners;
     for (const std::string& warning : comparison.warnings) detail(manners, "warning: " + warning);
+    if (const auto noisy = measure::noisy_rows(comparison); !noisy.empty())
+        note(manners, fmt::format("{} of {} rows had to wait for a processor: others were at work "
+                                  "beside, and their times are not to be trusted",
+                                  noisy.size(), comparison.rows.size()));
     put(manners.json ? report::to_json(comparison) : compare_table(comparison));
     if (!comparison.stopped) note(manners, "written: " + options.folder);
 }
@@ -139,8 +149,13 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
         "(the default list)",
         options->techniques);
     verb.flag("--together", "all rows in one command buffer, on one timeline", options->together);
-    verb.flag("--no-causes", "leave out the split of each row's error by cause",
-              options->no_causes);
+    verb.option("--rounds", "N",
+                "rounds in which the frames are measured, row after row in each; at least 6 (6)",
+                [options](const std::string& text) {
+                    options->rounds = static_cast<int>(parse_whole("--rounds", text, app::kRounds, 10000));
+                });
+    verb.flag("--causes", "split each row's error by cause: 32 pictures more a row",
+              options->causes);
     verb.flag("--lag",
               "also how far the rows that read last frame's captures are behind a moving "
               "scene: about 2300 frames a row",

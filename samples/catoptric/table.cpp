@@ -1,6 +1,7 @@
 #include "table.hpp"
 
 #include "core/text.hpp"
+#include "measure/judge.hpp"
 
 #include <fmt/format.h>
 
@@ -19,7 +20,8 @@ std::string figure(double value) {
 }
 
 std::string spread(const measure::Summary& ms) {
-    return fmt::format("[{} - {}]", milliseconds(ms.p05), milliseconds(ms.p95));
+    if (!ms.ci95.is_known()) return "-";
+    return fmt::format("[{} - {}]", milliseconds(ms.ci95.low), milliseconds(ms.ci95.high));
 }
 
 } // namespace
@@ -44,15 +46,22 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
 
 std::string compare_table(const report::Comparison& comparison) {
     std::vector<std::vector<std::string>> rows{
-        {"technique", "R", "ms", "[p05 - p95]", "rmse", "flip", "mean"}};
-    for (const report::Row& row : comparison.rows)
+        {"technique", "R", "ms", "[95 %]", "place", "flip", "off", "mae", "rmse", "mean"}};
+    for (const report::Row& row : comparison.rows) {
+        const measure::Places places = measure::places_in_time(comparison, row);
         rows.push_back({row.label, std::to_string(row.scene_passes),
-                        milliseconds(row.gpu_ms.median), spread(row.gpu_ms), figure(row.error.rmse),
-                        figure(row.error.flip), figure(row.mean_clamped.all)});
-    return fmt::format("{} {}x{}, {} frames after {}, {}; errors on mirrors, against {}\n",
+                        milliseconds(row.gpu_ms.median), spread(row.gpu_ms),
+                        places.first == places.last
+                            ? std::to_string(places.first)
+                            : fmt::format("{}-{}", places.first, places.last),
+                        figure(row.error.flip), figure(row.error.off), figure(row.error.mae),
+                        figure(row.error.rmse), figure(row.mean_clamped.all)});
+    }
+    return fmt::format("{} {}x{}, {} frames in {} rounds after {}, {}; errors on mirrors, against "
+                       "{}\n",
                        printable(comparison.scene.name), comparison.width, comparison.height,
-                       comparison.frames, comparison.warmup, comparison.device.name,
-                       comparison.reference_label) +
+                       comparison.frames, comparison.rounds, comparison.warmup,
+                       comparison.device.name, comparison.reference_label) +
            aligned(rows);
 }
 

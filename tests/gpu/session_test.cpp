@@ -109,6 +109,46 @@ TEST(Session, KeepsHistoryOverAChangeAndForgetsItAtACut) {
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), first));
 }
 
+/// Sequences that take turns in a session show what each shows alone.
+TEST(Session, ASequenceThatWasSetAsideGoesOn) {
+    const scene::Scene scene = test::room(3, 1);
+    app::Session session(test::engine(), scene), alone(test::engine(), scene);
+    const std::string techniques[] = {"reuse:face=16", "reuse:face=auto", "raytrace"};
+    std::vector<app::Sequence> aside;
+    for (int k = 1; k <= 4; ++k)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const app::FrameSpec spec = spec_of(scene, techniques[i]);
+            if (k > 1) session.resume(std::move(aside[i]));
+            const measure::Picture found = session.frame(spec).hdr();
+            if (k > 1)
+                aside[i] = session.set_aside();
+            else
+                aside.push_back(session.set_aside());
+            alone.forget();
+            measure::Picture wanted;
+            for (int frame = 1; frame <= k; ++frame) wanted = alone.frame(spec).hdr();
+            EXPECT_TRUE(test::same_bytes(found, wanted)) << techniques[i] << ", frame " << k;
+        }
+    const app::FrameSpec spec = spec_of(scene, techniques[0]);
+    alone.forget();
+    EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), alone.frame(spec).hdr()))
+        << "without one that goes on, a frame begins anew";
+}
+
+/// What was captured in other units is no history.
+TEST(Session, ASequenceOfOtherUnitsBeginsAnew) {
+    const scene::Scene scene = test::room(3, 1);
+    const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
+    app::Session session(test::engine(), scene);
+    session.frame(spec), session.frame(spec);
+    app::Sequence sequence = session.set_aside();
+    const dmat4 far = glm::translate(dmat4(1), dvec3(1e6, 0, 0));
+    session.change(scene::move(0, far));
+    session.resume(std::move(sequence));
+    app::Session fresh(test::engine(), session.scene());
+    EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), fresh.frame(spec).hdr()));
+}
+
 TEST(Session, OtherTechniquesBeginWithoutHistoryAndAFrameAsideLeavesItAlone) {
     const scene::Scene scene = test::room(3, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");

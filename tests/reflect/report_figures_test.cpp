@@ -3,6 +3,7 @@
 #include "app/compare.hpp"
 #include "measure/flip.hpp"
 #include "report/report.hpp"
+#include "support/refusal.hpp"
 #include "support/rendering.hpp"
 
 #include <nlohmann/json.hpp>
@@ -15,7 +16,8 @@ using namespace catoptric;
 using nlohmann::json;
 
 constexpr uvec2 kSize{40, 30};
-constexpr int kFrames = 5, kWarmup = 3;
+constexpr int kFrames = 8, kWarmup = 3;
+const std::vector<std::size_t> kRounds{2, 2, 1, 1, 1, 1}; ///< of the frames
 constexpr double kStops = -1;
 
 /// The lamp is in view.
@@ -159,12 +161,27 @@ double percentile(std::vector<double> samples, double fraction) {
     return std::lerp(samples[below], samples[below + 1], position - static_cast<double>(below));
 }
 
-void expect_summary(const json& found) {
+/// `frames` of each round; without rounds it was measured in one go.
+void expect_summary(const json& found, const std::vector<std::size_t>& frames) {
     const auto samples = found["samples"].get<std::vector<double>>();
     ASSERT_EQ(samples.size(), std::size_t{kFrames});
     EXPECT_EQ(found["n"], samples.size());
     const double median = percentile(samples, .5);
-    EXPECT_DOUBLE_EQ(found["median"].get<double>(), median);
+    std::vector<double> rounds;
+    for (auto from = samples.begin(); const std::size_t count : frames) {
+        const auto end = from + static_cast<std::ptrdiff_t>(count);
+        rounds.push_back(percentile({from, end}, .5));
+        from = end;
+    }
+    EXPECT_EQ(found["rounds"].get<std::vector<double>>(), rounds);
+    EXPECT_DOUBLE_EQ(found["median"].get<double>(),
+                     rounds.empty() ? median : percentile(rounds, .5));
+    if (rounds.size() == 6) {
+        EXPECT_EQ(found["ci95"][0], *std::ranges::min_element(rounds));
+        EXPECT_EQ(found["ci95"][1], *std::ranges::max_element(rounds));
+    } else {
+        EXPECT_TRUE(found["ci95"].is_null());
+    }
     EXPECT_DOUBLE_EQ(found["p05"].get<double>(), percentile(samples, .05));
     EXPECT_DOUBLE_EQ(found["p95"].get<double>(), percentile(samples, .95));
     std::vector<double> off;
@@ -185,8 +202,12 @@ TEST(ReportFigures, TimesAreThoseOfTheFramesAndTheirPasses) {
         SCOPED_TRACE(row["label"]);
         for (const char* name :
              {"gpu_ms", "cpu_record_ms", "wall_ms", "closure", "host_ms", "frame_ms", "wait_ms"})
-            expect_summary(row[name]);
-        for (const json& pass : row["passes"]) expect_summary(pass["gpu_ms"]);
+            expect_summary(row[name], kRounds);
+        if (test::engine().device().type == "cpu") {
+            expect_summary(row["cpu_ms"], kRounds);
+            EXPECT_GE(row["cpu_ms"]["median"].get<double>(), row["host_parts"]["record"]);
+        }
+        for (const json& pass : row["passes"]) expect_summary(pass["gpu_ms"], kRounds);
         for (int k = 0; k < kFrames; ++k) {
             const double passes = of_passes(row, k);
             const double gpu = row["gpu_ms"]["samples"][k], wall = row["wall_ms"]["samples"][k];
@@ -207,7 +228,7 @@ TEST(ReportFigures, TimesAreThoseOfTheFramesAndTheirPasses) {
     EXPECT_GE(setup["compile_ms"], 0);
     EXPECT_GE(setup["pipelines"], 0) << "those of other tests are there";
     EXPECT_EQ(setup["pipeline_cache"], "none");
-    expect_summary(document["reference"]["gpu_ms"]);
+    expect_summary(document["reference"]["gpu_ms"], {});
 }
 
 /// What a moving scene costs the host is in the parts that it belongs to, and ranks rows.
@@ -231,6 +252,51 @@ TEST(ReportFigures, AMovingSceneHasWorkForTheHost) {
     EXPECT_GT(raytrace["host_parts"]["hierarchy"].get<double>(),
               10 * parallax["host_parts"]["hierarchy"].get<double>())
         << "raster rows make no tree";
+}
+
+/// Fewer frames than rounds: one each, and no interval from five.
+TEST(ReportFigures, FewFramesAreARoundEach) {
+    app::CompareRequest request = asked({"reuse:face=32"});
+    request.base.frames = 5;
+    const json document = compared(request);
+    EXPECT_EQ(document["rounds"], 5);
+    const json& times = document["rows"][0]["gpu_ms"];
+    EXPECT_EQ(times["rounds"], times["samples"]);
+    EXPECT_TRUE(times["ci95"].is_null());
+    request.rounds = 5;
+    EXPECT_EQ(test::refusal(Failure::usage, [&] { compared(request); }),
+              "rounds: wanted at least 6, fewer bound no median, found 5");
+}
+
+/// However many rows take turns, each shows what it shows when it is alone: its own history, frame
+/// number and clock, and its last picture is that of its last frame.
+TEST(ReportFigures, ARowGoesOnFromRoundToRound) {
+    const std::vector<std::string> rows{"reuse:face=32", "pyramid:face=auto", "raytrace",
+                                        "naive:face=16", "reuse:face=16"};
+    app::CompareRequest request;
+    request.base = test::request(scene::cornell_mirrors(), rows, kSize);
+    request.base.camera = request.base.scene.cameras.front();
+    request.base.animate = true;
+    request.base.frames = kFrames, request.base.warmup = kWarmup;
+    std::vector<int> pictured;
+    request.on_finished_row = [&](const report::Comparison& so_far) {
+        pictured.push_back(so_far.rows.back().pictured);
+    };
+    const report::Comparison compared = app::compare(test::engine(), request);
+    EXPECT_EQ(pictured, (std::vector<int>{5, 5, 5, 5, 5, 5, 5, 5, 5, 11}))
+        << "told after each row of the first round, then after each round";
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        app::Request alone = request.base;
+        alone.techniques = {rows[i]};
+        const app::Part part = std::move(app::run(test::engine(), alone).parts.front());
+        EXPECT_TRUE(test::same_bytes(compared.rows[i].hdr, part.hdr)) << rows[i];
+        alone.techniques = {"raytrace:depth=16"};
+        alone.time = alone.instant(alone.total()), alone.animate = false;
+        alone.frames = 1, alone.warmup = 0;
+        const app::Part truth = std::move(app::run(test::engine(), alone).parts.front());
+        const std::vector<float> map = measure::flip(part.display, truth.display);
+        EXPECT_EQ(compared.rows[i].flip_map, map) << rows[i];
+    }
 }
 
 TEST(ReportFigures, TogetherARowCostsItsOwnPasses) {

@@ -18,8 +18,79 @@ TEST(Judge, RowsOfAMovingSceneAreRankedByTheirWholeFrame) {
     a.moves = b.moves = true;
     EXPECT_TRUE(measure::is_faster(b, a)) << "the host's work counts";
     EXPECT_FALSE(measure::beats(a, b)) << "it is closer, and slower";
-    EXPECT_EQ(measure::candidate_of(a).cost, 9);
     EXPECT_EQ(measure::front_of({a, b}), (std::vector<std::size_t>{1, 0}));
+}
+
+using Front = std::vector<std::size_t>;
+
+/// A row with a time known exactly, or to a tenth.
+measure::Row exact(double ms, double flip) { return row("row", ms, flip, flip); }
+measure::Row about(double ms, double flip) {
+    measure::Row made = exact(ms, flip);
+    made.gpu_ms = times(ms, .1);
+    return made;
+}
+
+TEST(Judge, FrontsComputedByHand) {
+    EXPECT_EQ(
+        measure::front_of({exact(3, 1), exact(1, 3), exact(2, 2), exact(3, 3), exact(2, 2.5)}),
+        (Front{1, 2, 0}));
+    EXPECT_EQ(measure::front_of({exact(5, 5)}), Front{0});
+    EXPECT_EQ(measure::front_of({}), Front{});
+    EXPECT_EQ(measure::front_of({exact(1, 2), exact(1, 1)}), Front{1}); // same time: the closer one
+    EXPECT_EQ(measure::front_of({exact(2, 1), exact(1, 1)}),
+              Front{1}); // same error: the faster one
+    EXPECT_EQ(measure::front_of({exact(1, 1), exact(2, 2), exact(1, 1)}), (Front{0, 2}));
+}
+
+TEST(Judge, RowsAreApartWhereEachRoundSaysSo) {
+    EXPECT_TRUE(measure::is_faster(exact(10, 1), about(12, 1))) << "10.8 at least";
+    EXPECT_FALSE(measure::is_faster(exact(10, 1), about(11, 1))) << "9.9 in three rounds";
+    EXPECT_FALSE(measure::is_faster(about(11, 1), exact(10, 1)));
+    EXPECT_TRUE(measure::is_tie(exact(10, 1), about(11, 1)));
+    EXPECT_TRUE(measure::is_tie(exact(10, 1), exact(10, 1)));
+    // The same rounds are slow for both: what slows the machine down tells nothing of rows.
+    EXPECT_TRUE(measure::is_faster(about(10, 1), about(10.5, 1)));
+    EXPECT_NEAR(measure::time_ratio(about(10.5, 1), about(10, 1)).low, 1.05, 1e-12);
+
+    EXPECT_TRUE(measure::beats(exact(10, 1), about(12, 1)));
+    EXPECT_FALSE(measure::beats(exact(10, 1), about(11, 1)));
+    EXPECT_TRUE(measure::beats(about(11, .9), exact(10, 1)))
+        << "closer, and not told apart in time";
+    EXPECT_FALSE(measure::beats(about(12, .9), exact(10, 1))) << "closer, but slower";
+    EXPECT_FALSE(measure::beats(exact(10, 1.1), about(12, 1)));
+    EXPECT_EQ(measure::front_of({about(11, 1), exact(10, 1)}), (Front{1, 0}));
+    EXPECT_EQ(measure::front_of({exact(10, 1), about(11, .9), exact(12, .9)}), (Front{1, 2}));
+}
+
+TEST(Judge, FewerThanSixRoundsTellNobodyApart) {
+    measure::Row a = exact(1, 1), b = exact(9, 1);
+    ASSERT_TRUE(measure::is_faster(a, b));
+    b.gpu_ms.rounds.pop_back();
+    EXPECT_FALSE(measure::time_ratio(a, b).is_known());
+    EXPECT_TRUE(measure::is_tie(a, b));
+    EXPECT_EQ(measure::front_of({a, b}), (Front{0, 1}));
+}
+
+TEST(Judge, WhatFailedIsNeverOnTheFrontAndBeatsNobody) {
+    measure::Row failed = exact(1, 0), no_time = exact(0, 0), no_error = exact(1, 0);
+    failed.error.nonfinite = 1;
+    no_error.error.rmse = no_error.error.flip = measure::Difference::kNone;
+    EXPECT_EQ(measure::front_of({failed, no_time, no_error, exact(5, 5)}), Front{3});
+    EXPECT_FALSE(measure::beats(exact(1, 1), no_error));
+}
+
+TEST(Judge, PlacesAreSharedByRowsThatTie) {
+    const measure::Comparison made = report::sample::comparison(
+        {exact(10, 1), about(11, 1), exact(5, 1), exact(30, 1)});
+    const auto places = [&](std::size_t i) {
+        const measure::Places found = measure::places_in_time(made, made.rows[i]);
+        return std::pair(found.first, found.last);
+    };
+    EXPECT_EQ(places(0), (std::pair<std::size_t, std::size_t>(2, 3)));
+    EXPECT_EQ(places(1), (std::pair<std::size_t, std::size_t>(2, 3)));
+    EXPECT_EQ(places(2), (std::pair<std::size_t, std::size_t>(1, 1)));
+    EXPECT_EQ(places(3), (std::pair<std::size_t, std::size_t>(4, 4)));
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 // written, read back by name and compared.
 #include "report/report.hpp"
 
-#include "measure/judge.hpp"
 #include "report/tables.hpp"
 #include "report_sample.hpp"
 
@@ -47,6 +46,7 @@ public:
         set(row.host_ms, "/host_ms", "host_ms");
         set(row.frame_ms, "/frame_ms", "frame_ms");
         set(row.wait_ms, "/wait_ms", "wait_ms");
+        set(row.cpu_ms, "/cpu_ms", "cpu_ms");
         set(row.host_parts.update, "/host_parts/update", "host_parts_update");
         set(row.host_parts.hierarchy, "/host_parts/hierarchy", "host_parts_hierarchy");
         set(row.host_parts.compile, "/host_parts/compile", "host_parts_compile");
@@ -101,6 +101,11 @@ private:
         set(times.p95, pointer + "/p95", part(column, "p95"));
         set(times.mad, pointer + "/mad", part(column, "mad"));
         set(times.n, pointer + "/n", part(column, "n"));
+        set(times.ci95.low, pointer + "/ci95/0", part(column, "ci95_low"));
+        set(times.ci95.high, pointer + "/ci95/1", part(column, "ci95_high"));
+        times.rounds.resize(2);
+        set(times.rounds[0], pointer + "/rounds/0", part(column, "rounds#0"));
+        set(times.rounds[1], pointer + "/rounds/1", part(column, "rounds#1"));
         times.samples.resize(2);
         set(times.samples[0], pointer + "/samples/0", part(column, "samples#0"));
         set(times.samples[1], pointer + "/samples/1", part(column, "samples#1"));
@@ -190,6 +195,9 @@ std::map<std::string, std::string> identity() {
             {"exposure", "-1"},
             {"frames", "20"},
             {"warmup", "8"},
+            {"rounds", "6"},
+            {"load_start", "0.25"},
+            {"load_end", "1.5"},
             {"timing", "isolated"},
             {"together", "0"},
             {"reference", "raytrace:depth=16"},
@@ -207,6 +215,20 @@ TEST(ReportFields, JsonHoldsTheCamera) {
     EXPECT_EQ(document["scene"]["camera"],
               json::parse(R"({"name": "eye level", "eye": [1, 2, 3], "target": [4, 5, 6],
                               "up": [0, 0, 1], "vertical_fov_degrees": 37.5})"));
+}
+
+TEST(ReportFields, JsonHoldsRoundsAndLoad) {
+    const json document = json::parse(to_json(distinct(Filler())));
+    EXPECT_EQ(document["rounds"], 6);
+    EXPECT_EQ(document["load"], json::parse("[0.25, 1.5]"));
+    EXPECT_EQ(document["rows"][0]["noisy"], false);
+    Comparison made = sample::usual();
+    made.load_start = std::nan("");
+    made.rows[0].gpu_ms = catoptric::measure::summarise(std::vector<double>{1, 2});
+    const json without = json::parse(to_json(made));
+    EXPECT_TRUE(without["load"][0].is_null());
+    EXPECT_TRUE(without["rows"][0]["gpu_ms"]["ci95"].is_null());
+    EXPECT_EQ(without["rows"][0]["gpu_ms"]["rounds"], json::array());
 }
 
 TEST(ReportFields, WhatWasNeededOnceStandsInJsonAndAboveTheRows) {
@@ -298,8 +320,8 @@ TEST(ReportFields, CsvHoldsEachFigureInItsColumn) {
         wanted.insert(field.column.substr(0, field.column.find('#')));
         EXPECT_EQ(number_in(found, field.column), field.value) << field.column;
     }
-    for (const char* name : {"technique", "label", "settings", "model", "moves", "failed", "image",
-                             "on_front", "is_reference", "incomplete"})
+    for (const char* name : {"technique", "label", "settings", "model", "moves", "noisy", "failed",
+                             "image", "on_front", "is_reference", "incomplete"})
         wanted.insert(name);
     for (const auto& [name, field] : identity()) {
         wanted.insert(name);
@@ -312,6 +334,7 @@ TEST(ReportFields, CsvHoldsEachFigureInItsColumn) {
     EXPECT_EQ(found["failed"], "1"); // it has pixels that are no numbers
     EXPECT_EQ(found["on_front"], "0");
     EXPECT_EQ(found["moves"], "0");
+    EXPECT_EQ(found["noisy"], "0");
 }
 
 /// The table's cells by the names of its columns.
@@ -343,7 +366,9 @@ TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
         {"R", std::to_string(row.scene_passes)},
         {"Draws", std::to_string(row.scene_draws)},
         {"ms", ms(row.gpu_ms.median)},
-        {"5–95 %", ms(row.gpu_ms.p05) + "–" + ms(row.gpu_ms.p95)},
+        {"95 %", ms(row.gpu_ms.ci95.low) + "–" + ms(row.gpu_ms.ci95.high)},
+        {"Place", "1"},
+        {"cpu ms", ms(row.cpu_ms.median)},
         {"wall ms", ms(row.wall_ms.median)},
         {"rmse", error(row.error.rmse)},
         {"MAE", error(row.error.mae)},
@@ -407,18 +432,6 @@ TEST(ReportFields, APlanIsReadMirrorByMirror) {
               json::parse(R"({"mirror": 2, "name": "right", "technique": "secant",
                                         "settings": {"face": 64, "colour": "half"},
                                         "why": "rule '2'"})"));
-}
-
-/// What a row is judged by, and so the front, is FLIP over the mirrors and the median time.
-TEST(ReportFields, ARowIsJudgedByFlipOverTheMirrors) {
-    Filler filler;
-    Row& row = filler.row;
-    row.error.nonfinite = row.error_all.nonfinite = 0;
-    const catoptric::measure::Candidate candidate = catoptric::measure::candidate_of(row);
-    EXPECT_EQ(candidate.cost, row.gpu_ms.median);
-    EXPECT_EQ(candidate.cost_low, row.gpu_ms.p05);
-    EXPECT_EQ(candidate.cost_high, row.gpu_ms.p95);
-    EXPECT_EQ(candidate.error, row.error.flip);
 }
 
 } // namespace

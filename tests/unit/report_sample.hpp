@@ -12,8 +12,14 @@ using measure::Difference;
 using measure::Picture;
 using measure::Summary;
 
-inline Summary times(double ms) {
-    return {ms, ms * 0.9, ms * 1.1, ms * 0.05, 3, {ms * 0.9, ms, ms * 1.1}};
+/// Six rounds, half of them longer by the share `jitter` and half shorter. Two without are apart
+/// unless they are equal.
+inline Summary times(double ms, double jitter = 0) {
+    const double more = ms * (1 + jitter), less = ms * (1 - jitter);
+    Summary made{ms, ms * 0.9, ms * 1.1, ms * 0.05, 3, {ms * 0.9, ms, ms * 1.1}};
+    made.rounds = {less, more, less, more, less, more};
+    made.ci95 = {less, more};
+    return made;
 }
 
 inline Difference error_of(double rmse, double flip) {
@@ -79,7 +85,8 @@ inline Comparison comparison(std::vector<Row> rows) {
     made.device = {"Card", "Driver 1", "Vulkan 1.3", "discrete", 0};
     made.scene = {"cornell-mirrors", 16394, 4, "deadbeef", true};
     made.width = 4, made.height = 3;
-    made.frames = 20, made.warmup = 8;
+    made.frames = 20, made.warmup = 8, made.rounds = 6;
+    made.load_start = .25, made.load_end = 1.5;
     made.reference_technique = "raytrace";
     made.reference_label = "raytrace:depth=16";
     made.reference_settings = {number("depth", 16), choice("shadow", "ray")};

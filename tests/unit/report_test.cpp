@@ -32,9 +32,9 @@ TEST(ReportJson, HasTheContractsFieldsInItsOrder) {
     std::vector<std::string> names;
     for (const auto& [name, value] : document.items()) names.push_back(name);
     EXPECT_THAT(names, ElementsAre("schema", "version", "commit", "command", "complete", "device",
-                                   "scene", "setup", "size", "frames", "warmup", "timing", "time",
-                                   "ambient", "exposure", "together", "warnings", "reference",
-                                   "model", "rows", "pareto"));
+                                   "scene", "setup", "size", "frames", "warmup", "rounds", "timing",
+                                   "load", "time", "ambient", "exposure", "together", "warnings",
+                                   "reference", "model", "rows", "pareto"));
     EXPECT_EQ(document["schema"], "catoptric/compare/1");
     EXPECT_EQ(document["size"], json::parse("[4, 3]"));
     EXPECT_EQ(document["command"], json::parse(R"(["catoptric", "compare", "-o", "out"])"));

@@ -38,8 +38,10 @@ TEST(ReportMarkdown, TakesForTheReportsRowsOnlyThoseWithDefaultKnobs) {
     made.rows[1].settings = {number("face", 512, true)};
     EXPECT_TRUE(std::regex_search(said(made), traced));
     EXPECT_FALSE(std::regex_search(said(made), reused));
-    EXPECT_THAT(said(made),
-                HasSubstr("here raytrace:depth=8 takes 1.67 times as long as parallax"));
+    EXPECT_THAT(
+        said(made),
+        HasSubstr(
+            "here raytrace:depth=8 takes 1.67 times as long (95 %: 1.67 to 1.67) as parallax"));
 }
 
 TEST(ReportMarkdown, SaysWhatAProcessorsTimesAre) {
@@ -77,30 +79,33 @@ TEST(ReportMarkdown, SaysSoWhereRayTracingWins) {
     EXPECT_THAT(said(made), HasSubstr("raytrace:depth=16 failed"));
 }
 
-/// Times whose bands overlap put no row before another, in any sentence.
-TEST(ReportMarkdown, CallsATieWhereBandsOverlap) {
-    Comparison made = usual(); // bands of a tenth to either side
-    made.rows[1].gpu_ms = times(6.5);
+/// Rows that win some rounds each are not put one before the other, in any sentence.
+TEST(ReportMarkdown, CallsATieWhereNeitherWinsEveryRound) {
+    Comparison made = usual();
+    made.rows[1].gpu_ms = times(6.5, .1);
     made.rows[1].error.flip = made.rows[2].error.flip; // reuse as close as parallax, slower by 8 %
     made.pareto = {0, 2, 1, 3};
     std::string text = said(made);
     EXPECT_THAT(text, Not(HasSubstr("beats reuse")));
-    EXPECT_THAT(text,
-                HasSubstr("takes as long as part two (6.00 against 6.50 ms: their bands overlap"));
-    made.rows[1].gpu_ms = times(7.5); // 6.75 and more against at most 6.6
+    EXPECT_THAT(text, HasSubstr("takes as long as part two (6.00 against 6.50 ms: round by round "
+                                "neither is the faster, they are not told apart"));
+    made.rows[1].gpu_ms = times(7.5, .1); // 6.75 and more against 6
     made.pareto = {0, 2, 3};
     text = said(made);
     EXPECT_THAT(text, HasSubstr("parallax beats reuse"));
-    EXPECT_THAT(text, HasSubstr("takes 20 % less time than part two (6.00 against 7.50 ms)"));
+    EXPECT_THAT(text,
+                HasSubstr("takes 20 % less time than part two (6.00 against 7.50 ms), 0.800 times "
+                          "as much (95 %: 0.727 to 0.889)"));
 
     made.rows.push_back(
         row("raytrace:depth=8", 6.3, 0.001, 0.001, {number("depth", 8), choice("sphere", "mesh")}));
+    made.rows.back().gpu_ms = times(6.3, .1);
     EXPECT_THAT(said(made),
                 HasSubstr("here raytrace:depth=8 takes as long as parallax (6.30 against "
-                          "6.00 ms: their bands overlap"));
-    made.rows.back().gpu_ms = times(9);
-    EXPECT_THAT(said(made),
-                HasSubstr("here raytrace:depth=8 takes 1.50 times as long as parallax"));
+                          "6.00 ms: round by round neither is the faster"));
+    made.rows.back().gpu_ms = times(9, .1);
+    EXPECT_THAT(said(made), HasSubstr("here raytrace:depth=8 takes 1.50 times as long (95 %: 1.35 "
+                                      "to 1.65) as parallax"));
 }
 
 TEST(ReportMarkdown, NamesRowsThatOnlyBeatenRowsBeat) {
@@ -108,6 +113,7 @@ TEST(ReportMarkdown, NamesRowsThatOnlyBeatenRowsBeat) {
     // c.
     Comparison made = comparison(
         {row("reuse", 10, .1, .3), row("parallax", 12, .1, .2), row("secant", 14, .1, .1)});
+    made.rows[1].gpu_ms = times(12, .2); // from 9.6 to 14.4
     made.pareto = {2};
     EXPECT_THAT(said(made), HasSubstr("secant beats parallax (12.0 ms, FLIP 0.2000)."));
     EXPECT_THAT(said(made),
@@ -120,6 +126,7 @@ TEST(ReportHtml, NeverCallsBlackMirrorsFastest) {
     Comparison made = usual();
     EXPECT_THAT(to_html(made), HasSubstr("Fastest</dt><dd>2.00 ms <small>naive:bounces=0"));
     made.rows[0].mirrors_black = true;
+    made.rows[1].gpu_ms = times(7, .2);
     EXPECT_THAT(to_html(made), HasSubstr("<dt>Fastest</dt><dd>2 rows <small>not told apart"));
     made.rows[1].gpu_ms = times(8);
     EXPECT_THAT(to_html(made), HasSubstr("Fastest</dt><dd>6.00 ms <small>parallax"));
@@ -202,6 +209,33 @@ TEST(ReportMarkdown, KeepsHostileNamesInTheirCells) {
     Comparison made = usual();
     made.scene.name = "a|b\n# <b>c</b>";
     EXPECT_THAT(said(made), HasSubstr("a\\|b \\# \\<b\\>c\\</b\\>"));
+}
+
+/// What was measured while others were at work is not to be believed in silence.
+TEST(ReportMarkdown, SaysOnTopWhichRowsAreNoisy) {
+    using catoptric::report::to_html;
+    Comparison made = usual();
+    EXPECT_THAT(said(made), Not(HasSubstr("oisy")));
+    made.rows[1].noisy = made.rows[2].noisy = true;
+    const std::string words = "Noisy: 2 of 4 rows had to wait for a processor";
+    EXPECT_THAT(said(made), HasSubstr(words));
+    EXPECT_THAT(said(made), HasSubstr("not to be trusted: reuse, parallax."));
+    EXPECT_LT(said(made).find(words), said(made).find("| reuse"));
+    EXPECT_LT(to_html(made).find(words), to_html(made).find("<main>"));
+    EXPECT_THAT(to_html(made), HasSubstr("<span class=\"badge\">noisy</span>"));
+}
+
+/// Rows that tie share a place, wherever places stand.
+TEST(ReportMarkdown, GivesRowsThatTieOnePlace) {
+    Comparison made = usual(); // 2, 7, 6 and 12 ms
+    EXPECT_TRUE(std::regex_search(
+        said(made), std::regex(R"(\| reuse +\| +3 \| +6 \| +26 \| +7\.00 \| +7\.00–7\.00 \|)")))
+        << said(made);
+    made.rows[1].gpu_ms = times(7, .2);
+    EXPECT_TRUE(std::regex_search(
+        said(made), std::regex(R"(\| reuse +\| +2–3 \| +6 \| +26 \| +7\.00 \| +5\.60–8\.40 \|)")))
+        << said(made);
+    EXPECT_TRUE(std::regex_search(said(made), std::regex(R"(\| parallax +\| +2–3 \|)")));
 }
 
 } // namespace

@@ -1,0 +1,51 @@
+#include "app/row_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace catoptric::app {
+
+namespace {
+
+/// Since the program began, about.
+double elapsed_seconds() {
+    using Clock = std::chrono::steady_clock;
+    static const Clock::time_point start = Clock::now();
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+} // namespace
+
+int frames_of_round(int frames, int rounds, int index) {
+    return frames / rounds + (index < frames % rounds ? 1 : 0);
+}
+
+int rounds_of(int frames, int asked) { return std::min(frames, asked); }
+
+RowRun::RowRun(Session& session, Request request, const Watcher& watcher)
+    : request_(std::move(request)), watcher_(watcher), frames_(session, request_) {}
+
+void RowRun::measure(int frames) {
+    const auto render = [&](int count) {
+        for (int k = 0; k < count && frames_.next(); ++k)
+            watcher_.frame(frames_.number(), request_.total());
+    };
+    if (rounds_.empty()) {
+        noisy_ = !thread_times() &&
+                 app::is_noisy(machine_load(), process_seconds(), elapsed_seconds());
+        render(request_.warmup);
+    }
+    const std::size_t before = frames_.times().size();
+    const std::optional<ThreadTimes> start = thread_times();
+    render(frames);
+    if (const std::optional<ThreadTimes> end = thread_times(); start && end) {
+        const ThreadTime round = time_between(*start, *end);
+        time_.ran += round.ran, time_.waited += round.waited;
+        noisy_ = app::is_noisy(time_);
+    }
+    rounds_.emplace_back(frames_.times().begin() + static_cast<std::ptrdiff_t>(before),
+                         frames_.times().end());
+}
+
+} // namespace catoptric::app
