@@ -23,6 +23,23 @@ put() { # put NAME FILE TEXT: between <!-- NAME --> and <!-- /NAME -->
     mv out/put.md "$2"
 }
 
+pick() { # pick TITLE "COLUMN;COLUMN..." FILE: these columns of the table under that heading of a report.md
+    awk -F'|' -v title="## $1" -v wanted="$2" -v file="$3" '
+        /^## / {on = index($0, title) == 1}
+        !on || !/^\|/ {next}
+        !count {
+            count = split(wanted, names, ";")
+            for (i = 2; i < NF; ++i) {name = $i; gsub(/^ +| +$/, "", name); at[name] = i}
+            for (k = 1; k <= count; ++k)
+                if (!(names[k] in at)) {
+                    print "results: " file ": no column " names[k] " under " title >"/dev/stderr"
+                    exit 1
+                }
+        }
+        {line = "|"; for (k = 1; k <= count; ++k) line = line $at[names[k]] "|"; print line}
+        END {if (!count) {print "results: " file ": no table under " title >"/dev/stderr"; exit 1}}' "$3"
+}
+
 measured=(naive:bounces=0 naive:bounces=1 naive:bounces=2 naive:bounces=3 naive:bounces=4 reuse parallax
     proxy secant:continue=0 secant march pyramid layered hybrid
     pyramid:lookup=bilinear pyramid:captures=all pyramid:mirrors=left_out
@@ -69,9 +86,7 @@ make_rows() {
 make_precision() {
     "$program" compare -o out/precision --techniques parallax parallax:distance={unorm8\,range=200,unorm8\,range=1000,r16f} \
         parallax:colour=float raytrace raytrace:hit=f64 raytrace:without=watertight
-    text=$(awk -F'|' '
-        /^## / {on = /^## Every row/}
-        on && /^\|/ {print "|" $2 "|" $5 "|" $6 "|" $9 "|" $10 "|" $11 "|" $18 "|"}' out/precision/report.md)
+    text=$(pick "Every row" "Row;ms;95 %;FLIP;off;MAE;rmse;MiB" out/precision/report.md)
     put precision docs/robustness.md "$text"
     text=$("$tests/catoptric_bench" rules)
     put rules docs/robustness.md "$text"
@@ -101,12 +116,9 @@ view() { # view TITLE OPTION...
     echo "## $title"
     echo
     # Errors only: times are those of docs/results.md.
-    awk -F'|' '
-        /^## Every row/ {on = 1; next}
-        /^## Where mirrors looked/ {on = 2; print ""; next}
-        /^## / {on = 0}
-        on == 1 && /^\|/ {print "|" $2 "|" $9 "|" $10 "|" $11 "|" $14 "|" $15 "|"}
-        on == 2 && /^\|/' out/view/report.md
+    pick "Every row" "Row;FLIP;off;MAE;rmse;rmse, first order;rmse, mirror in mirror" out/view/report.md
+    echo
+    awk '/^## / {on = /^## Where mirrors looked/} on && /^\|/' out/view/report.md
     echo
 }
 # Written whole: it takes minutes.
