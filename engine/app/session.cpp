@@ -29,6 +29,10 @@ struct Standing {
     bool operator==(const Standing&) const = default;
 };
 
+Standing standing_of(const FrameSpec& spec) {
+    return {spec.time, spec.camera, spec.size, spec.ambient};
+}
+
 FrameTimes to_times(const graph::FrameTimes& times) {
     FrameTimes frame{{}, times.span_ms, times.record_ms, times.wall_ms, times.wait_ms, {}};
     frame.host.compile = times.compile_ms, frame.host.record = times.record_ms;
@@ -56,9 +60,8 @@ struct Session::Impl {
         mirrors = mirror_names(scene);
     }
 
-    /// Writes what the specification asks for and the device does not have yet; milliseconds of
-    /// work.
-    double stand(const FrameSpec& spec);
+    /// Writes what is wanted and the device does not have yet; milliseconds of work.
+    double stand(const Standing& wanted);
     /// The techniques' texts read; only once for as long as they stay.
     const std::vector<reflect::Plan>& plans_of(const std::vector<std::string>& techniques);
 
@@ -82,7 +85,8 @@ struct Sequence::Impl {
     graph::Leavings leavings;
     std::vector<reflect::Plan> remembered;
     std::vector<double> face_needs;
-    std::uint64_t units = 0; ///< in which distances were captured
+    std::optional<Standing> standing; ///< from which its next frame moves on
+    std::uint64_t units = 0;          ///< in which distances were captured
 };
 
 Sequence::Sequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -109,8 +113,7 @@ struct Frame::Impl {
     }
 };
 
-double Session::Impl::stand(const FrameSpec& spec) {
-    const Standing wanted{spec.time, spec.camera, spec.size, spec.ambient};
+double Session::Impl::stand(const Standing& wanted) {
     if (standing == wanted && resident->knows_face_needs()) return 0;
     // Another copy than frames on their way read.
     const std::size_t next = (copy + 1) % read_by.size();
@@ -120,7 +123,7 @@ double Session::Impl::stand(const FrameSpec& spec) {
     const Clock::time_point start = Clock::now();
     if (standing && standing->size != wanted.size) resident->forget_face_needs();
     standing.reset(); // should the update end half-way
-    resident->update(scene::at(scene, spec.time), spec.camera, spec.size, spec.ambient,
+    resident->update(scene::at(scene, wanted.time), wanted.camera, wanted.size, wanted.ambient,
                      static_cast<std::uint32_t>(copy));
     standing = wanted;
     ++counts.updates;
@@ -162,7 +165,7 @@ Frame Session::frame(const FrameSpec& spec) {
         self.runner.forget();
         self.remembered = plans;
     }
-    const double update_ms = self.stand(spec);
+    const double update_ms = self.stand(standing_of(spec));
     const Clock::time_point start = Clock::now();
     FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, self.runner.history());
     const double declare_ms = milliseconds_since(start);
@@ -208,7 +211,7 @@ Sequence Session::set_aside() {
     Impl& self = *impl_;
     auto sequence = std::make_unique<Sequence::Impl>(
         Sequence::Impl{self.runner.set_aside(), std::exchange(self.remembered, {}),
-                       self.resident->face_needs(), self.units});
+                       self.resident->face_needs(), self.standing, self.units});
     self.resident->forget_face_needs();
     return Sequence(std::move(sequence));
 }
@@ -222,13 +225,14 @@ void Session::resume(Sequence sequence) {
     self.runner.resume(std::move(sequence.impl_->leavings));
     self.remembered = std::move(sequence.impl_->remembered);
     self.resident->put_face_needs(std::move(sequence.impl_->face_needs));
+    if (sequence.impl_->standing) self.stand(*sequence.impl_->standing);
 }
 
 std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
     Impl& self = *impl_;
     check_spec(spec);
     const std::vector<reflect::Plan>& plans = self.plans_of(spec.techniques);
-    self.stand(spec);
+    self.stand(standing_of(spec));
     graph::History history; // what the first frame would leave
     const FrameGraph first = declare(spec, plans, self.mirrors, *self.resident, {});
     for (std::uint32_t i = 0; i < first.graph.images().size(); ++i)

@@ -3,9 +3,11 @@
 //   catoptric_bench [ROUNDS]        the shapes of shaders and passes that the engine chose
 //   catoptric_bench rules [ROUNDS]  what each rule of robustness costs: the table of
 //   docs/robustness.md
+//   catoptric_bench repeats TIMES ROW ROW...   how often a comparison says that rows are apart
 #include "app/run.hpp"
 #include "measure/statistics.hpp"
 #include "render/nearest.hpp"
+#include "repeats.hpp"
 #include "scene/load.hpp"
 #include "scene/repair.hpp"
 
@@ -147,6 +149,10 @@ void compare_rules(const app::Request& base, int rounds) {
 } // namespace
 
 int main(int argc, char** argv) try {
+    if (argc > 4 && std::string_view(argv[1]) == "repeats") {
+        repeat_compare(std::max(1, std::atoi(argv[2])), {argv + 3, argv + argc});
+        return 0;
+    }
     const bool rules = argc > 1 && std::string_view(argv[1]) == "rules";
     const int place = rules ? 2 : 1;
     const int rounds = argc > place ? std::max(1, std::atoi(argv[place])) : 7;

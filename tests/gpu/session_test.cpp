@@ -142,8 +142,9 @@ TEST(Session, ASequenceOfOtherUnitsBeginsAnew) {
     app::Session session(test::engine(), scene);
     session.frame(spec), session.frame(spec);
     app::Sequence sequence = session.set_aside();
-    const dmat4 far = glm::translate(dmat4(1), dvec3(1e6, 0, 0));
-    session.change(scene::move(0, far));
+    dmat4 far = scene.objects.back().world_from_object;
+    far[3] += dvec4(20, 0, 0, 0); // so far that the scene's units are others
+    session.change(scene::move(scene.objects.size() - 1, far));
     session.resume(std::move(sequence));
     app::Session fresh(test::engine(), session.scene());
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), fresh.frame(spec).hdr()));
