@@ -23,6 +23,30 @@ put() { # put NAME FILE TEXT: between <!-- NAME --> and <!-- /NAME -->
     mv out/put.md "$2"
 }
 
+pick() { # pick TITLE...: these columns of the tables that are read; other lines stay
+    local IFS='|'
+    awk -F'|' -v wanted="$*" '
+        !/^\|/ {head = 0; print; next}
+        !head {
+            head = 1
+            count = split(wanted, titles, "|")
+            for (k = 1; k <= count; ++k) {
+                at[k] = 0
+                for (i = 2; i < NF; ++i) {
+                    title = $i
+                    gsub(/^ +| +$/, "", title)
+                    if (title == titles[k]) at[k] = i
+                }
+                if (!at[k]) {print "results: no column " titles[k] >"/dev/stderr"; exit 2}
+            }
+        }
+        {
+            line = "|"
+            for (k = 1; k <= count; ++k) line = line $(at[k]) "|"
+            print line
+        }'
+}
+
 measured=(naive:bounces=0 naive:bounces=1 naive:bounces=2 naive:bounces=3 naive:bounces=4 reuse parallax
     proxy secant:continue=0 secant march pyramid layered hybrid
     pyramid:lookup=bilinear pyramid:captures=all pyramid:mirrors=left_out
@@ -69,9 +93,8 @@ make_rows() {
 make_precision() {
     "$program" compare -o out/precision --no-causes --techniques parallax parallax:distance={unorm8\,range=200,unorm8\,range=1000,r16f} \
         parallax:colour=float raytrace raytrace:hit=f64 raytrace:without=watertight
-    text=$(awk -F'|' '
-        /^## / {on = /^## Every row/}
-        on && /^\|/ {print "|" $2 "|" $5 "|" $6 "|" $9 "|" $10 "|" $11 "|" $18 "|"}' out/precision/report.md)
+    text=$(awk '/^## / {on = /^## Every row/} on && /^\|/' out/precision/report.md |
+        pick Row ms '5–95 %' FLIP 'off, %' MAE rmse MiB)
     put precision docs/robustness.md "$text"
     text=$("$tests/catoptric_bench" rules)
     put rules docs/robustness.md "$text"
@@ -101,12 +124,10 @@ view() { # view TITLE OPTION...
     echo "## $title"
     echo
     # Errors only: times are those of docs/results.md.
-    awk -F'|' '
-        /^## Every row/ {on = 1; next}
-        /^## Where mirrors looked/ {on = 2; print ""; next}
-        /^## / {on = 0}
-        on == 1 && /^\|/ {print "|" $2 "|" $9 "|" $10 "|" $11 "|" $14 "|" $15 "|"}
-        on == 2 && /^\|/' out/view/report.md
+    awk '/^## / {on = /^## Every row/} on && /^\|/' out/view/report.md |
+        pick Row FLIP 'off, %' MAE rmse 'rmse, light edges' 'rmse, rest' 'FLIP, first order' 'FLIP, mirror in mirror'
+    echo
+    awk '/^## / {on = /^## Where mirrors looked/} on && /^\|/' out/view/report.md
     echo
 }
 # Written whole: it takes minutes.
@@ -121,6 +142,9 @@ make_views() {
         view "Side: t = 1.3 s" --camera 400,330,-760:400,330,0:37.5 --time 1.3
         view "Above: t = 2.6 s" --camera 120,420,-500:330,120,300:45 --time 2.6
         for seed in 1 2 3; do view "Drawn from seed $seed" --camera seeded --seed $seed; done
+        "$program" compare -o out/views --no-causes --frames 1 --views 30 \
+            --techniques secant march pyramid layered hybrid >/dev/null
+        awk '/^## / {on = /^## Over 30 views/} on' out/views/report.md
     } >out/views.md
     mv out/views.md docs/views.md
 }

@@ -3,9 +3,11 @@
 #include "app/causes.hpp"
 #include "app/compare_row.hpp"
 #include "app/lag.hpp"
+#include "app/light_edges.hpp"
 #include "app/oracle.hpp"
 #include "app/plan_file.hpp"
 #include "app/truths.hpp"
+#include "app/views.hpp"
 #include "core/error.hpp"
 #include "measure/difference.hpp"
 #include "measure/judge.hpp"
@@ -43,6 +45,7 @@ public:
             reflect::assign(read_plan(text), mirror_names(request_.base.scene));
         check_has_mirror(request_.base.scene);
         mirrors_ = scene::mirrors(request_.base.scene).size();
+        comparison_.views = drawn_views(request_.base, request_.views);
     }
 
     report::Comparison run() {
@@ -53,6 +56,7 @@ public:
             fill_reference();
             fill_clear();
             request_.together ? run_together() : run_apart();
+            if (!comparison_.views.empty()) add_views();
             if (request_.lag) add_lag();
             comparison_.complete = true;
         } catch (const Error& error) {
@@ -81,8 +85,7 @@ private:
                              mirrors_,
                              scene::hash(base.scene),
                              scene::hash(base.scene) == scene::hash(scene::cornell_mirrors()),
-                             {base.camera.name, base.camera.eye, base.camera.target, base.camera.up,
-                              base.camera.vertical_fov_degrees}};
+                             facts_of(base.camera)};
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);
         comparison_.frames = base.frames;
@@ -147,24 +150,12 @@ private:
     }
 
     /// Splits the row's error by cause.
-    report::Causes causes_of(const std::string& text, const report::Row& row,
-                             const std::vector<vec4>& lookup) {
+    report::Causes causes_of(const std::string& text, const report::Row& row) {
         if (!finder_)
             finder_.emplace(session_, request_.base, truths_.at("1").part.hdr, hits_,
                             request_.watcher);
         report::Causes causes = finder_->find(text);
-        const auto face = std::ranges::find(row.settings, "face", &report::Setting::name);
-        const double edge = row.auto_face ? row.auto_face->edge : face->number.value();
-        measure::Mask at_edges = oracle_->at_light_edges(lookup, static_cast<std::uint32_t>(edge));
-        for (std::size_t i = 0; i < at_edges.size(); ++i)
-            if (!measure::first_mirror(hits_[i])) at_edges[i] = 0;
-        const measure::Difference there = measure::difference(row.hdr, truths_.at("1").part.hdr,
-                                                              at_edges, row.flip_map);
-        const auto sum = [](const measure::Difference& error) {
-            return error.pixels > 0 ? error.rmse * error.rmse * static_cast<double>(error.pixels)
-                                    : 0;
-        };
-        causes.at_light_edges = sum(row.error) > 0 ? sum(there) / sum(row.error) : 0;
+        causes.at_light_edges = row.light_edges->share;
         return causes;
     }
 
@@ -186,11 +177,13 @@ private:
             row.lookup = measure::lookup_error(
                 oracle_->judge(lookup, is_set(row, "mirrors", "left_out")));
         const std::string samples = sample_count(parse_technique(text));
-        fill_errors(row, part, truths_.at(samples).part, hits_, mirrors_);
+        const Part& truth = truths_.at(samples).part;
+        fill_errors(row, part, truth, hits_, mirrors_);
+        if (!lookup.empty()) row.light_edges = light_edges_of(row, truth, hits_, lookup, *oracle_);
         const bool is_plan = !read_plan(text).is_technique; // which no one search can be blamed for
         if (!lookup.empty() && request_.causes && !is_plan &&
             same(parse_technique(request_.reference), parse_technique(kReference)))
-            row.causes = causes_of(text, row, lookup);
+            row.causes = causes_of(text, row);
         row.is_reference = same(parse_technique(text),
                                 parse_technique(reference_at(request_.reference, samples)));
         comparison_.rows.push_back(std::move(row));
@@ -219,6 +212,15 @@ private:
         const Result result = app::run(session_, request_.base, request_.watcher);
         for (std::size_t i = 0; i < result.parts.size(); ++i)
             add(request_.base.techniques[i], result.parts[i], result.frames);
+    }
+
+    void add_views() {
+        measure_views(session_,
+                      {.base = request_.base,
+                       .reference = request_.reference,
+                       .watcher = request_.watcher,
+                       .on_finished_view = [this] { tell(); }},
+                      comparison_);
     }
 
     void add_lag() {

@@ -13,11 +13,12 @@ struct CompareRequest {
     std::string reference = kReference;
     bool together = false; ///< all rows in one frame
     bool causes = true;    ///< split each row's error by cause; only against the default reference
+    int views = 1; ///< beside the one of the pictures as many drawn ones (app/views.hpp); 1: none
     bool lag = false; ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row
     std::vector<std::string> command; ///< for the record
     Watcher watcher;
-    /// Called after each row, and each row of the lag, with what there is so far, not `complete`;
-    /// may be empty.
+    /// Called after each row, each drawn view and each row of the lag, with what there is so far,
+    /// not `complete`; may be empty.
     std::function<void(const report::Comparison&)> on_finished_row;
 };
 

@@ -21,7 +21,16 @@ void encode_new(EncodedPictures& pictures, const Comparison& comparison) {
         pictures.rows.push_back(
             {png_of(row.display),
              has_map ? png_of(measure::heat(row.flip_map, row.display.width, row.display.height))
-                     : std::string()});
+                     : std::string(),
+             {},
+             {}});
+    }
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        const std::optional<measure::WorstView>& worst = comparison.rows[i].worst;
+        EncodedPictures::OfRow& encoded = pictures.rows[i];
+        if (!worst || encoded.worst_view == worst->view) continue;
+        encoded.worst = png_of(worst->display);
+        encoded.worst_view = worst->view;
     }
 }
 

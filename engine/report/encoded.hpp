@@ -2,6 +2,7 @@
 
 #include "report/comparison.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,14 @@ struct EncodedPictures {
     struct OfRow {
         std::string picture; ///< as shown
         std::string error;   ///< heat map of its FLIP error; empty: it has none
+        std::string worst;   ///< at its worst view so far; empty: none was drawn
+        std::optional<std::size_t> worst_view;
     };
     std::string reference; ///< empty: it was not rendered
     std::vector<OfRow> rows;
 };
 
-/// Encodes what has come since the last time: rows are only ever added.
+/// Encodes what has come since the last time: rows are only ever added, worst views may change.
 void encode_new(EncodedPictures& pictures, const Comparison& comparison);
 
 /// report.html with these pictures.

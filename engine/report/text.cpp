@@ -63,7 +63,12 @@ std::string incomplete_text(std::size_t rows, std::size_t asked,
 std::string incomplete_text(const Comparison& comparison) {
     if (comparison.complete) return "";
     const bool in_lag = comparison.lag && !comparison.lag->complete;
+    const bool in_views = comparison.rows.size() == comparison.asked &&
+                          std::ranges::any_of(comparison.rows, [&](const Row& row) {
+                              return row.views.size() < comparison.views.size();
+                          });
     return incomplete_text(comparison.rows.size(), comparison.asked, comparison.stopped) +
+           (in_views ? "; their errors over views were not measured to the end" : "") +
            (in_lag ? "; their lag was not measured to its end" : "");
 }
 

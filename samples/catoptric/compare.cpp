@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "options.hpp"
+#include "parse.hpp"
 #include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
@@ -20,6 +21,7 @@ constexpr const char* kExamples = R"(Examples:
   catoptric compare -o out
   catoptric compare scene.glb -o out --size 256x256 --techniques reuse parallax:face=512
   catoptric compare -o out --together --json > report.json
+  catoptric compare -o out --views 30 --no-causes --techniques secant march layered
   catoptric compare -o out --lag --size 256x256 --techniques reuse parallax secant
 
 SCENE comes before --techniques. DIR gets report.html, report.md, report.json, rows.csv and images/.)";
@@ -31,6 +33,7 @@ struct Options {
     bool together = false;
     bool no_causes = false;
     bool lag = false;
+    int views = 1;
     std::vector<std::string> command;
 };
 
@@ -40,6 +43,16 @@ void check_no_scene(const std::string& text) {
     for (const scene::BuiltIn& built_in : scene::built_in_scenes()) scene |= built_in.name == text;
     check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
           "'; SCENE comes before --techniques");
+}
+
+/// 1, or as many as bound a median.
+int parse_views(const std::string& text) {
+    constexpr std::int64_t kMost = 10'000;
+    constexpr int kLeast = measure::kFewest;
+    const auto views = static_cast<int>(parse_whole("--views", text, 1, kMost));
+    check(views == 1 || views >= kLeast, Failure::usage, "--views: wanted 1 or at least ", kLeast,
+          ", since fewer bound no median with 95 % confidence, found ", views);
+    return views;
 }
 
 app::CompareRequest make_compare_request(const Options& options) {
@@ -52,6 +65,7 @@ app::CompareRequest make_compare_request(const Options& options) {
     request.together = options.together;
     request.causes = !options.no_causes;
     request.lag = options.lag;
+    request.views = options.views;
     request.command = options.command;
     return request;
 }
@@ -84,10 +98,17 @@ void show(const Options& options, const report::Comparison& comparison) {
     if (!comparison.stopped) note(manners, "written: " + options.folder);
 }
 
+/// What was on its way when a run with all its rows ended early.
+std::string phase_of(const report::Comparison& comparison) {
+    if (comparison.lag) return ", while their lag was measured";
+    const bool in_views = !comparison.views.empty() && comparison.rows.size() == comparison.asked;
+    return in_views ? ", while their views were rendered" : "";
+}
+
 int exit_code(const Options& options, const report::Comparison& comparison) {
     if (comparison.stopped)
         fail_incomplete(*comparison.stopped, comparison.rows.size(), comparison.asked,
-                        comparison.lag ? ", while their lag was measured" : "", options.folder);
+                        phase_of(comparison), options.folder);
     const std::vector<std::string> broken = broken_rows(comparison);
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
@@ -138,6 +159,10 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
         "name[:knob=value,...], plan:FILE.json or \"PATTERN=name ...\" each, see 'list techniques' "
         "(the default list)",
         options->techniques);
+    verb.option("--views", "N",
+                "also the errors from N views drawn from --seed, at least 6, with an interval of "
+                "each figure: a picture a row and view (1: none)",
+                [options](const std::string& text) { options->views = parse_views(text); });
     verb.flag("--together", "all rows in one command buffer, on one timeline", options->together);
     verb.flag("--no-causes", "leave out the split of each row's error by cause",
               options->no_causes);

@@ -18,6 +18,10 @@ std::string figure(double value) {
     return std::isfinite(value) ? fmt::format("{:.5f}", value) : "-";
 }
 
+std::string percent(double share) {
+    return std::isfinite(share) ? fmt::format("{:.2f}", 100 * share) : "-";
+}
+
 std::string spread(const measure::Summary& ms) {
     return fmt::format("[{} - {}]", milliseconds(ms.p05), milliseconds(ms.p95));
 }
@@ -44,11 +48,12 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
 
 std::string compare_table(const report::Comparison& comparison) {
     std::vector<std::vector<std::string>> rows{
-        {"technique", "R", "ms", "[p05 - p95]", "rmse", "flip", "mean"}};
+        {"technique", "R", "ms", "[p05 - p95]", "flip", "off %", "mae", "rmse", "mean"}};
     for (const report::Row& row : comparison.rows)
         rows.push_back({row.label, std::to_string(row.scene_passes),
-                        milliseconds(row.gpu_ms.median), spread(row.gpu_ms), figure(row.error.rmse),
-                        figure(row.error.flip), figure(row.mean_clamped.all)});
+                        milliseconds(row.gpu_ms.median), spread(row.gpu_ms), figure(row.error.flip),
+                        percent(row.error.off), figure(row.error.mae), figure(row.error.rmse),
+                        figure(row.mean_clamped.all)});
     return fmt::format("{} {}x{}, {} frames after {}, {}; errors on mirrors, against {}\n",
                        printable(comparison.scene.name), comparison.width, comparison.height,
                        comparison.frames, comparison.warmup, comparison.device.name,
