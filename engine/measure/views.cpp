@@ -32,6 +32,29 @@ double median_of(std::vector<double> values) {
     return values.empty() ? Difference::kNone : percentile(std::move(values), .5);
 }
 
+/// How many rows it is less than, less those that are less than it.
+int standing_of(const Row& row, const std::vector<const Row*>& rows, std::string_view figure) {
+    int standing = 0;
+    for (const Row* other : rows)
+        standing += is_less(row, *other, figure) - is_less(*other, row, figure);
+    return standing;
+}
+
+Order order_by(std::string_view name, const std::vector<const Row*>& rows) {
+    Order order{&figure_of(name), rows, {}, {}};
+    std::ranges::stable_sort(order.rows, {}, [&](const Row* row) {
+        const double median = over_views(*row, mirrors_mask(), *order.figure).median;
+        return std::pair(-standing_of(*row, rows, name), std::isnan(median) ? INFINITY : median);
+    });
+    for (std::size_t i = 0; i < order.rows.size(); ++i)
+        for (std::size_t k = i + 1; k < order.rows.size(); ++k) {
+            const Row &first = *order.rows[i], &second = *order.rows[k];
+            if (!apart(first, second, name)) order.ties.emplace_back(&first, &second);
+            if (is_less(second, first, name)) order.reversed.emplace_back(&first, &second);
+        }
+    return order;
+}
+
 } // namespace
 
 bool is_number(const Quantity& figure) {
@@ -62,35 +85,24 @@ Interval difference_over_views(const Row& a, const Row& b, std::string_view figu
     return difference_interval(of_a, of_b);
 }
 
-bool apart(const Row& a, const Row& b, std::string_view figure) {
+bool is_less(const Row& a, const Row& b, std::string_view figure) {
     if (!a.views.empty() || !b.views.empty())
-        return difference_over_views(a, b, figure).excludes(0);
+        return difference_over_views(a, b, figure).high < 0; // not where it is not known
     const Quantity& quantity = figure_of(figure);
-    const double in_a = number_of(quantity, a.error), in_b = number_of(quantity, b.error);
-    return in_a < in_b || in_b < in_a; // neither where one is not known
+    return number_of(quantity, a.error) < number_of(quantity, b.error);
+}
+
+bool apart(const Row& a, const Row& b, std::string_view figure) {
+    return is_less(a, b, figure) || is_less(b, a, figure);
 }
 
 std::vector<Order> orders_over_views(const Comparison& comparison) {
+    std::vector<const Row*> rows;
+    for (const Row& row : comparison.rows)
+        if (!row.is_reference && !failed(row) && !row.views.empty()) rows.push_back(&row);
     std::vector<Order> orders;
-    if (comparison.views.empty()) return orders;
-    for (const std::string_view name : kOrdering) {
-        Order order{&figure_of(name), {}, {}};
-        std::vector<std::pair<double, const Row*>> rows;
-        for (const Row& row : comparison.rows) {
-            const double median = over_views(row, mirrors_mask(), *order.figure).median;
-            if (!row.is_reference && !failed(row) && std::isfinite(median))
-                rows.emplace_back(median, &row);
-        }
-        if (rows.size() < 2) return {};
-        std::ranges::stable_sort(rows, {}, [](const auto& row) { return row.first; });
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            order.rows.push_back(rows[i].second);
-            for (std::size_t k = i + 1; k < rows.size(); ++k)
-                if (!apart(*rows[i].second, *rows[k].second, name))
-                    order.ties.emplace_back(rows[i].second, rows[k].second);
-        }
-        orders.push_back(std::move(order));
-    }
+    if (rows.size() > 1)
+        for (const std::string_view name : kOrdering) orders.push_back(order_by(name, rows));
     return orders;
 }
 

@@ -24,16 +24,22 @@ bool is_number(const Quantity& figure);
 /// Throws `internal` for a name of no such figure.
 Interval difference_over_views(const Row& a, const Row& b, std::string_view figure);
 
-/// Whether two rows differ in a figure over the mirrors: the interval of their difference over the
-/// views excludes 0. Not drawn over views: whether the figures are known and differ at all. Fewer
-/// views than kFewest tell nothing apart.
+/// Whether a figure of `a` over the mirrors is less than `b`'s: the interval of their difference
+/// over the views lies below 0. Not drawn over views: whether the figures are known and it is.
+/// Fewer views than kFewest say nothing.
+bool is_less(const Row& a, const Row& b, std::string_view figure);
+/// One is less than the other; otherwise they tie.
 bool apart(const Row& a, const Row& b, std::string_view figure);
 
-/// A figure over the mirrors by which rows are put in order, and those of them that tie.
+/// Rows in order of a figure over the mirrors that is better the less it is, and those that tie.
 struct Order {
+    using Pairs = std::vector<std::pair<const Row*, const Row*>>; ///< as they stand in `rows`
     const Quantity* figure;
-    std::vector<const Row*> rows; ///< least median first; without the reference and failed rows
-    std::vector<std::pair<const Row*, const Row*>> ties; ///< not apart, the first before the second
+    /// Without the reference and failed rows: first what is less than more others than are less
+    /// than it, view by view; of equals the one with the lesser median.
+    std::vector<const Row*> rows;
+    Pairs ties;
+    Pairs reversed; ///< the second is less than the first: no order fits all pairs
 };
 /// By FLIP, share off and MAE; none where no views were drawn, or fewer than two rows.
 std::vector<Order> orders_over_views(const Comparison& comparison);

@@ -53,13 +53,20 @@ std::string labels_of(const std::vector<const Row*>& rows) {
     return joined(labels, ", ");
 }
 
+std::string pairs_of(const measure::Order::Pairs& list) {
+    std::vector<std::string> pairs;
+    for (const auto& [a, b] : list) pairs.push_back(a->label + " and " + b->label);
+    return joined(pairs, "; ");
+}
+
 std::string ties_text(const measure::Order& order) {
     const std::size_t pairs = order.rows.size() * (order.rows.size() - 1) / 2;
-    if (order.ties.empty()) return "Every two of them are apart.";
     if (order.ties.size() == pairs) return "No two of them are apart.";
-    std::vector<std::string> ties;
-    for (const auto& [a, b] : order.ties) ties.push_back(a->label + " and " + b->label);
-    return "Ties: " + joined(ties, "; ") + ". All other pairs are apart.";
+    std::string text = order.ties.empty()
+                           ? "Every two of them are apart."
+                           : "Ties: " + pairs_of(order.ties) + ". All other pairs are apart.";
+    if (!order.reversed.empty()) text += " The other way round: " + pairs_of(order.reversed) + ".";
+    return text;
 }
 
 } // namespace
@@ -102,7 +109,7 @@ Table views_table(const Comparison& comparison) {
 std::vector<std::string> views_in_words(const Comparison& comparison) {
     std::vector<std::string> sentences;
     for (const measure::Order& order : measure::orders_over_views(comparison))
-        sentences.push_back(fmt::format("By {}, least median first: {}. {}",
+        sentences.push_back(fmt::format("By {}, view by view, the least first: {}. {}",
                                         title_of(*order.figure), labels_of(order.rows),
                                         ties_text(order)));
     if (!sentences.empty())

@@ -133,16 +133,35 @@ TEST(Views, AreASentenceForEachFigure) {
         {over("worst", plus(kFlips, .4)), over("good", kFlips), over("fair", other), exact});
     const std::vector<std::string> words = views_in_words(made);
     ASSERT_EQ(words.size(), 4u);
-    EXPECT_EQ(words[0], "By FLIP, least median first: good, fair, worst. Ties: good and fair. All "
-                        "other pairs are apart.");
-    EXPECT_THAT(words[1], testing::StartsWith("By off, least median first: good, fair, worst."));
-    EXPECT_THAT(words[2], testing::StartsWith("By MAE, least median first: "));
+    EXPECT_EQ(words[0],
+              "By FLIP, view by view, the least first: good, fair, worst. Ties: good and fair. All "
+              "other pairs are apart.");
+    EXPECT_THAT(words[1],
+                testing::StartsWith("By off, view by view, the least first: good, fair, worst."));
+    EXPECT_THAT(words[2], testing::StartsWith("By MAE, view by view, the least first: "));
     EXPECT_THAT(words[3], HasSubstr("95 % interval of their difference"));
     const auto first = [](const Comparison& of) { return views_in_words(of).front(); };
     EXPECT_THAT(first(with_views({over("a", kFlips), over("b", kFlips)})),
                 HasSubstr("No two of them are apart."));
     EXPECT_THAT(first(with_views({over("a", kFlips), over("b", plus(kFlips, .1))})),
                 HasSubstr("Every two of them are apart."));
+}
+
+/// A row that is less in nearly every view may have the larger median.
+TEST(Views, OrderRowsByTheirDifferencesNotTheirMedians) {
+    const std::vector<double> low{.10, .11, .12, .13, .30, .31, .32, .33, .34};
+    std::vector<double> less(low.size());
+    for (std::size_t i = 0; i < low.size(); ++i) less[i] = low[i] - .001;
+    less[0] = .99; // one view in nine
+    Comparison made = with_views({over("low", low), over("less", less)});
+    made.views.resize(low.size());
+    const measure::Order order = measure::orders_over_views(made).front();
+    const measure::RowMask& mirrors = measure::masks().front();
+    EXPECT_LT(measure::over_views(made.rows[0], mirrors, *order.figure).median,
+              measure::over_views(made.rows[1], mirrors, *order.figure).median);
+    EXPECT_EQ(order.rows, (std::vector<const Row*>{&made.rows[1], &made.rows[0]}));
+    EXPECT_TRUE(order.ties.empty());
+    EXPECT_TRUE(order.reversed.empty());
 }
 
 TEST(Views, AreATableWithTheWorstOne) {
