@@ -86,7 +86,7 @@ make_rows() {
 make_precision() {
     "$program" compare -o out/precision --techniques parallax parallax:distance={unorm8\,range=200,unorm8\,range=1000,r16f} \
         parallax:colour=float raytrace raytrace:hit=f64 raytrace:without=watertight
-    text=$(pick "Every row" "Row;ms;95 %;FLIP;off;MAE;rmse;MiB" out/precision/report.md)
+    text=$(pick "Every row" "Row;ms;95 %;FLIP;off, %;MAE;rmse;MiB" out/precision/report.md)
     put precision docs/robustness.md "$text"
     text=$("$tests/catoptric_bench" rules)
     put rules docs/robustness.md "$text"
@@ -116,7 +116,8 @@ view() { # view TITLE OPTION...
     echo "## $title"
     echo
     # Errors only: times are those of docs/results.md.
-    pick "Every row" "Row;FLIP;off;MAE;rmse;rmse, first order;rmse, mirror in mirror" out/view/report.md
+    pick "Every row" "Row;FLIP;off, %;MAE;rmse;rmse, light edges;rmse, rest;FLIP, first order;FLIP, mirror in mirror" \
+        out/view/report.md
     echo
     awk '/^## / {on = /^## Where mirrors looked/} on && /^\|/' out/view/report.md
     echo
@@ -133,6 +134,9 @@ make_views() {
         view "Side: t = 1.3 s" --camera 400,330,-760:400,330,0:37.5 --time 1.3
         view "Above: t = 2.6 s" --camera 120,420,-500:330,120,300:45 --time 2.6
         for seed in 1 2 3; do view "Drawn from seed $seed" --camera seeded --seed $seed; done
+        "$program" compare -o out/views --no-causes --frames 1 --views 30 \
+            --techniques secant march pyramid layered hybrid >/dev/null
+        awk '/^## / {on = /^## Over 30 views/} on' out/views/report.md
     } >out/views.md
     mv out/views.md docs/views.md
 }

@@ -3,16 +3,16 @@
 #include "app/causes.hpp"
 #include "app/compare_row.hpp"
 #include "app/lag.hpp"
+#include "app/light_edges.hpp"
 #include "app/oracle.hpp"
 #include "app/plan_file.hpp"
 #include "app/processor.hpp"
 #include "app/row_run.hpp"
 #include "app/truths.hpp"
+#include "app/views.hpp"
 #include "core/error.hpp"
-#include "measure/difference.hpp"
 #include "measure/interval.hpp"
 #include "measure/judge.hpp"
-#include "measure/masks.hpp"
 #include "reflect/technique.hpp"
 #include "scene/load.hpp"
 
@@ -56,6 +56,7 @@ public:
         check_has_mirror(request_.base.scene);
         check_rounds(request_.rounds);
         mirrors_ = scene::mirrors(request_.base.scene).size();
+        comparison_.views = drawn_views(request_.base, request_.views);
     }
 
     report::Comparison run() {
@@ -63,6 +64,7 @@ public:
         try {
             fill_reference();
             for (int round = 0; round < comparison_.rounds; ++round) measure_round(round);
+            if (!comparison_.views.empty()) add_views();
             if (request_.causes) add_causes();
             if (request_.lag) add_lag();
             comparison_.complete = true;
@@ -92,8 +94,7 @@ private:
                              mirrors_,
                              scene::hash(base.scene),
                              scene::hash(base.scene) == scene::hash(scene::cornell_mirrors()),
-                             {base.camera.name, base.camera.eye, base.camera.target, base.camera.up,
-                              base.camera.vertical_fov_degrees}};
+                             facts_of(base.camera)};
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);
         comparison_.frames = base.frames;
@@ -181,26 +182,11 @@ private:
 
     /// Splits the row's error by cause.
     report::Causes causes_of(const std::string& text, const report::Row& row) {
-        const int last = request_.base.total();
-        const std::vector<std::uint32_t>& hits = truths_.hits();
         if (!finder_)
-            finder_.emplace(session_, request_.base, truths_.at("1").part.hdr, hits,
+            finder_.emplace(session_, request_.base, truths_.at("1").part.hdr, truths_.hits(),
                             request_.watcher);
-        const std::vector<vec4> lookup = looked_up(text, last).lookup;
         report::Causes causes = finder_->find(text);
-        const auto face = std::ranges::find(row.settings, "face", &report::Setting::name);
-        const double edge = row.auto_face ? row.auto_face->edge : face->number.value();
-        measure::Mask at_edges = oracle_of(last).at_light_edges(lookup,
-                                                                static_cast<std::uint32_t>(edge));
-        for (std::size_t i = 0; i < at_edges.size(); ++i)
-            if (!measure::first_mirror(hits[i])) at_edges[i] = 0;
-        const measure::Difference there = measure::difference(row.hdr, truths_.at("1").part.hdr,
-                                                              at_edges, row.flip_map);
-        const auto sum = [](const measure::Difference& error) {
-            return error.pixels > 0 ? error.rmse * error.rmse * static_cast<double>(error.pixels)
-                                    : 0;
-        };
-        causes.at_light_edges = sum(row.error) > 0 ? sum(there) / sum(row.error) : 0;
+        causes.at_light_edges = row.light_edges->share;
         return causes;
     }
 
@@ -212,7 +198,9 @@ private:
         warnings.clear();
         row.pictured = number;
         const std::string samples = sample_count(parse_technique(text));
-        fill_errors(row, part, truths_.at(samples, number).part, truths_.hits(number), mirrors_);
+        const Part& truth = truths_.at(samples, number).part;
+        const std::vector<std::uint32_t>& hits = truths_.hits(number);
+        fill_errors(row, part, truth, hits, mirrors_);
         const Part looked = !part.rays || part.traced_fraction ? looked_up(text, number) : Part();
         row.saturated_texels = looked.saturated;
         if (looked.saturated.value_or(0) > 0)
@@ -220,9 +208,11 @@ private:
                 "'" + text + "': " + std::to_string(*looked.saturated) +
                 " texels of its captures are brighter than 65504, where colour=half ends");
         for (const std::string& note : part.notes) warnings.push_back("'" + text + "': " + note);
-        if (!looked.lookup.empty())
-            row.lookup = measure::lookup_error(
-                oracle_of(number).judge(looked.lookup, is_set(row, "mirrors", "left_out")));
+        if (looked.lookup.empty()) return;
+        const Oracle& oracle = oracle_of(number);
+        row.lookup = measure::lookup_error(
+            oracle.judge(looked.lookup, is_set(row, "mirrors", "left_out")));
+        row.light_edges = light_edges_of(row, truth, hits, looked.lookup, oracle);
     }
 
     void add(const std::string& text, const Part& part) {
@@ -257,7 +247,9 @@ private:
         const std::vector<std::vector<std::string>> all = lanes();
         for (std::size_t lane = 0; lane < all.size(); ++lane) {
             const auto rounds = static_cast<std::size_t>(comparison_.rounds);
-            request_.watcher.row(request_.together ? "all rows in one frame" : all[lane].front(),
+            const std::string row = request_.together ? "all rows in one frame" : all[lane].front();
+            request_.watcher.row(row + ", round " + std::to_string(round + 1) + " of " +
+                                     std::to_string(comparison_.rounds),
                                  static_cast<std::size_t>(round) * all.size() + lane,
                                  rounds * all.size());
             measure(lane, all[lane], round);
@@ -301,6 +293,15 @@ private:
             row.causes = causes_of(text, row);
             tell();
         }
+    }
+
+    void add_views() {
+        measure_views(session_,
+                      {.base = request_.base,
+                       .reference = request_.reference,
+                       .watcher = request_.watcher,
+                       .on_finished_view = [this] { tell(); }},
+                      comparison_);
     }
 
     void add_lag() {

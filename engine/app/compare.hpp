@@ -17,11 +17,12 @@ struct CompareRequest {
     /// frames than that are measured one a round.
     int rounds = kRounds;
     bool causes = false; ///< split each row's error by cause; only against the default reference
+    int views = 1; ///< beside the one of the pictures as many drawn ones (app/views.hpp); 1: none
     bool lag = false; ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row
     std::vector<std::string> command; ///< for the record
     Watcher watcher;
-    /// Called after each row of the first round, each later round, and each row of what follows,
-    /// with what there is so far, not `complete`; may be empty.
+    /// Called after each row of the first round, each later round, and each row or drawn view of
+    /// what follows, with what there is so far, not `complete`; may be empty.
     std::function<void(const report::Comparison&)> on_finished_row;
 };
 

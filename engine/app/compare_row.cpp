@@ -47,22 +47,26 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
 
 } // namespace
 
+measure::Errors errors_of(const Part& part, const Part& truth, std::span<const float> flip_map,
+                          const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
+    const auto against = [&](const measure::Mask& mask) {
+        return measure::difference(part.hdr, truth.hdr, mask, flip_map);
+    };
+    measure::Errors errors{
+        against(measure::mirrors(hits)),          against(measure::first_order(hits)),
+        against(measure::mirror_in_mirror(hits)), against(measure::non_mirror(hits)),
+        against(measure::all_pixels(hits)),       {}};
+    for (std::size_t i = 0; i < mirrors; ++i)
+        errors.error_per_mirror.push_back(against(measure::of_mirror(hits, MirrorId::at(i))));
+    return errors;
+}
+
 void fill_errors(report::Row& row, const Part& part, const Part& truth,
                  const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
     row.hdr = part.hdr;
     row.display = part.display;
     row.flip_map = measure::flip(part.display, truth.display);
-    const auto against = [&](const measure::Mask& mask) {
-        return measure::difference(part.hdr, truth.hdr, mask, row.flip_map);
-    };
-    row.error = against(measure::mirrors(hits));
-    row.error_first_order = against(measure::first_order(hits));
-    row.error_mirror_in_mirror = against(measure::mirror_in_mirror(hits));
-    row.error_non_mirror = against(measure::non_mirror(hits));
-    row.error_all = against(measure::all_pixels(hits));
-    row.error_per_mirror.clear();
-    for (std::size_t i = 0; i < mirrors; ++i)
-        row.error_per_mirror.push_back(against(measure::of_mirror(hits, MirrorId::at(i))));
+    static_cast<measure::Errors&>(row) = errors_of(part, truth, row.flip_map, hits, mirrors);
     row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
     row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
     row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);

@@ -4,6 +4,7 @@
 #include "report/comparison.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,11 @@ report::Row make_row(const std::string& text, const Part& part);
 /// passes whose name begins with `prefix`. `on_processor`: the device is one.
 void fill_times(report::Row& row, const std::vector<std::vector<FrameTimes>>& rounds,
                 const std::string& prefix, bool on_processor);
-/// The picture of its last frame and the errors against the truth, over all masks. `hits`: of the
-/// same instant, see Part::hits.
+/// How far a picture is from the truth, over all masks. `flip_map`: of the two; `hits`: of the same
+/// picture, see Part::hits.
+measure::Errors errors_of(const Part& part, const Part& truth, std::span<const float> flip_map,
+                          const std::vector<std::uint32_t>& hits, std::size_t mirrors);
+/// The row's picture with its errors and means. `hits`: of the same instant.
 void fill_errors(report::Row& row, const Part& part, const Part& truth,
                  const std::vector<std::uint32_t>& hits, std::size_t mirrors);
 

@@ -2,14 +2,13 @@
 
 #include "core/error.hpp"
 #include "measure/difference.hpp"
+#include "measure/flip.hpp"
 #include "measure/masks.hpp"
 #include "measure/settling.hpp"
-#include "measure/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 namespace catoptric::app {
 
@@ -64,46 +63,23 @@ Path path_of(const LagRequest& request) {
     return path;
 }
 
-using Pixels = std::vector<std::size_t>; // row-major
-
-Pixels mirror_pixels(const std::vector<std::uint32_t>& hits) {
-    Pixels pixels;
-    for (std::size_t i = 0; i < hits.size(); ++i)
-        if (measure::first_mirror(hits[i])) pixels.push_back(i);
-    return pixels;
+/// All figures. `exposure`: stops, of the pictures as displayed.
+measure::Difference apart(const measure::Picture& a, const measure::Picture& b,
+                          const measure::Mask& mask, double exposure) {
+    return measure::difference(
+        a, b, mask,
+        measure::flip(measure::to_display(a, exposure), measure::to_display(b, exposure)));
 }
 
-/// The pixels in one row: what is kept of a picture, since there are many.
-measure::Picture cut_out(const measure::Picture& picture, const Pixels& pixels) {
-    measure::Picture row(static_cast<int>(pixels.size()), 1);
-    for (std::size_t i = 0; i < pixels.size(); ++i) row.pixels[i] = picture.pixels[pixels[i]];
-    return row;
-}
-
-measure::Difference apart(const measure::Picture& a, const measure::Picture& b) {
-    return measure::difference(a, b, {}, std::vector<float>(a.pixels.size(), 0.0f));
+/// Without FLIP, which takes longer than all others.
+measure::Difference apart(const measure::Picture& a, const measure::Picture& b,
+                          const measure::Mask& mask) {
+    return measure::difference(a, b, mask, std::vector<float>(a.pixels.size(), 0.0f));
 }
 
 bool same_bytes(const measure::Picture& a, const measure::Picture& b) {
     return a.pixels.size() == b.pixels.size() &&
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
-}
-
-// Over the instants at which a mirror is in view; NaN when it is at none.
-
-std::vector<double> judged(std::vector<double> errors) {
-    std::erase_if(errors, [](double error) { return std::isnan(error); });
-    return errors;
-}
-
-double mean_of(const std::vector<double>& errors) {
-    const std::vector<double> those = judged(errors);
-    return std::accumulate(those.begin(), those.end(), 0.0) / static_cast<double>(those.size());
-}
-
-double percentile_of(const std::vector<double>& errors, double share) {
-    const std::vector<double> those = judged(errors);
-    return those.empty() ? measure::Difference::kNone : measure::percentile(those, share);
 }
 
 /// A technique's picture of an instant once nothing changes any more.
@@ -141,8 +117,8 @@ private:
     /// What is seen where mirrors are.
     struct Instant {
         double seconds = 0;
-        Pixels pixels;              ///< that show a mirror
-        measure::Picture reference; ///< of these
+        measure::Mask mirrors;
+        measure::Picture reference;
     };
 
     void begin(const std::string& label, std::size_t index, int frames) {
@@ -187,9 +163,11 @@ private:
     void add_instant(double seconds) {
         const Part reference = still(request_.reference, seconds).part;
         const bool traces = !reference.hits.empty();
-        const Pixels pixels = mirror_pixels(traces ? reference.hits
-                                                   : still("raytrace:depth=1", seconds).part.hits);
-        instants_.push_back({seconds, pixels, cut_out(reference.hdr, pixels)});
+        instants_.push_back(
+            {seconds,
+             measure::mirrors(traces ? reference.hits
+                                     : still("raytrace:depth=1", seconds).part.hits),
+             reference.hdr});
     }
 
     void add_technique(std::size_t index) {
@@ -201,7 +179,6 @@ private:
         stills_.clear();
         for (const Instant& instant : instants_)
             if (!add_still(row, text, instant)) return lag_.without_history.push_back(label);
-        row.mean_still_reference_rmse = mean_of(row.still_reference_rmse);
         row.after_black = settle(text, 0);
         row.after_jump = settle(text, kFrameCap);
         lag_.rows.push_back(std::move(row)); // what there is, should a signal come
@@ -209,14 +186,19 @@ private:
             lag_.rows.back().speeds.push_back(at_speed(text, speed));
     }
 
+    measure::Difference full(const measure::Picture& a, const measure::Picture& b,
+                             const Instant& instant) const {
+        return apart(a, b, instant.mirrors, request_.base.exposure);
+    }
+
     /// False where the technique does not remember.
     bool add_still(report::LagRow& row, const std::string& text, const Instant& instant) {
         const Still found = still(text, instant.seconds);
         if (!found.part.remembers) return false;
-        stills_.push_back(cut_out(found.part.hdr, instant.pixels));
+        stills_.push_back(found.part.hdr);
         row.still_frames = std::max(row.still_frames, found.frames);
         row.restless_stills += !found.rests;
-        row.still_reference_rmse.push_back(apart(stills_.back(), instant.reference).rmse);
+        row.still_reference_errors.push_back(full(stills_.back(), instant.reference, instant));
         return true;
     }
 
@@ -226,8 +208,8 @@ private:
         begin_run(frames_done_);
         for (int k = 0; k < before; ++k) frame(text, lag_.jump_from);
         for (int k = 0; k < kFrameCap; ++k) {
-            const measure::Difference error = apart(
-                cut_out(frame(text, path_.start).hdr(), instants_.front().pixels), stills_.front());
+            const measure::Difference error = apart(frame(text, path_.start).hdr(), stills_.front(),
+                                                    instants_.front().mirrors);
             settling.rmse.push_back(error.rmse);
             settling.max.push_back(error.max);
         }
@@ -244,14 +226,10 @@ private:
             const Frame moving = frame(text, path_.seconds(speed, k));
             if (k < 0 || k % between != 0) continue;
             const auto i = static_cast<std::size_t>(k / between);
-            const measure::Picture picture = cut_out(moving.hdr(), instants_[i].pixels);
-            lag.rmse.push_back(apart(picture, stills_[i]).rmse);
-            lag.reference_rmse.push_back(apart(picture, instants_[i].reference).rmse);
+            const measure::Picture picture = moving.hdr();
+            lag.errors.push_back(full(picture, stills_[i], instants_[i]));
+            lag.reference_errors.push_back(full(picture, instants_[i].reference, instants_[i]));
         }
-        lag.mean_rmse = mean_of(lag.rmse);
-        lag.median_rmse = percentile_of(lag.rmse, 0.5);
-        lag.max_rmse = percentile_of(lag.rmse, 1);
-        lag.mean_reference_rmse = mean_of(lag.reference_rmse);
         return lag;
     }
 

@@ -115,12 +115,13 @@ std::vector<measure::LookedUp> Oracle::judge(const std::vector<vec4>& lookup, bo
     return judged;
 }
 
-measure::Mask Oracle::at_light_edges(const std::vector<vec4>& lookup, std::uint32_t face) const {
-    const float texel = 2.0f / static_cast<float>(face);
+measure::Mask Oracle::at_light_edges(const std::vector<vec4>& lookup,
+                                     const std::vector<std::uint32_t>& faces) const {
     measure::Mask found(lookup.size(), 0);
     for (std::size_t pixel = 0; pixel < lookup.size(); ++pixel) {
         if (!(lookup[pixel].w > 0)) continue;
         const auto mirror = static_cast<std::uint32_t>(lookup[pixel].w - 1) / 8;
+        const float texel = 2.0f / static_cast<float>(faces.at(mirror));
         const vec3 size = abs(vec3(lookup[pixel]));
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         const vec3 place = vec3(lookup[pixel]) / size[axis]; // on the face, whose edge is 2

@@ -23,9 +23,10 @@ public:
     std::vector<measure::LookedUp> judge(const std::vector<vec4>& lookup,
                                          bool left_out = false) const;
 
-    /// Pixels that looked within one texel of a light's outline, in captures of `face` texels an
-    /// edge.
-    measure::Mask at_light_edges(const std::vector<vec4>& lookup, std::uint32_t face) const;
+    /// Pixels that looked within one texel of a light's outline. `faces`: texels along an edge of
+    /// each mirror's capture, entry n-1 of mirror n.
+    measure::Mask at_light_edges(const std::vector<vec4>& lookup,
+                                 const std::vector<std::uint32_t>& faces) const;
 
 private:
     /// A mirror pixel whose reflected ray meets no second mirror.

@@ -102,28 +102,52 @@ std::size_t count_seen(const render::Geometry& geometry, const bvh::Bvh& hierarc
     return seen;
 }
 
-} // namespace
+/// A scene at an instant, ready for rays.
+struct Stage {
+    explicit Stage(const scene::Scene& scene, double seconds)
+        : now(scene::at(scene, seconds)), space(render::space_of(scene)),
+          geometry(render::make_geometry(now, space)),
+          hierarchy(hierarchy_without(geometry, geometry.ranges.size())), aims(aims_of(now)) {}
 
-scene::Camera seeded_camera(const scene::Scene& scene, double seconds, std::uint64_t seed) {
-    const scene::Scene now = scene::at(scene, seconds);
-    const render::Space space = render::space_of(scene);
-    const render::Geometry geometry = render::make_geometry(now, space);
-    const bvh::Bvh hierarchy = hierarchy_without(geometry, geometry.ranges.size());
-    const Bounds<double> everything = scene::bounds(now);
-    const std::vector<std::size_t> aims = aims_of(now);
+    bool sees_one(const scene::Camera& camera) const {
+        return count_seen(geometry, hierarchy, render::camera_view(camera, space, kGrid, 0),
+                          aims) >= kLeastSeen;
+    }
+
+    scene::Scene now;
+    render::Space space;
+    render::Geometry geometry;
+    bvh::Bvh hierarchy;
+    std::vector<std::size_t> aims;
+};
+
+scene::Camera drawn_on(const Stage& stage, std::uint64_t seed) {
+    const Bounds<double> everything = scene::bounds(stage.now);
     std::mt19937_64 random(seed);
-    for (int i = 0; i < kDraws && !aims.empty(); ++i) {
-        const scene::Object& aim = now.objects[aims[random() % aims.size()]];
-        scene::Camera camera = draw(random, scene::bounds(now, aim), everything);
+    for (int i = 0; i < kDraws && !stage.aims.empty(); ++i) {
+        const scene::Object& aim = stage.now.objects[stage.aims[random() % stage.aims.size()]];
+        scene::Camera camera = draw(random, scene::bounds(stage.now, aim), everything);
         const dvec3 along = camera.target - camera.eye;
         if (!(std::abs(along.y) <= kMostUpright * glm::length(along)) || along == dvec3(0))
             continue;
-        if (count_seen(geometry, hierarchy, render::camera_view(camera, space, kGrid, 0), aims) >=
-            kLeastSeen)
-            return camera;
+        if (stage.sees_one(camera)) return camera;
     }
-    fail(Failure::usage, "seeded camera: wanted one that sees a mirror of '", scene.name,
+    fail(Failure::usage, "seeded camera: wanted one that sees a mirror of '", stage.now.name,
          "', found none in ", kDraws, " draws from seed ", seed);
+}
+
+} // namespace
+
+std::vector<scene::Camera> seeded_cameras(const scene::Scene& scene, double seconds,
+                                          std::span<const std::uint64_t> seeds) {
+    const Stage stage(scene, seconds);
+    std::vector<scene::Camera> cameras;
+    for (const std::uint64_t seed : seeds) cameras.push_back(drawn_on(stage, seed));
+    return cameras;
+}
+
+scene::Camera seeded_camera(const scene::Scene& scene, double seconds, std::uint64_t seed) {
+    return seeded_cameras(scene, seconds, std::span(&seed, 1)).front();
 }
 
 } // namespace catoptric::app

@@ -3,6 +3,8 @@
 #include "scene/scene.hpp"
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace catoptric::app {
 
@@ -18,5 +20,8 @@ namespace catoptric::app {
 /// without mirrors is taken as if all its objects were mirrors. Throws `Failure::usage` where 1000
 /// draws see none.
 scene::Camera seeded_camera(const scene::Scene& scene, double seconds, std::uint64_t seed);
+/// One for each seed; the scene is made ready for rays once.
+std::vector<scene::Camera> seeded_cameras(const scene::Scene& scene, double seconds,
+                                          std::span<const std::uint64_t> seeds);
 
 } // namespace catoptric::app

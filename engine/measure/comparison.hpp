@@ -5,6 +5,7 @@
 #include "measure/causes.hpp"
 #include "measure/difference.hpp"
 #include "measure/lag.hpp"
+#include "measure/light_edges.hpp"
 #include "measure/lookup.hpp"
 #include "measure/picture.hpp"
 #include "measure/statistics.hpp"
@@ -86,7 +87,14 @@ struct Errors {
 /// From where and when a picture shows a scene.
 struct View {
     CameraFacts camera;
-    double time = 0; ///< seconds into the scene's motion
+    double time = 0;        ///< seconds into the scene's motion
+    std::uint64_t seed = 0; ///< that the camera was drawn from
+};
+
+/// The view at which a row is furthest from the reference.
+struct WorstView {
+    std::size_t view = 0; ///< among Comparison::views
+    Picture display;      ///< the row's picture there, to its right the reference's
 };
 
 /// One technique with its settings: what it cost and what it got wrong.
@@ -117,10 +125,13 @@ struct Row : Errors {
     std::optional<Rays> rays;                    ///< of ray tracing, one frame
     std::optional<std::size_t> saturated_texels; ///< of captures that hold halves: cut off at 65504
     std::optional<LookupError> lookup;           ///< first-order pixels: where mirrors looked
+    std::optional<LightEdges> light_edges;       ///< of rows that look into captures
     std::optional<Causes> causes;                ///< of rows that look into captures
     std::optional<double> traced_fraction;
     std::optional<AutoFace> auto_face;
-    std::vector<Errors> views; ///< of Comparison::views, in their order; empty: none were drawn
+    /// Of Comparison::views, in their order; empty: none were drawn; fewer: of a run cut short.
+    std::vector<Errors> views;
+    std::optional<WorstView> worst; ///< of these, by FLIP over the mirrors
     Mean mean, mean_clamped;
     int pictured = 0; ///< frame, from 1, that pictures and errors are of; later ones show the same
     Picture hdr;      ///< linear

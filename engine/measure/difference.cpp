@@ -41,31 +41,39 @@ const Registered kPixels{
      .help = "pixels of the mask, those that are not finite included",
      .order = 100,
      .get = [](const Difference& error) -> Value { return static_cast<double>(error.pixels); }}};
-const Registered kRmse{{.name = "rmse",
-                        .help = "root of the mean square difference, linear RGB clamped to [0,1]",
-                        .better = Better::less,
-                        .order = 101,
-                        .each_mask_in_table = true,
-                        .columns = {{"rmse"}},
-                        .get = [](const Difference& error) -> Value { return error.rmse; }}};
-const Registered kMae{{.name = "mae",
-                       .help = "mean absolute difference, linear RGB clamped to [0,1]",
-                       .better = Better::less,
-                       .order = 102,
-                       .columns = {{"MAE"}},
-                       .get = [](const Difference& error) -> Value { return error.mae; }}};
 const Registered kFlip{
     {.name = "flip",
      .help = "mean LDR-FLIP at 67 pixels per degree, of the pictures as displayed",
      .better = Better::less,
-     .order = 103,
+     .order = 101,
+     .each_mask_in_table = true,
      .columns = {{"FLIP"}},
      .get = [](const Difference& error) -> Value { return error.flip; }}};
+const Registered kShareOff{
+    {.name = "off",
+     .help = "share of the pixels whose largest channel difference exceeds .02",
+     .better = Better::less,
+     .order = 102,
+     .columns = {{"off, %", Style::percent, 2}},
+     .get = [](const Difference& error) -> Value { return error.off; }}};
+const Registered kMae{{.name = "mae",
+                       .help = "mean absolute difference, linear RGB clamped to [0,1]",
+                       .better = Better::less,
+                       .order = 103,
+                       .columns = {{"MAE"}},
+                       .get = [](const Difference& error) -> Value { return error.mae; }}};
+const Registered kRmse{{.name = "rmse",
+                        .help = "root of the mean square difference, linear RGB clamped to [0,1]",
+                        .better = Better::less,
+                        .order = 104,
+                        .each_mask_in_table = true,
+                        .columns = {{"rmse"}},
+                        .get = [](const Difference& error) -> Value { return error.rmse; }}};
 const Registered kPsnr{{.name = "psnr",
                         .unit = "dB",
                         .help = "-20 log10 rmse; none for equal pictures",
                         .better = Better::more,
-                        .order = 104,
+                        .order = 106,
                         .columns = {{"PSNR dB", Style::fixed, 1}},
                         .get = [](const Difference& error) -> Value {
                             return error.psnr.value_or(Difference::kNone);
@@ -73,7 +81,7 @@ const Registered kPsnr{{.name = "psnr",
 const Registered kP99{{.name = "p99",
                        .help = "99th percentile of the pixels' largest channel difference",
                        .better = Better::less,
-                       .order = 105,
+                       .order = 107,
                        .columns = {{"p99"}},
                        .get = [](const Difference& error) -> Value { return error.p99; }}};
 const Registered kNonfinite{
@@ -81,25 +89,19 @@ const Registered kNonfinite{
      .unit = "pixels",
      .help = "pixels that are NaN or infinite; any makes a row fail",
      .better = Better::less,
-     .order = 106,
+     .order = 108,
      .get = [](const Difference& error) -> Value { return static_cast<double>(error.nonfinite); }}};
 const Registered kMax{{.name = "max",
                        .help = "the largest channel difference of all",
                        .better = Better::less,
-                       .order = 107,
+                       .order = 109,
                        .get = [](const Difference& error) -> Value { return error.max; }}};
 const Registered kMaxAt{{.name = "max_at",
                          .help = "the pixel of the largest channel difference",
-                         .order = 108,
+                         .order = 110,
                          .get = [](const Difference& error) -> Value {
                              return Place{error.max_x, error.max_y};
                          }}};
-const Registered kShareOff{
-    {.name = "off",
-     .help = "share of the pixels whose largest channel difference exceeds .02",
-     .better = Better::less,
-     .order = 109,
-     .get = [](const Difference& error) -> Value { return error.off; }}};
 
 const Registered kMean{{.name = "mean",
                         .help = "mean of the whole picture by channel, linear",

@@ -2,6 +2,7 @@
 
 #include "measure/quantity.hpp"
 #include "measure/rows.hpp"
+#include "measure/views.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ bool is_faster(const Row& a, const Row& b) { return time_ratio(a, b).high < 1; }
 
 bool is_tie(const Row& a, const Row& b) { return !is_faster(a, b) && !is_faster(b, a); }
 
-bool is_closer(const Row& a, const Row& b) { return a.error.flip < b.error.flip; }
+bool is_closer(const Row& a, const Row& b) { return is_less(a, b, "flip"); }
 
 bool beats(const Row& a, const Row& b) {
     if (!is_choice(a) || !is_choice(b)) return false;

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "measure/difference.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
 
 // How far rows that read last frame's captures are behind a moving scene, as plain data. Every
-// error is an rmse over the pixels whose first hit is a mirror, on linear colours clamped to [0,1].
+// error is over the pixels whose first hit is a mirror.
 namespace catoptric::measure {
 
 /// A picture that changes too little to be seen: one step of 8 bits, linear.
@@ -13,11 +15,9 @@ inline constexpr double kLagBound = 1.0 / 255;
 
 /// The whole path at one speed.
 struct LagAtSpeed {
-    double speed = 1;                   ///< seconds of the scene's time in 60 frames
-    std::vector<double> rmse;           ///< against the still picture, one an instant
-    std::vector<double> reference_rmse; ///< against the reference, one an instant
-    double mean_rmse = 0, median_rmse = 0, max_rmse = 0; ///< over the instants
-    double mean_reference_rmse = 0;
+    double speed = 1;                         ///< seconds of the scene's time in 60 frames
+    std::vector<Difference> errors;           ///< against the still picture, one an instant
+    std::vector<Difference> reference_errors; ///< against the reference, one an instant
 };
 
 /// The frames after a cut against the still picture; entry k-1 is frame k.
@@ -34,8 +34,7 @@ struct LagRow {
     /// nothing changes any more. Most frames that one took; how many still changed at the cap.
     int still_frames = 0;
     int restless_stills = 0;
-    std::vector<double> still_reference_rmse; ///< against the reference, one an instant
-    double mean_still_reference_rmse = 0;
+    std::vector<Difference> still_reference_errors; ///< against the reference, one an instant
     Settling after_black; ///< captures start black, as in a run's first frame
     Settling
         after_jump; ///< the scene jumps to `seconds[0]` from `jump_from`, whose still was reached
@@ -53,7 +52,13 @@ struct Lag {
     bool complete = true; ///< false: interrupted, what there was so far
 };
 
-/// The instant of the largest error, seconds; NaN where there is none.
+/// A figure of every instant; NaN at those that see no mirror.
+std::vector<double> figures_of(const std::vector<Difference>& errors, double Difference::*figure);
+/// Over the instants that see a mirror; NaN where none does.
+double mean_of(const std::vector<Difference>& errors, double Difference::*figure);
+double percentile_of(const std::vector<Difference>& errors, double Difference::*figure,
+                     double fraction);
+/// The instant of the largest FLIP, seconds; NaN where there is none.
 double worst_instant(const Lag& lag, const LagAtSpeed& at);
 
 } // namespace catoptric::measure

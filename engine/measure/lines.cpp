@@ -77,7 +77,8 @@ const Registered kLongestLine{
          "length of the longest line of pixels that are off: of sets that touch when dilated by "
          "1, among those without a 4x4 square",
      .better = Better::less,
-     .order = 110,
+     .order = 105,
+     .columns = {{"Longest line", Style::fixed, 0}},
      .get = [](const Difference& error) -> Value { return error.longest_line; }}};
 
 } // namespace

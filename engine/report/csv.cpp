@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 #include "measure/judge.hpp"
 #include "measure/quantity.hpp"
+#include "measure/views.hpp"
 #include "report/report.hpp"
 #include "report/text.hpp"
 
@@ -120,6 +121,25 @@ void add_figures(Line& line, const Row& row, std::size_t mirrors) {
     }
 }
 
+/// Errors over the mirrors, over the drawn views; no columns where none were drawn.
+void add_views(Line& line, const Comparison& comparison, const Row& row) {
+    if (comparison.views.empty()) return;
+    for (const measure::Quantity& quantity : measure::difference_quantities()) {
+        if (!measure::is_number(quantity)) continue;
+        const measure::OverViews over = measure::over_views(row, measure::masks().front(),
+                                                            quantity);
+        const std::string name = "views_" + std::string(quantity.name);
+        line.add(name + "_median", over.median);
+        line.add(name + "_low", over.ci95.low);
+        line.add(name + "_high", over.ci95.high);
+    }
+    line.add("views", row.views.size());
+    const measure::View* worst = row.worst ? &comparison.views.at(row.worst->view) : nullptr;
+    line.add("worst_view", worst ? std::to_string(row.worst->view) : "");
+    line.add("worst_view_camera", worst ? worst->camera.name : "");
+    line.add("worst_view_time", worst ? worst->time : NAN);
+}
+
 void add_point(Line& line, const std::string& name, const dvec3& point) {
     line.add(name + "_x", point.x);
     line.add(name + "_y", point.y);
@@ -168,6 +188,7 @@ Line line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) 
     line.add("settings", settings_text(row));
     line.add("model", row.model);
     add_figures(line, row, mirrors);
+    add_views(line, comparison, row);
     line.add("image", "images/" + row.image + ".png");
     line.add("on_front", int{measure::on_front(comparison, row)});
     line.add("is_reference", int{row.is_reference});

@@ -20,10 +20,19 @@ void encode_new(EncodedPictures& pictures, const Comparison& comparison) {
         const Row& row = comparison.rows[i];
         if (pictures.rows[i].pictured == row.pictured) continue;
         const bool has_map = !row.flip_map.empty();
-        pictures.rows[i] = {
-            row.pictured, png_of(row.display),
-            has_map ? png_of(measure::heat(row.flip_map, row.display.width, row.display.height))
-                    : std::string()};
+        EncodedPictures::OfRow& encoded = pictures.rows[i];
+        encoded.pictured = row.pictured;
+        encoded.picture = png_of(row.display);
+        encoded.error = has_map ? png_of(measure::heat(row.flip_map, row.display.width,
+                                                       row.display.height))
+                                : std::string();
+    }
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        const std::optional<measure::WorstView>& worst = comparison.rows[i].worst;
+        EncodedPictures::OfRow& encoded = pictures.rows[i];
+        if (!worst || encoded.worst_view == worst->view) continue;
+        encoded.worst = png_of(worst->display);
+        encoded.worst_view = worst->view;
     }
 }
 

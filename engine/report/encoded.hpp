@@ -2,6 +2,7 @@
 
 #include "report/comparison.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,15 @@ struct EncodedPictures {
         int pictured = -1;   ///< Row::pictured of the row that it was encoded from
         std::string picture; ///< as shown
         std::string error;   ///< heat map of its FLIP error; empty: it has none
+        std::string worst;   ///< at its worst view so far; empty: none was drawn
+        std::optional<std::size_t> worst_view;
     };
     std::string reference; ///< empty: it was not rendered
     std::vector<OfRow> rows;
 };
 
-/// Encodes what has come since the last time: rows are added, and show a later frame.
+/// Encodes what has come since the last time: rows are added, show a later frame, and their worst
+/// views may change.
 void encode_new(EncodedPictures& pictures, const Comparison& comparison);
 
 /// report.html with these pictures.

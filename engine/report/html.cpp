@@ -8,6 +8,7 @@
 #include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
+#include "report/views.hpp"
 
 #include <fmt/format.h>
 
@@ -95,8 +96,10 @@ std::string number(const char* name, const std::string& value) {
 std::string numbers(const Row& row) {
     return "<dl class=\"numbers\">" + number("ms", ms_text(row.time_ms().median)) +
            number("FPS", fps_text(row.time_ms().median)) +
-           number("FLIP", error_text(row.error.flip)) + number("rmse", error_text(row.error.rmse)) +
-           number("rmse, 1st order", error_text(row.error_first_order.rmse)) +
+           number("FLIP", error_text(row.error.flip)) +
+           number("off, %", fixed(100 * row.error.off, 2)) +
+           number("MAE", error_text(row.error.mae)) + number("rmse", error_text(row.error.rmse)) +
+           number("FLIP, 1st order", error_text(row.error_first_order.flip)) +
            number("PSNR dB", row.error.psnr ? fixed(*row.error.psnr, 1) : std::string(kNothing)) +
            number("Scene passes", std::to_string(row.scene_passes)) +
            number("MiB", mebibytes(row.memory_bytes)) + "</dl>";
@@ -162,6 +165,25 @@ std::string pictures(const Comparison& comparison, const EncodedPictures& encode
     return html + "</div></section>\n";
 }
 
+/// Every row where it is furthest from the reference; empty without drawn views.
+std::string over_views(const Comparison& comparison, const EncodedPictures& encoded) {
+    const Table table = views_table(comparison);
+    if (table.rows.empty()) return "";
+    std::string html = to_html(table, "views", false) + "<section><h2>Apart and ties</h2>" +
+                       list_of(views_in_words(comparison)) +
+                       "</section><section><h2>Worst views</h2><p>Each row at its view of the "
+                       "largest FLIP, beside the reference.</p>";
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        const Row& row = comparison.rows[i];
+        if (!row.worst) continue;
+        const std::string where = view_text(comparison, *row.worst);
+        html += figure(row.worst->display, encoded.rows[i].worst,
+                       row.label + ", to its right the reference, at " + where,
+                       row.label + ": " + where);
+    }
+    return html + "</section>\n";
+}
+
 std::string front(const Comparison& comparison) {
     std::string html = "<section><h2>Time against error</h2>";
     const std::string drawing = plot(comparison);
@@ -213,7 +235,7 @@ std::string to_html(const Comparison& comparison, const EncodedPictures& encoded
                 "</section>\n";
     html += "<section><h2>Set-up, once</h2><p>" + html_escaped(setup_text(comparison.setup)) +
             "</p></section>\n" + to_html(rows_table(comparison), "all", true) +
-            to_html(plan_table(comparison), "plans", true) +
+            to_html(plan_table(comparison), "plans", true) + over_views(comparison, encoded) +
             to_html(mirror_table(comparison), "mirrors", true) +
             to_html(lookup_table(comparison), "lookups", true) +
             to_html(cause_table(comparison), "causes", false) + lag_plots(comparison) +

@@ -53,9 +53,7 @@ struct Writes {
     Json operator()(std::monostate) const { return nullptr; }
     Json operator()(bool mark) const { return mark; }
     Json operator()(double value) const { return number(value); }
-    Json operator()(const dvec3& colour) const {
-        return Json::array({number(colour.x), number(colour.y), number(colour.z)});
-    }
+    Json operator()(const dvec3& colour) const { return point_json(colour); }
     Json operator()(const measure::Place& place) const {
         return place.x < 0 ? Json(nullptr) : Json::array({place.x, place.y});
     }
@@ -120,6 +118,18 @@ Json to_json(const std::vector<Setting>& settings) {
 
 } // namespace
 
+Json point_json(const dvec3& point) {
+    return Json::array({number(point.x), number(point.y), number(point.z)});
+}
+
+Json camera_json(const measure::CameraFacts& camera) {
+    return {{"name", camera.name},
+            {"eye", point_json(camera.eye)},
+            {"target", point_json(camera.target)},
+            {"up", point_json(camera.up)},
+            {"vertical_fov_degrees", number(camera.vertical_fov_degrees)}};
+}
+
 Json plan_json(const std::vector<PlanEntry>& plan) {
     Json json = Json::array();
     for (const PlanEntry& entry : plan)
@@ -138,22 +148,11 @@ Json to_json(const Row& row) {
     json["label"] = row.label;
     json["model"] = row.model;
     add_figures(json, row);
+    json["views"] = views_json(row);
     json["plan"] = plan_json(row.plan);
     json["image"] = "images/" + row.image + ".png";
     json["is_reference"] = row.is_reference;
     return json;
-}
-
-Json to_json(const dvec3& point) {
-    return Json::array({number(point.x), number(point.y), number(point.z)});
-}
-
-Json to_json(const measure::CameraFacts& camera) {
-    return {{"name", camera.name},
-            {"eye", to_json(camera.eye)},
-            {"target", to_json(camera.target)},
-            {"up", to_json(camera.up)},
-            {"vertical_fov_degrees", number(camera.vertical_fov_degrees)}};
 }
 
 Json to_json(const SetupFacts& setup) {
@@ -177,7 +176,7 @@ void add_circumstances(Json& json, const Comparison& comparison) {
                      {"triangles", scene.triangles},
                      {"mirrors", scene.mirrors},
                      {"hash", scene.hash},
-                     {"camera", to_json(scene.camera)}};
+                     {"camera", camera_json(scene.camera)}};
     json["setup"] = to_json(comparison.setup);
     json["size"] = Json::array({comparison.width, comparison.height});
     json["frames"] = comparison.frames;
@@ -213,6 +212,7 @@ std::string to_json(const Comparison& comparison) {
                          {"gpu_ms", to_json(comparison.reference_gpu_ms)}};
     if (comparison.clear_ms) json["clear_ms"] = to_json(*comparison.clear_ms);
     json["model"] = comparison.model;
+    json["views"] = views_json(comparison);
     json["rows"] = Json::array();
     for (const Row& row : comparison.rows) json["rows"].push_back(to_json(row));
     json["pareto"] = comparison.pareto;

@@ -18,6 +18,12 @@ Json value_json(const measure::Value& value);
 /// The field "lag".
 Json to_json(const Lag& lag);
 
+/// The field "views": of the comparison, a list; of a row, null where none were drawn.
+Json views_json(const Comparison& comparison);
+Json views_json(const Row& row);
+Json point_json(const dvec3& point);
+Json camera_json(const measure::CameraFacts& camera);
+
 /// A list with an object for each mirror: mirror, name, technique, settings, why.
 Json plan_json(const std::vector<PlanEntry>& plan);
 

@@ -20,24 +20,39 @@ Json to_json(const Settling& settling) {
             {"max", numbers(settling.max)}};
 }
 
+/// Each headline figure of every instant, and its mean; names begin with `prefix`.
+void add_figures(Json& json, const std::string& prefix,
+                 const std::vector<measure::Difference>& errors) {
+    using measure::Difference;
+    for (const auto& [name, figure] :
+         {std::pair("flip", &Difference::flip), std::pair("off", &Difference::off),
+          std::pair("mae", &Difference::mae), std::pair("rmse", &Difference::rmse)}) {
+        json[prefix + name + "_mean"] = number(measure::mean_of(errors, figure));
+        json[prefix + name] = numbers(measure::figures_of(errors, figure));
+    }
+}
+
 Json to_json(const LagAtSpeed& at) {
-    return {{"speed", number(at.speed)},
-            {"rmse_mean", number(at.mean_rmse)},
-            {"rmse_median", number(at.median_rmse)},
-            {"rmse_max", number(at.max_rmse)},
-            {"reference_rmse_mean", number(at.mean_reference_rmse)},
-            {"rmse", numbers(at.rmse)},
-            {"reference_rmse", numbers(at.reference_rmse)}};
+    using measure::Difference;
+    Json json{{"speed", number(at.speed)}};
+    add_figures(json, "", at.errors);
+    for (const auto& [name, figure] :
+         {std::pair("flip", &Difference::flip), std::pair("rmse", &Difference::rmse)}) {
+        const std::string prefix(name);
+        json[prefix + "_median"] = number(measure::percentile_of(at.errors, figure, .5));
+        json[prefix + "_max"] = number(measure::percentile_of(at.errors, figure, 1));
+    }
+    add_figures(json, "reference_", at.reference_errors);
+    return json;
 }
 
 Json to_json(const LagRow& row) {
     Json json{{"label", row.label},
               {"still_frames", row.still_frames},
               {"restless_stills", row.restless_stills},
-              {"still_reference_rmse_mean", number(row.mean_still_reference_rmse)},
-              {"still_reference_rmse", numbers(row.still_reference_rmse)},
               {"after_black", to_json(row.after_black)},
               {"after_jump", to_json(row.after_jump)}};
+    add_figures(json, "still_reference_", row.still_reference_errors);
     json["speeds"] = Json::array();
     for (const LagAtSpeed& at : row.speeds) json["speeds"].push_back(to_json(at));
     return json;

@@ -12,6 +12,8 @@ namespace catoptric::report {
 
 namespace {
 
+constexpr auto kFlip = &measure::Difference::flip;
+
 /// The k-th of n lines, the last the strongest.
 double strength(std::size_t k, std::size_t n) {
     return 0.3 + 0.7 * static_cast<double>(k + 1) / static_cast<double>(n);
@@ -19,28 +21,30 @@ double strength(std::size_t k, std::size_t n) {
 
 std::string along_path(const Lag& lag, const LagRow& row) {
     LinePlot plot{.x_name = "instant of the scene, s",
-                  .y_name = "rmse to the still picture",
+                  .y_name = "FLIP to the still picture",
                   .says = "Lag of " + row.label + " along the path, one line a speed",
                   .x = lag.seconds};
     for (const double share : {0.0, 0.25, 0.5, 0.75})
         plot.x_ticks.push_back(lag.seconds.front() + share * lag.path);
     std::erase_if(plot.x_ticks, [&](double tick) { return tick > lag.seconds.back(); });
     for (std::size_t k = 0; k < row.speeds.size(); ++k)
-        plot.lines.push_back({fmt::format("{:g}x", row.speeds[k].speed), row.speeds[k].rmse,
+        plot.lines.push_back({fmt::format("{:g}x", row.speeds[k].speed),
+                              measure::figures_of(row.speeds[k].errors, kFlip),
                               strength(k, row.speeds.size())});
     return line_plot(plot);
 }
 
 std::string against_speed(const Lag& lag) {
     LinePlot plot{.x_name = "speed of the scene's time",
-                  .y_name = "rmse to the still picture, mean",
+                  .y_name = "FLIP to the still picture, mean",
                   .says = "Mean lag against speed, one line a row",
                   .log_x = true};
     for (const LagAtSpeed& at : lag.rows.front().speeds) plot.x.push_back(at.speed);
     plot.x_ticks = plot.x;
     for (std::size_t k = 0; k < lag.rows.size(); ++k) {
         PlotLine line{lag.rows[k].label, {}, strength(k, lag.rows.size())};
-        for (const LagAtSpeed& at : lag.rows[k].speeds) line.y.push_back(at.mean_rmse);
+        for (const LagAtSpeed& at : lag.rows[k].speeds)
+            line.y.push_back(measure::mean_of(at.errors, kFlip));
         plot.lines.push_back(std::move(line));
     }
     return line_plot(plot);

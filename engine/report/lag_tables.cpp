@@ -8,6 +8,9 @@ namespace catoptric::report {
 
 namespace {
 
+using measure::Difference;
+using measure::percentile_of;
+
 std::string speed_text(double speed) { return fmt::format("{:g}x", speed); }
 
 std::string count_text(const std::optional<int>& frames, int cap) {
@@ -18,9 +21,9 @@ std::string lag_note(const Lag& lag) {
     std::string note = fmt::format(
         "The scene's time runs at so many times the clock's, 60 frames a second, over a path of "
         "{:.3g} s. "
-        "rmse over the mirrors between the moving picture and the still one of the same row and "
-        "instant (the scene stands until nothing changes any more), mean, median and largest of {} "
-        "instants; s: when it is largest. Right: against the reference, moving and still.",
+        "Errors over the mirrors between the moving picture and the still one of the same row and "
+        "instant (the scene stands until nothing changes any more), mean of {} instants; s: when "
+        "FLIP is largest. Right: FLIP against the reference, moving and still.",
         lag.path, lag.seconds.size());
     for (const LagRow& row : lag.rows)
         if (row.restless_stills > 0)
@@ -29,13 +32,35 @@ std::string lag_note(const Lag& lag) {
     return note;
 }
 
+std::vector<std::string> line_of(const Lag& lag, const LagRow& row, const LagAtSpeed& at) {
+    const auto mean = [&](double Difference::*figure) {
+        return measure::mean_of(at.errors, figure);
+    };
+    const auto flip_to_reference = [](const std::vector<Difference>& errors) {
+        return error_text(measure::mean_of(errors, &Difference::flip));
+    };
+    return {row.label,
+            speed_text(at.speed),
+            error_text(mean(&Difference::flip)),
+            fixed(100 * mean(&Difference::off), 2),
+            error_text(mean(&Difference::mae)),
+            error_text(mean(&Difference::rmse)),
+            error_text(percentile_of(at.errors, &Difference::flip, .5)),
+            error_text(percentile_of(at.errors, &Difference::flip, 1)),
+            fixed(measure::worst_instant(lag, at), 2),
+            flip_to_reference(at.reference_errors),
+            flip_to_reference(row.still_reference_errors)};
+}
+
 std::string behind(const LagRow& row) {
     std::vector<std::string> parts;
     for (const LagAtSpeed& at : row.speeds)
-        parts.push_back(fmt::format("{} (median {}, largest {}) at {}", error_text(at.mean_rmse),
-                                    error_text(at.median_rmse), error_text(at.max_rmse),
+        parts.push_back(fmt::format("{} (median {}, largest {}) at {}",
+                                    error_text(measure::mean_of(at.errors, &Difference::flip)),
+                                    error_text(percentile_of(at.errors, &Difference::flip, .5)),
+                                    error_text(percentile_of(at.errors, &Difference::flip, 1)),
                                     speed_text(at.speed)));
-    return row.label + " is behind its own still picture by an rmse of " + joined(parts, ", ");
+    return row.label + " is behind its own still picture by a FLIP of " + joined(parts, ", ");
 }
 
 std::string settles(const LagRow& row, int cap) {
@@ -54,9 +79,12 @@ Table lag_table(const Comparison& comparison) {
     Table table{"Lag: the moving scene",
                 {{"Row", false},
                  {"Speed"},
-                 {"rmse, mean"},
-                 {"rmse, median"},
-                 {"rmse, largest"},
+                 {"FLIP"},
+                 {"off, %"},
+                 {"MAE"},
+                 {"rmse"},
+                 {"FLIP, median"},
+                 {"FLIP, largest"},
                  {"s"},
                  {"to reference, moving"},
                  {"to reference, still"}},
@@ -67,11 +95,7 @@ Table lag_table(const Comparison& comparison) {
     table.note = lag_note(*comparison.lag);
     for (const LagRow& row : comparison.lag->rows)
         for (const LagAtSpeed& at : row.speeds)
-            table.rows.push_back({row.label, speed_text(at.speed), error_text(at.mean_rmse),
-                                  error_text(at.median_rmse), error_text(at.max_rmse),
-                                  fixed(measure::worst_instant(*comparison.lag, at), 2),
-                                  error_text(at.mean_reference_rmse),
-                                  error_text(row.mean_still_reference_rmse)});
+            table.rows.push_back(line_of(*comparison.lag, row, at));
     return table;
 }
 

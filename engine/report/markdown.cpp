@@ -4,6 +4,7 @@
 #include "report/report.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
+#include "report/views.hpp"
 
 #include <algorithm>
 
@@ -46,6 +47,12 @@ std::string list_of(const std::vector<std::string>& sentences) {
     return text + "\n";
 }
 
+/// Nothing without drawn views.
+std::string over_views(const Comparison& comparison) {
+    const std::string table = to_markdown(views_table(comparison));
+    return table.empty() ? "" : table + list_of(views_in_words(comparison));
+}
+
 } // namespace
 
 std::string to_markdown(const Table& table) {
@@ -81,9 +88,9 @@ std::string to_markdown(const Comparison& comparison) {
     text += "\n" + (comparison.scene.is_seed ? to_markdown(seed_table(comparison)) : "") +
             "**Set-up**, once: " + escaped(setup_text(comparison.setup)) + "\n\n" +
             to_markdown(rows_table(comparison)) + to_markdown(plan_table(comparison)) +
-            to_markdown(mirror_table(comparison)) + to_markdown(lookup_table(comparison)) +
-            to_markdown(cause_table(comparison)) + to_markdown(lag_table(comparison)) +
-            to_markdown(settling_table(comparison));
+            over_views(comparison) + to_markdown(mirror_table(comparison)) +
+            to_markdown(lookup_table(comparison)) + to_markdown(cause_table(comparison)) +
+            to_markdown(lag_table(comparison)) + to_markdown(settling_table(comparison));
     text += "## The Pareto front: time against FLIP\n\n" + list_of(front_in_words(comparison));
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty())

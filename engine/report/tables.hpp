@@ -30,7 +30,7 @@ Table seed_table(const Comparison& comparison);
 Table rows_table(const Comparison& comparison);
 /// What draws each mirror, for rows that are plans; no rows when none is.
 Table plan_table(const Comparison& comparison);
-/// rmse by mirror.
+/// FLIP by mirror.
 Table mirror_table(const Comparison& comparison);
 /// Where mirrors looked, for rows that search; no rows when none does.
 Table lookup_table(const Comparison& comparison);

@@ -63,14 +63,19 @@ std::string incomplete_text(std::size_t rows, std::size_t asked,
 std::string incomplete_text(const Comparison& comparison) {
     if (comparison.complete) return "";
     const bool in_lag = comparison.lag && !comparison.lag->complete;
+    const bool has_all = comparison.rows.size() == comparison.asked;
     std::size_t measured = 0; // rounds that every row has
     for (const Row& row : comparison.rows)
         if (&row == &comparison.rows.front() || row.gpu_ms.rounds.size() < measured)
             measured = row.gpu_ms.rounds.size();
-    const bool in_rounds = comparison.rows.size() == comparison.asked &&
-                           measured < static_cast<std::size_t>(comparison.rounds);
+    const bool in_rounds = has_all && measured < static_cast<std::size_t>(comparison.rounds);
+    const bool in_views = has_all && !in_rounds &&
+                          std::ranges::any_of(comparison.rows, [&](const Row& row) {
+                              return row.views.size() < comparison.views.size();
+                          });
     return incomplete_text(comparison.rows.size(), comparison.asked, comparison.stopped) +
            (in_rounds ? fmt::format("; {} of {} rounds", measured, comparison.rounds) : "") +
+           (in_views ? "; their errors over views were not measured to the end" : "") +
            (in_lag ? "; their lag was not measured to its end" : "");
 }
 

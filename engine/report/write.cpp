@@ -2,6 +2,7 @@
 #include "core/file.hpp"
 #include "measure/picture_file.hpp"
 #include "report/report.hpp"
+#include "report/views.hpp"
 
 #include <system_error>
 
@@ -31,6 +32,13 @@ void Writer::write_pictures(const Comparison& comparison) {
         write_file(images / (row.image + "-error.png"), pictures_.rows[i].error);
         written_[i] = row.pictured;
     }
+    worst_.resize(comparison.rows.size());
+    for (std::size_t i = 0; i < worst_.size(); ++i) {
+        const EncodedPictures::OfRow& encoded = pictures_.rows[i];
+        if (worst_[i] == encoded.worst_view) continue;
+        write_file(images / worst_image(comparison.rows[i].image), encoded.worst);
+        worst_[i] = encoded.worst_view;
+    }
 }
 
 void Writer::write(const Comparison& comparison) {
@@ -47,9 +55,11 @@ void Writer::write(const Comparison& comparison) {
 std::vector<fs::path> files_of(const std::vector<std::string>& images) {
     std::vector<fs::path> files{"report.json", "report.html", "report.md", "rows.csv",
                                 "images/reference.png"};
-    for (const std::string& image : images)
+    for (const std::string& image : images) {
         for (const char* ending : {".exr", ".png", "-error.png"})
             files.push_back(fs::path("images") / (image + ending));
+        files.push_back(fs::path("images") / worst_image(image));
+    }
     return files;
 }
 

@@ -24,6 +24,7 @@ constexpr const char* kExamples = R"(Examples:
   catoptric compare -o out
   catoptric compare scene.glb -o out --size 256x256 --techniques reuse parallax:face=512
   catoptric compare -o out --together --json > report.json
+  catoptric compare -o out --views 30 --no-causes --techniques secant march layered
   catoptric compare -o out --lag --size 256x256 --techniques reuse parallax secant
 
 SCENE comes before --techniques. DIR gets report.html, report.md, report.json, rows.csv and images/.)";
@@ -36,6 +37,7 @@ struct Options {
     int rounds = app::kRounds;
     bool causes = false;
     bool lag = false;
+    int views = 1;
     std::vector<std::string> command;
 };
 
@@ -45,6 +47,16 @@ void check_no_scene(const std::string& text) {
     for (const scene::BuiltIn& built_in : scene::built_in_scenes()) scene |= built_in.name == text;
     check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
           "'; SCENE comes before --techniques");
+}
+
+/// 1, or as many as bound a median.
+int parse_views(const std::string& text) {
+    constexpr std::int64_t kMost = 10'000;
+    constexpr int kLeast = measure::kFewest;
+    const auto views = static_cast<int>(parse_whole("--views", text, 1, kMost));
+    check(views == 1 || views >= kLeast, Failure::usage, "--views: wanted 1 or at least ", kLeast,
+          ", since fewer bound no median with 95 % confidence, found ", views);
+    return views;
 }
 
 app::CompareRequest make_compare_request(const Options& options) {
@@ -58,6 +70,7 @@ app::CompareRequest make_compare_request(const Options& options) {
     request.rounds = options.rounds;
     request.causes = options.causes;
     request.lag = options.lag;
+    request.views = options.views;
     request.command = options.command;
     return request;
 }
@@ -94,10 +107,17 @@ void show(const Options& options, const report::Comparison& comparison) {
     if (!comparison.stopped) note(manners, "written: " + options.folder);
 }
 
+/// What was on its way when a run with all its rows ended early.
+std::string phase_of(const report::Comparison& comparison) {
+    if (comparison.lag) return ", while their lag was measured";
+    const bool in_views = !comparison.views.empty() && comparison.rows.size() == comparison.asked;
+    return in_views ? ", while their views were rendered" : "";
+}
+
 int exit_code(const Options& options, const report::Comparison& comparison) {
     if (comparison.stopped)
         fail_incomplete(*comparison.stopped, comparison.rows.size(), comparison.asked,
-                        comparison.lag ? ", while their lag was measured" : "", options.folder);
+                        phase_of(comparison), options.folder);
     const std::vector<std::string> broken = broken_rows(comparison);
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
@@ -148,11 +168,16 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
         "name[:knob=value,...], plan:FILE.json or \"PATTERN=name ...\" each, see 'list techniques' "
         "(the default list)",
         options->techniques);
+    verb.option("--views", "N",
+                "also the errors from N views drawn from --seed, at least 6, with an interval of "
+                "each figure: a picture a row and view (1: none)",
+                [options](const std::string& text) { options->views = parse_views(text); });
     verb.flag("--together", "all rows in one command buffer, on one timeline", options->together);
     verb.option("--rounds", "N",
                 "rounds in which the frames are measured, row after row in each; at least 6 (6)",
                 [options](const std::string& text) {
-                    options->rounds = static_cast<int>(parse_whole("--rounds", text, app::kRounds, 10000));
+                    options->rounds = static_cast<int>(
+                        parse_whole("--rounds", text, app::kRounds, 10000));
                 });
     verb.flag("--causes", "split each row's error by cause: 32 pictures more a row",
               options->causes);

@@ -19,6 +19,10 @@ std::string figure(double value) {
     return std::isfinite(value) ? fmt::format("{:.5f}", value) : "-";
 }
 
+std::string percent(double share) {
+    return std::isfinite(share) ? fmt::format("{:.2f}", 100 * share) : "-";
+}
+
 std::string spread(const measure::Summary& ms) {
     if (!ms.ci95.is_known()) return "-";
     return fmt::format("[{} - {}]", milliseconds(ms.ci95.low), milliseconds(ms.ci95.high));
@@ -46,7 +50,7 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
 
 std::string compare_table(const report::Comparison& comparison) {
     std::vector<std::vector<std::string>> rows{
-        {"technique", "R", "ms", "[95 %]", "place", "flip", "off", "mae", "rmse", "mean"}};
+        {"technique", "R", "ms", "[95 %]", "place", "flip", "off %", "mae", "rmse", "mean"}};
     for (const report::Row& row : comparison.rows) {
         const measure::Places places = measure::places_in_time(comparison, row);
         rows.push_back({row.label, std::to_string(row.scene_passes),
@@ -54,7 +58,7 @@ std::string compare_table(const report::Comparison& comparison) {
                         places.first == places.last
                             ? std::to_string(places.first)
                             : fmt::format("{}-{}", places.first, places.last),
-                        figure(row.error.flip), figure(row.error.off), figure(row.error.mae),
+                        figure(row.error.flip), percent(row.error.off), figure(row.error.mae),
                         figure(row.error.rmse), figure(row.mean_clamped.all)});
     }
     return fmt::format("{} {}x{}, {} frames in {} rounds after {}, {}; errors on mirrors, against "

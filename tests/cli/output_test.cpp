@@ -106,29 +106,30 @@ TEST_F(Cli, PngToStdout) {
     EXPECT_EQ(read("x.png"), ended.out);
 }
 
+/// Eight rows in five rounds.
+std::vector<std::string> eight_rows() {
+    std::vector<std::string> words{"compare",
+                                   "-o",
+                                   "out",
+                                   "--size",
+                                   "32x32",
+                                   "--frames",
+                                   "5",
+                                   "--warmup",
+                                   "1",
+                                   "--progress",
+                                   "always",
+                                   "--techniques",
+                                   "reuse:face=64",
+                                   "parallax:face=64"};
+    for (int i = 1; i <= 6; ++i) words.push_back("naive:face=64,bounces=" + std::to_string(i));
+    return words;
+}
+
 TEST_F(Cli, InterruptedCompareKeepsItsRows) {
-    test::Start process = start({"compare",
-                                 "-o",
-                                 "out",
-                                 "--size",
-                                 "32x32",
-                                 "--frames",
-                                 "5",
-                                 "--warmup",
-                                 "1",
-                                 "--progress",
-                                 "always",
-                                 "--techniques",
-                                 "reuse:face=64",
-                                 "parallax:face=64",
-                                 "naive:face=64,bounces=1",
-                                 "naive:face=64,bounces=2",
-                                 "naive:face=64,bounces=3",
-                                 "naive:face=64,bounces=4",
-                                 "naive:face=64,bounces=5",
-                                 "naive:face=64,bounces=6"});
+    test::Start process = start(eight_rows());
     process.signal = SIGINT;
-    process.signal_at = "[2/8]";
+    process.signal_at = "[2/40] parallax:face=64, round 1 of 5";
     const test::Ended ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("of 8 rows"));
@@ -137,6 +138,21 @@ TEST_F(Cli, InterruptedCompareKeepsItsRows) {
     EXPECT_GE(document["rows"].size(), 1U);
     EXPECT_LT(document["rows"].size(), 8U);
     EXPECT_TRUE(fs::exists(folder / "out/report.html"));
+}
+
+TEST_F(Cli, InterruptedInALaterRoundKeepsTheRounds) {
+    test::Start process = start(eight_rows());
+    process.signal = SIGINT;
+    process.signal_at = "reuse:face=64, round 4 of 5";
+    const test::Ended ended = test::run_process(process);
+    EXPECT_EQ(ended.exit_code, 130) << ended.err;
+    const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
+    ASSERT_EQ(document["rows"].size(), 8U);
+    EXPECT_THAT(document["incomplete"], testing::MatchesRegex("8 of 8 rows: .*; [34] of 5 rounds"));
+    for (const nlohmann::json& row : document["rows"]) {
+        EXPECT_GE(row["gpu_ms"]["rounds"].size(), 3U);
+        EXPECT_TRUE(row["error"]["rmse"].is_number());
+    }
 }
 
 TEST_F(Cli, InterruptedBeforeTheFirstRow) {

@@ -1,5 +1,6 @@
 // How far pictures that live on last frame's captures are behind a moving scene.
 #include "app/lag.hpp"
+#include "measure/flip.hpp"
 #include "support/rendering.hpp"
 
 #include <gmock/gmock.h>
@@ -12,7 +13,10 @@ namespace {
 using namespace catoptric;
 using testing::ElementsAre;
 
+using measure::Difference;
+
 constexpr uvec2 kSize{64, 64};
+constexpr auto kFlip = &Difference::flip, kRmse = &Difference::rmse;
 
 app::LagRequest lag_request(const scene::Scene& scene, const std::vector<std::string>& techniques,
                             const std::vector<double>& speeds, int most_instants = 30) {
@@ -38,11 +42,15 @@ void expect_no_lag(const report::Lag& lag, std::size_t rows, std::size_t speeds)
         EXPECT_EQ(row.restless_stills, 0) << row.label;
         ASSERT_EQ(row.speeds.size(), speeds) << row.label;
         for (const report::LagAtSpeed& at : row.speeds) {
-            EXPECT_THAT(at.rmse, testing::Each(0.0)) << row.label << " at " << at.speed;
-            EXPECT_EQ(at.rmse.size(), lag.seconds.size());
-            EXPECT_EQ(at.reference_rmse, row.still_reference_rmse)
-                << row.label << " at " << at.speed;
-            EXPECT_EQ(at.max_rmse, 0);
+            for (const auto figure : {kFlip, &Difference::off, &Difference::mae, kRmse}) {
+                const std::vector<double> errors = measure::figures_of(at.errors, figure);
+                EXPECT_THAT(errors, testing::Each(0.0)) << row.label << " at " << at.speed;
+                EXPECT_EQ(errors.size(), lag.seconds.size());
+                EXPECT_EQ(measure::figures_of(at.reference_errors, figure),
+                          measure::figures_of(row.still_reference_errors, figure))
+                    << row.label << " at " << at.speed;
+            }
+            EXPECT_EQ(measure::percentile_of(at.errors, kFlip, 1), 0);
         }
     }
 }
@@ -55,7 +63,7 @@ TEST(Lag, OfASceneThatStandsIsZeroAtEverySpeed) {
     expect_no_lag(lag, 2, 3);
     for (const report::LagRow& row : lag.rows) {
         EXPECT_EQ(row.after_jump.max_settled, 1) << "a jump of nothing";
-        EXPECT_GT(row.still_reference_rmse[0], 0)
+        EXPECT_GT(row.still_reference_errors[0].flip, 0)
             << "its error against the reference is another matter";
     }
     EXPECT_GT(lag.rows[0].after_black.max_settled, 1) << "three mirrors see each other";
@@ -75,7 +83,7 @@ TEST(Lag, OfASingleMirrorIsZeroThoughItMoves) {
             EXPECT_EQ(cut.rmse_settled, 1);
             EXPECT_EQ(cut.max_settled, 1);
         }
-        EXPECT_NE(row.still_reference_rmse[0], row.still_reference_rmse[3])
+        EXPECT_NE(row.still_reference_errors[0].rmse, row.still_reference_errors[3].rmse)
             << "the picture does change";
     }
 }
@@ -95,12 +103,14 @@ TEST(Lag, GrowsWithSpeed) {
     ASSERT_EQ(lag.rows.size(), 1u);
     const std::vector<report::LagAtSpeed>& speeds = lag.rows[0].speeds;
     ASSERT_EQ(speeds.size(), 3u);
-    for (const report::LagAtSpeed& at : speeds)
-        std::cout << "[ MEASURED ] lag of reuse at " << at.speed << "x: rmse " << at.mean_rmse
-                  << ", median " << at.median_rmse << ", largest " << at.max_rmse << "\n";
-    EXPECT_GT(speeds[0].mean_rmse, 0);
-    EXPECT_GT(speeds[1].mean_rmse, 1.4 * speeds[0].mean_rmse);
-    EXPECT_GT(speeds[2].mean_rmse, 1.4 * speeds[1].mean_rmse);
+    for (const auto figure : {kRmse, kFlip}) {
+        const auto mean = [&](std::size_t i) { return measure::mean_of(speeds[i].errors, figure); };
+        std::cout << "[ MEASURED ] lag of reuse, " << (figure == kFlip ? "FLIP" : "rmse")
+                  << " at 2x " << mean(0) << ", 4x " << mean(1) << ", 8x " << mean(2) << "\n";
+        EXPECT_GT(mean(0), 0);
+        EXPECT_GT(mean(1), 1.4 * mean(0));
+        EXPECT_GT(mean(2), 1.4 * mean(1));
+    }
 }
 
 /// Told by other means: an animation that ends at the instant, beside the same bounces rendered at
@@ -122,10 +132,16 @@ TEST(Lag, IsWhatAnAnimationShows) {
     still.time = traced.time = instant;
     const measure::Mask mirrors = measure::mirrors(
         app::run(test::engine(), traced).parts.front().hits);
-    const double rmse = test::rmse(app::run(test::engine(), moving).parts.front().hdr,
-                                   app::run(test::engine(), still).parts.front().hdr, mirrors);
-    EXPECT_GT(rmse, 0);
-    EXPECT_NEAR(lag.rows[0].speeds[0].rmse[1], rmse, 1e-6);
+    const app::Part at_speed = app::run(test::engine(), moving).parts.front(),
+                    at_rest = app::run(test::engine(), still).parts.front();
+    const Difference wanted = measure::difference(at_speed.hdr, at_rest.hdr, mirrors,
+                                                  measure::flip(at_speed.display, at_rest.display));
+    const Difference& found = lag.rows[0].speeds[0].errors[1];
+    EXPECT_GT(wanted.flip, 0);
+    EXPECT_NEAR(found.flip, wanted.flip, 1e-6);
+    EXPECT_NEAR(found.rmse, wanted.rmse, 1e-6);
+    EXPECT_EQ(found.off, wanted.off);
+    EXPECT_EQ(found.longest_line, wanted.longest_line);
 }
 
 /// reuse's frame k is naive with k bounces, byte for byte (reuse_test.cpp): so many bounces, so

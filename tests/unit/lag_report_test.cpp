@@ -22,16 +22,18 @@ using testing::Not;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-LagAtSpeed at_speed(double speed, double rmse) {
-    return {speed, {0, rmse}, {0.1, 0.1 + rmse}, rmse / 2, rmse / 4, rmse, 0.1 + rmse / 2};
+/// At two instants, of which the first is without lag.
+LagAtSpeed at_speed(double speed, double flip) {
+    return {speed,
+            {error_of(0, 0), error_of(flip / 4, flip)},
+            {error_of(.01, .1), error_of(.02, .1 + flip)}};
 }
 
 LagRow lag_row(const std::string& label) {
     LagRow row;
     row.label = label;
     row.still_frames = 5;
-    row.still_reference_rmse = {0.09, 0.11};
-    row.mean_still_reference_rmse = 0.1;
+    row.still_reference_errors = {error_of(.01, .09), error_of(.02, .11)};
     row.after_black = {{0.2, 0.003, 0}, {0.9, 0.5, 0}, 2, 3};
     row.after_jump = {{0.001, 0, 0}, {0.9, 0.8, 0.7}, 1, {}};
     row.speeds = {at_speed(1, 0.002), at_speed(2, 0.004)};
@@ -60,7 +62,7 @@ TEST(LagReport, HasARowForEachSpeed) {
     EXPECT_TRUE(std::regex_search(
         text,
         std::regex(
-            R"(\| reuse +\| +2x \| +0\.0020 \| +0\.0010 \| +0\.0040 \| +2\.00 \| +0\.1020 \| +0\.1000 \|)")))
+            R"(\| reuse +\| +2x \| +0\.0020 \| +0\.05 \| +0\.0003 \| +0\.0005 \| +0\.0020 \| +0\.0040 \| +2\.00 \| +0\.1020 \| +0\.1000 \|)")))
         << text;
     EXPECT_TRUE(std::regex_search(text, std::regex(R"(\| parallax +\| +1x \| +0\.0010 \|)")));
     EXPECT_THAT(text, HasSubstr("over a path of 4 s"));
@@ -82,8 +84,8 @@ TEST(LagReport, PutsItInWords) {
     EXPECT_THAT(
         said(made),
         HasSubstr(
-            "reuse is behind its own still picture by an rmse of 0.0010 (median 0.0005, largest "
-            "0.0020) at 1x, 0.0020 (median 0.0010, largest 0.0040) at 2x; after a cut from black "
+            "reuse is behind its own still picture by a FLIP of 0.0010 (median 0.0010, largest "
+            "0.0020) at 1x, 0.0020 (median 0.0020, largest 0.0040) at 2x; after a cut from black "
             "it is within 1/255 "
             "from frame 2 by rmse, 3 in every pixel; after a jump of half the path from "
             "frame 1 by rmse, over 3 in every pixel."));
@@ -95,7 +97,7 @@ TEST(LagReport, PutsItInWords) {
 
 TEST(LagReport, JsonHoldsEveryFigure) {
     Comparison made = with_lag();
-    made.lag->rows[0].speeds[0].rmse[0] = kNaN;
+    made.lag->rows[0].speeds[0].errors[0] = {};
     const json lag = json::parse(catoptric::report::to_json(made))["lag"];
     EXPECT_EQ(lag["complete"], true);
     EXPECT_EQ(lag["seconds"], json({0, 2}));
@@ -109,10 +111,20 @@ TEST(LagReport, JsonHoldsEveryFigure) {
     EXPECT_EQ(row["after_black"]["max"], json({0.9, 0.5, 0}));
     EXPECT_TRUE(row["after_jump"]["max_settled"].is_null());
     EXPECT_EQ(row["speeds"][1]["speed"], 2);
-    EXPECT_EQ(row["speeds"][1]["rmse"], json({0, 0.004}));
-    EXPECT_EQ(row["speeds"][1]["rmse_mean"], 0.002);
-    EXPECT_EQ(row["speeds"][1]["rmse_median"], 0.001);
-    EXPECT_DOUBLE_EQ(row["speeds"][1]["reference_rmse_mean"], 0.102);
+    const json& second = row["speeds"][1];
+    for (const auto& [name, share] :
+         {std::pair("flip", 1.0), {"off", .25}, {"mae", .125}, {"rmse", .25}}) {
+        EXPECT_EQ(second[name], json({0, share * .004})) << name;
+        EXPECT_DOUBLE_EQ(second[name + std::string("_mean")], share * .002) << name;
+    }
+    EXPECT_EQ(second["flip_median"], 0.002);
+    EXPECT_EQ(second["flip_max"], 0.004);
+    EXPECT_EQ(second["rmse_max"], 0.001);
+    EXPECT_DOUBLE_EQ(second["reference_flip_mean"], 0.102);
+    EXPECT_DOUBLE_EQ(second["reference_rmse_mean"], 0.015);
+    EXPECT_DOUBLE_EQ(row["still_reference_flip_mean"], 0.1);
+    EXPECT_DOUBLE_EQ(row["speeds"][0]["flip_mean"], 0.002) << "of the instant that is known";
+    EXPECT_TRUE(row["speeds"][0]["flip"][0].is_null());
     EXPECT_TRUE(row["speeds"][0]["rmse"][0].is_null());
 }
 

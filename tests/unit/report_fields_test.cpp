@@ -16,6 +16,7 @@ namespace {
 
 using namespace catoptric::report;
 using catoptric::measure::Difference;
+using catoptric::measure::LightEdges;
 using catoptric::measure::LookupError;
 using catoptric::measure::Mean;
 using catoptric::measure::Summary;
@@ -77,6 +78,7 @@ public:
         set(row.mean, "/mean", "mean");
         set(row.mean_clamped, "/mean_clamped", "mean_clamped");
         fill_lookup(row.lookup.emplace());
+        fill_light_edges(row.light_edges.emplace());
         fill_causes(row.causes.emplace());
         row.auto_face.emplace().needs.resize(2);
         set(row.auto_face->edge, "/auto_face/edge", "auto_face_edge");
@@ -138,6 +140,12 @@ private:
         set(lookup.unknown, "/lookup/unknown", "lookup_unknown");
         set(lookup.miss, "/lookup/miss", "lookup_miss");
         set(lookup.p95_residual, "/lookup/p95_residual", "lookup_p95_residual");
+    }
+    void fill_light_edges(LightEdges& edges) {
+        set(edges.rmse, "/light_edges/rmse", "light_edges_rmse");
+        set(edges.rest_rmse, "/light_edges/rest_rmse", "light_edges_rest_rmse");
+        set(edges.share, "/light_edges/share", "light_edges_share");
+        set(edges.pixels, "/light_edges/pixels", "light_edges_pixels");
     }
     void fill_causes(Causes& causes) {
         set(causes.squared_error, "/causes/squared_error", "causes_squared_error");
@@ -370,11 +378,19 @@ TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
         {"Place", "1"},
         {"cpu ms", ms(row.cpu_ms.median)},
         {"wall ms", ms(row.wall_ms.median)},
-        {"rmse", error(row.error.rmse)},
-        {"MAE", error(row.error.mae)},
         {"FLIP", error(row.error.flip)},
+        {"off, %", percent(row.error.off)},
+        {"MAE", error(row.error.mae)},
+        {"rmse", error(row.error.rmse)},
+        {"rmse, light edges", error(row.light_edges->rmse)},
+        {"rmse, rest", error(row.light_edges->rest_rmse)},
+        {"Longest line", with_decimals(row.error.longest_line, 0)},
         {"PSNR dB", with_decimals(*row.error.psnr, 1)},
         {"p99", error(row.error.p99)},
+        {"FLIP, first order", error(row.error_first_order.flip)},
+        {"FLIP, mirror in mirror", error(row.error_mirror_in_mirror.flip)},
+        {"FLIP, not a mirror", error(row.error_non_mirror.flip)},
+        {"FLIP, all", error(row.error_all.flip)},
         {"rmse, first order", error(row.error_first_order.rmse)},
         {"rmse, mirror in mirror", error(row.error_mirror_in_mirror.rmse)},
         {"rmse, not a mirror", error(row.error_non_mirror.rmse)},
@@ -394,8 +410,8 @@ TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
     EXPECT_EQ(
         cells_of(mirror_table(distinct(filler)), 0),
         (std::map<std::string, std::string>{{"Row", row.label},
-                                            {"Mirror 1", error(row.error_per_mirror[0].rmse)},
-                                            {"Mirror 2", error(row.error_per_mirror[1].rmse)}}));
+                                            {"Mirror 1", error(row.error_per_mirror[0].flip)},
+                                            {"Mirror 2", error(row.error_per_mirror[1].flip)}}));
 
     const LookupError& lookup = *row.lookup;
     EXPECT_EQ(cells_of(lookup_table(distinct(filler)), 0),
@@ -409,6 +425,25 @@ TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
                   {"Unknown, %", percent(lookup.unknown)},
                   {"Miss, %", percent(lookup.miss)},
                   {"Traced, %", percent(*row.traced_fraction)}}));
+}
+
+/// First what ranks rows, in the order of what it is worth, wherever errors stand.
+TEST(ReportFields, HeadlineErrorsStandFirst) {
+    const Comparison made = distinct(Filler());
+    std::vector<std::string> titles;
+    for (const Column& column : rows_table(made).columns) titles.push_back(column.name);
+    const auto first = std::ranges::find(titles, "FLIP");
+    ASSERT_GE(titles.end() - first, 7);
+    EXPECT_THAT(std::vector(first, first + 7),
+                testing::ElementsAre("FLIP", "off, %", "MAE", "rmse", "rmse, light edges",
+                                     "rmse, rest", "Longest line"));
+    std::vector<std::string> names;
+    const auto document = nlohmann::ordered_json::parse(to_json(made));
+    for (const auto& [name, value] : document["rows"][0]["error"].items()) names.push_back(name);
+    ASSERT_GE(names.size(), 7u);
+    names.resize(7);
+    EXPECT_THAT(names, testing::ElementsAre("mask", "pixels", "flip", "off", "mae", "rmse",
+                                            "longest_line"));
 }
 
 /// What draws each mirror stands in JSON for every row, and in a table for rows that are plans.

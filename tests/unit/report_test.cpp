@@ -34,7 +34,7 @@ TEST(ReportJson, HasTheContractsFieldsInItsOrder) {
     EXPECT_THAT(names, ElementsAre("schema", "version", "commit", "command", "complete", "device",
                                    "scene", "setup", "size", "frames", "warmup", "rounds", "timing",
                                    "load", "time", "ambient", "exposure", "together", "warnings",
-                                   "reference", "model", "rows", "pareto"));
+                                   "reference", "model", "views", "rows", "pareto"));
     EXPECT_EQ(document["schema"], "catoptric/compare/1");
     EXPECT_EQ(document["size"], json::parse("[4, 3]"));
     EXPECT_EQ(document["command"], json::parse(R"(["catoptric", "compare", "-o", "out"])"));

@@ -1,0 +1,43 @@
+#include "app/light_edges.hpp"
+
+#include "measure/masks.hpp"
+
+#include <algorithm>
+
+namespace catoptric::app {
+
+namespace {
+
+/// Texels along an edge of each mirror's capture; 0: it has none, and nobody looks into it.
+std::vector<std::uint32_t> faces_of(const report::Row& row) {
+    std::vector<std::uint32_t> faces;
+    for (const PlanEntry& entry : row.plan) {
+        const auto face = std::ranges::find(entry.settings, "face", &Setting::name);
+        const bool has_captures = face != entry.settings.end();
+        // face=auto is one edge for all.
+        const double edge = has_captures
+                                ? face->number.value_or(row.auto_face ? row.auto_face->edge : 0)
+                                : 0;
+        faces.push_back(static_cast<std::uint32_t>(edge));
+    }
+    return faces;
+}
+
+} // namespace
+
+measure::LightEdges light_edges_of(const report::Row& row, const Part& truth,
+                                   const std::vector<std::uint32_t>& hits,
+                                   const std::vector<vec4>& lookup, const Oracle& oracle) {
+    measure::Mask there = oracle.at_light_edges(lookup, faces_of(row));
+    measure::Mask elsewhere = measure::mirrors(hits);
+    for (std::size_t i = 0; i < there.size(); ++i) {
+        there[i] = there[i] & elsewhere[i];
+        elsewhere[i] = elsewhere[i] & static_cast<std::uint8_t>(~there[i]);
+    }
+    const auto over = [&](const measure::Mask& mask) {
+        return measure::difference(row.hdr, truth.hdr, mask, row.flip_map);
+    };
+    return measure::light_edges(over(there), over(elsewhere));
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,122 @@
+#include "report/views.hpp"
+
+#include "measure/views.hpp"
+#include "report/text.hpp"
+
+#include <fmt/format.h>
+
+namespace catoptric::report {
+
+namespace {
+
+struct Figure {
+    const measure::Quantity* quantity;
+    const measure::Column* column;
+};
+
+/// Figures of differences that the table of rows shows, too.
+std::vector<Figure> figures() {
+    std::vector<Figure> list;
+    for (const measure::Quantity& quantity : measure::difference_quantities())
+        for (const measure::Column& column : quantity.columns)
+            if (measure::is_number(quantity)) list.push_back({&quantity, &column});
+    return list;
+}
+
+std::string number_text(double value, const measure::Column& column) {
+    switch (column.style) {
+    case measure::Style::fixed: return fixed(value, column.decimals);
+    case measure::Style::percent: return fixed(100 * value, column.decimals);
+    default: return error_text(value);
+    }
+}
+
+std::string cell(const Row& row, const Figure& figure) {
+    const measure::OverViews over = measure::over_views(row, measure::masks().front(),
+                                                        *figure.quantity);
+    const measure::Column& column = *figure.column;
+    const std::string median = number_text(over.median, column);
+    if (!over.ci95.is_known()) return median;
+    return fmt::format("{} [{}–{}]", median, number_text(over.ci95.low, column),
+                       number_text(over.ci95.high, column));
+}
+
+/// Of its column, without the unit.
+std::string_view title_of(const measure::Quantity& quantity) {
+    const std::string_view title = quantity.columns.front().title;
+    return title.substr(0, title.find(','));
+}
+
+std::string labels_of(const std::vector<const Row*>& rows) {
+    std::vector<std::string> labels;
+    for (const Row* row : rows) labels.push_back(row->label);
+    return joined(labels, ", ");
+}
+
+std::string pairs_of(const measure::Order::Pairs& list) {
+    std::vector<std::string> pairs;
+    for (const auto& [a, b] : list) pairs.push_back(a->label + " and " + b->label);
+    return joined(pairs, "; ");
+}
+
+std::string ties_text(const measure::Order& order) {
+    const std::size_t pairs = order.rows.size() * (order.rows.size() - 1) / 2;
+    if (order.ties.size() == pairs) return "No two of them are apart.";
+    std::string text = order.ties.empty()
+                           ? "Every two of them are apart."
+                           : "Ties: " + pairs_of(order.ties) + ". All other pairs are apart.";
+    if (!order.reversed.empty()) text += " The other way round: " + pairs_of(order.reversed) + ".";
+    return text;
+}
+
+} // namespace
+
+std::string view_text(const Comparison& comparison, const measure::WorstView& worst) {
+    const measure::View& view = comparison.views.at(worst.view);
+    return fmt::format("view {} of {}: --camera {} --time {}", worst.view + 1,
+                       comparison.views.size(), view.camera.name, view.time);
+}
+
+std::string worst_image(const std::string& image) { return "worst-" + image + ".png"; }
+
+Table views_table(const Comparison& comparison) {
+    Table table{
+        fmt::format("Over {} views", comparison.views.size()),
+        {{"Row", false}},
+        {},
+        {},
+        "Cameras drawn from the seed that see a mirror, at drawn instants where the scene "
+        "moves; each row's picture as render takes it. Over the pixels whose first hit is "
+        "a mirror: median over the views, and its 95 % interval by order statistics. Worst: "
+        "the largest FLIP, and the options that render it again."};
+    if (comparison.views.empty()) return table;
+    const std::vector<Figure> columns = figures();
+    for (const Figure& figure : columns)
+        table.columns.push_back({std::string(figure.column->title)});
+    table.columns.push_back({"Worst FLIP"});
+    table.columns.push_back({"Worst view", false});
+    for (const Row& row : comparison.rows) {
+        std::vector<std::string> cells{row.label};
+        for (const Figure& figure : columns) cells.push_back(cell(row, figure));
+        cells.push_back(row.worst ? error_text(row.views[row.worst->view].error.flip)
+                                  : std::string(kNothing));
+        cells.push_back(row.worst ? view_text(comparison, *row.worst) : std::string(kNothing));
+        table.rows.push_back(std::move(cells));
+    }
+    return table;
+}
+
+std::vector<std::string> views_in_words(const Comparison& comparison) {
+    std::vector<std::string> sentences;
+    for (const measure::Order& order : measure::orders_over_views(comparison))
+        sentences.push_back(fmt::format("By {}, view by view, the least first: {}. {}",
+                                        title_of(*order.figure), labels_of(order.rows),
+                                        ties_text(order)));
+    if (!sentences.empty())
+        sentences.emplace_back(
+            "Two rows are apart where the 95 % interval of their difference, view by view, "
+            "excludes 0, each pair judged by itself; otherwise they tie.");
+    return sentences;
+}
+
+} // namespace catoptric::report

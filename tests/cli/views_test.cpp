@@ -1,0 +1,121 @@
+// Errors over drawn views, against pictures that `render` makes of the same views.
+#include "cli/program.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kViews = 6;
+
+class DrawnViews : public Cli {
+protected:
+    /// A comparison over drawn views, small and quick.
+    json compared(const std::string& folder_name, const std::string& seed,
+                  const Words& techniques) const {
+        Words words = quick({"compare", "-o", folder_name, "--views", std::to_string(kViews),
+                             "--seed", seed, "--no-causes", "--json"});
+        words.emplace_back("--techniques");
+        words.insert(words.end(), techniques.begin(), techniques.end());
+        const test::Ended ended = cli(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return json::parse(ended.out);
+    }
+    /// The picture of a view, by what the report says of it.
+    void render(const json& view, const std::string& technique, const std::string& file) const {
+        const test::Ended ended = cli({"render", "--technique", technique, "-o", file, "--size",
+                                       "32x32", "--camera", view["camera"]["name"], "--time",
+                                       fmt::format("{}", view["time"].get<double>())});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    }
+};
+
+std::string camera_text(const json& camera) {
+    const json &eye = camera["eye"], &target = camera["target"];
+    return fmt::format("{},{},{}:{},{},{}:{}", eye[0].get<double>(), eye[1].get<double>(),
+                       eye[2].get<double>(), target[0].get<double>(), target[1].get<double>(),
+                       target[2].get<double>(), camera["vertical_fov_degrees"].get<double>());
+}
+
+/// `reuse` remembers, so its picture takes the frames that it needs.
+TEST_F(DrawnViews, ErrorsAreThoseOfPicturesRenderedThere) {
+    const json document = compared("out", "1", {"reuse:face=32", "naive:bounces=0"});
+    ASSERT_EQ(document["views"].size(), kViews);
+    for (const int i : {0, 4}) {
+        const json& view = document["views"][i];
+        render(view, "raytrace:depth=16", "truth.exr");
+        for (const json& row : document["rows"]) {
+            render(view, row["label"], "row.exr");
+            const json found = json::parse(cli({"diff", "row.exr", "truth.exr", "--json"}).out);
+            const json& all = row["views"]["error_all"];
+            EXPECT_GT(found["flip"].get<double>(), 0);
+            for (const char* figure : {"flip", "off", "mae", "rmse", "longest_line", "p99", "max"})
+                EXPECT_NEAR(all[figure]["values"][i].get<double>(), found[figure].get<double>(),
+                            1e-6)
+                    << row["label"] << " " << figure << " view " << i;
+        }
+    }
+    // A camera is drawn from its own seed again, and typed in full it is the same.
+    const json& view = document["views"][4];
+    render({{"camera", {{"name", camera_text(view["camera"])}}}, {"time", view["time"]}},
+           "raytrace:depth=1", "typed.exr");
+    ASSERT_EQ(
+        cli({"render", "--technique", "raytrace:depth=1", "-o", "drawn.exr", "--size", "32x32",
+             "--camera", "seeded", "--seed", std::to_string(view["seed"].get<std::uint64_t>()),
+             "--time", fmt::format("{}", view["time"].get<double>())})
+            .exit_code,
+        0);
+    EXPECT_EQ(read("typed.exr"), read("drawn.exr"));
+}
+
+TEST_F(DrawnViews, AreDrawnFromTheSeedAndSeeAMirror) {
+    const json one = compared("one", "1", {"naive:bounces=0"}),
+               again = compared("again", "1", {"naive:bounces=0"}),
+               other = compared("other", "2", {"naive:bounces=0"});
+    EXPECT_EQ(one["views"], again["views"]);
+    EXPECT_EQ(one["rows"][0]["views"], again["rows"][0]["views"]);
+    std::set<std::string> cameras;
+    for (const json* document : {&one, &other}) {
+        for (const json& view : (*document)["views"]) cameras.insert(view["camera"]["name"]);
+        const json& error = (*document)["rows"][0]["views"]["error"];
+        for (const json& pixels : error["pixels"]["values"]) EXPECT_GT(pixels, 0);
+        const json& values = error["flip"]["values"];
+        EXPECT_EQ(error["flip"]["ci95"], json({*std::min_element(values.begin(), values.end()),
+                                               *std::max_element(values.begin(), values.end())}))
+            << "of six views, the range";
+    }
+    EXPECT_EQ(cameras.size(), 2 * kViews);
+    // The worst is pictured: the row beside the reference.
+    const json& worst = one["rows"][0]["views"]["worst"];
+    const json& flips = one["rows"][0]["views"]["error"]["flip"]["values"];
+    EXPECT_EQ(worst["flip"], *std::max_element(flips.begin(), flips.end()));
+    EXPECT_EQ(flips[worst["view"].get<std::size_t>()], worst["flip"]);
+    EXPECT_TRUE(std::filesystem::exists(folder / "one" / worst["image"].get<std::string>()));
+    EXPECT_THAT(read("one/report.md"), testing::HasSubstr("## Over 6 views"));
+    EXPECT_THAT(read("one/report.html"), testing::HasSubstr("<h2>Worst views</h2>"));
+}
+
+/// The page of a run without them stays as it is.
+TEST_F(DrawnViews, AreNoneUnlessAskedFor) {
+    const test::Ended ended = cli(quick(
+        {"compare", "-o", "out", "--json", "--views", "1", "--techniques", "naive:bounces=0"}));
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(json::parse(ended.out)["views"], json::array());
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/images/worst-naive-bounces0.png"));
+}
+
+TEST_F(DrawnViews, RefuseCountsThatBoundNoMedian) {
+    for (const std::string count : {"0", "-3", "x", "1e9"})
+        expect_refused({"compare", "-o", "out", "--views", count}, 2,
+                       {"--views: wanted a whole number from 1 to 10000, found '" + count + "'"});
+    for (const std::string count : {"2", "3", "5"})
+        expect_refused({"compare", "-o", "out", "--views", count}, 2,
+                       {"--views: wanted 1 or at least 6, since fewer bound no median with 95 % "
+                        "confidence, found " +
+                        count});
+}
+
+} // namespace

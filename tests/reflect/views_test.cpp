@@ -1,0 +1,106 @@
+// Errors over drawn views, of rows as they are compared.
+#include "app/compare.hpp"
+#include "support/rendering.hpp"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+
+namespace {
+
+using namespace catoptric;
+
+app::CompareRequest asked(const std::vector<std::string>& rows) {
+    app::CompareRequest request;
+    request.base = test::request(test::room(2, 1), rows, {32, 32});
+    request.views = 6;
+    request.causes = false;
+    return request;
+}
+
+/// As in the one view: a row that equals the reference at its sample count has no error anywhere.
+TEST(ComparedViews, ARowIsJudgedAtItsOwnSampleCount) {
+    const report::Comparison found = app::compare(
+        test::engine(),
+        asked({"raytrace:depth=16,samples=4", "raytrace:depth=16", "raytrace:depth=0"}));
+    ASSERT_EQ(found.rows.size(), 3u);
+    for (const report::Row& row : found.rows) {
+        ASSERT_EQ(row.views.size(), 6u) << row.label;
+        for (const measure::Errors& errors : row.views) {
+            EXPECT_GT(errors.error.pixels, 0u);
+            EXPECT_EQ(errors.error.pixels,
+                      errors.error_first_order.pixels + errors.error_mirror_in_mirror.pixels);
+            EXPECT_EQ(errors.error_per_mirror.size(), 2u);
+            if (row.is_reference)
+                EXPECT_EQ(errors.error_all.rmse, 0) << row.label;
+            else
+                EXPECT_GT(errors.error.flip, 0) << row.label;
+        }
+    }
+    EXPECT_TRUE(found.rows[0].is_reference);
+    EXPECT_TRUE(found.complete);
+}
+
+TEST(ComparedViews, KeepWhatThereIsWhenStopped) {
+    app::CompareRequest request = asked({"naive:bounces=0", "reuse:face=32"});
+    std::atomic<int> signal{0};
+    request.watcher.stop = &signal;
+    std::vector<std::string> labels;
+    request.watcher.on_row = [&](const std::string& label, std::size_t index, std::size_t count) {
+        labels.push_back(label);
+        EXPECT_LT(index, count);
+        if (label == "view 3 of 6: reuse:face=32") signal = 2;
+    };
+    std::vector<std::size_t> known; // views of the first row, whenever there is more
+    request.on_finished_row = [&](const report::Comparison& so_far) {
+        EXPECT_FALSE(so_far.complete);
+        known.push_back(so_far.rows.front().views.size());
+    };
+    const report::Comparison found = app::compare(test::engine(), request);
+    EXPECT_THAT(labels,
+                testing::IsSupersetOf({"view 1 of 6: reference", "view 2 of 6: naive:bounces=0",
+                                       "view 3 of 6: reuse:face=32"}));
+    EXPECT_THAT(known, testing::ElementsAre(0, 0, 1, 2));
+    ASSERT_TRUE(found.stopped);
+    EXPECT_EQ(found.stopped->failure, Failure::interrupted);
+    EXPECT_FALSE(found.complete);
+    ASSERT_EQ(found.rows.size(), 2u);
+    EXPECT_EQ(found.rows[0].views.size(), 3u);
+    EXPECT_EQ(found.rows[1].views.size(), 2u);
+    for (const report::Row& row : found.rows) {
+        ASSERT_TRUE(row.worst);
+        EXPECT_LT(row.worst->view, row.views.size());
+        EXPECT_EQ(row.worst->display.width, 32 + 4 + 32);
+    }
+}
+
+/// Every row that looks into captures splits its error at light edges, causes or not; a plan, too,
+/// whose captures have edges of their own.
+TEST(ComparedLightEdges, AreOfEveryRowThatLooksIntoCaptures) {
+    app::CompareRequest request = asked({"secant:face=16", "secant:face=auto", "naive:bounces=0",
+                                         "1=secant:face=64 2=secant:face=16", "secant:face=64"});
+    request.base.size = {96, 96};
+    request.views = 1;
+    const report::Comparison found = app::compare(test::engine(), request);
+    ASSERT_EQ(found.rows.size(), 5u);
+    for (const report::Row& row : found.rows) {
+        EXPECT_EQ(row.light_edges.has_value(), row.lookup.has_value()) << row.label;
+        if (!row.light_edges) continue;
+        const measure::LightEdges& edges = *row.light_edges;
+        const double whole = row.error.rmse * row.error.rmse;
+        EXPECT_NEAR(edges.rmse * edges.rmse + edges.rest_rmse * edges.rest_rmse, whole,
+                    1e-12 * whole)
+            << row.label;
+        EXPECT_GT(edges.pixels, 0) << row.label;
+        EXPECT_LT(edges.pixels, .5) << row.label;
+        EXPECT_GT(edges.share, 0) << row.label;
+    }
+    EXPECT_FALSE(found.rows[2].light_edges);
+    ASSERT_TRUE(found.rows[0].light_edges && found.rows[1].light_edges &&
+                found.rows[3].light_edges && found.rows[4].light_edges);
+    // The larger the texels, the more pixels are within one; the plan has one mirror of each.
+    EXPECT_GT(found.rows[0].light_edges->pixels, found.rows[3].light_edges->pixels);
+    EXPECT_GT(found.rows[3].light_edges->pixels, found.rows[4].light_edges->pixels);
+}
+
+} // namespace

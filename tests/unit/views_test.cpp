@@ -1,0 +1,305 @@
+// What errors over several views say: medians, what is apart and what ties, and how it is written.
+#include "measure/views.hpp"
+
+#include "app/views.hpp"
+#include "report/views.hpp"
+#include "report_sample.hpp"
+#include "support/refusal.hpp"
+#include "support/scenes.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::report;
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A row whose FLIP over the mirrors is this, view by view.
+Row over(const std::string& label, const std::vector<double>& flips) {
+    Row row = sample::row(label, 5, .1, .2);
+    for (const double flip : flips) {
+        measure::Errors errors;
+        errors.error = sample::error_of(flip / 2, flip);
+        if (std::isnan(flip)) errors.error = {};
+        row.views.push_back(errors);
+    }
+    row.worst = {2, measure::Picture(9, 3)};
+    return row;
+}
+
+const std::vector<double> kFlips{.1, .2, .3, .15, .25, .12, .22, .18};
+
+std::vector<double> plus(std::vector<double> values, double more) {
+    for (double& value : values) value += more;
+    return values;
+}
+
+Comparison with_views(std::vector<Row> rows) {
+    Comparison made = sample::comparison(std::move(rows));
+    for (std::uint64_t i = 0; i < kFlips.size(); ++i)
+        made.views.push_back({{"1,2," + std::to_string(i) + ":4,5,6:40",
+                               {1, 2, double(i)},
+                               {4, 5, 6},
+                               {0, 1, 0},
+                               40},
+                              .5 * static_cast<double>(i),
+                              100 + i});
+    return made;
+}
+
+TEST(Views, EqualRowsTie) {
+    const Row row = over("a", kFlips);
+    for (const char* figure : {"flip", "off", "mae", "rmse"})
+        EXPECT_FALSE(measure::apart(row, row, figure)) << figure;
+}
+
+/// Far less than rows differ from view to view.
+TEST(Views, ARowThatIsWorseByLittleInEachViewIsApart) {
+    const Row a = over("a", kFlips), b = over("b", plus(kFlips, 1e-6));
+    EXPECT_TRUE(measure::apart(a, b, "flip"));
+    EXPECT_TRUE(measure::apart(b, a, "flip"));
+    EXPECT_LT(measure::difference_over_views(a, b, "flip").high, 0);
+    EXPECT_GT(measure::difference_over_views(b, a, "flip").low, 0);
+}
+
+TEST(Views, OneOutlierMakesNothingApart) {
+    std::vector<double> flips = kFlips;
+    flips[4] = .99;
+    EXPECT_FALSE(measure::apart(over("a", kFlips), over("b", flips), "flip"));
+    // Nor does it hide what all other views of many say.
+    std::vector<double> many(30, .1), more(30, .11);
+    more[7] = 0;
+    EXPECT_TRUE(measure::apart(over("a", many), over("b", more), "flip"));
+}
+
+TEST(Views, FewerThanBoundAMedianTellNothingApart) {
+    const std::vector<double> five(kFlips.begin(), kFlips.begin() + 5);
+    EXPECT_FALSE(measure::apart(over("a", five), over("b", plus(five, .1)), "flip"));
+    EXPECT_FALSE(measure::apart(over("a", kFlips), over("b", {}), "flip")) << "of a run cut short";
+}
+
+/// A view without a mirror pixel in one of them judges neither.
+TEST(Views, ThatSayNothingOfOneRowAreLeftOutOfBoth) {
+    std::vector<double> holed = plus(kFlips, 1e-3);
+    holed[0] = kNaN;
+    EXPECT_TRUE(measure::apart(over("a", kFlips), over("b", holed), "flip"));
+    holed[1] = holed[2] = kNaN; // five are left
+    EXPECT_FALSE(measure::apart(over("a", kFlips), over("b", holed), "flip"));
+    const measure::Quantity& flip = *std::ranges::find(measure::difference_quantities(), "flip",
+                                                       &measure::Quantity::name);
+    const measure::OverViews found = measure::over_views(over("b", holed), measure::masks().front(),
+                                                         flip);
+    EXPECT_EQ(found.values.size(), 8u);
+    EXPECT_NEAR(found.median, .181, 1e-12);
+    EXPECT_FALSE(found.ci95.is_known());
+}
+
+TEST(Views, WhereNoneWereDrawnAnyDifferenceCounts) {
+    const Row a = sample::row("a", 5, .1, .2), b = sample::row("b", 5, .1, .2000001);
+    EXPECT_TRUE(measure::apart(a, b, "flip"));
+    EXPECT_FALSE(measure::apart(a, b, "rmse"));
+    Row unknown = a;
+    unknown.error = {};
+    EXPECT_FALSE(measure::apart(a, unknown, "flip"));
+}
+
+TEST(Views, RefuseWhatIsNoNumberOfADifference) {
+    const Row row = over("a", kFlips);
+    for (const char* name : {"max_at", "gpu_ms", "flop"})
+        EXPECT_THAT(test::refusal(Failure::internal, [&] { measure::apart(row, row, name); }),
+                    HasSubstr("'" + std::string(name) +
+                              "': wanted a figure of a difference that is a number"));
+}
+
+TEST(Views, AreASentenceForEachFigure) {
+    Row exact = over("exact", std::vector<double>(8, 0.0));
+    exact.is_reference = true;
+    std::vector<double> other = kFlips; // larger and smaller than kFlips, as often
+    for (std::size_t i = 0; i < other.size(); ++i) other[i] += i % 2 == 0 ? -.01 : .01;
+    const Comparison made = with_views(
+        {over("worst", plus(kFlips, .4)), over("good", kFlips), over("fair", other), exact});
+    const std::vector<std::string> words = views_in_words(made);
+    ASSERT_EQ(words.size(), 4u);
+    EXPECT_EQ(words[0],
+              "By FLIP, view by view, the least first: good, fair, worst. Ties: good and fair. All "
+              "other pairs are apart.");
+    EXPECT_THAT(words[1],
+                testing::StartsWith("By off, view by view, the least first: good, fair, worst."));
+    EXPECT_THAT(words[2], testing::StartsWith("By MAE, view by view, the least first: "));
+    EXPECT_THAT(words[3], HasSubstr("95 % interval of their difference"));
+    const auto first = [](const Comparison& of) { return views_in_words(of).front(); };
+    EXPECT_THAT(first(with_views({over("a", kFlips), over("b", kFlips)})),
+                HasSubstr("No two of them are apart."));
+    EXPECT_THAT(first(with_views({over("a", kFlips), over("b", plus(kFlips, .1))})),
+                HasSubstr("Every two of them are apart."));
+}
+
+/// A row that is less in nearly every view may have the larger median.
+TEST(Views, OrderRowsByTheirDifferencesNotTheirMedians) {
+    const std::vector<double> low{.10, .11, .12, .13, .30, .31, .32, .33, .34};
+    std::vector<double> less(low.size());
+    for (std::size_t i = 0; i < low.size(); ++i) less[i] = low[i] - .001;
+    less[0] = .99; // one view in nine
+    Comparison made = with_views({over("low", low), over("less", less)});
+    made.views.resize(low.size());
+    const measure::Order order = measure::orders_over_views(made).front();
+    const measure::RowMask& mirrors = measure::masks().front();
+    EXPECT_LT(measure::over_views(made.rows[0], mirrors, *order.figure).median,
+              measure::over_views(made.rows[1], mirrors, *order.figure).median);
+    EXPECT_EQ(order.rows, (std::vector<const Row*>{&made.rows[1], &made.rows[0]}));
+    EXPECT_TRUE(order.ties.empty());
+    EXPECT_TRUE(order.reversed.empty());
+}
+
+TEST(Views, AreATableWithTheWorstOne) {
+    const Table table = views_table(with_views({over("a", kFlips)}));
+    EXPECT_EQ(table.title, "Over 8 views");
+    std::map<std::string, std::string> cells;
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+        cells[table.columns[i].name] = table.rows.at(0).at(i);
+    EXPECT_EQ(cells["FLIP"], "0.1900 [0.1000–0.3000]"); // of 8, the range is the interval
+    EXPECT_EQ(cells["off, %"], "4.75 [2.50–7.50]");
+    EXPECT_EQ(cells["MAE"], "0.0475 [0.0250–0.0750]");
+    EXPECT_EQ(cells["Longest line"], "7 [4–11]");
+    EXPECT_EQ(cells["Worst FLIP"], "0.3000");
+    EXPECT_EQ(cells["Worst view"], "view 3 of 8: --camera 1,2,2:4,5,6:40 --time 1");
+}
+
+TEST(Views, JsonHoldsEachFigureOverEachMask) {
+    const json document = json::parse(to_json(with_views({over("a", kFlips)})));
+    ASSERT_EQ(document["views"].size(), 8u);
+    EXPECT_EQ(document["views"][2]["camera"]["eye"], json({1, 2, 2}));
+    EXPECT_EQ(document["views"][2]["time"], 1);
+    EXPECT_EQ(document["views"][2]["seed"], 102);
+    const json& views = document["rows"][0]["views"];
+    const json& flip = views["error"]["flip"];
+    EXPECT_NEAR(flip["median"].get<double>(), .19, 1e-12);
+    EXPECT_EQ(flip["ci95"], json({.1, .3}));
+    EXPECT_EQ(flip["values"], json(kFlips));
+    EXPECT_EQ(views["worst"],
+              json::parse(R"({"view": 2, "flip": 0.3, "image": "images/worst-a.png"})"));
+    for (const measure::RowMask& mask : measure::masks())
+        for (const char* figure : {"flip", "off", "mae", "rmse", "longest_line", "psnr", "p99"})
+            EXPECT_TRUE(views[std::string(mask.field)].contains(figure)) << mask.field << figure;
+    EXPECT_TRUE(views["error_all"]["flip"]["median"].is_null()) << "nothing is known of it";
+    EXPECT_TRUE(views["error_all"]["flip"]["ci95"].is_null());
+    EXPECT_FALSE(views["error"].contains("max_at"));
+}
+
+TEST(Views, CsvHoldsTheirMedianAndInterval) {
+    std::istringstream csv(to_csv(with_views({over("a", kFlips)})));
+    std::string header, line;
+    std::getline(csv, header), std::getline(csv, line);
+    std::map<std::string, std::string> found;
+    for (std::istringstream names(header), cells(line); names && cells;) {
+        std::string name, cell;
+        std::getline(names, name, ',');
+        if (cells.peek() == '"') { // a camera's text
+            cells.get();
+            std::getline(cells, cell, '"');
+            cells.get();
+        } else {
+            std::getline(cells, cell, ',');
+        }
+        found[name] = cell;
+    }
+    EXPECT_NEAR(std::stod(found["views_flip_median"]), .19, 1e-12);
+    EXPECT_EQ(found["views_flip_low"], "0.1");
+    EXPECT_EQ(found["views_flip_high"], "0.3");
+    EXPECT_EQ(found["views_off_high"], "0.075");
+    EXPECT_EQ(found["views"], "8");
+    EXPECT_EQ(found["worst_view"], "2");
+    EXPECT_EQ(found["worst_view_camera"], "1,2,2:4,5,6:40");
+    EXPECT_EQ(found["worst_view_time"], "1");
+}
+
+TEST(Views, LeaveNoTraceWhereNoneWereDrawn) {
+    const Comparison made = sample::usual();
+    EXPECT_EQ(json::parse(to_json(made))["views"], json::array());
+    EXPECT_TRUE(json::parse(to_json(made))["rows"][0]["views"].is_null());
+    for (const std::string& text : {to_csv(made), to_markdown(made), to_html(made)}) {
+        EXPECT_THAT(text, Not(HasSubstr("views")));
+        EXPECT_THAT(text, Not(HasSubstr("Worst")));
+    }
+}
+
+TEST(Views, SayWhenTheyWereCutShort) {
+    Comparison made = with_views({over("a", kFlips)});
+    made.complete = false, made.asked = 1;
+    EXPECT_THAT(to_markdown(made), Not(HasSubstr("errors over views")));
+    made.rows[0].views.resize(7);
+    EXPECT_THAT(to_markdown(made), HasSubstr("1 of 1 rows: the run had not ended when this was "
+                                             "written; their errors over views were not measured "
+                                             "to the end"));
+}
+
+app::Request request_of(const scene::Scene& scene, std::uint64_t seed) {
+    app::Request request;
+    request.scene = scene;
+    request.time = .5;
+    request.seed = seed;
+    return request;
+}
+
+std::vector<std::string> cameras(const std::vector<measure::View>& views) {
+    std::vector<std::string> names;
+    for (const measure::View& view : views) names.push_back(view.camera.name);
+    return names;
+}
+
+TEST(DrawnViews, AreThoseOfTheirSeed) {
+    const scene::Scene scene = test::room(2, 1);
+    const std::vector<measure::View> views = app::drawn_views(request_of(scene, 1), 12);
+    ASSERT_EQ(views.size(), 12u);
+    std::set<std::string> all;
+    for (const measure::View& view : views) {
+        all.insert(view.camera.name);
+        EXPECT_EQ(view.time, .5) << "nothing moves";
+    }
+    EXPECT_EQ(cameras(app::drawn_views(request_of(scene, 1), 12)), cameras(views));
+    // Seeds beside each other share no view, and fewer views are the first ones.
+    for (const std::string& name : cameras(app::drawn_views(request_of(scene, 2), 12)))
+        all.insert(name);
+    EXPECT_EQ(all.size(), 24u);
+    EXPECT_EQ(app::drawn_views(request_of(scene, 1), 6).back().camera.name, views[5].camera.name);
+}
+
+TEST(DrawnViews, AreAtInstantsOfOnePeriod) {
+    scene::Scene scene = test::room(2, 1);
+    scene.objects.back().motion = scene::Harmonic{.amplitude = {.1, 0, 0}, .period = 1.6};
+    std::set<double> times;
+    for (const measure::View& view : app::drawn_views(request_of(scene, 1), 12)) {
+        EXPECT_GE(view.time, .5);
+        EXPECT_LT(view.time, 2.1);
+        EXPECT_EQ(view.time, std::round(view.time * 1000) / 1000) << "it can be typed";
+        times.insert(view.time);
+    }
+    EXPECT_EQ(times.size(), 12u);
+    EXPECT_LT(*times.begin(), .9);
+    EXPECT_GT(*times.rbegin(), 1.7);
+}
+
+TEST(DrawnViews, AreNoneOrEnough) {
+    const app::Request request = request_of(test::room(1, 1), 1);
+    EXPECT_TRUE(app::drawn_views(request, 1).empty());
+    for (const int count : {-1, 0, 2, 5})
+        EXPECT_THAT(test::refusal(Failure::usage, [&] { app::drawn_views(request, count); }),
+                    HasSubstr("views: wanted 1 or at least 6, since fewer bound no median with 95 "
+                              "% confidence, found " +
+                              std::to_string(count)));
+}
+
+} // namespace
