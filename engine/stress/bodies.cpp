@@ -88,10 +88,10 @@ void judge_many(Bench& bench) {
             bench.add(what + ": passes off N + 1", std::abs(part.scene_passes - (mirrors + 1)), 0);
         } catch (const Error& error) {
             if (bench.ends_run(error)) throw;
-            const bool by_budget = error.failure == Failure::exhausted &&
-                                   names_limit(error.what()) && mirrors == 1000;
-            bench.add(what + ": refused otherwise than by a budget: " + error.what(),
-                      by_budget ? 0 : 1, 0);
+            if (is_refusal(error) && mirrors == 1000)
+                bench.add_not_run(what, error);
+            else
+                bench.add(what + ": refused otherwise than by a budget: " + error.what(), 1, 0);
         }
     }
 }
