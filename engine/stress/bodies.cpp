@@ -175,19 +175,22 @@ void judge_correction(Bench& bench) {
 }
 
 const Registered kCorrection{{"N12", "parallax against ray tracing, contract camera, 512x512",
-                              "better than uncorrected for every ball", judge_correction}};
-const Registered kContact{{"C1",
-                           "balls that touch wall and floor, each other, overlap, are concentric",
-                           "no dark ring, no blow-up in 100 frames", judge_contact}};
+                              "better than uncorrected for every ball", judge_correction,
+                              "parallax_mirrored"}};
+const Registered kContact{
+    {"C1", "balls that touch wall and floor, each other, overlap, are concentric",
+     "no dark ring, no blow-up in 100 frames", judge_contact, "rays_start_above"}};
 const Registered kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened",
-                             "the others are untouched (FLIP)", judge_vanishing}};
+                             "the others are untouched (FLIP)", judge_vanishing,
+                             "no_size_is_small"}};
 const Registered kMany{{"C9", "0, 1, 2, 16, 64, 1000 mirrors",
-                        "0: no capture; 1000: runs, or a budget message", judge_many}};
+                        "0: no capture; 1000: runs, or a budget message", judge_many,
+                        "later_arrays_not_drawn"}};
 const Registered kFaces{{"C10", "face 1, 2, 3, 4096, 16384, 32769",
                          "runs, or says the bytes, or is refused", judge_faces,
-                         "rendering at 16384, which is planned only"}};
-const Registered kPath{
-    {"C13", "ball 4 through its whole path, 120 frames", "no single-frame pop", judge_path}};
+                         "most_of_knob_unchecked", "rendering at 16384, which is planned only"}};
+const Registered kPath{{"C13", "ball 4 through its whole path, 120 frames", "no single-frame pop",
+                        judge_path, "motion_ends_early"}};
 
 } // namespace
 

@@ -180,13 +180,15 @@ void judge_cube_edges(Bench& bench) {
 
 const Registered kDistances{{"N11", "distance cubes of the room's four mirrors, r32f and r16f",
                              "equal the analytic distance, nothing is clamped at 200",
-                             judge_distances}};
+                             judge_distances, "distance_along_axis"}};
 const Registered kNearWall{{"C3", "a ball with a wall .6 units from its centre",
-                            "the wall is in the capture, at its distance", judge_near_wall}};
+                            "the wall is in the capture, at its distance", judge_near_wall,
+                            "near_one"}};
 const Registered kCubeEdges{{"C11", "a room of one colour, 1e5 directions near cube edges",
-                             "continuous", judge_cube_edges}};
+                             "continuous", judge_cube_edges, "edge_texels_black"}};
 const Registered kGlyphs{{"C12", "six coloured walls with a letter each",
-                          "each face sees its wall, letters read right", judge_glyphs}};
+                          "each face sees its wall, letters read right", judge_glyphs,
+                          "face_mirrored"}};
 
 } // namespace
 

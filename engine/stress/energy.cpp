@@ -112,13 +112,15 @@ void judge_passes(Bench& bench) {
 }
 
 const Registered kFurnace{{"N6", "white furnace, bounces 0..8, every technique",
-                           "energy is never created; complete at depth 16", judge_furnace}};
+                           "energy is never created; complete at depth 16", judge_furnace,
+                           "traced_added"}};
 const Registered kCorridor{{"N7", "parallel mirrors, reflectance .8, depth 1..12",
-                            "k mirrors show .8^k, nothing after the depth", judge_corridor}};
-const Registered kReuse{
-    {"N9", "static scene, reuse frame k", "equals naive with k bounces", judge_reuse}};
-const Registered kPasses{
-    {"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2", judge_passes}};
+                            "k mirrors show .8^k, nothing after the depth", judge_corridor,
+                            "one_mirror_too_many"}};
+const Registered kReuse{{"N9", "static scene, reuse frame k", "equals naive with k bounces",
+                         judge_reuse, "reuse_this_frame"}};
+const Registered kPasses{{"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2",
+                          judge_passes, "naive_once_more"}};
 
 } // namespace
 

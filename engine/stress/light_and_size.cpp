@@ -161,14 +161,14 @@ void judge_triangles(Bench& bench) {
 }
 
 const Registered kLight{{"L1", "light inside a ball, on the ceiling, at the camera, facing away",
-                         "finite; unlit where it faces away", judge_light}};
+                         "finite; unlit where it faces away", judge_light, "lamp_without_normal"}};
 const Registered kSizes{{"Z1",
                          "picture 1x1, 1x16384, 16384x1, 4096x4096, 16384x16384, 0x0, 65536x65536",
-                         "works, or is refused with the limit", judge_sizes,
+                         "works, or is refused with the limit", judge_sizes, "no_width_taken",
                          "rendering 16384x16384, which is planned only"}};
 const Registered kTriangles{{"Z2", "empty scene, one triangle, a million, ten million",
                              "background; finite; a million in 30 s; runs or names the limit",
-                             judge_triangles}};
+                             judge_triangles, "places_in_23_bits"}};
 
 } // namespace
 
