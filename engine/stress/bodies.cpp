@@ -179,7 +179,7 @@ const Registered kCorrection{{"N12", "parallax against ray tracing, contract cam
                               "parallax_mirrored"}};
 const Registered kContact{
     {"C1", "balls that touch wall and floor, each other, overlap, are concentric",
-     "no dark ring, no blow-up in 100 frames", judge_contact, "rays_start_above"}};
+     "no dark ring, no blow-up in 100 frames", judge_contact, "rays_start_on_surface"}};
 const Registered kVanishing{{"C8", "a mirror of radius 0, 1e-9, flattened",
                              "the others are untouched (FLIP)", judge_vanishing,
                              "no_size_is_small"}};

@@ -168,7 +168,7 @@ const Registered kSizes{{"Z1",
                          "rendering 16384x16384, which is planned only"}};
 const Registered kTriangles{{"Z2", "empty scene, one triangle, a million, ten million",
                              "background; finite; a million in 30 s; runs or names the limit",
-                             judge_triangles, "places_in_23_bits"}};
+                             judge_triangles, "places_in_22_bits"}};
 
 } // namespace
 
