@@ -118,7 +118,7 @@ const Registered kCorridor{{"N7", "parallel mirrors, reflectance .8, depth 1..12
                             "k mirrors show .8^k, nothing after the depth", judge_corridor,
                             "one_mirror_too_many"}};
 const Registered kReuse{{"N9", "static scene, reuse frame k", "equals naive with k bounces",
-                         judge_reuse, "reuse_this_frame"}};
+                         judge_reuse, "history_black"}};
 const Registered kPasses{{"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2",
                           judge_passes, "naive_once_more"}};
 
