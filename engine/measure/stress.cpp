@@ -36,6 +36,16 @@ const StressCase* StressRow::worst() const {
     return found == cases.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> Stress::not_run() const {
+    std::vector<std::string> all;
+    for (const StressRow& row : rows) {
+        if (row.verdict == Verdict::unsupported) all.push_back(row.id + ": " + row.remark);
+        for (const NotRun& part : row.not_run)
+            all.push_back(row.id + ", " + part.what + ": " + part.why);
+    }
+    return all;
+}
+
 bool Stress::failed() const {
     return std::ranges::any_of(rows,
                                [](const StressRow& row) { return row.verdict == Verdict::fail; });

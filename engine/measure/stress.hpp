@@ -10,8 +10,14 @@
 /// What `stress` found: one row for each property of rendering at the extremes.
 namespace catoptric::measure {
 
+/// unsupported: not judged, since the device does not allow what it needs; the remark says which.
 enum class Verdict { pass, fail, quality_warning, unsupported, waived };
 std::string name_of(Verdict verdict);
+
+/// What of a property could not be run, and why: it has no figure.
+struct NotRun {
+    std::string what, why;
+};
 
 /// One figure of a property; holds when `measured` is a number and at most `limit`.
 struct StressCase {
@@ -32,9 +38,11 @@ struct StressRow {
     std::string id, stimulus, property;
     Verdict verdict = Verdict::pass;
     std::string remark; ///< why not, where it was not judged; else what is not covered, or empty
-    std::vector<StressCase> cases;
+    std::vector<StressCase> cases;       ///< none where it was not judged
     std::vector<StressPicture> pictures; ///< of cases that do not hold
     double seconds = 0;
+    std::vector<NotRun> not_run;
+    std::string turned_red_by; ///< wrong code under tests/mutations that it must notice
     /// The case nearest to or furthest beyond its limit, one that is wrong before all that look
     /// worse; null when there is none.
     const StressCase* worst() const;
@@ -51,6 +59,8 @@ struct Stress {
     std::uint64_t seed = 1;
     std::vector<StressRow> rows;
     bool failed() const; ///< some row did
+    /// "C9: why" for each row, and "L2, what: why" for each part of one, that could not be run.
+    std::vector<std::string> not_run() const;
 };
 
 } // namespace catoptric::measure

@@ -26,6 +26,10 @@ Json to_json(const StressRow& row) {
     for (const StressPicture& picture : row.pictures)
         json["pictures"].push_back("images/" + picture.name + ".png");
     json["seconds"] = number(row.seconds);
+    json["not_run"] = Json::array();
+    for (const NotRun& part : row.not_run)
+        json["not_run"].push_back({{"what", part.what}, {"why", part.why}});
+    json["turned_red_by"] = row.turned_red_by;
     return json;
 }
 

@@ -14,6 +14,18 @@ namespace {
 
 std::string figure(double value) { return fmt::format("{:.3g}", value); }
 
+/// The worst case, what is not covered and what could not be run; why not, where nothing was.
+std::string words_of(const StressRow& row) {
+    const StressCase* worst = row.worst();
+    std::string words = worst ? worst->what : "";
+    const auto add = [&](const std::string& more) {
+        if (!more.empty()) words += (words.empty() ? "" : "; ") + more;
+    };
+    add(row.remark);
+    for (const NotRun& part : row.not_run) add("not run: " + part.what + ": " + part.why);
+    return words;
+}
+
 /// One line a property: its worst case beside the threshold.
 Table table_of(const Stress& stress) {
     Table table{"Properties",
@@ -23,16 +35,16 @@ Table table_of(const Stress& stress) {
                  {"Threshold"},
                  {"Stimulus", false},
                  {"Property", false},
-                 {"Worst case", false}},
+                 {"Worst case", false},
+                 {"Turned red by", false}},
                 {},
                 {},
                 {}};
     for (const StressRow& row : stress.rows) {
         const StressCase* worst = row.worst();
-        table.rows.push_back(
-            {row.id, name_of(row.verdict), worst ? figure(worst->measured) : "–",
-             worst ? figure(worst->limit) : "–", row.stimulus, row.property,
-             worst ? worst->what + (row.remark.empty() ? "" : "; " + row.remark) : row.remark});
+        table.rows.push_back({row.id, name_of(row.verdict), worst ? figure(worst->measured) : "–",
+                              worst ? figure(worst->limit) : "–", row.stimulus, row.property,
+                              words_of(row), row.turned_red_by});
     }
     return table;
 }
@@ -42,8 +54,10 @@ std::string caution_of(const Stress& stress) {
 }
 
 std::string lead_of(const Stress& stress) {
-    return fmt::format("{}, {}x{}, seed {}. Each row: its worst case beside the threshold.",
-                       stress.device.name, stress.width, stress.height, stress.seed);
+    return fmt::format(
+        "{}, {}x{}, seed {}. Each row: its worst case beside the threshold, and the wrong "
+        "code of tests/mutations that turns it red.",
+        stress.device.name, stress.width, stress.height, stress.seed);
 }
 
 } // namespace

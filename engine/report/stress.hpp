@@ -10,6 +10,7 @@
 namespace catoptric::report {
 
 using measure::name_of;
+using measure::NotRun;
 using measure::Stress;
 using measure::StressCase;
 using measure::StressPicture;

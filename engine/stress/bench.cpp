@@ -25,9 +25,10 @@ std::string as_file_name(const std::string& text) {
 
 } // namespace
 
-bool names_limit(const std::string& text) {
+bool is_refusal(const Error& error) {
     static const std::regex kLimit(R"(allows ([a-z_]+[a-z_0-9]* = )?[0-9])");
-    return std::regex_search(text, kLimit);
+    return error.failure == Failure::exhausted &&
+           std::regex_search(std::string(error.what()), kLimit);
 }
 
 app::Request Bench::asked(const scene::Scene& scene, const std::string& technique,
@@ -75,9 +76,10 @@ bool Bench::add_done_or_refused(const std::string& what, const std::function<voi
         return true;
     } catch (const Error& error) {
         if (ends_run(error)) throw;
-        add(what + (error.failure == Failure::exhausted ? ": refused: " : ": fails: ") +
-                error.what(),
-            error.failure == Failure::exhausted && names_limit(error.what()) ? 0 : 1, 0);
+        if (is_refusal(error))
+            add_not_run(what, error);
+        else
+            add(what + ": fails: " + error.what(), 1, 0);
         return false;
     }
 }

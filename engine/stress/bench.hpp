@@ -46,8 +46,12 @@ public:
                   double limit, bool is_quality = false);
     /// Pixels that are no numbers; limit 0.
     void add_nonfinite(const std::string& what, const app::Part& part);
-    /// That `work` is done, or ends in an error that says what the device allows; limit 0.
-    /// True when it was done.
+    /// What the device does not allow: it is told, and has no figure.
+    void add_not_run(std::string what, const Error& error) {
+        row_.not_run.push_back({std::move(what), error.what()});
+    }
+    /// That `work` is done (limit 0), or ends in an error that says what the device allows: then it
+    /// is not run. True when it was done.
     bool add_done_or_refused(const std::string& what, const std::function<void()>& work);
     /// That `work` ends in an error of this kind whose text names `limit`; limit 0.
     void add_refused(const std::string& what, Failure failure, const std::string& limit,
@@ -71,8 +75,8 @@ private:
     report::StressRow& row_;
 };
 
-/// That an error's text says how much of something a device allows.
-bool names_limit(const std::string& text);
+/// Out of something, with a text that says how much of it the device allows.
+bool is_refusal(const Error& error);
 /// Pixels with a NaN or infinity.
 std::size_t nonfinite(const measure::Picture& picture);
 /// The largest channel of all; NaN where some pixel is no number.

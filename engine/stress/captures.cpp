@@ -130,14 +130,9 @@ scene::Camera looking_along(dvec3 wanted) {
 /// Pixels whose ray a unit ball around 0 sends within two texels of an edge of a cube.
 std::size_t near_edges(const scene::Camera& camera, uvec2 size, double edge) {
     std::size_t near = 0;
-    const dvec3 forward = normalize(camera.target - camera.eye),
-                right = normalize(cross(forward, camera.up)), up = cross(right, forward);
-    const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     for (std::uint32_t y = 0; y < size.y; ++y)
         for (std::uint32_t x = 0; x < size.x; ++x) {
-            const double u = ((x + .5) / size.x * 2 - 1) * tangent * size.x / size.y,
-                         v = (1 - (y + .5) / size.y * 2) * tangent;
-            const dvec3 d = normalize(forward + u * right + v * up);
+            const dvec3 d = pixel_direction(camera, size, x, y);
             const double b = dot(camera.eye, d), c = dot(camera.eye, camera.eye) - 1;
             const dvec3 n = camera.eye + (-b - std::sqrt(b * b - c)) * d,
                         sent = d - 2 * dot(d, n) * n, most = abs(sent);
@@ -185,13 +180,15 @@ void judge_cube_edges(Bench& bench) {
 
 const Registered kDistances{{"N11", "distance cubes of the room's four mirrors, r32f and r16f",
                              "equal the analytic distance, nothing is clamped at 200",
-                             judge_distances}};
+                             judge_distances, "distance_along_axis"}};
 const Registered kNearWall{{"C3", "a ball with a wall .6 units from its centre",
-                            "the wall is in the capture, at its distance", judge_near_wall}};
+                            "the wall is in the capture, at its distance", judge_near_wall,
+                            "near_one"}};
 const Registered kCubeEdges{{"C11", "a room of one colour, 1e5 directions near cube edges",
-                             "continuous", judge_cube_edges}};
+                             "continuous", judge_cube_edges, "edge_texels_black"}};
 const Registered kGlyphs{{"C12", "six coloured walls with a letter each",
-                          "each face sees its wall, letters read right", judge_glyphs}};
+                          "each face sees its wall, letters read right", judge_glyphs,
+                          "face_mirrored"}};
 
 } // namespace
 

@@ -11,6 +11,16 @@ constexpr double kGap = 1e-9; // of scenes about 1 in size
 
 } // namespace
 
+dvec3 pixel_direction(const scene::Camera& camera, uvec2 size, double x, double y) {
+    const dvec3 forward = glm::normalize(camera.target - camera.eye);
+    const dvec3 right = glm::normalize(glm::cross(forward, camera.up)),
+                up = glm::cross(right, forward);
+    const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
+    const double u = ((x + .5) / size.x * 2 - 1) * tangent * size.x / size.y,
+                 v = (1 - (y + .5) / size.y * 2) * tangent;
+    return glm::normalize(forward + u * right + v * up);
+}
+
 DoubleTracer::DoubleTracer(const scene::Scene& scene, double ambient)
     : scene_(scene), ambient_(ambient) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -28,13 +38,7 @@ DoubleTracer::DoubleTracer(const scene::Scene& scene, double ambient)
 
 dvec3 DoubleTracer::pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x, std::uint32_t y,
                           int depth) const {
-    const dvec3 forward = glm::normalize(camera.target - camera.eye);
-    const dvec3 right = glm::normalize(glm::cross(forward, camera.up)),
-                up = glm::cross(right, forward);
-    const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
-    const double u = ((x + .5) / size.x * 2 - 1) * tangent * size.x / size.y,
-                 v = (1 - (y + .5) / size.y * 2) * tangent;
-    return radiance(camera.eye, glm::normalize(forward + u * right + v * up), depth);
+    return radiance(camera.eye, pixel_direction(camera, size, x, y), depth);
 }
 
 /// One flat lamp: mean of its corners, its normal, its area.

@@ -7,6 +7,10 @@
 
 namespace catoptric::stress {
 
+/// Of the ray through a place of the picture in pixels, whole numbers at their middles; unit
+/// length.
+dvec3 pixel_direction(const scene::Camera& camera, uvec2 size, double x, double y);
+
 /// A ray tracer of a page in double precision, written from the formula in the documentation alone:
 /// it shares nothing with the rest of the engine but the scene's data. Mirrors must be exact
 /// spheres, scenes about 1 in size; lamps are flat and throw no shadow.

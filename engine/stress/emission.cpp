@@ -90,7 +90,7 @@ void judge_emission(Bench& bench) {
 
 const Registered kEmission{{"N26", "emission 1e30, taken away in mid-run; albedo 1e-40",
                             "saturates, is counted, later frames unharmed; equals black",
-                            judge_emission}};
+                            judge_emission, "saturated_uncounted"}};
 
 } // namespace
 

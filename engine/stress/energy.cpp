@@ -2,10 +2,6 @@
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
-#include "measure/difference.hpp"
-#include "measure/masks.hpp"
-#include "scene/load.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -90,62 +86,6 @@ void judge_corridor(Bench& bench) {
     judge_captured_corridor(bench, scene);
 }
 
-/// rmse between the pictures of naive with k and k + 1 bounces over mirror pixels, k = 0..5. No
-/// pixel of any of them may get darker with a bounce more: from black on, a capture is a weighted
-/// mean of captures of the bounce before.
-std::vector<double> steps_of_bounces(Bench& bench, const std::string& where,
-                                     const scene::Scene& scene, uvec2 size) {
-    const auto render = [&](const std::string& technique) {
-        app::Request request = bench.asked(scene, technique, 1);
-        request.size = size;
-        return bench.render(request);
-    };
-    const measure::Mask mirrors = measure::mirrors(render("raytrace").hits);
-    std::vector<app::Part> parts;
-    for (int bounces = 0; bounces <= 6; ++bounces)
-        parts.push_back(render("naive:face=128,bounces=" + std::to_string(bounces)));
-    const std::vector<float> no_flip(parts.front().hdr.pixels.size());
-    std::vector<double> steps;
-    for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
-        std::size_t darker = 0;
-        for (std::size_t i = 0; i < parts[k].hdr.pixels.size(); ++i)
-            darker += !all(greaterThanEqual(parts[k + 1].hdr.pixels[i], parts[k].hdr.pixels[i]));
-        bench.add(fmt::format("{}, bounce {}: pixels that got darker", where, k + 1),
-                  double(darker), 0);
-        steps.push_back(measure::difference(parts[k].hdr, parts[k + 1].hdr, mirrors, no_flip).rmse);
-    }
-    return steps;
-}
-
-/// Each step is at most .4 of the one before: in the report's room (512x512), and up to bounce 4 in
-/// one made from the seed, where later steps are told. Balls of a made room are small and a third
-/// image is one or two of some 4,000 pixels, lit by the lamp or not as their texels happen to lie,
-/// so with some seeds a step falls by 10 and the next by 1.2, or nothing is left to change, and the
-/// row fails; the fall since the first step held with every seed tried.
-void judge_bounces(Bench& bench) {
-    constexpr std::size_t kLast = 4;
-    constexpr double kFall = .4;
-    const std::vector<double> report = steps_of_bounces(bench, "the report's room",
-                                                        scene::cornell_mirrors(), uvec2(512));
-    const std::vector<double> made = steps_of_bounces(bench, "a room", room(bench, 4),
-                                                      bench.size());
-    for (std::size_t k = 1; k < report.size(); ++k) {
-        const std::string step = fmt::format(", bounce {}: share of the step before", k + 1);
-        bench.add("the report's room" + step, report[k] / report[k - 1], kFall);
-        if (k + 1 > kLast) {
-            if (made[k - 1] > 0) bench.add_quality("a room" + step, made[k] / made[k - 1], kFall);
-            continue;
-        }
-        bench.add("a room" + step, made[k] / made[k - 1], kFall);
-        bench.add(fmt::format("a room, bounce {}: share of the first step", k + 1),
-                  made[k] / made[0], std::pow(kFall, double(k)));
-        for (const auto& [where, steps] :
-             {std::pair("the report's room", &report), std::pair("a room", &made)})
-            bench.add(fmt::format("{}, bounce {}: no change", where, k + 1),
-                      (*steps)[k] > 0 ? 0 : 1, 0);
-    }
-}
-
 void judge_reuse(Bench& bench) {
     const scene::Scene scene = room(bench, 3);
     for (int k = 1; k <= 8; ++k)
@@ -172,16 +112,15 @@ void judge_passes(Bench& bench) {
 }
 
 const Registered kFurnace{{"N6", "white furnace, bounces 0..8, every technique",
-                           "energy is never created; complete at depth 16", judge_furnace}};
+                           "energy is never created; complete at depth 16", judge_furnace,
+                           "traced_added"}};
 const Registered kCorridor{{"N7", "parallel mirrors, reflectance .8, depth 1..12",
-                            "k mirrors show .8^k, nothing after the depth", judge_corridor}};
-const Registered kBounces{{"N8", "naive, bounces 0..6",
-                           "no mirror darkens, steps fall by 2.5 and more up to bounce 4",
-                           judge_bounces}};
-const Registered kReuse{
-    {"N9", "static scene, reuse frame k", "equals naive with k bounces", judge_reuse}};
-const Registered kPasses{
-    {"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2", judge_passes}};
+                            "k mirrors show .8^k, nothing after the depth", judge_corridor,
+                            "one_mirror_too_many"}};
+const Registered kReuse{{"N9", "static scene, reuse frame k", "equals naive with k bounces",
+                         judge_reuse, "history_black"}};
+const Registered kPasses{{"N10", "mirrors N, bounces i", "scene passes N i + 2 and N + 2",
+                          judge_passes, "naive_once_more"}};
 
 } // namespace
 

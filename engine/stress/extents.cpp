@@ -103,7 +103,7 @@ void judge_extents(Bench& bench) {
 
 const Registered kExtents{
     {"N5", "a stray triangle to 1e9 away, a sky and a ground of 1e6, a ball of 1e-3 in 1e3",
-     "what is looked at keeps its precision (FLIP)", judge_extents}};
+     "what is looked at keeps its precision (FLIP)", judge_extents, "core_is_everything"}};
 
 } // namespace
 

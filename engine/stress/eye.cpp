@@ -119,7 +119,7 @@ void judge_eye(Bench& bench) {
 }
 
 const Registered kEye{{"N24", "camera 1e-3 above the floor; field of view .01 and 179.9",
-                       "finite; as a reference in doubles", judge_eye}};
+                       "finite; as a reference in doubles", judge_eye, "near_of_eye_fixed"}};
 
 } // namespace
 

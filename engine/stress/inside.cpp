@@ -99,6 +99,7 @@ void judge_inside(Bench& bench) {
 const Registered kInside{
     {"C5", "camera inside a ball, at its centre, touching it; a ball moves over it",
      "a closed mirror is black from inside, in both worlds (FLIP)", judge_inside,
+     "mirrors_one_sided",
      "things inside with the eye: ray tracing also shows their images in the wall around them"}};
 
 } // namespace

@@ -59,42 +59,6 @@ void judge_light(Bench& bench) {
     }
 }
 
-/// The largest edge that this device has the memory for.
-int largest_shadow_map(Bench& bench, const scene::Scene& scene) {
-    int edge = 16384;
-    while (edge > 1 && !bench.add_done_or_refused(fmt::format("edge {} planned", edge), [&] {
-        bench.plan(bench.asked(scene, fmt::format("reuse:shadow_map={}", edge), 1));
-    }))
-        edge /= 2;
-    return edge;
-}
-
-void judge_shadow_map(Bench& bench) {
-    const int largest = largest_shadow_map(bench, plane());
-    for (const double factor : {1e-6, 1.0, 1e6})
-        for (const int edge : {1, 16, 1024, largest}) {
-            const scene::Scene scene = through(plane(), scaled(factor));
-            const auto render = [&](const std::string& technique) {
-                app::Request request = bench.asked(scene, technique, 1);
-                request.ambient = 0; // what is not black is lit by the lamp
-                return bench.render(request);
-            };
-            const app::Part with = render(fmt::format("reuse:shadow_map={}", edge)),
-                            without = render("reuse:shadow=none");
-            std::size_t lit = 0, judged = 0;
-            for (std::size_t i = 0; i < with.hdr.pixels.size(); ++i) {
-                if (!(without.hdr.pixels[i].x > 0)) continue;
-                ++judged;
-                lit += with.hdr.pixels[i].x >= .999f * without.hdr.pixels[i].x;
-            }
-            bench.add(fmt::format("edge {}, times {}: less than a tenth of the picture is lit",
-                                  edge, factor),
-                      judged * 10 < with.hdr.pixels.size() ? 1 : 0, 0);
-            bench.add(fmt::format("edge {}, times {}: plane in shadow of itself", edge, factor),
-                      1 - double(lit) / double(judged), .005);
-        }
-}
-
 void judge_sizes(Bench& bench) {
     const scene::Scene scene = room(bench, 1);
     for (const uvec2 size : {uvec2(1, 1), uvec2(1, 16384), uvec2(16384, 1)})
@@ -197,17 +161,14 @@ void judge_triangles(Bench& bench) {
 }
 
 const Registered kLight{{"L1", "light inside a ball, on the ceiling, at the camera, facing away",
-                         "finite; unlit where it faces away", judge_light}};
-const Registered kShadowMap{
-    {"L2", "shadow map edge 1, 16, 1024, the largest up to 16384; scene times 1e-6, 1, 1e6",
-     "no acne on an open plane", judge_shadow_map}};
+                         "finite; unlit where it faces away", judge_light, "lamp_without_normal"}};
 const Registered kSizes{{"Z1",
                          "picture 1x1, 1x16384, 16384x1, 4096x4096, 16384x16384, 0x0, 65536x65536",
-                         "works, or is refused with the limit", judge_sizes,
+                         "works, or is refused with the limit", judge_sizes, "no_width_taken",
                          "rendering 16384x16384, which is planned only"}};
 const Registered kTriangles{{"Z2", "empty scene, one triangle, a million, ten million",
                              "background; finite; a million in 30 s; runs or names the limit",
-                             judge_triangles}};
+                             judge_triangles, "places_in_22_bits"}};
 
 } // namespace
 

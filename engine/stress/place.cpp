@@ -81,17 +81,19 @@ void judge_wide(Bench& bench) {
     }
 }
 
-const Registered kScale{
-    {"N1", "scene times 1e-6, 1e-3, 1e3, 1e6", "the picture is that at 1 (FLIP)", judge_scale}};
-const Registered kPlace{
-    {"N2", "scene moved by 1e5 and 1e7", "the picture is that at 0 (FLIP)", judge_place}};
-const Registered kTurn{
-    {"N3", "scene and camera turned by an odd angle", "the picture stays (FLIP)", judge_turn}};
+const Registered kScale{{"N1", "scene times 1e-6, 1e-3, 1e3, 1e6",
+                         "the picture is that at 1 (FLIP)", judge_scale, "area_of_lamp_unscaled"}};
+const Registered kPlace{{"N2", "scene moved by 1e5 and 1e7", "the picture is that at 0 (FLIP)",
+                         judge_place, "eye_rounded_first"}};
+const Registered kTurn{{"N3", "scene and camera turned by an odd angle", "the picture stays (FLIP)",
+                        judge_turn, "lamp_not_turned"}};
 const Registered kNegative{{"N4", "negative scale at the root",
                             "the picture is mirrored, no face is missing (FLIP)", judge_negative,
+                            "order_of_corners_kept",
                             "a thousand nested nodes, which a test of files judges"}};
 const Registered kWide{{"N13", "room 1e5 and 1e6 units wide around a ball of 1",
-                        "finite; the correction tends to none (FLIP)", judge_wide}};
+                        "finite; the correction tends to none (FLIP)", judge_wide,
+                        "distance_ends_near"}};
 
 } // namespace
 

@@ -12,6 +12,7 @@ namespace catoptric::stress {
 namespace {
 
 report::Verdict verdict_of(const report::StressRow& row) {
+    if (row.cases.empty()) return report::Verdict::unsupported;
     bool looks_worse = false;
     for (const report::StressCase& one : row.cases) {
         if (one.holds()) continue;
@@ -30,16 +31,27 @@ report::StressRow judged(app::Engine& engine, const StressRequest& request,
                           std::string(property.not_covered),
                           {},
                           {},
-                          0};
+                          0,
+                          {},
+                          std::string(property.turned_red_by)};
     const auto start = std::chrono::steady_clock::now();
     Bench bench(engine, request.watcher, request.size, request.seed, row);
     try {
         property.judge(bench);
+        check(!row.cases.empty() || !row.not_run.empty(), Failure::internal, "property ", row.id,
+              " judged nothing");
         row.verdict = verdict_of(row);
+        if (row.cases.empty()) row.remark = "nothing of it could be run";
     } catch (const Error& error) {
         if (bench.ends_run(error)) throw;
-        row.verdict = report::Verdict::fail;
         row.remark = error.what();
+        // What was found wrong before the device ran out stays found.
+        if (is_refusal(error) && verdict_of(row) != report::Verdict::fail) {
+            row.verdict = report::Verdict::unsupported;
+            row.cases.clear(), row.pictures.clear(), row.not_run.clear();
+        } else {
+            row.verdict = report::Verdict::fail;
+        }
     }
     row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return row;

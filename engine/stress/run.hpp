@@ -17,7 +17,8 @@ struct StressRequest {
 };
 
 /// Judges every property, in minutes at 256x256. An error that a property did not ask for makes its
-/// row fail, with the error's text. What ends the run itself (a signal, the device is gone, no
+/// row fail, with the error's text; one that says what the device allows makes it unsupported, with
+/// that text and no figure. What ends the run itself (a signal, the device is gone, no
 /// memory, `on_finished_row`) is in `stopped` of the rows so far, or thrown where there is none and
 /// it was no signal. Throws `usage` for an unknown id.
 report::Stress run(app::Engine& engine, const StressRequest& request);

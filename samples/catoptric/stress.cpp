@@ -83,6 +83,7 @@ int run(const Options& options) {
     if (found.stopped)
         fail_incomplete(*found.stopped, found.rows.size(), found.asked, "", options.folder);
     if (!options.folder.empty()) note(options.manners, "written: " + options.folder);
+    for (const std::string& part : found.not_run()) note(options.manners, "not run: " + part);
     if (options.validate) engine.check_validation();
     return found.failed() ? static_cast<int>(Failure::threshold) : 0;
 }

@@ -43,6 +43,37 @@ TEST(Stress, FailsByItsRows) {
     EXPECT_TRUE(stress.failed());
 }
 
+/// What a device does not allow is no figure, and no pass.
+TEST(Stress, WhatCouldNotRunSaysWhyWithoutAFigure) {
+    Stress stress;
+    stress.rows = {row({}), row({{"the rest", .5, 1}})};
+    stress.rows[0].verdict = Verdict::unsupported;
+    stress.rows[0].remark = "the device allows max_memory = 5";
+    stress.rows[1].not_run = {{"edge 16384", "allows max_size = 8192"}};
+    EXPECT_THAT(stress.not_run(), testing::ElementsAre("N1: the device allows max_memory = 5",
+                                                       "N1, edge 16384: allows max_size = 8192"));
+    const nlohmann::json rows = nlohmann::json::parse(to_json(stress))["rows"];
+    EXPECT_EQ(rows[0]["verdict"], "unsupported");
+    EXPECT_TRUE(rows[0]["measured"].is_null() && rows[0]["threshold"].is_null());
+    EXPECT_EQ(rows[0]["remark"], "the device allows max_memory = 5");
+    EXPECT_TRUE(rows[0]["not_run"].empty());
+    EXPECT_EQ(rows[1]["not_run"][0],
+              (nlohmann::json{{"what", "edge 16384"}, {"why", "allows max_size = 8192"}}));
+    for (const std::string& text : {to_html(stress), to_markdown(stress)}) {
+        EXPECT_THAT(text, testing::HasSubstr("unsupported"));
+        EXPECT_THAT(text, testing::HasSubstr("not run: edge 16384: allows max"));
+    }
+}
+
+TEST(Stress, NamesTheWrongCodeThatTurnsARowRed) {
+    Stress stress;
+    stress.rows = {row({{"a", 0, 1}})};
+    stress.rows[0].turned_red_by = "upside-down";
+    EXPECT_EQ(nlohmann::json::parse(to_json(stress))["rows"][0]["turned_red_by"], "upside-down");
+    EXPECT_THAT(to_html(stress), testing::HasSubstr("upside-down"));
+    EXPECT_THAT(to_markdown(stress), testing::HasSubstr("upside-down"));
+}
+
 TEST(Stress, JsonHasEveryCaseAndHtmlNoMarkupOfItsTexts) {
     Stress stress;
     stress.rows = {row({{"a", .25, .5}, {"b", std::nan(""), .5}, {"c", 1, .5, true}})};

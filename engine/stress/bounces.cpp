@@ -1,0 +1,151 @@
+// Light that arrives bounce by bounce: each adds less than the one before, and none takes away.
+#include "stress/property.hpp"
+#include "stress/scenes.hpp"
+
+#include "measure/difference.hpp"
+#include "measure/masks.hpp"
+#include "scene/load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::stress {
+
+namespace {
+
+constexpr int kMost = 6;      // bounces
+constexpr double kFall = 0.4; // a step is at most that share of the one before
+
+struct Bounces {
+    std::vector<measure::Picture> pictures; ///< entry k with k bounces
+    measure::Mask mirrors;
+};
+
+Bounces bounces_of(Bench& bench, app::Request request, int face = 128) {
+    const auto render = [&](const std::string& technique) {
+        request.techniques = {technique};
+        return bench.render(request);
+    };
+    Bounces bounces{{}, measure::mirrors(render("raytrace:depth=1").hits)};
+    for (int k = 0; k <= kMost; ++k)
+        bounces.pictures.push_back(render(fmt::format("naive:face={},bounces={}", face, k)).hdr);
+    return bounces;
+}
+
+/// rmse between the pictures with k and k + 1 bounces over mirror pixels, k = 0..5. No pixel of any
+/// of them may get darker with a bounce more: from black on, a capture is a weighted mean of
+/// captures of the bounce before.
+std::vector<double> steps_of(Bench& bench, const std::string& where, const Bounces& bounces) {
+    const std::vector<float> no_flip(bounces.pictures.front().pixels.size());
+    std::vector<double> steps;
+    for (std::size_t k = 0; k + 1 < bounces.pictures.size(); ++k) {
+        const measure::Picture &before = bounces.pictures[k], &after = bounces.pictures[k + 1];
+        std::size_t darker = 0;
+        for (std::size_t i = 0; i < before.pixels.size(); ++i)
+            darker += !all(greaterThanEqual(after.pixels[i], before.pixels[i]));
+        bench.add(fmt::format("{}, bounce {}: pixels that got darker", where, k + 1),
+                  double(darker), 0);
+        steps.push_back(measure::difference(before, after, bounces.mirrors, no_flip).rmse);
+    }
+    return steps;
+}
+
+void add_falls(Bench& bench, const std::string& where, const std::vector<double>& steps) {
+    for (std::size_t k = 1; k < steps.size(); ++k) {
+        bench.add(fmt::format("{}, bounce {}: share of the step before", where, k + 1),
+                  steps[k] / steps[k - 1], kFall);
+        bench.add(fmt::format("{}, bounce {}: no change", where, k + 1), steps[k] > 0 ? 0 : 1, 0);
+    }
+}
+
+void judge_report_room(Bench& bench) {
+    app::Request request = bench.asked(scene::cornell_mirrors(), "naive", 1);
+    request.size = uvec2(512);
+    add_falls(bench, "the report's room",
+              steps_of(bench, "the report's room", bounces_of(bench, request)));
+}
+
+/// Balls of such a room are small, and a third image is one or two of some 4,000 pixels, lit by the
+/// lamp or not as their texels happen to lie: from step to step the fall is chance, and what is
+/// judged is how far it has come by bounce 4.
+void judge_room(Bench& bench) {
+    const std::vector<double> steps = steps_of(
+        bench, "a room", bounces_of(bench, bench.asked(room(bench, 4), "naive", 1)));
+    bench.add("a room, bounce 4: share of the first step", steps[3] / steps[0],
+              std::pow(kFall, 3.0));
+}
+
+/// Two flat mirrors face to face in a box that emits 1, turned from each other by `angle`, with one
+/// `reflectance`. With k mirrors on its way a ray is turned by 2 k times the angle and leaves them:
+/// a captured path of k mirrors shows reflectance^k, and a bounce more makes of a black band, as
+/// wide as the last, the next power.
+struct Wedge {
+    double reflectance, angle;
+
+    scene::Scene scene(dvec3 eye) const {
+        scene::Scene scene = furnace({});
+        const std::size_t mirror = add_material(
+            scene, {.name = "mirror",
+                    .mirror = true,
+                    .reflectance = vec3(static_cast<float>(reflectance))});
+        const auto add = [&](double x, double by) {
+            const dvec3 along = 2.0 * dvec3(std::sin(by), 0, std::cos(by)), up(0, 2, 0),
+                        at(x, 0, 1);
+            add_quad(scene, mirror, at - along - up, at + along - up, at + along + up,
+                     at - along + up);
+        };
+        add(-1, -angle / 2), add(1, angle / 2);
+        scene.cameras.front() = {
+            .eye = eye, .target = {-1, eye.y, eye.z + 1.2}, .vertical_fov_degrees = 70};
+        return scene;
+    }
+    /// Whether a mirror shows nothing, or what up to `most` mirrors leave of 1.
+    bool explains(float radiance, int most) const {
+        if (radiance == 0) return true;
+        for (int k = 1; k <= most; ++k)
+            if (std::abs(radiance / std::pow(reflectance, k) - 1) <= .005) return true;
+        return false;
+    }
+};
+
+/// Known of any seed: from the third bounce on a step is the reflectance times the one before, and
+/// a pixel that is not mixed from two bands shows a power of it.
+void judge_wedge(Bench& bench) {
+    const Wedge wedge{bench.random(.2, .3), bench.random(.05, .08)};
+    app::Request request = bench.asked(
+        wedge.scene({bench.random(-.1, .1), bench.random(-.2, .2), bench.random(-.9, -.7)}),
+        "naive", 1);
+    request.ambient = 0;
+    const Bounces bounces = bounces_of(bench, request, 256);
+    const std::string where = fmt::format("mirrors of {:.3f} at {:.3f}", wedge.reflectance,
+                                          wedge.angle);
+    const std::vector<double> steps = steps_of(bench, where, bounces);
+    add_falls(bench, where, steps);
+    for (std::size_t k = 2; k + 1 < steps.size(); ++k)
+        bench.add(fmt::format("{}, bounce {}: share of the step before, off the reflectance by a "
+                              "share of",
+                              where, k + 1),
+                  std::abs(steps[k] / steps[k - 1] / wedge.reflectance - 1), .1);
+    std::size_t strange = 0;
+    for (std::size_t i = 0; i < bounces.mirrors.size(); ++i)
+        strange += bounces.mirrors[i] != 0 &&
+                   !wedge.explains(bounces.pictures.back().pixels[i].x, kMost);
+    bench.add(where + ": share of pixels that no number of mirrors explains",
+              double(strange) / double(measure::pixel_count(bounces.mirrors)), .2);
+}
+
+void judge_bounces(Bench& bench) {
+    judge_report_room(bench);
+    judge_room(bench);
+    judge_wedge(bench);
+}
+
+const Registered kBounces{{"N8", "naive, bounces 0..6",
+                           "no mirror darkens, steps fall by 2.5 and more", judge_bounces,
+                           "bounces_capped"}};
+
+} // namespace
+
+} // namespace catoptric::stress

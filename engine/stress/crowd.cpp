@@ -1,0 +1,80 @@
+// More mirrors than one array of captures holds: each shows what stands around itself.
+#include "stress/property.hpp"
+#include "stress/scenes.hpp"
+
+#include "measure/masks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::stress {
+
+namespace {
+
+constexpr int kEdge = 20; // balls along an edge: 400, where 341 fill an array of 2048 layers
+constexpr uvec2 kSize{256, 256};
+
+/// No two within 3 % in every channel.
+vec3 colour_of(int ball) {
+    const auto step = [](int i) { return .4f + .6f * float(i) / (kEdge - 1); };
+    return {step(ball % kEdge), step(ball / kEdge), .7f};
+}
+
+/// Balls in cells of one colour each, open to the front and the back, without a light: with an
+/// ambient light of 1 a wall shows its colour.
+scene::Scene cells() {
+    constexpr double kHalf = .48, kFront = -.3, kBack = .8;
+    scene::Scene scene{.name = "cells"};
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+    for (int i = 0; i < kEdge * kEdge; ++i) {
+        const dvec3 centre(i % kEdge - (kEdge - 1) / 2.0, i / kEdge - (kEdge - 1) / 2.0, 0);
+        const std::size_t wall = add_material(scene, {.name = "wall", .albedo = colour_of(i)});
+        const dvec3 lo = centre + dvec3(-kHalf, -kHalf, kFront),
+                    hi = centre + dvec3(kHalf, kHalf, kBack);
+        for (const int axis : {0, 1})
+            for (const dvec3& at : {lo, hi}) {
+                dvec3 a = lo, c = hi;
+                a[axis] = c[axis] = at[axis];
+                dvec3 b = a, d = c;
+                b.z = c.z, d.z = a.z;
+                add_quad(scene, wall, a, b, c, d);
+            }
+        add_ball(scene, mirror, {centre, .35}, 2);
+    }
+    scene.cameras.push_back({.eye = {0, 0, -40}, .target = {0, 0, 0}, .vertical_fov_degrees = 29});
+    return scene;
+}
+
+/// Mirrors in which no pixel shows their own cell's colour, and mirrors with a pixel of another's.
+void judge_cells(Bench& bench) {
+    const scene::Scene scene = cells();
+    std::vector<std::uint32_t> hits;
+    for (const std::string technique : {"raytrace:depth=1", "reuse:face=8", "parallax:face=8"}) {
+        app::Request request = bench.asked(scene, technique, 1);
+        request.size = kSize;
+        request.ambient = 1;
+        const app::Part part = bench.render(request);
+        if (hits.empty()) hits = part.hits;
+        std::vector<int> own(std::size_t{kEdge} * kEdge);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            const auto mirror = measure::first_mirror(hits[i]).number();
+            if (mirror == 0) continue;
+            const vec3 off = abs(part.hdr.pixels[i] / colour_of(static_cast<int>(mirror) - 1) -
+                                 vec3(1));
+            own[mirror - 1] += std::max({off.x, off.y, off.z}) <= .002f;
+        }
+        bench.add_nonfinite(technique, part);
+        bench.add(fmt::format("{}: mirrors of {} in which no pixel shows what is around them",
+                              technique, own.size()),
+                  double(std::ranges::count(own, 0)), 0);
+    }
+}
+
+const Registered kCells{{"C14", "400 mirrors, each in a cell of another colour",
+                         "each shows its own cell", judge_cells, "first_array_only"}};
+
+} // namespace
+
+} // namespace catoptric::stress

@@ -1,0 +1,245 @@
+// Shadows on an open plane, whose edges are known, and of two lights.
+#include "stress/double_tracer.hpp"
+#include "stress/property.hpp"
+#include "stress/scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace catoptric::stress {
+
+namespace {
+
+const dvec3 kLamp(0, 4, 0); // of plane()
+
+/// Stands on the plane between the lamp and the eye, so that its whole shadow is seen.
+struct Board {
+    double half_width = 1.5, height = 2.5, z = -1.5;
+
+    void add_to(scene::Scene& scene) const {
+        add_quad(scene, 0, {-half_width, 0, z}, {half_width, 0, z}, {half_width, height, z},
+                 {-half_width, height, z});
+    }
+    /// Whether it stands between two points.
+    bool hides(const dvec3& a, const dvec3& b) const {
+        const double t = (z - a.z) / (b.z - a.z);
+        if (!(t > 0 && t < 1)) return false;
+        const dvec3 at = a + t * (b - a);
+        return std::abs(at.x) <= half_width && at.y <= height && at.y >= 0;
+    }
+};
+
+/// What a pixel's centre sees of the plane, and whether the board hides the lamp there.
+struct Spot {
+    bool on_plane = false; ///< and nowhere near the board's outline
+    dvec3 place{0};
+    bool in_shadow = false;
+};
+
+std::vector<Spot> spots_of(const scene::Camera& camera, uvec2 size, const Board& board) {
+    constexpr double kMargin = .02; // pixels
+    std::vector<Spot> spots;
+    for (std::uint32_t y = 0; y < size.y; ++y)
+        for (std::uint32_t x = 0; x < size.x; ++x) {
+            const auto place = [&](double dx, double dy) {
+                const dvec3 d = pixel_direction(camera, size, x + dx, y + dy);
+                return camera.eye - camera.eye.y / d.y * d;
+            };
+            const dvec3 middle = place(0, 0);
+            Spot spot{middle.z > camera.eye.z &&
+                          std::max(std::abs(middle.x), std::abs(middle.z)) < 10,
+                      middle, board.hides(middle, kLamp)};
+            for (const double dx : {-kMargin, kMargin})
+                for (const double dy : {-kMargin, kMargin})
+                    if (board.hides(place(dx, dy), camera.eye)) spot.on_plane = false;
+            spots.push_back(spot);
+        }
+    return spots;
+}
+
+/// How far from `place` the shadow's edge is, in steps of a quarter of `unit`; at most 64 units.
+double edge_distance(const Board& board, const dvec3& place, double unit) {
+    constexpr int kAngles = 16;
+    const bool in_shadow = board.hides(place, kLamp);
+    for (int quarters = 1; quarters < 256; ++quarters)
+        for (int i = 0; i < kAngles; ++i) {
+            const double angle = 2 * std::numbers::pi * i / kAngles;
+            const dvec3 beside = place +
+                                 quarters / 4.0 * unit * dvec3(std::cos(angle), 0, std::sin(angle));
+            if (board.hides(beside, kLamp) != in_shadow) return quarters / 4.0;
+        }
+    return 64;
+}
+
+/// How far a texel of a shadow map, `edge` wide, reaches on the plane at a place, at its longest: a
+/// cube of faces around the lamp, turned anyhow.
+double texel_on_plane(const dvec3& place, int edge) {
+    const double distance = length(place - kLamp);
+    return 2 * distance / edge * distance / kLamp.y;
+}
+
+struct Shown {
+    measure::Picture with, without;
+};
+
+/// Of the pixels that are lit where they should not be, or dark, the farthest from the edge, in
+/// texels. Half lit is lit.
+double farthest_wrong(const std::vector<Spot>& spots, const Shown& shown, const Board& board,
+                      const std::function<double(const dvec3&)>& unit) {
+    double most = 0;
+    for (std::size_t i = 0; i < spots.size(); ++i) {
+        const float full = shown.without.pixels[i].x;
+        if (!spots[i].on_plane || !(full > 0)) continue;
+        const bool dark = !(shown.with.pixels[i].x >= full / 2);
+        if (dark == spots[i].in_shadow) continue;
+        most = std::max(most, edge_distance(board, spots[i].place, unit(spots[i].place)));
+    }
+    return most;
+}
+
+Shown show(Bench& bench, const scene::Scene& scene, const std::string& with,
+           const std::string& without) {
+    const auto render = [&](const std::string& technique) {
+        app::Request request = bench.asked(scene, technique, 1);
+        request.ambient = 0; // what is not black is lit by the lamp
+        return bench.render(request).hdr;
+    };
+    return {render(with), render(without)};
+}
+
+/// The largest edge that this device has the memory for.
+int largest_shadow_map(Bench& bench, const scene::Scene& scene) {
+    int edge = 16384;
+    while (edge > 1 && !bench.add_done_or_refused(fmt::format("edge {} planned", edge), [&] {
+        bench.plan(bench.asked(scene, fmt::format("reuse:shadow_map={}", edge), 1));
+    }))
+        edge /= 2;
+    return edge;
+}
+
+/// An open plane shades nothing of itself.
+void judge_open_plane(Bench& bench, double factor, int edge) {
+    const Shown shown = show(bench, through(plane(), scaled(factor)),
+                             fmt::format("reuse:shadow_map={}", edge), "reuse:shadow=none");
+    std::size_t lit = 0, judged = 0;
+    for (std::size_t i = 0; i < shown.with.pixels.size(); ++i) {
+        if (!(shown.without.pixels[i].x > 0)) continue;
+        ++judged;
+        lit += shown.with.pixels[i].x >= .999f * shown.without.pixels[i].x;
+    }
+    bench.add(
+        fmt::format("edge {}, times {}: less than a tenth of the picture is lit", edge, factor),
+        judged * 10 < shown.with.pixels.size() ? 1 : 0, 0);
+    bench.add(fmt::format("edge {}, times {}: plane in shadow of itself", edge, factor),
+              1 - double(lit) / double(judged), .005);
+}
+
+/// A plane with a board under a lamp that is turned to it: across a face of its shadow map no plane
+/// would be lifted off its shadow.
+scene::Scene board_under_lamp(const Board& board) {
+    constexpr double kTurn = .6, kHalf = .2;
+    scene::Scene scene = plane();
+    scene.objects.pop_back();
+    const dvec3 along(kHalf, 0, 0), up = kHalf * dvec3(0, -std::sin(kTurn), std::cos(kTurn));
+    add_quad(scene, 1, kLamp - along - up, kLamp + along - up, kLamp + along + up,
+             kLamp - along + up);
+    board.add_to(scene);
+    return scene;
+}
+
+/// The shadow of a board that stands on the plane begins at its foot and ends where it must, for
+/// shadow maps to some texels, for rays to a thousandth of the board.
+void judge_board(Bench& bench, double factor, const std::vector<int>& edges) {
+    const Board board;
+    const scene::Scene scene = board_under_lamp(board);
+    const std::vector<Spot> spots = spots_of(scene.cameras.front(), bench.size(), board);
+    const auto judged = std::ranges::count_if(
+        spots, [](const Spot& spot) { return spot.on_plane && spot.in_shadow; });
+    bench.add("the board's shadow: less than a fiftieth of the picture",
+              judged * 50 < std::ssize(spots) ? 1 : 0, 0);
+    const scene::Scene seen = through(scene, scaled(factor));
+    bench.add(fmt::format("raytrace, times {}: the shadow's edge is off by thousandths", factor),
+              farthest_wrong(spots, show(bench, seen, "raytrace", "raytrace:shadow=none"), board,
+                             [](const dvec3&) { return .001; }),
+              1);
+    for (const int edge : edges) {
+        const Shown shown = show(bench, seen, fmt::format("reuse:shadow_map={}", edge),
+                                 "reuse:shadow=none");
+        bench.add(
+            fmt::format("edge {}, times {}: the shadow's edge is off by texels", edge, factor),
+            farthest_wrong(spots, shown, board,
+                           [&](const dvec3& place) { return texel_on_plane(place, edge); }),
+            edge < 1024 ? 1.5 : .75);
+    }
+}
+
+void judge_shadow_map(Bench& bench) {
+    const int largest = largest_shadow_map(bench, plane());
+    for (const double factor : {1e-6, 1.0, 1e6}) {
+        for (const int edge : {1, 16, 1024, largest}) judge_open_plane(bench, factor, edge);
+        judge_board(bench, factor, {16, 1024, largest});
+    }
+}
+
+/// Two lamps of different colour over a plane with a board and a ball on it; either or both.
+scene::Scene lit_by(bool first, bool second) {
+    scene::Scene scene{.name = "two lights"};
+    add_quad(scene, add_material(scene, {.name = "grey", .albedo = vec3(.7f)}), {-10, 0, -10},
+             {-10, 0, 10}, {10, 0, 10}, {10, 0, -10});
+    Board{.half_width = 1, .height = 1.5, .z = -1}.add_to(scene);
+    add_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}), {{1.9, .7, -2}, .7});
+    const auto add_lamp = [&](double x, const vec3& emission) {
+        add_quad(scene, add_material(scene, {.name = "lamp", .emission = emission}),
+                 {x - .2, 4, .3}, {x + .2, 4, .3}, {x + .2, 4, .7}, {x - .2, 4, .7});
+    };
+    if (first) add_lamp(-2, {40, 10, 5});
+    if (second) add_lamp(2.5, {5, 10, 40});
+    scene.cameras.push_back({.eye = {0, 3, -9}, .target = {0, 0, -1}, .vertical_fov_degrees = 40});
+    return scene;
+}
+
+/// Light adds up: both lamps show what each shows alone, in the plane, in both shadows and in what
+/// the ball mirrors of them.
+void judge_two_lights(Bench& bench) {
+    const auto render = [&](const scene::Scene& scene, const std::string& technique) {
+        app::Request request = bench.asked(scene, technique, 2);
+        request.ambient = 0;
+        return bench.render(request);
+    };
+    for (const std::string technique : {"raytrace", "reuse", "parallax", "pyramid", "layered"}) {
+        const app::Part both = render(lit_by(true, true), technique),
+                        first = render(lit_by(true, false), technique),
+                        second = render(lit_by(false, true), technique);
+        double off = 0;
+        std::size_t only_first = 0, only_second = 0;
+        for (std::size_t i = 0; i < both.hdr.pixels.size(); ++i) {
+            const dvec3 a(first.hdr.pixels[i]), b(second.hdr.pixels[i]);
+            const dvec3 missing = abs(dvec3(both.hdr.pixels[i]) - (a + b));
+            off = std::max({off, missing.x, missing.y, missing.z});
+            only_first += a.x > 0 && b.x == 0, only_second += b.x > 0 && a.x == 0;
+        }
+        if (nonfinite(both.hdr) > 0) off = std::nan("");
+        bench.add(technique + ": radiance off the sum of either light", off, .0005);
+        const std::size_t enough = both.hdr.pixels.size() / 200;
+        bench.add(technique + ": a light without a shadow of its own",
+                  std::min(only_first, only_second) < enough ? 1 : 0, 0);
+        if (technique == "reuse")
+            bench.add("reuse: passes off N + 2 and one for the second light",
+                      std::abs(both.scene_passes - 4), 0);
+    }
+}
+
+const Registered kShadowMap{
+    {"L2", "shadow map edge 1, 16, 1024, the largest up to 16384; scene times 1e-6, 1, 1e6",
+     "no acne on an open plane; a board's shadow begins and ends where it must", judge_shadow_map,
+     "shadow_lifted"}};
+const Registered kTwoLights{{"L3", "two lights, a board and a ball on an open plane",
+                             "both show what each shows alone, each with its shadow",
+                             judge_two_lights, "shadows_of_first_light"}};
+
+} // namespace
+
+} // namespace catoptric::stress
