@@ -67,7 +67,7 @@ make_rows() {
 
 # Precision: what rows that differ in it cost and get wrong; a rule that is left out is no row of the comparison.
 make_precision() {
-    "$program" compare -o out/precision --no-causes --techniques parallax parallax:distance={unorm8\,range=200,unorm8\,range=1000,r16f} \
+    "$program" compare -o out/precision --techniques parallax parallax:distance={unorm8\,range=200,unorm8\,range=1000,r16f} \
         parallax:colour=float raytrace raytrace:hit=f64 raytrace:without=watertight
     text=$(awk -F'|' '
         /^## / {on = /^## Every row/}
@@ -96,7 +96,7 @@ for name in secant march pyramid layered hybrid; do search+=($name:face=512,cont
 view() { # view TITLE OPTION...
     local title=$1
     shift
-    "$program" compare -o out/view --no-causes --frames 5 "$@" --techniques parallax:face=512 "${search[@]}" \
+    "$program" compare -o out/view --frames 5 "$@" --techniques parallax:face=512 "${search[@]}" \
         secant:face=64,continue=0 raytrace >/dev/null
     echo "## $title"
     echo

@@ -12,7 +12,7 @@ struct CompareRequest {
     Request base; ///< its `techniques` are the rows; empty = default_techniques()
     std::string reference = kReference;
     bool together = false; ///< all rows in one frame
-    bool causes = true;    ///< split each row's error by cause; only against the default reference
+    bool causes = false;   ///< split each row's error by cause; only against the default reference
     bool lag = false; ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row
     std::vector<std::string> command; ///< for the record
     Watcher watcher;

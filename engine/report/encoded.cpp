@@ -2,6 +2,7 @@
 
 #include "measure/heat.hpp"
 #include "measure/picture_file.hpp"
+#include "report/causes.hpp"
 
 namespace catoptric::report {
 
@@ -21,7 +22,13 @@ void encode_new(EncodedPictures& pictures, const Comparison& comparison) {
         pictures.rows.push_back(
             {png_of(row.display),
              has_map ? png_of(measure::heat(row.flip_map, row.display.width, row.display.height))
-                     : std::string()});
+                     : std::string(),
+             {}});
+    }
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        const Row& row = comparison.rows[i];
+        if (row.causes && pictures.rows[i].causes.empty())
+            pictures.rows[i].causes = png_of(cause_picture(row));
     }
 }
 

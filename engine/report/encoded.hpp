@@ -12,12 +12,13 @@ struct EncodedPictures {
     struct OfRow {
         std::string picture; ///< as shown
         std::string error;   ///< heat map of its FLIP error; empty: it has none
+        std::string causes;  ///< pixels by what is to blame; empty: not known
     };
     std::string reference; ///< empty: it was not rendered
     std::vector<OfRow> rows;
 };
 
-/// Encodes what has come since the last time: rows are only ever added.
+/// Encodes what has come since the last time: rows are only ever added, causes to any.
 void encode_new(EncodedPictures& pictures, const Comparison& comparison);
 
 /// report.html with these pictures.

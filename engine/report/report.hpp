@@ -4,6 +4,7 @@
 #include "report/encoded.hpp"
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,9 @@ std::string to_html(const Comparison& comparison);
 void create_folder(const std::filesystem::path& folder);
 
 /// Puts what there is into a folder, made as above: report.json, report.md, report.html, rows.csv,
-/// images/<row>.png and .exr, images/<row>-error.png and images/reference.png. Written again and
-/// again as rows are added: pictures once, all else anew, every file put into place whole.
+/// images/<row>.png and .exr, images/<row>-error.png, of rows with causes images/causes-<row>.png,
+/// and images/reference.png. Written again and again as rows are added: pictures once, all else
+/// anew, every file put into place whole.
 class Writer {
 public:
     explicit Writer(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -38,11 +40,13 @@ private:
 
     std::filesystem::path folder_;
     EncodedPictures pictures_;
-    bool has_reference_ = false; ///< its picture is there
-    std::size_t rows_ = 0;       ///< whose pictures are there
+    bool has_reference_ = false;             ///< its picture is there
+    std::size_t rows_ = 0;                   ///< whose pictures are there
+    std::set<std::size_t> rows_with_causes_; ///< whose picture by cause is there
 };
 
-/// The files that a writer of rows with these `Row::image`s puts into its folder, relative to it.
+/// All files that a writer may put into its folder, of rows with these `Row::image`s, relative to
+/// it.
 std::vector<std::filesystem::path> files_of(const std::vector<std::string>& images);
 
 /// All of it once.

@@ -29,6 +29,12 @@ void Writer::write_pictures(const Comparison& comparison) {
         write_file(images / (row.image + ".png"), pictures_.rows[rows_].picture);
         write_file(images / (row.image + "-error.png"), pictures_.rows[rows_].error);
     }
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        if (pictures_.rows[i].causes.empty() || rows_with_causes_.contains(i)) continue;
+        write_file(images / ("causes-" + comparison.rows[i].image + ".png"),
+                   pictures_.rows[i].causes);
+        rows_with_causes_.insert(i);
+    }
 }
 
 void Writer::write(const Comparison& comparison) {
@@ -48,6 +54,8 @@ std::vector<fs::path> files_of(const std::vector<std::string>& images) {
     for (const std::string& image : images)
         for (const char* ending : {".exr", ".png", "-error.png"})
             files.push_back(fs::path("images") / (image + ending));
+    for (const std::string& image : images)
+        files.push_back(fs::path("images") / ("causes-" + image + ".png"));
     return files;
 }
 

@@ -29,7 +29,7 @@ struct Options {
     std::string folder;
     std::vector<std::string> techniques;
     bool together = false;
-    bool no_causes = false;
+    bool causes = false;
     bool lag = false;
     std::vector<std::string> command;
 };
@@ -50,7 +50,10 @@ app::CompareRequest make_compare_request(const Options& options) {
     request.base.techniques = options.techniques;
     request.reference = options.common.reference;
     request.together = options.together;
-    request.causes = !options.no_causes;
+    check(!options.causes || options.common.reference == app::kReference, Failure::usage,
+          "--causes: wanted the default reference, ", app::kReference,
+          ", whose rays tell causes apart, found '", options.common.reference, "'");
+    request.causes = options.causes;
     request.lag = options.lag;
     request.command = options.command;
     return request;
@@ -139,8 +142,8 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
         "(the default list)",
         options->techniques);
     verb.flag("--together", "all rows in one command buffer, on one timeline", options->together);
-    verb.flag("--no-causes", "leave out the split of each row's error by cause",
-              options->no_causes);
+    verb.flag("--causes", "also split each row's error by cause: some ten seconds a row",
+              options->causes);
     verb.flag("--lag",
               "also how far the rows that read last frame's captures are behind a moving "
               "scene: about 2300 frames a row",

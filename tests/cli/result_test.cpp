@@ -235,8 +235,8 @@ TEST_F(Cli, DiffOfOtherSizes) {
 }
 
 TEST_F(Cli, CompareWritesAndPrints) {
-    const Words words = quick({"compare", "-o", "out", "--no-causes", "--techniques",
-                               "naive:bounces=1", "reuse", "raytrace:depth=16"});
+    const Words words = quick(
+        {"compare", "-o", "out", "--techniques", "naive:bounces=1", "reuse", "raytrace:depth=16"});
     const test::Ended ended = cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     for (const char* part : {"naive:bounces=1", "reuse", "raytrace:depth=16", "rmse", "flip"})

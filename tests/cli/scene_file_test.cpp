@@ -72,7 +72,7 @@ TEST_F(SceneFile, TheTerminalIsNotSpokenTo) {
     EXPECT_TRUE(is_plain(cli(render(evil + ".gltf")).err));
 
     const test::Ended compare = cli(
-        quick({"compare", evil + ".obj", "-o", "out", "--no-causes", "--techniques", "reuse"}));
+        quick({"compare", evil + ".obj", "-o", "out", "--techniques", "reuse"}));
     EXPECT_EQ(compare.exit_code, 0) << compare.err;
     EXPECT_TRUE(is_plain(compare.out)) << compare.out;
     EXPECT_TRUE(is_plain(compare.err));

@@ -24,8 +24,8 @@ protected:
     /// Pictures of the techniques in `place`/images.
     void render(const Words& techniques, const std::string& place,
                 const Environment& environment) const {
-        Words words = {"compare", "-o",       place, "--size",      "256x256", "--frames",
-                       "1",       "--warmup", "1",   "--no-causes", "--quiet", "--techniques"};
+        Words words = {"compare", "-o",       place, "--size",  "256x256",     "--frames",
+                       "1",       "--warmup", "1",   "--quiet", "--techniques"};
         words.insert(words.end(), techniques.begin(), techniques.end());
         test::Start process = start(words);
         process.environment = environment;

@@ -21,8 +21,8 @@ class Results : public Faults {
 protected:
     /// `rows` rows, the fifth of which takes as long as `samples` make it.
     static Words comparison(int rows, int samples = 2) {
-        Words words{"compare",  "-o", "out",         "--size",     "64x64",  "--frames",    "1",
-                    "--warmup", "0",  "--no-causes", "--progress", "always", "--techniques"};
+        Words words{"compare", "-o",       "out", "--size",     "64x64",  "--frames",
+                    "1",       "--warmup", "0",   "--progress", "always", "--techniques"};
         for (int i = 0; i < rows; ++i)
             words.push_back("raytrace:depth=" + std::to_string(i) +
                             (i == 4 ? ",samples=" + std::to_string(samples) : ""));

@@ -9,8 +9,8 @@ namespace fs = std::filesystem;
 class SameBytes : public Faults {};
 
 TEST_F(SameBytes, PicturesOfEveryTechnique) {
-    Words words = {"compare", "-o",       "out", "--size",      "64x64",   "--frames",
-                   "1",       "--warmup", "1",   "--no-causes", "--quiet", "--techniques"};
+    Words words = {"compare", "-o",       "out", "--size",  "64x64",       "--frames",
+                   "1",       "--warmup", "1",   "--quiet", "--techniques"};
     const nlohmann::json list = nlohmann::json::parse(
         cli({"list", "techniques", "--json"}).out)["techniques"];
     for (const auto& technique : list) {

@@ -8,9 +8,8 @@ class Verdict : public Faults {};
 
 /// A software driver takes a stamp that no barrier follows after the next pass's work.
 TEST_F(Verdict, AnExecutionBarrierFollowsEachStamp) {
-    const Words words{"compare",      "-o",       "out",      "--size", "32x32",
-                      "--frames",     "2",        "--warmup", "0",      "--no-causes",
-                      "--techniques", "parallax", "raytrace", "hybrid"};
+    const Words words{"compare",  "-o", "out",          "--size",   "32x32",    "--frames", "2",
+                      "--warmup", "0",  "--techniques", "parallax", "raytrace", "hybrid"};
     const Watched watched = watch(words, std::nullopt);
     ASSERT_EQ(watched.ended.exit_code, 0) << watched.ended.err;
     EXPECT_GT(watched.counts.at("vkCmdWriteTimestamp2").calls, 30);
