@@ -135,29 +135,44 @@ void expect_part_is_difference(const std::string& cause, const scene::Scene& sce
     EXPECT_NEAR(worse.part(cause), gone, .15 * worse.causes.squared_error) << cause;
 }
 
-/// Two balls that see each other where all else is bright.
-scene::Scene two_balls() {
-    scene::Scene scene{.name = "two balls"};
+/// A ball over a mirror as large as the floor, all of which its centre sees, where all else is
+/// bright.
+scene::Scene over_a_mirror() {
+    scene::Scene scene{.name = "over a mirror"};
     test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
-    test::add_ball(scene, "ball1", test::add_halving_mirror(scene, 0), {-1.15, -.3, .6}, 1.1, 5);
-    test::add_ball(scene, "ball2", test::add_halving_mirror(scene, 1), {1.15, .1, .3}, 1, 5);
-    scene.cameras.push_back({.eye = {.1, .3, -4}, .target = {0, 0, 1}, .vertical_fov_degrees = 44});
+    test::add_ball(scene, "ball", test::add_halving_mirror(scene, 0), {.5, -.2, 1}, .5, 5);
+    test::add_quad(scene, "floor", test::add_halving_mirror(scene, 1), {-3, -2.9, -3},
+                   {3, -2.9, -3}, {3, -2.9, 4}, {-3, -2.9, 4});
+    scene.cameras.push_back(
+        {.eye = {-.8, .8, -3.6}, .target = {.5, -.2, 1}, .vertical_fov_degrees = 12});
     return scene;
 }
 
-TEST(Causes, PartsAreWhatRowsWithoutThemDoNotHave) {
-    const scene::Scene one_ball = test::room(1, 1);
+TEST(CausesBesideRows, Direction) {
     expect_part_is_difference("direction", test::box({}), "reuse:face=128,shadow=none",
                               "pyramid:face=128,shadow=none");
-    expect_part_is_difference("texels", one_ball, "pyramid:face=16", "pyramid:face=256");
-    expect_part_is_difference("shadow map", one_ball, "pyramid:face=128,shadow=none",
+}
+
+TEST(CausesBesideRows, HiddenTarget) {
+    expect_part_is_difference("hidden target",
+                              test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+                              "pyramid:face=512,shadow=none", "hybrid:face=512,shadow=none");
+}
+
+TEST(CausesBesideRows, Texels) {
+    expect_part_is_difference("texels", test::room(1, 1), "pyramid:face=16", "pyramid:face=256");
+}
+
+// A mirror is black in the captures of the first bounce.
+TEST(CausesBesideRows, MirrorInMirror) {
+    expect_part_is_difference("mirror in mirror", over_a_mirror(),
+                              "naive:bounces=1,face=64,shadow=none",
+                              "naive:bounces=3,face=64,shadow=none");
+}
+
+TEST(CausesBesideRows, ShadowMap) {
+    expect_part_is_difference("shadow map", test::room(1, 1), "pyramid:face=128,shadow=none",
                               "pyramid:face=128");
-    expect_part_is_difference("mirror in mirror", two_balls(),
-                              "secant:steps=8,continue=0,face=128,shadow=none",
-                              "secant:steps=8,continue=8,face=128,shadow=none");
-    const scene::Scene boards = test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}});
-    expect_part_is_difference("hidden target", boards, "pyramid:face=128,shadow=none",
-                              "hybrid:face=128,shadow=none");
 }
 
 // ... and where a thing cannot be wrong it has no part, in any company.
