@@ -102,7 +102,7 @@ struct Placement {
     vec3 from_eye; // to the middle of that space, from the eye that all views of the draw share
 };
 
-// Causes of error, in the order in which a chain of renderings takes them away.
+// Causes of error that a rendering can be without (engine/app/causes.cpp).
 const uint kMendDistance = 1u;   // captured distance -> exact
 const uint kMendDirection = 2u;  // looked-up direction -> that of what the ray really meets
 const uint kMendHidden = 4u;     // what the capture's centre does not see -> its true colour

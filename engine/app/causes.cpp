@@ -1,36 +1,59 @@
 #include "app/causes.hpp"
 
-#include "measure/difference.hpp"
+#include "measure/lines.hpp"
 #include "measure/masks.hpp"
+#include "measure/pixel_error.hpp"
+#include "measure/shapley.hpp"
 #include "shared.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
+#include <functional>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace catoptric::app {
 
 namespace {
 
-/// How a picture is made.
-struct Rendering {
-    std::string technique;
-    bool is_settled = false;  ///< history of this very instant: nothing is a frame late
-    std::uint32_t mended = 0; ///< sum of shared::kMend...
-    bool drawn_as_seen =
-        false; ///< pixels where the rasteriser and the ray see different mirrors are true
-    auto operator<=>(const Rendering&) const = default;
+/// A cause that is mended in the technique's own shader, with or without the others.
+struct Player {
+    const char* name;
+    std::uint32_t mends; ///< sum of shared::kMend...
 };
 
-struct Step {
-    const char* name;
-    Rendering in_turn, alone;
+constexpr Player kPlayers[] = {{"direction", shared::kMendDistance | shared::kMendDirection},
+                               {"hidden target", shared::kMendHidden},
+                               {"texels", shared::kMendTexels},
+                               {"mirror in mirror", shared::kMendMirrors | shared::kMendOwn},
+                               {"shadow map", shared::kMendShadows}};
+constexpr std::size_t kPlayerCount = std::size(kPlayers);
+constexpr std::uint32_t kEveryPlayer = (1U << kPlayerCount) - 1;
+
+/// What a coalition mends; bit i: player i.
+std::uint32_t mended_by(std::uint32_t coalition) {
+    std::uint32_t mended = 0;
+    for (std::size_t i = 0; i < kPlayerCount; ++i)
+        if ((coalition >> i & 1U) != 0) mended |= kPlayers[i].mends;
+    return mended;
+}
+
+/// A sequence of frames that pictures are taken beside.
+struct Sequence {
+    std::string technique;
+    bool is_settled = false; ///< history of this very instant: nothing is a frame late
+    auto operator<=>(const Sequence&) const = default;
 };
 
 /// The technique with distances stored as 32-bit floats.
 std::string with_full_distance(const std::string& technique) {
     const TechniqueChoice choice = parse_technique(technique);
+    const bool is_full = std::ranges::none_of(choice.settings, [](const auto& setting) {
+        return setting.name == "distance" && setting.text != "r32f";
+    });
+    if (is_full) return technique;
     std::string text = choice.technique;
     char separator = ':';
     for (const auto& setting : choice.settings) {
@@ -41,156 +64,153 @@ std::string with_full_distance(const std::string& technique) {
     return text;
 }
 
-bool has_full_distance(const std::string& technique) {
-    return std::ranges::none_of(parse_technique(technique).settings, [](const auto& setting) {
-        return setting.name == "distance" && setting.text != "r32f";
-    });
+constexpr int kSettled = 16; // frames; deeper bounces are below a rounding of the picture's halves
+
+/// The row's own frames, or those that are settled at its last picture's instant; the same where
+/// that is no difference.
+Sequence sequence_of(const Request& base, const std::string& technique, bool is_settled) {
+    const bool may_lag = base.animate || base.total() <= kSettled;
+    return {technique, is_settled || !may_lag};
 }
 
-std::vector<Step> steps_of(const std::string& technique) {
-    const std::string full = has_full_distance(technique) ? technique
-                                                          : with_full_distance(technique);
-    const Rendering row{technique};
-    Rendering chain{full};
-    std::vector<Step> steps{{"storage format", chain, {full}}};
-    const auto mend = [&](const char* name, std::uint32_t cause) {
-        chain.mended |= cause;
-        steps.push_back({name, chain, {technique, false, cause}});
-    };
-    mend("stored distance", shared::kMendDistance);
-    mend("search direction", shared::kMendDirection);
-    mend("hidden target", shared::kMendHidden);
-    mend("texels", shared::kMendTexels);
-    mend("mirror in mirror", shared::kMendMirrors);
-    mend("own reflection", shared::kMendOwn);
-    chain.is_settled = true;
-    steps.push_back({"last frame", chain, {technique, true}});
-    mend("shadow map", shared::kMendShadows);
-    chain.drawn_as_seen = true;
-    steps.push_back({"silhouettes", chain, {technique, false, 0, true}});
-    return steps;
-}
-
-/// Frames until the row's own picture, or one that is settled at that picture's instant.
-Request request_for(const Request& base, const Rendering& rendering) {
-    constexpr int kSettled = 16; // deeper bounces are below a rounding of the picture's halves
+Request request_for(const Request& base, const Sequence& sequence) {
     Request request = base;
-    const int last = base.warmup + base.frames;
-    const bool moves = base.animate && !rendering.is_settled;
-    if (!moves) {
-        request.time = base.instant(last);
+    if (!base.animate || sequence.is_settled) {
+        request.time = base.instant(base.total());
         request.animate = false;
     }
     request.frames = 1;
-    request.warmup = moves                  ? last - 1
-                     : rendering.is_settled ? kSettled
-                                            : std::min(last - 1, kSettled);
-    request.techniques = {rendering.technique};
+    request.warmup = sequence.is_settled ? kSettled : base.total() - 1;
+    request.techniques = {sequence.technique};
     return request;
 }
 
-using Pictures = std::map<Rendering, measure::Picture>;
+using Values = std::vector<double>;
 
-/// All the pictures that the steps need, each technique and history run once.
-Pictures render(Session& session, const Request& base, const Watcher& watcher,
-                const std::string& technique, const std::vector<Step>& steps) {
-    std::map<std::pair<std::string, bool>, std::vector<std::uint32_t>> runs;
-    const auto want = [&](const Rendering& rendering) {
-        std::vector<std::uint32_t>& masks = runs[{rendering.technique, rendering.is_settled}];
-        if (rendering.mended && std::ranges::find(masks, rendering.mended) == masks.end())
-            masks.push_back(rendering.mended);
-    };
-    want({technique});
-    for (const Step& step : steps) want(step.in_turn), want(step.alone);
-    Pictures pictures;
-    for (const auto& [run, masks] : runs) {
-        std::vector<measure::Picture> made = last_pictures(
-            session, request_for(base, {run.first, run.second}), masks, watcher);
-        pictures[{run.first, run.second}] = std::move(made[0]);
-        for (std::size_t i = 0; i < masks.size(); ++i)
-            pictures[{run.first, run.second, masks[i]}] = std::move(made[i + 1]);
-    }
-    return pictures;
+Values minus(const Values& from, const Values& what) {
+    Values left(from.size());
+    std::ranges::transform(from, what, left.begin(), std::minus());
+    return left;
 }
 
-/// Mean squared errors over the pixels of all mirrors and of each.
-struct SquaredError {
-    double all = 0;
-    std::vector<double> per_mirror;
+/// Where `chosen` is as told, 0 elsewhere.
+Values only_where(const std::vector<bool>& chosen, bool told, Values values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (chosen[i] != told) values[i] = 0;
+    return values;
+}
+
+/// That pictures of a row are taken beside; some may be the same.
+struct Sequences {
+    Sequence row, row_settled;
+    Sequence stored, settled; ///< with distances stored as 32-bit floats
 };
+
+Sequences sequences_of(const Request& base, const std::string& technique) {
+    const std::string full = with_full_distance(technique);
+    return {sequence_of(base, technique, false), sequence_of(base, technique, true),
+            sequence_of(base, full, false), sequence_of(base, full, true)};
+}
+
+/// Coalitions whose picture is wanted beside each.
+std::map<Sequence, std::vector<std::uint32_t>> wanted_of(const Sequences& sequences) {
+    std::map<Sequence, std::vector<std::uint32_t>> wanted;
+    for (const Sequence& sequence : {sequences.row, sequences.row_settled, sequences.stored})
+        wanted[sequence] = {0};
+    for (std::size_t i = 0; i < kPlayerCount; ++i) wanted[sequences.row].push_back(1U << i);
+    std::vector<std::uint32_t>& all = wanted[sequences.settled];
+    all.resize(kEveryPlayer + 1);
+    std::iota(all.begin(), all.end(), 0U);
+    return wanted;
+}
+
+/// Squared errors of the mirrors' pixels.
+struct Errors {
+    measure::Shapley shapley; ///< of `settled`
+    std::map<std::pair<Sequence, std::uint32_t>, Values>
+        kept;          ///< of coalitions that are looked at by themselves
+    measure::Mask off; ///< of the row's own picture
+};
+
+std::vector<measure::PixelCause> parts_of(const Sequences& sequences, const Errors& errors,
+                                          const std::vector<bool>& disagree) {
+    const auto of = [&](const Sequence& sequence, std::uint32_t coalition = 0) -> const Values& {
+        return errors.kept.at({sequence, coalition});
+    };
+    const Values &row = of(sequences.row), &left = of(sequences.settled, kEveryPlayer),
+                 format = minus(row, of(sequences.stored));
+    std::vector<measure::PixelCause> parts{{"storage format", format, format},
+                                           {"last frame",
+                                            minus(of(sequences.stored), of(sequences.settled)),
+                                            minus(row, of(sequences.row_settled))}};
+    for (std::size_t i = 0; i < kPlayerCount; ++i)
+        parts.push_back({kPlayers[i].name, minus(Values(row.size()), errors.shapley.worth(i)),
+                         minus(row, of(sequences.row, 1U << i))});
+    parts.push_back(
+        {"silhouettes", only_where(disagree, true, left), only_where(disagree, true, row)});
+    parts.push_back({"rest", only_where(disagree, false, left), {}});
+    return parts;
+}
 
 } // namespace
 
-std::vector<measure::Picture> last_pictures(Session& session, const Request& request,
-                                            const std::vector<std::uint32_t>& mended,
-                                            const Watcher& watcher) {
-    std::vector<measure::Picture> pictures(1);
+void last_pictures(Session& session, const Request& request,
+                   const std::vector<std::uint32_t>& mended, const VisitPicture& visit,
+                   const Watcher& watcher) {
     Frames frames(session, request);
     for (int k = 1; k < request.total(); ++k) frames.next(), watcher.check_stopped();
     FrameSpec aside = request;
     aside.time = request.instant(request.total());
     aside.timing = Timing::pipelined;
     aside.is_aside = true;
-    for (const std::uint32_t causes : mended) {
-        aside.mended = causes;
-        pictures.push_back(session.frame(aside).hdr());
+    for (std::size_t entry = 0; entry < mended.size(); ++entry) {
+        aside.mended = mended[entry];
+        visit(entry, session.frame(aside).hdr());
         watcher.check_stopped();
     }
-    frames.next();
-    pictures.front() = frames.frame().hdr();
-    return pictures;
 }
 
 CauseFinder::CauseFinder(Session& session, const Request& base, const measure::Picture& truth,
                          const std::vector<std::uint32_t>& hits, const Watcher& watcher)
-    : session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher) {
-    for (const std::uint32_t hit : hits)
-        mirrors_ = std::max(mirrors_, measure::first_mirror(hit).number());
+    : session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
+      pixels_(measure::mirror_pixels(hits)) {
     // A technique that follows no ray through other mirrors names the one that it draws.
-    Request request = request_for(base, {"naive:bounces=1,face=1,shadow=none"});
+    Request request = request_for(base, {"naive:bounces=1,face=1,shadow=none", false});
+    request.warmup = 0, request.time = base.instant(base.total()), request.animate = false;
     request.with_lookup = true;
     const Result result = run(session, request);
-    for (const vec4& pixel : result.parts.front().lookup)
-        drawn_.push_back(pixel.w > 0 ? (static_cast<std::uint32_t>(pixel.w) - 1) / 8 + 1 : 0);
+    for (const std::size_t place : pixels_) {
+        const vec4& looked = result.parts.front().lookup[place];
+        const std::uint32_t drawn = looked.w > 0
+                                        ? (static_cast<std::uint32_t>(looked.w) - 1) / 8 + 1
+                                        : 0;
+        disagree_.push_back(drawn != measure::first_mirror(hits[place]).number());
+    }
 }
 
 report::Causes CauseFinder::find(const std::string& technique) const {
-    const std::vector<Step> steps = steps_of(technique);
-    const Pictures pictures = render(session_, base_, watcher_, technique, steps);
-    const std::vector<float> no_flip(truth_.pixels.size());
-    const auto error_of = [&](Rendering rendering) {
-        const bool drawn_as_seen = std::exchange(rendering.drawn_as_seen, false);
-        measure::Picture picture = pictures.at(rendering);
-        for (std::size_t i = 0; drawn_as_seen && i < drawn_.size(); ++i)
-            if (drawn_[i] != measure::first_mirror(hits_[i]).number())
-                picture.pixels[i] = truth_.pixels[i];
-        const auto squared = [&](const measure::Mask& mask) {
-            const double rmse = measure::difference(picture, truth_, mask, no_flip).rmse;
-            return rmse * rmse;
+    const Sequences sequences = sequences_of(base_, technique);
+    Errors found{measure::Shapley(kPlayerCount, pixels_.size()), {}, measure::Mask(hits_.size())};
+    for (const auto& [sequence, coalitions] : wanted_of(sequences)) {
+        std::vector<std::uint32_t> mended;
+        std::ranges::transform(coalitions, std::back_inserter(mended), mended_by);
+        const auto judge = [&](std::size_t entry, const measure::Picture& picture) {
+            const std::uint32_t coalition = coalitions[entry];
+            Values errors;
+            for (const std::size_t place : pixels_) {
+                const vec3 &shown = picture.pixels[place], &truth = truth_.pixels[place];
+                errors.push_back(measure::squared_error(shown, truth));
+                if (sequence == sequences.row && coalition == 0)
+                    found.off[place] = measure::is_off(shown, truth);
+            }
+            if (sequence == sequences.settled) found.shapley.add(coalition, errors);
+            if (std::popcount(coalition) <= 1 || coalition == kEveryPlayer)
+                found.kept[{sequence, coalition}] = std::move(errors);
         };
-        SquaredError error{squared(measure::mirrors(hits_)), {}};
-        for (std::uint32_t mirror = 1; mirror <= mirrors_; ++mirror)
-            error.per_mirror.push_back(squared(measure::of_mirror(hits_, MirrorId(mirror))));
-        return error;
-    };
-    const auto fall = [](const SquaredError& from, const SquaredError& to) {
-        SquaredError fallen{from.all - to.all, {}};
-        for (std::size_t i = 0; i < from.per_mirror.size(); ++i)
-            fallen.per_mirror.push_back(from.per_mirror[i] - to.per_mirror[i]);
-        return fallen;
-    };
-    const SquaredError row = error_of({technique});
-    report::Causes causes{row.all, row.per_mirror, {}, 0, 0};
-    SquaredError before = row;
-    for (const Step& step : steps) {
-        const SquaredError after = error_of(step.in_turn);
-        const SquaredError in_turn = fall(before, after), alone = fall(row, error_of(step.alone));
-        causes.list.push_back(
-            {step.name, in_turn.all, alone.all, in_turn.per_mirror, alone.per_mirror});
-        before = after;
+        last_pictures(session_, request_for(base_, sequence), mended, judge, watcher_);
     }
-    causes.rest_rmse = std::sqrt(before.all);
-    return causes;
+    return measure::sum_up(hits_, found.off, found.kept.at({sequences.row, 0}),
+                           parts_of(sequences, found, disagree_));
 }
 
 } // namespace catoptric::app

@@ -22,9 +22,12 @@ Value list_of(const Row& row) {
     for (const Cause& cause : row.causes->list)
         list.push_back({"cause",
                         cause.name,
-                        {{"in_turn", cause.in_turn},
+                        {{"share", cause.share},
+                         {"share_first_order", cause.share_first_order},
+                         {"share_mirror_in_mirror", cause.share_mirror_in_mirror},
+                         {"share_per_mirror", cause.share_per_mirror},
+                         {"squared_error", cause.squared_error},
                          {"alone", cause.alone},
-                         {"in_turn_per_mirror", cause.in_turn_per_mirror},
                          {"alone_per_mirror", cause.alone_per_mirror}}});
     return list;
 }
@@ -56,8 +59,8 @@ const Registered kAtLightEdges{
      .order = 273,
      .get = figure<&Causes::at_light_edges>}};
 const Registered kList{{.name = "causes/list",
-                        .help = "squared error that goes when one cause after another is mended, "
-                                "and when it is mended alone",
+                        .help = "each cause's share of the squared error (Shapley for five of "
+                                "them), 1 in sum over all, and what goes when it is mended alone",
                         .mask = kMirrors,
                         .order = 274,
                         .get = list_of}};

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "measure/lines.hpp"
+#include "measure/pixel_error.hpp"
 #include "measure/quantity.hpp"
 #include "measure/statistics.hpp"
 
@@ -11,16 +12,6 @@
 
 namespace catoptric::measure {
 namespace {
-
-bool is_finite(const vec3& pixel) {
-    return std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z);
-}
-
-/// NaN stays NaN.
-dvec3 clamped(const vec3& pixel) {
-    const auto one = [](float value) { return std::clamp(static_cast<double>(value), 0.0, 1.0); };
-    return {one(pixel.x), one(pixel.y), one(pixel.z)};
-}
 
 bool counts(const Mask& mask, std::size_t pixel) { return mask.empty() || mask[pixel] != 0; }
 
@@ -135,11 +126,11 @@ Difference difference(const Picture& a, const Picture& b, const Mask& mask,
             ++result.nonfinite;
             continue;
         }
-        const dvec3 apart = glm::abs(clamped(a.pixels[i]) - clamped(b.pixels[i]));
-        squares += glm::dot(apart, apart);
-        absolutes += apart.x + apart.y + apart.z;
+        const dvec3 channels = apart(a.pixels[i], b.pixels[i]);
+        squares += glm::dot(channels, channels);
+        absolutes += channels.x + channels.y + channels.z;
         flips += static_cast<double>(flip_map[i]);
-        largest.push_back(std::max({apart.x, apart.y, apart.z}));
+        largest.push_back(std::max({channels.x, channels.y, channels.z}));
         off[i] = largest.back() > kOff;
         off_count += off[i];
         if (largest.size() == 1 || largest.back() > result.max) {

@@ -1,63 +1,114 @@
+#include "report/causes.hpp"
+
+#include "core/error.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace catoptric::report {
 
 namespace {
 
-std::string share(double part, double whole) {
-    return whole > 0 ? fmt::format("{:.1f}", 100 * part / whole) : std::string(kNothing);
+constexpr vec3 bytes(int red, int green, int blue) { return vec3(red, green, blue) / 255.0F; }
+
+const CauseColour kColours[] = {{"storage format", "sky blue", bytes(86, 180, 233)},
+                                {"last frame", "orange", bytes(230, 159, 0)},
+                                {"direction", "blue", bytes(0, 114, 178)},
+                                {"hidden target", "vermilion", bytes(213, 94, 0)},
+                                {"texels", "yellow", bytes(240, 228, 66)},
+                                {"mirror in mirror", "green", bytes(0, 158, 115)},
+                                {"shadow map", "pink", bytes(204, 121, 167)},
+                                {"silhouettes", "white", vec3(1)},
+                                {"rest", "light grey", bytes(190, 190, 190)}};
+
+/// One kind of line of the table: what each cell says of a cause, in parts of the row's error.
+struct Line {
+    const char* name;
+    double (*part)(const Cause& cause, double squared_error);
+    bool adds_up;
+};
+
+constexpr Line kLines[] = {
+    {"all", [](const Cause& cause, double) { return cause.share; }, true},
+    {"first order", [](const Cause& cause, double) { return cause.share_first_order; }, true},
+    {"mirror in mirror", [](const Cause& cause, double) { return cause.share_mirror_in_mirror; },
+     true},
+    {"bound", [](const Cause& cause, double whole) { return cause.alone / whole; }, false}};
+
+/// In %; no minus before nothing.
+std::string percent(double part) {
+    const std::string text = fixed(100 * part, 1);
+    return text == "-0.0" ? "0.0" : text;
 }
 
-/// The row's causes as `goes` tells them.
-std::vector<std::string> line(const std::string& name, const Causes& causes, double Cause::*goes) {
-    std::vector<std::string> cells{name};
-    for (const Cause& cause : causes.list)
-        cells.push_back(share(cause.*goes, causes.squared_error));
+std::vector<std::string> cells_of(const Line& line, const Causes& causes) {
+    std::vector<std::string> cells{line.name};
+    double sum = 0;
+    for (const CauseColour& colour : cause_colours()) {
+        const auto cause = std::ranges::find(causes.list, colour.cause, &Cause::name);
+        const bool is_there = cause != causes.list.end();
+        const double part = is_there ? line.part(*cause, causes.squared_error) : NAN;
+        if (is_there) sum += part;
+        cells.push_back(percent(part));
+    }
+    cells.push_back(line.adds_up ? percent(sum) : std::string());
+    cells.emplace_back();
     return cells;
 }
 
 } // namespace
 
+std::span<const CauseColour> cause_colours() { return kColours; }
+
+measure::Picture cause_picture(const Row& row) {
+    constexpr float kDim = .35F;
+    measure::Picture picture = row.display;
+    const std::vector<std::uint8_t>& largest = row.causes.value().largest;
+    check(largest.size() == picture.pixels.size(), Failure::internal, "row '", row.label,
+          "': wanted a cause for each of ", picture.pixels.size(), " pixels, found ",
+          largest.size());
+    for (std::size_t i = 0; i < largest.size(); ++i) {
+        vec3& pixel = picture.pixels[i];
+        pixel = largest[i] > 0 ? cause_colours()[largest[i] - 1U].colour
+                               : vec3(kDim * glm::dot(pixel, vec3(.2126F, .7152F, .0722F)));
+    }
+    return picture;
+}
+
 Table cause_table(const Comparison& comparison) {
     Table table{"Error by cause",
-                {{"Row", false}},
+                {{"Row", false}, {"Over", false}},
                 {},
                 {},
-                "Share of a row's squared error over the mirrors, in %, that goes when one thing "
-                "is replaced by the "
-                "reference's own: in turn, from left to right, and below it each alone. Between "
-                "the two lies what "
-                "causes do together; a negative share uncovers another's error. storage format: "
-                "distances as 32-bit "
-                "floats; stored distance: exact ones; search direction: where the ray really ends; "
-                "hidden target: what "
-                "the capture's centre does not see; texels: the captured surface at the very "
-                "point; mirror in mirror, "
-                "own reflection: what other mirrors and the mirror itself show there; last frame: "
-                "history of this "
-                "instant; shadow map: shadow rays; silhouettes: pixels where rasteriser and ray "
-                "see different mirrors. "
-                "Left: the rmse when all is replaced; near 0, no cause is missing. At light edges: "
-                "share of the squared "
-                "error in pixels that looked within a texel of a light's outline."};
-    const auto split = std::ranges::find_if(comparison.rows,
-                                            [](const Row& row) { return row.causes.has_value(); });
-    if (split == comparison.rows.end()) return table;
-    for (const Cause& cause : split->causes->list) table.columns.push_back({cause.name});
-    table.columns.push_back({"Left"});
+                "Share of a row's squared error over the mirrors, in %, over all of their pixels, "
+                "and what of it lies in those whose reflected ray meets no second mirror and in "
+                "the others. First goes what distances lose in storage (storage format), then what "
+                "is a frame late (last frame); the next five share by Shapley what is left, from "
+                "every set of them replaced by the reference's own. direction: where the ray "
+                "really ends, and exact distances; hidden target: what the capture's centre does "
+                "not see; texels: the captured surface at the very point; mirror in mirror: what "
+                "mirrors show there; shadow map: shadow rays. Then silhouettes: pixels where "
+                "rasteriser and ray see different mirrors; rest: no cause is missing where it is "
+                "0. A negative share uncovers another's error. bound: what goes when one alone is "
+                "replaced, first of all; these do not add up. In brackets: the colour, in "
+                "images/causes-ROW.png, of pixels in which the cause has the largest part. At "
+                "light edges: share of the squared error in pixels that looked within a texel of a "
+                "light's outline."};
+    for (const CauseColour& colour : cause_colours())
+        table.columns.push_back({fmt::format("{} ({})", colour.cause, colour.name)});
+    table.columns.push_back({"Sum"});
     table.columns.push_back({"At light edges"});
     for (const Row& row : comparison.rows) {
         if (!row.causes) continue;
-        const Causes& causes = *row.causes;
-        table.rows.push_back(line(row.label, causes, &Cause::in_turn));
-        table.rows.back().push_back(fmt::format("{:.1e}", causes.rest_rmse));
-        table.rows.back().push_back(fmt::format("{:.1f}", 100 * causes.at_light_edges));
-        table.rows.push_back(line("alone", causes, &Cause::alone));
-        table.rows.back().resize(table.columns.size());
+        for (const Line& line : kLines) {
+            std::vector<std::string> cells = cells_of(line, *row.causes);
+            cells.insert(cells.begin(), &line == kLines ? row.label : std::string());
+            if (&line == kLines) cells.back() = percent(row.causes->at_light_edges);
+            table.rows.push_back(std::move(cells));
+        }
     }
     return table;
 }

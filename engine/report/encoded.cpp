@@ -2,6 +2,7 @@
 
 #include "measure/heat.hpp"
 #include "measure/picture_file.hpp"
+#include "report/causes.hpp"
 
 namespace catoptric::report {
 
@@ -28,11 +29,12 @@ void encode_new(EncodedPictures& pictures, const Comparison& comparison) {
                                 : std::string();
     }
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
-        const std::optional<measure::WorstView>& worst = comparison.rows[i].worst;
+        const Row& row = comparison.rows[i];
         EncodedPictures::OfRow& encoded = pictures.rows[i];
-        if (!worst || encoded.worst_view == worst->view) continue;
-        encoded.worst = png_of(worst->display);
-        encoded.worst_view = worst->view;
+        if (row.causes && encoded.causes.empty()) encoded.causes = png_of(cause_picture(row));
+        if (!row.worst || encoded.worst_view == row.worst->view) continue;
+        encoded.worst = png_of(row.worst->display);
+        encoded.worst_view = row.worst->view;
     }
 }
 

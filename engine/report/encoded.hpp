@@ -15,6 +15,7 @@ struct EncodedPictures {
         int pictured = -1;   ///< Row::pictured of the row that it was encoded from
         std::string picture; ///< as shown
         std::string error;   ///< heat map of its FLIP error; empty: it has none
+        std::string causes;  ///< pixels by what is to blame; empty: not known
         std::string worst;   ///< at its worst view so far; empty: none was drawn
         std::optional<std::size_t> worst_view;
     };
@@ -22,8 +23,8 @@ struct EncodedPictures {
     std::vector<OfRow> rows;
 };
 
-/// Encodes what has come since the last time: rows are added, show a later frame, and their worst
-/// views may change.
+/// Encodes what has come since the last time: rows are added, show a later frame, get causes, and
+/// their worst views may change.
 void encode_new(EncodedPictures& pictures, const Comparison& comparison);
 
 /// report.html with these pictures.

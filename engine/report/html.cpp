@@ -1,6 +1,7 @@
 // report.html: one page that needs nothing else and runs nothing.
 #include "measure/heat.hpp"
 #include "measure/judge.hpp"
+#include "report/causes.hpp"
 #include "report/findings.hpp"
 #include "report/html_text.hpp"
 #include "report/lag_tables.hpp"
@@ -137,7 +138,10 @@ std::string article(const Comparison& comparison, const EncodedPictures& encoded
             figure(row.display, encoded.rows[index].error,
                    "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
                        error_text(row.error.flip),
-                   "FLIP error");
+                   "FLIP error") +
+            figure(row.display, encoded.rows[index].causes,
+                   "Pixels of " + row.label + " that are off, painted by their largest cause",
+                   "Largest cause where it is off");
     return html + "</div>" + numbers(row) + details(row) + "</article>\n";
 }
 
@@ -152,6 +156,21 @@ std::string heat_scale() {
            ")\"></div><div class=\"ends\"><span>FLIP 0: no difference</span><span>1</span></div>";
 }
 
+/// The colours of the pictures by cause; nothing where there are none.
+std::string cause_legend(const Comparison& comparison) {
+    if (std::ranges::none_of(comparison.rows,
+                             [](const Row& row) { return row.causes.has_value(); }))
+        return "";
+    std::string html = "<ul class=\"legend\">";
+    for (const auto& [cause, name, colour] : cause_colours()) {
+        const vec3 byte = colour * 255.0F;
+        html += fmt::format(
+            "<li><span style=\"background:rgb({:.0f} {:.0f} {:.0f})\"></span>{}</li>", byte.x,
+            byte.y, byte.z, cause);
+    }
+    return html + "</ul>";
+}
+
 std::string pictures(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html =
         "<section><h2>Pictures</h2><div class=\"reference\">" +
@@ -159,7 +178,7 @@ std::string pictures(const Comparison& comparison, const EncodedPictures& encode
                "Reference picture by " + comparison.reference_label,
                "Reference: " + comparison.reference_label) +
         "<div><p>Each row: its last frame, and where it differs from the reference.</p>" +
-        heat_scale() + "</div></div><div class=\"rows\">";
+        heat_scale() + cause_legend(comparison) + "</div></div><div class=\"rows\">";
     for (std::size_t i = 0; i < comparison.rows.size(); ++i)
         html += article(comparison, encoded, i);
     return html + "</div></section>\n";

@@ -83,6 +83,10 @@ img { display: block; width: 100%; height: auto; background: #000; border-radius
   gap: 1.5rem; align-items: end; max-width: 54rem; }
 .scale { height: .8rem; border-radius: .25rem; border: 1px solid var(--line); }
 .ends { display: flex; justify-content: space-between; font-size: .82rem; color: var(--soft); }
+.legend { display: flex; flex-wrap: wrap; gap: .2rem 1rem; list-style: none; padding: 0;
+  margin: .8rem 0 0; font-size: .82rem; color: var(--soft); }
+.legend span { display: inline-block; width: .8rem; height: .8rem; margin-right: .4rem;
+  border: 1px solid var(--line); vertical-align: -.1rem; }
 .rows { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 31rem), 1fr));
   gap: 1.25rem; margin-top: 1.5rem; }
 article { background: var(--card); border: 1px solid var(--line); border-radius: .5rem;

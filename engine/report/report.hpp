@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,10 @@ std::string to_html(const Comparison& comparison);
 void create_folder(const std::filesystem::path& folder);
 
 /// Puts what there is into a folder, made as above: report.json, report.md, report.html, rows.csv,
-/// images/<row>.png and .exr, images/<row>-error.png and images/reference.png; with drawn views
-/// images/worst-<row>.png. Written again and again as rows are added: pictures once (those of worst
-/// views when these change), all else anew, every file put into place whole.
+/// images/<row>.png and .exr, images/<row>-error.png and images/reference.png; of rows with causes
+/// images/causes-<row>.png, with drawn views images/worst-<row>.png. Written again and again as
+/// rows are added: pictures only where they are others than before, all else anew, every file put
+/// into place whole.
 class Writer {
 public:
     explicit Writer(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -42,11 +44,12 @@ private:
     EncodedPictures pictures_;
     bool has_reference_ = false; ///< its picture is there
     std::vector<int> written_;   ///< by row: Row::pictured of the pictures that are there
+    std::set<std::size_t> rows_with_causes_;        ///< whose picture by cause is there
     std::vector<std::optional<std::size_t>> worst_; ///< by row: view whose picture is there
 };
 
-/// The files that a writer of rows with these `Row::image`s puts into its folder, relative to it;
-/// those of worst views only where views were drawn.
+/// The files that a writer of rows with these `Row::image`s may put into its folder, relative to
+/// it.
 std::vector<std::filesystem::path> files_of(const std::vector<std::string>& images);
 
 /// All of it once.

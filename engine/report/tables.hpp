@@ -34,7 +34,7 @@ Table plan_table(const Comparison& comparison);
 Table mirror_table(const Comparison& comparison);
 /// Where mirrors looked, for rows that search; no rows when none does.
 Table lookup_table(const Comparison& comparison);
-/// Error by cause, two lines a row; no rows when nothing was split.
+/// Error by cause, four lines a row; no rows when nothing was split.
 Table cause_table(const Comparison& comparison);
 
 /// What was measured where: name and value.

@@ -39,6 +39,12 @@ void Writer::write_pictures(const Comparison& comparison) {
         write_file(images / worst_image(comparison.rows[i].image), encoded.worst);
         worst_[i] = encoded.worst_view;
     }
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        if (pictures_.rows[i].causes.empty() || rows_with_causes_.contains(i)) continue;
+        write_file(images / ("causes-" + comparison.rows[i].image + ".png"),
+                   pictures_.rows[i].causes);
+        rows_with_causes_.insert(i);
+    }
 }
 
 void Writer::write(const Comparison& comparison) {
@@ -58,7 +64,8 @@ std::vector<fs::path> files_of(const std::vector<std::string>& images) {
     for (const std::string& image : images) {
         for (const char* ending : {".exr", ".png", "-error.png"})
             files.push_back(fs::path("images") / (image + ending));
-        files.push_back(fs::path("images") / worst_image(image));
+        for (const std::string& more : {"causes-" + image + ".png", worst_image(image)})
+            files.push_back(fs::path("images") / more);
     }
     return files;
 }

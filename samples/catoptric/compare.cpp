@@ -68,6 +68,9 @@ app::CompareRequest make_compare_request(const Options& options) {
     request.reference = options.common.reference;
     request.together = options.together;
     request.rounds = options.rounds;
+    check(!options.causes || options.common.reference == app::kReference, Failure::usage,
+          "--causes: wanted the default reference, ", app::kReference,
+          ", whose rays tell causes apart, found '", options.common.reference, "'");
     request.causes = options.causes;
     request.lag = options.lag;
     request.views = options.views;
@@ -179,7 +182,7 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
                     options->rounds = static_cast<int>(
                         parse_whole("--rounds", text, app::kRounds, 10000));
                 });
-    verb.flag("--causes", "split each row's error by cause: 32 pictures more a row",
+    verb.flag("--causes", "also split each row's error by cause: 32 pictures more a row",
               options->causes);
     verb.flag("--lag",
               "also how far the rows that read last frame's captures are behind a moving "

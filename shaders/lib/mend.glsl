@@ -112,7 +112,8 @@ vec3 mended_radiance(Path path, Lookup lookup) {
     vec3 to_target = target.meets ? target.point.position - path.centre : search_ray.direction;
     float distance = target.meets ? length(to_target) : uintBitsToFloat(0x7f800000u);
     bool in_capture = target.mirror != path.mirror + 1u;
-    bool is_hidden = in_capture && exact_distance(path.mirror, to_target) < distance * (1.0 - kInTheWay);
+    bool asks_hidden = in_capture && (mends(kMendHidden) || mends(kMendDirection));
+    bool is_hidden = asks_hidden && exact_distance(path.mirror, to_target) < distance * (1.0 - kInTheWay);
     bool along_search = is_hidden && mends(kMendHidden);
     vec3 result;
     // What is hidden or left out has no direction that shows it.

@@ -45,8 +45,8 @@ TEST_F(Cli, PlansAreRowsOfACompare) {
                {"mirror": "*", "technique": "raytrace:capture=none"}])";
     const std::string file = "plan:" + (folder / "mixed.json").string();
     const test::Ended ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames", "1",
-                                   "--warmup", "1", "--techniques", "reuse:face=16", file, kMixed,
-                                   "--json"});
+                                   "--warmup", "1", "--causes", "--techniques", "reuse:face=16",
+                                   file, kMixed, "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const Json rows = Json::parse(ended.out)["rows"];
     ASSERT_EQ(rows.size(), 3u);
@@ -57,7 +57,9 @@ TEST_F(Cli, PlansAreRowsOfACompare) {
     EXPECT_EQ(rows[1]["plan"][2]["why"], "rule '*'; black in the captures of others, capture=none");
     EXPECT_EQ(rows[0]["plan"][0]["why"], "one technique was asked for");
     EXPECT_EQ(rows[2]["label"], kMixed);
-    EXPECT_TRUE(rows[2]["causes"].is_null());
+    EXPECT_TRUE(rows[2]["causes"].is_null()) << "no one search can be blamed";
+    EXPECT_EQ(rows[0]["causes"]["list"][2]["cause"], "direction");
+    EXPECT_TRUE(exists(folder / "out/images/causes-reuse-face16.png"));
     for (const Json& row : rows)
         EXPECT_TRUE(exists(folder / "out" / row["image"].get<std::string>())) << row["image"];
 }

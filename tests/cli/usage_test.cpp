@@ -62,6 +62,9 @@ TEST_F(Cli, UnknownTechniqueSuggests) {
     expect_refused({"compare", "-o", "x", "--techniques", "reuse", "naiv:bounces=1"}, 2,
                    {"'naiv'", "did you mean 'naive'"});
     expect_refused({"graph", "--technique", "ruse"}, 2, {"'ruse'", "did you mean 'reuse'"});
+    expect_refused(
+        {"compare", "-o", "x", "--causes", "--reference", "raytrace:depth=2"}, 2,
+        {"--causes: wanted the default reference, raytrace:depth=16", "found 'raytrace:depth=2'"});
     expect_refused({"compare", "-o", "x", "--reference", "raytracer"}, 2,
                    {"'raytracer'", "did you mean 'raytrace'"});
 }

@@ -153,7 +153,6 @@ TEST_F(Memory, TheMiddleCallOfEachKindOfAComparison) {
                       "1",
                       "--warmup",
                       "1",
-
                       "--techniques",
                       "raytrace:depth=1",
                       "parallax:face=16,shadow_map=16"};

@@ -1,9 +1,10 @@
 // The split of an error by cause: complete, and blaming what is to blame.
 #include "app/causes.hpp"
 #include "app/compare.hpp"
-#include "support/rendering.hpp"
+#include "support/boxes.hpp"
 
 #include <iostream>
+#include <utility>
 
 namespace {
 
@@ -13,10 +14,10 @@ constexpr uvec2 kSize{96, 96};
 
 struct Split {
     report::Causes causes;
+    std::vector<std::uint32_t> hits;
 
-    double in_turn(const std::string& name) const {
-        return find(name).in_turn / causes.squared_error;
-    }
+    double share(const std::string& name) const { return find(name).share; }
+    double part(const std::string& name) const { return find(name).squared_error; }
     double alone(const std::string& name) const { return find(name).alone / causes.squared_error; }
     const report::Cause& find(const std::string& name) const {
         const auto found = std::ranges::find(causes.list, name, &report::Cause::name);
@@ -32,13 +33,27 @@ Split split(const app::Request& request, const std::string& technique) {
         reference.time = request.instant(request.total()), reference.animate = false;
     const app::Part truth = std::move(app::run(test::engine(), reference).parts.front());
     app::Session session(test::engine(), request.scene);
-    return {app::CauseFinder(session, request, truth.hdr, truth.hits).find(technique)};
+    return {app::CauseFinder(session, request, truth.hdr, truth.hits).find(technique), truth.hits};
 }
 
 Split split(const scene::Scene& scene, const std::string& technique, uvec2 size = kSize) {
     app::Request request = test::request(scene, {}, size);
-    request.warmup = 7;
+    request.warmup = 16; // settled: one sequence of frames for all pictures
     return split(request, technique);
+}
+
+/// All is shared out, over the pixels as over their classes and mirrors.
+void expect_adds_up(const Split& found) {
+    double all = 0;
+    for (const report::Cause& cause : found.causes.list) {
+        all += cause.share;
+        EXPECT_NEAR(cause.share_first_order + cause.share_mirror_in_mirror, cause.share, 1e-12);
+        double mirrors = 0;
+        for (const double share : cause.share_per_mirror) mirrors += share;
+        EXPECT_NEAR(mirrors, cause.share, 1e-12) << cause.name;
+        EXPECT_NEAR(cause.squared_error, cause.share * found.causes.squared_error, 1e-12);
+    }
+    EXPECT_NEAR(all, 1, 1e-9);
 }
 
 std::vector<app::TechniqueInfo> that_capture() {
@@ -62,55 +77,155 @@ TEST_P(EveryCause, IsThere) {
               << "\n";
     EXPECT_GT(found.causes.squared_error, 1e-6) << "something to split";
     EXPECT_LE(found.causes.rest_rmse, 1e-3);
-    EXPECT_LE(std::abs(found.in_turn("silhouettes")), .03)
+    EXPECT_LE(std::abs(found.share("silhouettes")), .03)
         << "the last step takes what is true: it must be next to nothing";
     EXPECT_EQ(found.causes.squared_error_per_mirror.size(), 4u);
+    expect_adds_up(found);
 }
 
 TEST(Causes, AreThereForEveryFormatAndKindOfShadow) {
     constexpr uvec2 kSmall{48, 48}; // whatever the size, nothing may be left
+    const auto expect_whole = [](const Split& found, const std::string& what) {
+        EXPECT_LE(found.causes.rest_rmse, 1e-3) << what;
+        expect_adds_up(found);
+    };
     for (const std::string technique :
          {"secant:face=32,shadow=none", "layered:face=32,distance=r16f",
           "pyramid:face=32,distance=unorm8,shadow=none", "hybrid:face=32,captures=own,continue=0",
           "march:face=32,mirrors=left_out,lookup=object"})
-        EXPECT_LE(split(scene::cornell_mirrors_closed(), technique, kSmall).causes.rest_rmse, 1e-3)
-            << technique;
-    EXPECT_LE(split(test::room(2, 3), "secant:face=32", kSmall).causes.rest_rmse, 1e-3)
-        << "three lights";
-    EXPECT_LE(split(test::hall(), "pyramid:face=32", kSmall).causes.rest_rmse, 1e-3)
-        << "mirrors of any shape";
+        expect_whole(split(scene::cornell_mirrors_closed(), technique, kSmall), technique);
+    expect_whole(split(test::room(2, 3), "secant:face=32", kSmall), "three lights");
+    expect_whole(split(test::hall(), "pyramid:face=32", kSmall), "mirrors of any shape");
+}
+
+// What is shared out is the error that the report gives the row.
+TEST(Causes, AreOfTheRowsOwnError) {
+    app::Request request = test::request(scene::cornell_mirrors(), {"parallax:face=32"}, kSize);
+    const app::Part truth = test::render(request.scene, app::kReference, kSize);
+    const app::Part row = test::render(request.scene, "parallax:face=32", kSize);
+    const Split found = split(request, "parallax:face=32");
+    const auto squared = [&](const measure::Mask& mask) {
+        return std::pow(test::rmse(row.hdr, truth.hdr, mask), 2);
+    };
+    EXPECT_NEAR(found.causes.squared_error, squared(measure::mirrors(truth.hits)), 1e-12);
+    for (std::uint32_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(found.causes.squared_error_per_mirror[i],
+                    squared(measure::of_mirror(truth.hits, MirrorId(i + 1))), 1e-12);
 }
 
 // What eight bits lose is blamed on them, whichever way one looks.
 TEST(Causes, EightBitsOfDistanceAreStorageFormat) {
     const Split coarse = split(scene::cornell_mirrors(), "parallax:face=128,distance=unorm8");
-    EXPECT_GT(coarse.in_turn("storage format"), .7);
+    EXPECT_GT(coarse.share("storage format"), .7);
     EXPECT_GT(coarse.alone("storage format"), .7);
-    EXPECT_EQ(split(scene::cornell_mirrors(), "parallax:face=64").in_turn("storage format"), 0.0);
+    expect_adds_up(coarse);
+    EXPECT_EQ(split(scene::cornell_mirrors(), "parallax:face=64").share("storage format"), 0.0);
 }
 
-TEST(Causes, LookingUpThePlainDirectionIsSearchDirection) {
-    const Split plain = split(scene::cornell_mirrors(), "reuse:face=64");
-    EXPECT_GT(plain.in_turn("search direction"), .6);
-    EXPECT_EQ(plain.in_turn("stored distance"), 0.0); // it stores none
+// Of two rows that differ in one thing the difference of their errors, which no mended picture
+// enters, is that thing's part in the worse one.
+void expect_part_is_difference(const std::string& cause, const scene::Scene& scene,
+                               const std::string& with, const std::string& without) {
+    const Split worse = split(scene, with), better = split(scene, without);
+    const double gone = worse.causes.squared_error - better.causes.squared_error;
+    std::cout << "[ MEASURED ] " << cause << ": part in " << with << " " << worse.part(cause)
+              << ", error less in " << without << " " << gone << ", whole "
+              << worse.causes.squared_error << "\n";
+    EXPECT_GT(gone, .5 * worse.causes.squared_error) << cause << ": little to see";
+    EXPECT_NEAR(worse.part(cause), gone, .15 * worse.causes.squared_error) << cause;
+}
+
+/// A ball over a mirror as large as the floor, all of which its centre sees, where all else is
+/// bright.
+scene::Scene over_a_mirror() {
+    scene::Scene scene{.name = "over a mirror"};
+    test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
+    test::add_ball(scene, "ball", test::add_halving_mirror(scene, 0), {.5, -.2, 1}, .5, 5);
+    test::add_quad(scene, "floor", test::add_halving_mirror(scene, 1), {-3, -2.9, -3},
+                   {3, -2.9, -3}, {3, -2.9, 4}, {-3, -2.9, 4});
+    scene.cameras.push_back(
+        {.eye = {-.8, .8, -3.6}, .target = {.5, -.2, 1}, .vertical_fov_degrees = 12});
+    return scene;
+}
+
+TEST(CausesBesideRows, Direction) {
+    expect_part_is_difference("direction", test::box({}), "reuse:face=128,shadow=none",
+                              "pyramid:face=128,shadow=none");
+}
+
+TEST(CausesBesideRows, HiddenTarget) {
+    expect_part_is_difference("hidden target",
+                              test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+                              "pyramid:face=512,shadow=none", "hybrid:face=512,shadow=none");
+}
+
+TEST(CausesBesideRows, Texels) {
+    expect_part_is_difference("texels", test::room(1, 1), "pyramid:face=16", "pyramid:face=256");
+}
+
+// A mirror is black in the captures of the first bounce.
+TEST(CausesBesideRows, MirrorInMirror) {
+    expect_part_is_difference("mirror in mirror", over_a_mirror(),
+                              "naive:bounces=1,face=64,shadow=none",
+                              "naive:bounces=3,face=64,shadow=none");
+}
+
+TEST(CausesBesideRows, ShadowMap) {
+    expect_part_is_difference("shadow map", test::room(1, 1), "pyramid:face=128,shadow=none",
+                              "pyramid:face=128");
+}
+
+// ... and where a thing cannot be wrong it has no part, in any company.
+TEST(Causes, WhatCannotBeWrongHasNoPart) {
+    constexpr double kRounding = 1e-8;
+    const Split one_ball = split(test::room(1, 1), "parallax:face=32");
+    EXPECT_NEAR(one_ball.share("mirror in mirror"), 0, kRounding);
+    EXPECT_EQ(one_ball.alone("mirror in mirror"), 0);
+    EXPECT_GT(one_ball.share("texels"), .01);
+    const Split in_a_box = split(test::box({}), "parallax:face=32,shadow=none");
+    EXPECT_NEAR(in_a_box.share("hidden target"), 0, kRounding) << "nothing is before a wall";
+    EXPECT_NEAR(in_a_box.share("shadow map"), 0, kRounding) << "what glows has no shadow";
+    EXPECT_NEAR(in_a_box.share("mirror in mirror"), 0, 1e-3) << "but for facets at the outline";
+    EXPECT_GT(in_a_box.share("direction"), .01);
+    EXPECT_GT(in_a_box.share("texels"), .01);
+    // All that is seen but mirrors glows alike.
+    const Split bright = split(test::three_balls(), "naive:bounces=1,face=64,shadow=none");
+    EXPECT_NEAR(bright.share("shadow map"), 0, kRounding);
+    EXPECT_GT(bright.share("mirror in mirror"), .5);
+    EXPECT_NEAR(bright.find("mirror in mirror").share_first_order, 0, kRounding);
+}
+
+TEST(Causes, PaintPixelsThatCanHaveThem) {
+    const Split found = split(scene::cornell_mirrors(), "parallax:face=64");
+    const auto number_of = [&](const std::string& name) {
+        return &found.find(name) - found.causes.list.data() + 1;
+    };
+    const std::vector<std::uint8_t>& painted = found.causes.largest;
+    ASSERT_EQ(painted.size(), found.hits.size());
+    std::size_t mirrored = 0, by_direction = 0;
+    for (std::size_t i = 0; i < painted.size(); ++i) {
+        if (painted[i] == 0) continue;
+        EXPECT_TRUE(measure::first_mirror(found.hits[i])) << "pixel " << i;
+        if (painted[i] == number_of("mirror in mirror")) {
+            EXPECT_TRUE(measure::second_mirror(found.hits[i])) << "pixel " << i;
+            ++mirrored;
+        }
+        by_direction += painted[i] == number_of("direction");
+    }
+    EXPECT_GT(mirrored, 20u);
+    EXPECT_GT(by_direction, 50u);
+    EXPECT_NEAR(found.find("mirror in mirror").share_first_order, 0, 1e-8);
+}
+
+TEST(Causes, LookingUpThePlainDirectionIsDirection) {
+    EXPECT_GT(split(scene::cornell_mirrors(), "reuse:face=64").share("direction"), .6);
 }
 
 TEST(Causes, MissingShadowsAreShadowMap) {
     const Split dark = split(test::room(1, 1), "pyramid:face=64,shadow=none"),
                 lit = split(test::room(1, 1), "pyramid:face=64");
-    EXPECT_GT(dark.find("shadow map").in_turn, 10 * std::abs(lit.find("shadow map").in_turn));
+    EXPECT_GT(dark.part("shadow map"), 10 * std::abs(lit.part("shadow map")));
     EXPECT_GT(dark.find("shadow map").alone, 10 * std::abs(lit.find("shadow map").alone));
-}
-
-TEST(Causes, CoarseTexelsAreTexels) {
-    EXPECT_GT(split(test::room(1, 1), "pyramid:face=16").alone("texels"), .5);
-}
-
-TEST(Causes, OneBallMirrorsNeitherOthersNorItself) {
-    const Split found = split(test::room(1, 1), "parallax:face=32");
-    EXPECT_EQ(found.in_turn("mirror in mirror"), 0.0);
-    EXPECT_EQ(found.in_turn("own reflection"), 0.0);
-    EXPECT_EQ(found.alone("own reflection"), 0.0);
 }
 
 // Two boards at a right angle are one mirror that sees itself, which its own capture leaves out.
@@ -119,33 +234,24 @@ TEST(Causes, AHollowMirrorReflectsItself) {
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     test::add_mesh(scene, test::hollow_corner(), mirror);
     const Split found = split(scene, "pyramid:face=64");
-    EXPECT_GT(found.in_turn("own reflection"), .3);
+    EXPECT_GT(found.share("mirror in mirror"), .3);
     EXPECT_LE(found.causes.rest_rmse, 1e-3);
+    expect_adds_up(found);
 }
 
 TEST(Causes, OnlyWhatMovesLags) {
     app::Request request = test::request(scene::cornell_mirrors(), {}, kSize);
     request.warmup = 7;
-    EXPECT_EQ(split(request, "reuse:face=64").alone("last frame"), 0.0);
+    const Split still = split(request, "reuse:face=64");
+    EXPECT_EQ(still.share("last frame"), 0.0);
+    EXPECT_EQ(still.alone("last frame"), 0.0);
     request.animate = true;
     request.time = 0.7;
     const Split moving = split(request, "reuse:face=64");
+    EXPECT_NE(moving.share("last frame"), 0.0);
     EXPECT_NE(moving.alone("last frame"), 0.0);
     EXPECT_LE(moving.causes.rest_rmse, 1e-3);
-}
-
-TEST(Causes, AddUpToTheError) {
-    const report::Causes causes = split(scene::cornell_mirrors(), "secant:face=64").causes;
-    double sum = causes.rest_rmse * causes.rest_rmse;
-    std::vector<double> per_mirror(causes.squared_error_per_mirror.size());
-    for (const report::Cause& cause : causes.list) {
-        sum += cause.in_turn;
-        for (std::size_t i = 0; i < per_mirror.size(); ++i)
-            per_mirror[i] += cause.in_turn_per_mirror[i];
-    }
-    EXPECT_NEAR(sum, causes.squared_error, 1e-12);
-    for (std::size_t i = 0; i < per_mirror.size(); ++i)
-        EXPECT_NEAR(per_mirror[i], causes.squared_error_per_mirror[i], 1e-5) << "mirror " << i + 1;
+    expect_adds_up(moving);
 }
 
 } // namespace

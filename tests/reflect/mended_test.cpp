@@ -2,7 +2,7 @@
 // left: nothing, wherever the rest is right.
 #include "app/causes.hpp"
 #include "shared.h"
-#include "support/paths.hpp"
+#include "support/boxes.hpp"
 
 #include <iostream>
 
@@ -13,41 +13,33 @@ using namespace catoptric::shared;
 
 constexpr uvec2 kSize{48, 48};
 
+std::vector<measure::Picture> pictures_of(const app::Request& request,
+                                          const std::vector<std::uint32_t>& masks) {
+    std::vector<measure::Picture> pictures;
+    app::Session session(test::engine(), request.scene);
+    app::last_pictures(session, request, masks, [&](std::size_t, const measure::Picture& picture) {
+        pictures.push_back(picture);
+    });
+    return pictures;
+}
+
 /// How far a row is from ray tracing with each of some sums of causes mended, first with none.
 std::vector<test::Compared> mended(const scene::Scene& scene, const std::string& technique,
-                                   const std::vector<std::uint32_t>& masks,
+                                   std::vector<std::uint32_t> masks,
                                    const std::string& shadow = "none", int frames = 1) {
     const app::Part truth = test::render(scene, "raytrace:depth=16,shadow=" + shadow, kSize);
     app::Request request = test::request(scene, {technique}, kSize);
     request.warmup = frames - 1;
-    app::Session session(test::engine(), scene);
+    masks.insert(masks.begin(), 0);
     std::vector<test::Compared> result;
-    for (const measure::Picture& picture : app::last_pictures(session, request, masks))
+    for (const measure::Picture& picture : pictures_of(request, masks))
         result.push_back(test::compared(picture, truth));
     std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": of " << result[0].pixels
-              << " off: none mended " << result[0].off;
+              << " off, by mask";
     for (std::size_t i = 0; i < masks.size(); ++i)
-        std::cout << ", mask " << masks[i] << ": " << result[i + 1].off;
+        std::cout << (i > 0 ? ", " : " ") << masks[i] << ": " << result[i].off;
     std::cout << "\n";
     return result;
-}
-
-/// A box, `open` without the wall behind the eye, whose walls emit a colour each, and a mirror ball
-/// beside its middle.
-scene::Scene box(const std::vector<dvec3>& boards, bool open = false) {
-    scene::Scene scene{.name = open ? "open box" : "box"};
-    for (int face = 0; face < (open ? 5 : 6); ++face)
-        test::add_mesh(scene, test::wall(face, {-4, -3, -5}, {4, 3, 5}),
-                       test::add_material(
-                           scene, {.name = "wall",
-                                   .emission = vec3(face & 1 ? .75f : .25f, face & 2 ? .75f : .25f,
-                                                    face & 4 ? .75f : .25f)}));
-    test::add_ball(scene, "ball", test::add_halving_mirror(scene, 1), {.5, -.2, 1}, 1, 5);
-    for (const dvec3& centre : boards)
-        test::add_glowing_board(scene, {0, .1f, 0}, centre, {.5, 0, .3}, {0, .5, 0});
-    scene.cameras.push_back(
-        {.eye = {-.8, .8, -3.6}, .target = {.5, -.2, 1}, .vertical_fov_degrees = 24});
-    return scene;
 }
 
 constexpr std::uint32_t kFirstOrder = kMendDirection | kMendHidden | kMendTexels;
@@ -55,7 +47,8 @@ constexpr std::size_t kRim = 3; // pixels whose centre lies next to an outline o
 
 // One crossing on every ray: with exact distances a search ends at it.
 TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
-    const auto found = mended(box({}), "secant:steps=8,face=2,distance=unorm8,range=60,shadow=none",
+    const auto found = mended(test::box({}),
+                              "secant:steps=8,face=2,distance=unorm8,range=60,shadow=none",
                               {kMendTexels, kMendDistance, kMendDistance | kMendTexels});
     EXPECT_GT(found[1].off, 8u) << "distances are wrong";
     EXPECT_GT(found[2].off, 100u) << "texels are coarse";
@@ -64,13 +57,12 @@ TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
 
 // Neither distances nor colours are taken from the captures.
 TEST(Mended, WithoutTextureNothingDependsOnItsSize) {
-    const app::Part truth = test::render(box({}), "raytrace:shadow=none", kSize);
+    const app::Part truth = test::render(test::box({}), "raytrace:shadow=none", kSize);
     std::vector<measure::Picture> pictures;
     for (const std::string face : {"2", "64"}) {
-        app::Request request = test::request(box({}), {"parallax:shadow=none,face=" + face}, kSize);
-        app::Session session(test::engine(), request.scene);
-        pictures.push_back(
-            app::last_pictures(session, request, {kMendDistance | kMendTexels, kMendTexels})[1]);
+        app::Request request = test::request(test::box({}), {"parallax:shadow=none,face=" + face},
+                                             kSize);
+        pictures.push_back(pictures_of(request, {kMendDistance | kMendTexels}).front());
         // Parallax's one step is no exact one.
         EXPECT_LE(test::compared(pictures.back(), truth).share(), .02);
     }
@@ -78,7 +70,7 @@ TEST(Mended, WithoutTextureNothingDependsOnItsSize) {
 }
 
 TEST(Mended, DirectionAndTexelsAreAllThereIsInAnEmptyBox) {
-    const auto found = mended(box({}), "reuse:face=8,shadow=none",
+    const auto found = mended(test::box({}), "reuse:face=8,shadow=none",
                               {kMendDirection, kMendTexels, kMendDirection | kMendTexels,
                                kMendHidden, kMendMirrors | kMendOwn});
     EXPECT_GT(found[1].off, 100u);
@@ -86,14 +78,14 @@ TEST(Mended, DirectionAndTexelsAreAllThereIsInAnEmptyBox) {
     EXPECT_LE(found[3].off, kRim);
     EXPECT_EQ(found[4].off, found[0].off) << "nothing is hidden";
     EXPECT_EQ(found[5].off, found[0].off) << "and there is no second mirror";
-    const auto open = mended(box({}, true), "reuse:face=8,shadow=none", {kFirstOrder});
+    const auto open = mended(test::box({}, true), "reuse:face=8,shadow=none", {kFirstOrder});
     EXPECT_LE(open[1].off, kRim) << "nothing is seen where it is open";
 }
 
 // Three boards before the walls: what they hide from the ball's centre has no direction.
 TEST(Mended, WhatIsHiddenIsNotFoundByDirection) {
     for (const std::string technique : {"reuse:", "secant:steps=8,"}) {
-        const auto found = mended(box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+        const auto found = mended(test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
                                   technique + "face=32,shadow=none",
                                   {kMendDirection | kMendTexels, kMendHidden, kFirstOrder});
         EXPECT_GT(found[1].off, 20u);
@@ -101,7 +93,7 @@ TEST(Mended, WhatIsHiddenIsNotFoundByDirection) {
         EXPECT_LE(found[3].off, kRim);
     }
     // A fifth of the way before floor and ceiling.
-    scene::Scene scene = box({});
+    scene::Scene scene = test::box({});
     for (const double y : {-2.4, 2.4})
         for (const double x : {-1.1, .7, 2.5})
             test::add_glowing_board(scene, {0, .1f, 0}, {x, y, -.6}, {.5, 0, 0}, {0, 0, 1.2});
@@ -110,7 +102,7 @@ TEST(Mended, WhatIsHiddenIsNotFoundByDirection) {
     EXPECT_GT(close[1].off, 8u);
     EXPECT_LE(close[2].off, kRim);
     // Texels of the layer that was looked up, which may be the second.
-    const auto layered = mended(box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+    const auto layered = mended(test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
                                 "layered:face=128,shadow=none", {kMendTexels});
     EXPECT_LE(layered[1].off, layered[0].off);
 }

@@ -89,15 +89,17 @@ protected:
 
 /// Row by row: all of the text each time, pictures only when their row comes.
 TEST_F(GrowingReport, WritesPicturesOnce) {
-    const Comparison whole = usual();
+    Comparison whole = usual();
     Comparison made = whole;
     made.complete = false;
     made.asked = 4;
     made.rows.resize(1);
+    made.rows[0].causes.emplace().largest.resize(made.rows[0].display.pixels.size());
+    whole.rows[0].causes = made.rows[0].causes;
     catoptric::report::Writer writer(folder / "out");
     writer.write(made);
-    EXPECT_EQ(images(), (std::vector<std::string>{"naive0-error.png", "naive0.exr", "naive0.png",
-                                                  "reference.png"}));
+    EXPECT_EQ(images(), (std::vector<std::string>{"causes-naive0.png", "naive0-error.png",
+                                                  "naive0.exr", "naive0.png", "reference.png"}));
     std::vector<fs::path> missing = catoptric::report::files_of({"naive0"});
     EXPECT_EQ(missing.size(), 4 + images().size() + 1);
     std::erase_if(missing, [&](const fs::path& file) { return fs::exists(folder / "out" / file); });
@@ -108,6 +110,11 @@ TEST_F(GrowingReport, WritesPicturesOnce) {
     const std::string second = whole.rows[1].image;
     EXPECT_EQ(images(),
               (std::vector<std::string>{second + "-error.png", second + ".exr", second + ".png"}));
+    // Causes may come when the row is there.
+    made.rows[1].causes = whole.rows[1].causes = made.rows[0].causes;
+    fs::remove_all(folder / "out/images");
+    writer.write(made);
+    EXPECT_EQ(images(), (std::vector<std::string>{"causes-" + second + ".png"}));
     EXPECT_EQ(json::parse(catoptric::read_file(folder / "out/report.json"))["rows"].size(), 2U);
     writer.write(whole);
     for (const auto& [file, text] : {std::pair("report.json", catoptric::report::to_json(whole)),

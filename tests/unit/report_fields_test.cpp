@@ -80,6 +80,7 @@ public:
         fill_lookup(row.lookup.emplace());
         fill_light_edges(row.light_edges.emplace());
         fill_causes(row.causes.emplace());
+        row.causes->largest.resize(row.display.pixels.size());
         row.auto_face.emplace().needs.resize(2);
         set(row.auto_face->edge, "/auto_face/edge", "auto_face_edge");
         set(row.auto_face->needs[0], "/auto_face/needs/0", "auto_face_needs#0");
@@ -159,10 +160,14 @@ private:
             const std::string at = "/causes/list/" + std::to_string(i);
             cause.name = i == 0 ? "one" : "other";
             const std::string column = "causes_list_" + cause.name;
-            set(cause.in_turn, at + "/in_turn", column + "_in_turn");
+            set(cause.share, at + "/share", column + "_share");
+            set(cause.share_first_order, at + "/share_first_order", column + "_share_first_order");
+            set(cause.share_mirror_in_mirror, at + "/share_mirror_in_mirror",
+                column + "_share_mirror_in_mirror");
+            set(cause.share_per_mirror.emplace_back(), at + "/share_per_mirror/0",
+                column + "_share_per_mirror#0");
+            set(cause.squared_error, at + "/squared_error", column + "_squared_error");
             set(cause.alone, at + "/alone", column + "_alone");
-            set(cause.in_turn_per_mirror.emplace_back(), at + "/in_turn_per_mirror/0",
-                column + "_in_turn_per_mirror#0");
             set(cause.alone_per_mirror.emplace_back(), at + "/alone_per_mirror/0",
                 column + "_alone_per_mirror#0");
         }

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "core/math.hpp"
+#include "measure/lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// How far two pixels are apart: linear RGB, both clamped to [0,1].
+namespace catoptric::measure {
+
+inline bool is_finite(const vec3& pixel) {
+    return std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z);
+}
+
+/// NaN stays NaN.
+inline dvec3 clamped(const vec3& pixel) {
+    const auto one = [](float value) { return std::clamp(static_cast<double>(value), 0.0, 1.0); };
+    return {one(pixel.x), one(pixel.y), one(pixel.z)};
+}
+
+/// By channel, 0..1.
+inline dvec3 apart(const vec3& a, const vec3& b) { return glm::abs(clamped(a) - clamped(b)); }
+
+/// Of finite pixels.
+inline bool is_off(const vec3& a, const vec3& b) {
+    const dvec3 channels = apart(a, b);
+    return std::max({channels.x, channels.y, channels.z}) > kOff;
+}
+
+/// Mean over channels, 0..1; NaN where one is not finite.
+inline double squared_error(const vec3& a, const vec3& b) {
+    if (!is_finite(a) || !is_finite(b)) return std::numeric_limits<double>::quiet_NaN();
+    const dvec3 difference = apart(a, b);
+    return glm::dot(difference, difference) / 3;
+}
+
+} // namespace catoptric::measure

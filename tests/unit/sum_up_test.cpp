@@ -1,0 +1,141 @@
+// Causes of a row's error, summed up from what each pixel has of them.
+#include "measure/causes.hpp"
+
+#include "report/causes.hpp"
+#include "report/tables.hpp"
+#include "report_sample.hpp"
+#include "support/refusal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace {
+
+using namespace catoptric;
+using measure::Causes;
+using measure::PixelCause;
+
+constexpr std::uint32_t hit(std::uint32_t first, std::uint32_t second) {
+    return first | second << 16;
+}
+
+// A wall; mirror 1; mirror 2 in which mirror 1 is seen; mirror 3 twice, which sees itself once.
+const std::array<std::uint32_t, 5> kHits{hit(0, 0), hit(1, 0), hit(2, 1), hit(3, 0), hit(3, 3)};
+const std::vector<double> kWhole{.5, .25, 0, .25};
+const std::vector<PixelCause> kCauses{{"one", {.75, 0, .25, .125}, {.5, .25, 0, .25}},
+                                      {"other", {-.25, .25, -.25, 0}, {0, 0, 0, -1}},
+                                      {"rest", {0, 0, 0, .125}, {}}};
+const measure::Mask kOff{1, 1, 1, 0, 1};
+
+TEST(SumUp, ClassesAndMirrorsAddUpToTheWhole) {
+    const Causes causes = measure::sum_up(kHits, kOff, kWhole, kCauses);
+    EXPECT_EQ(causes.squared_error, .25);
+    EXPECT_EQ(causes.squared_error_per_mirror, (std::vector{.5, .25, .125}));
+    ASSERT_EQ(causes.list.size(), 3U);
+    const measure::Cause& one = causes.list[0];
+    EXPECT_EQ(one.name, "one");
+    EXPECT_EQ(one.squared_error, 1.125 / 4);
+    EXPECT_EQ(one.share, 1.125);
+    EXPECT_EQ(one.share_first_order, 1.0);
+    EXPECT_EQ(one.share_mirror_in_mirror, .125);
+    EXPECT_EQ(one.share_per_mirror, (std::vector{.75, 0.0, .375}));
+    EXPECT_EQ(one.alone, .25);
+    EXPECT_EQ(one.alone_per_mirror, (std::vector{.5, .25, .125}));
+    EXPECT_EQ(causes.list[1].share, -.25);
+    EXPECT_EQ(causes.list[1].alone, -.25);
+    EXPECT_EQ(causes.list[2].share, .125);
+    EXPECT_TRUE(std::isnan(causes.list[2].alone)) << "the rest cannot be mended";
+    EXPECT_EQ(causes.rest_rmse, std::sqrt(.125 / 4));
+}
+
+TEST(SumUp, NamesTheLargestPartOfPixelsThatAreOff) {
+    // No mirror; one; other; not off; one before rest, which is as large.
+    EXPECT_EQ(measure::sum_up(kHits, kOff, kWhole, kCauses).largest,
+              (std::vector<std::uint8_t>{0, 1, 2, 0, 1}));
+}
+
+TEST(SumUp, LeavesOutWhatIsNotFinite) {
+    std::vector<PixelCause> causes = kCauses;
+    causes[1].alone[0] = INFINITY;
+    const Causes found = measure::sum_up(kHits, kOff, kWhole, causes);
+    EXPECT_EQ(found.squared_error, .5 / 3);
+    EXPECT_EQ(found.squared_error_per_mirror, (std::vector{0.0, .25, .125}));
+    EXPECT_EQ(found.list[0].squared_error, .375 / 3);
+    EXPECT_EQ(found.largest[1], 0);
+}
+
+TEST(SumUp, OfARowWithoutErrorThereAreNoShares) {
+    const std::vector<double> none(4);
+    const Causes found = measure::sum_up(kHits, measure::Mask(5), none, {{"rest", none, {}}});
+    EXPECT_EQ(found.squared_error, 0);
+    EXPECT_TRUE(std::isnan(found.list[0].share));
+    EXPECT_EQ(found.rest_rmse, 0);
+    EXPECT_TRUE(measure::sum_up({}, {}, {}, {{"rest", {}, {}}}).list.empty());
+}
+
+TEST(SumUp, RefusesValuesOfOtherPixels) {
+    for (const auto& [causes, words] :
+         {std::pair(std::vector<PixelCause>{{"one", {1, 2}, {}}},
+                    "one: wanted values of 4 mirror pixels, found 2"),
+          {{{"one", {1, 2, 3, 4}, {1}}}, "one alone: wanted values of 4 mirror pixels, found 1"}})
+        test::expect_refused([&] { measure::sum_up(kHits, kOff, kWhole, causes); },
+                             Failure::internal, {words});
+}
+
+/// Causes as they come, of which the first has all.
+Causes some_causes() {
+    Causes causes{.squared_error = .25, .squared_error_per_mirror = {.25}};
+    for (const report::CauseColour& colour : report::cause_colours()) {
+        const double share = causes.list.empty() ? 1 : 0;
+        causes.list.push_back({.name = std::string(colour.cause),
+                               .squared_error = share / 4,
+                               .share = share,
+                               .share_first_order = share / 4,
+                               .share_mirror_in_mirror = share * 3 / 4,
+                               .alone = colour.cause == "rest" ? NAN : .125});
+    }
+    causes.at_light_edges = .5;
+    causes.largest = {0, 1, 9, 3, 0, 0, 0, 0, 0, 0, 0, 0};
+    return causes;
+}
+
+TEST(CauseTable, SaysSharesSumsAndBounds) {
+    report::Row row = report::sample::row("parallax", 6, .5, .1);
+    row.causes = some_causes();
+    const report::Table table = report::cause_table(
+        report::sample::comparison({report::sample::row("raytrace", 6, 0, 0), row}));
+    using Cells = std::vector<std::string>;
+    ASSERT_EQ(table.columns.size(), 13U);
+    EXPECT_EQ(table.columns[4].name, "direction (blue)");
+    ASSERT_EQ(table.rows.size(), 4U);
+    EXPECT_EQ(table.rows[0], (Cells{"parallax", "all", "100.0", "0.0", "0.0", "0.0", "0.0", "0.0",
+                                    "0.0", "0.0", "0.0", "100.0", "50.0"}));
+    EXPECT_EQ(table.rows[1], (Cells{"", "first order", "25.0", "0.0", "0.0", "0.0", "0.0", "0.0",
+                                    "0.0", "0.0", "0.0", "25.0", ""}));
+    EXPECT_EQ(table.rows[2], (Cells{"", "mirror in mirror", "75.0", "0.0", "0.0", "0.0", "0.0",
+                                    "0.0", "0.0", "0.0", "0.0", "75.0", ""}));
+    EXPECT_EQ(table.rows[3], (Cells{"", "bound", "50.0", "50.0", "50.0", "50.0", "50.0", "50.0",
+                                    "50.0", "50.0", "–", "", ""}));
+}
+
+TEST(CausePicture, PaintsEachPixelByItsLargestCause) {
+    report::Row row = report::sample::row("parallax", 6, .5, .1);
+    row.display.pixels[0] = vec3(1);
+    row.causes = some_causes();
+    const measure::Picture picture = report::cause_picture(row);
+    EXPECT_EQ(picture.pixels[0], vec3(.35F)) << "dark";
+    EXPECT_EQ(picture.pixels[1], vec3(86, 180, 233) / 255.0F);
+    EXPECT_EQ(picture.pixels[2], vec3(190) / 255.0F);
+    EXPECT_EQ(picture.pixels[3], vec3(0, 114, 178) / 255.0F);
+    row.causes->largest.pop_back();
+    test::expect_refused([&] { report::cause_picture(row); }, Failure::internal,
+                         {"row 'parallax': wanted a cause for each of 12 pixels, found 11"});
+    for (const report::CauseColour& a : report::cause_colours())
+        for (const report::CauseColour& b : report::cause_colours())
+            if (&a != &b) {
+                EXPECT_GT(glm::distance(a.colour, b.colour), .25F) << a.name << ", " << b.name;
+            }
+}
+
+} // namespace
