@@ -142,7 +142,7 @@ make_views() {
         view "Side: t = 1.3 s" --camera 400,330,-760:400,330,0:37.5 --time 1.3
         view "Above: t = 2.6 s" --camera 120,420,-500:330,120,300:45 --time 2.6
         for seed in 1 2 3; do view "Drawn from seed $seed" --camera seeded --seed $seed; done
-        "$program" compare -o out/views --no-causes --frames 1 --views 30 \
+        "$program" compare -o out/views --frames 1 --views 30 \
             --techniques secant march pyramid layered hybrid >/dev/null
         awk '/^## / {on = /^## Over 30 views/} on' out/views/report.md
     } >out/views.md

@@ -275,6 +275,7 @@ private:
             report::Row& row = comparison_.rows[index];
             fill_times(row, run.rounds(), prefixes_[index], comparison_.device.type == "cpu");
             row.noisy = run.is_noisy();
+            row.waited = run.waited();
             const bool changed = last && !first &&
                                  (request_.base.animate || !same_pixels(row.hdr, parts[i].hdr));
             if (first || changed) judge(index, parts[i], run.number());

@@ -1,5 +1,6 @@
 #include "app/processor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -7,6 +8,8 @@
 #include <fstream>
 #include <limits>
 #include <string>
+
+#include <unistd.h>
 
 namespace catoptric::app {
 
@@ -16,6 +19,17 @@ constexpr double kMostWaiting = .05; ///< share of the time that threads wanted 
 constexpr double kMostOthers = .25;  ///< processors
 constexpr double kLoadMemory = 60;   ///< seconds after which a load counts 1/e
 constexpr double kNanosecond = 1e-9;
+
+/// That processors worked, for anyone.
+double busy_seconds() {
+    std::ifstream file("/proc/stat");
+    std::string name;
+    double user = 0, nice = 0, system = 0, idle = 0, io = 0, irq = 0, softirq = 0, stolen = 0;
+    file >> name >> user >> nice >> system >> idle >> io >> irq >> softirq >> stolen;
+    const auto ticks = static_cast<double>(::sysconf(_SC_CLK_TCK));
+    if (!file || name != "cpu" || !(ticks > 0)) return std::numeric_limits<double>::quiet_NaN();
+    return (user + nice + system + irq + softirq + stolen) / ticks;
+}
 
 } // namespace
 
@@ -31,34 +45,46 @@ double machine_load() {
     return ::getloadavg(&load, 1) == 1 ? load : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::optional<ThreadTimes> thread_times() {
-    ThreadTimes times;
+std::optional<ProcessorUse> processor_use() {
+    ProcessorUse use{{}, busy_seconds()};
     std::error_code error;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
         std::ifstream file(task.path() / "schedstat"); // ns that it ran, ns that it waited
         ThreadTime time;
         if (!(file >> time.ran >> time.waited)) continue; // it has ended
         time.ran *= kNanosecond, time.waited *= kNanosecond;
-        times.emplace(std::stoi(task.path().filename().string()), time);
+        use.threads.emplace(std::stoi(task.path().filename().string()), time);
     }
-    if (error || times.empty()) return {};
-    return times;
+    if (error || use.threads.empty()) return {};
+    return use;
 }
 
-ThreadTime time_between(const ThreadTimes& before, const ThreadTimes& after) {
-    ThreadTime sum;
-    for (const auto& [thread, time] : after) {
-        const auto found = before.find(thread);
-        const ThreadTime start = found == before.end() ? ThreadTime{} : found->second;
+void Waiting::operator+=(const Waiting& more) {
+    ran += more.ran, waited += more.waited, others += more.others;
+}
+
+Waiting waiting_between(const ProcessorUse& before, const ProcessorUse& after) {
+    Waiting sum;
+    for (const auto& [thread, time] : after.threads) {
+        const auto found = before.threads.find(thread);
+        const ThreadTime start = found == before.threads.end() ? ThreadTime{} : found->second;
         sum.ran += time.ran - start.ran;
         sum.waited += time.waited - start.waited;
     }
+    sum.others = after.busy - before.busy - sum.ran;
     return sum;
 }
 
-bool is_noisy(const ThreadTime& time) {
-    return time.waited > kMostWaiting * (time.ran + time.waited);
+double waited_share(const Waiting& waiting) {
+    if (!(waiting.waited > 0)) return 0;
+    const double share = waiting.waited / (waiting.ran + waiting.waited);
+    if (std::isnan(waiting.others)) return share;
+    // The system counts in hundredths of a second, so that others may seem to have less than none.
+    const double others = std::max(0.0, waiting.others);
+    return others > 0 ? share * others / (waiting.ran + others) : 0;
 }
+
+bool is_noisy(double waited_share) { return waited_share > kMostWaiting; }
 
 bool is_noisy(double load, double used_seconds, double elapsed_seconds) {
     if (std::isnan(load) || !(elapsed_seconds > 0)) return false;

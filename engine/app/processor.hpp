@@ -12,21 +12,38 @@ double process_seconds();
 /// Runnable threads of the whole machine, mean of about the last minute; NaN where it is not told.
 double machine_load();
 
-/// Seconds that each thread of this process, by its number, ran and was ready but waited for a
-/// processor, since it began.
+/// Seconds that a thread ran, and was ready but waited for a processor, since it began.
 struct ThreadTime {
     double ran = 0, waited = 0;
 };
-using ThreadTimes = std::map<int, ThreadTime>;
-/// From /proc/self/task/*/schedstat. Nothing where the system does not tell.
-std::optional<ThreadTimes> thread_times();
 
-/// All threads together between two readings. One that ended in between counts for nothing.
-ThreadTime time_between(const ThreadTimes& before, const ThreadTimes& after);
+/// What processors did so far.
+struct ProcessorUse {
+    std::map<int, ThreadTime> threads; ///< of this process, by number
+    double busy = 0; ///< seconds of all processors, whoever had them; NaN where nobody tells
+};
 
-/// Whether threads waited so long that what they did meanwhile was not measured: for more than 5 %
-/// of the time that they ran or waited.
-bool is_noisy(const ThreadTime& time);
+/// From /proc/self/task/*/schedstat and /proc/stat. Nothing where the system does not tell of
+/// waiting.
+std::optional<ProcessorUse> processor_use();
+
+/// Between two readings, or several pairs of them added up, seconds.
+struct Waiting {
+    double ran = 0, waited = 0; ///< all threads of this process together
+    double others = 0;          ///< that others had processors; NaN: nobody tells
+    void operator+=(const Waiting& more);
+};
+/// A thread that ended in between counts for nothing.
+Waiting waiting_between(const ProcessorUse& before, const ProcessorUse& after);
+
+/// Share of the time that threads ran or were ready in which they waited for a processor that
+/// others had. A driver has more threads than there are processors and they wait for each other,
+/// too: the waiting counts as others' in the proportion in which these had the processors, and all
+/// of it where nobody tells.
+double waited_share(const Waiting& waiting);
+
+/// Whether threads waited so long that times say little: for more than 5 %.
+bool is_noisy(double waited_share);
 
 /// The same where nobody tells of waiting: whether others kept more than a quarter of a processor
 /// busy. `load`: see machine_load, in which `used_seconds` of this process count that it spread

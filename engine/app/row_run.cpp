@@ -32,17 +32,17 @@ void RowRun::measure(int frames) {
             watcher_.frame(frames_.number(), request_.total());
     };
     if (rounds_.empty()) {
-        noisy_ = !thread_times() &&
+        noisy_ = !processor_use() &&
                  app::is_noisy(machine_load(), process_seconds(), elapsed_seconds());
         render(request_.warmup);
     }
     const std::size_t before = frames_.times().size();
-    const std::optional<ThreadTimes> start = thread_times();
+    const std::optional<ProcessorUse> start = processor_use();
     render(frames);
-    if (const std::optional<ThreadTimes> end = thread_times(); start && end) {
-        const ThreadTime round = time_between(*start, *end);
-        time_.ran += round.ran, time_.waited += round.waited;
-        noisy_ = app::is_noisy(time_);
+    if (const std::optional<ProcessorUse> end = processor_use(); start && end) {
+        waiting_ += waiting_between(*start, *end);
+        waited_ = waited_share(waiting_);
+        noisy_ = app::is_noisy(waited_);
     }
     rounds_.emplace_back(frames_.times().begin() + static_cast<std::ptrdiff_t>(before),
                          frames_.times().end());

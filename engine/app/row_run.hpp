@@ -4,6 +4,7 @@
 #include "app/run.hpp"
 #include "app/watcher.hpp"
 
+#include <limits>
 #include <vector>
 
 // Measuring in rounds: one row's frames after another's, so that what slows the machine down for a
@@ -33,7 +34,9 @@ public:
     /// Of the last frame, from 1.
     int number() const { return frames_.number(); }
     const std::vector<std::vector<FrameTimes>>& rounds() const { return rounds_; }
-    /// Its threads had to wait for a processor.
+    /// See waited_share, of all rounds; NaN where nobody tells.
+    double waited() const { return waited_; }
+    /// Its threads had to wait for a processor that others had.
     bool is_noisy() const { return noisy_; }
 
 private:
@@ -41,7 +44,8 @@ private:
     const Watcher& watcher_;
     Frames frames_;
     std::vector<std::vector<FrameTimes>> rounds_;
-    ThreadTime time_; ///< of all rounds
+    Waiting waiting_; ///< of all rounds
+    double waited_ = std::numeric_limits<double>::quiet_NaN();
     bool noisy_ = false;
 };
 

@@ -108,7 +108,10 @@ struct Row : Errors {
         0; ///< counted in the executed plan; a cube counts once, as in the seed report
     int scene_draws = 0; ///< the same with every cube face counted
     Summary gpu_ms, cpu_record_ms, wall_ms;
-    Summary cpu_ms;     ///< processor time of the process a frame; of cpu devices
+    Summary cpu_ms; ///< processor time of the process a frame; of cpu devices
+    /// Share of the time in which its threads waited for a processor that others had; NaN: not
+    /// told.
+    double waited = NAN;
     bool noisy = false; ///< its threads waited for a processor: its times are not to be trusted
     Summary wait_ms;    ///< the host stood still for the device: part of nothing else
     Summary host_ms;    ///< the processor's work before the device could begin; waiting is none

@@ -66,10 +66,18 @@ const Registered kProcessorTime{
      .order = 24,
      .columns = {{.title = "cpu ms", .style = Style::times, .order = 22}},
      .get = [](const Row& row) -> Value { return row.cpu_ms; }}};
+const Registered kWaited{
+    {.name = "waited",
+     .help = "share of the time that its threads ran or were ready in which they waited for a "
+             "processor that others had",
+     .better = Better::less,
+     .order = 29,
+     .get = [](const Row& row) -> Value { return row.waited; }}};
 const Registered kNoisy{
     {.name = "noisy",
-     .help = "its threads were ready but waited for a processor for more than 5 % of the time: "
-             "others were at work beside, and its times are not to be trusted",
+     .help =
+         "others were at work beside, so that its threads waited for more than 5 % of the time: "
+         "its times are not to be trusted",
      .order = 29,
      .get = [](const Row& row) -> Value { return row.noisy; }}};
 const Registered kPasses{{.name = "passes",

@@ -2,7 +2,6 @@
 #include "app/compare.hpp"
 
 #include "core/error.hpp"
-#include "measure/judge.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "places.hpp"
@@ -11,8 +10,6 @@
 #include "scene/load.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
-
-#include <fmt/format.h>
 
 #include <memory>
 
@@ -24,7 +21,7 @@ constexpr const char* kExamples = R"(Examples:
   catoptric compare -o out
   catoptric compare scene.glb -o out --size 256x256 --techniques reuse parallax:face=512
   catoptric compare -o out --together --json > report.json
-  catoptric compare -o out --views 30 --no-causes --techniques secant march layered
+  catoptric compare -o out --views 30 --techniques secant march layered
   catoptric compare -o out --lag --size 256x256 --techniques reuse parallax secant
 
 SCENE comes before --techniques. DIR gets report.html, report.md, report.json, rows.csv and images/.)";
@@ -102,10 +99,6 @@ std::vector<std::string> broken_rows(const report::Comparison& comparison) {
 void show(const Options& options, const report::Comparison& comparison) {
     const Manners& manners = options.common.manners;
     for (const std::string& warning : comparison.warnings) detail(manners, "warning: " + warning);
-    if (const auto noisy = measure::noisy_rows(comparison); !noisy.empty())
-        note(manners, fmt::format("{} of {} rows had to wait for a processor: others were at work "
-                                  "beside, and their times are not to be trusted",
-                                  noisy.size(), comparison.rows.size()));
     put(manners.json ? report::to_json(comparison) : compare_table(comparison));
     if (!comparison.stopped) note(manners, "written: " + options.folder);
 }

@@ -61,7 +61,14 @@ std::string compare_table(const report::Comparison& comparison) {
                         figure(row.error.flip), percent(row.error.off), figure(row.error.mae),
                         figure(row.error.rmse), figure(row.mean_clamped.all)});
     }
-    return fmt::format("{} {}x{}, {} frames in {} rounds after {}, {}; errors on mirrors, against "
+    const std::size_t noisy = measure::noisy_rows(comparison).size();
+    const std::string caution =
+        noisy == 0 ? ""
+                   : fmt::format("noisy: {} of {} rows had to wait for a processor, others were at "
+                                 "work beside; their times are not to be trusted\n",
+                                 noisy, comparison.rows.size());
+    return caution +
+           fmt::format("{} {}x{}, {} frames in {} rounds after {}, {}; errors on mirrors, against "
                        "{}\n",
                        printable(comparison.scene.name), comparison.width, comparison.height,
                        comparison.frames, comparison.rounds, comparison.warmup,

@@ -17,7 +17,7 @@ protected:
     json compared(const std::string& folder_name, const std::string& seed,
                   const Words& techniques) const {
         Words words = quick({"compare", "-o", folder_name, "--views", std::to_string(kViews),
-                             "--seed", seed, "--no-causes", "--json"});
+                             "--seed", seed, "--json"});
         words.emplace_back("--techniques");
         words.insert(words.end(), techniques.begin(), techniques.end());
         const test::Ended ended = cli(words);

@@ -15,7 +15,7 @@ TEST_F(Signals, KeepTheRowsAndAreHeardSoon) {
                       "1",       "--warmup", "0",   "--techniques", "reuse:face=8"};
     ASSERT_EQ(cli(words).exit_code, 0);
     for (const auto& [signal, exit_code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}})
-        for (const std::string at : {"[1/4]", "[3/4]"}) {
+        for (const std::string at : {"[1/20]", "[3/20]"}) {
             fs::remove_all(folder / "out");
             fs::copy(folder / "old", folder / "out", fs::copy_options::recursive);
             test::Start process = start({"compare", "-o", "out", "--size", "32x32", "--frames", "5",
@@ -30,7 +30,7 @@ TEST_F(Signals, KeepTheRowsAndAreHeardSoon) {
             longest = std::max(longest, ended.seconds_after_signal);
             const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
             if (document["complete"] == true) { // no row was done: the report of before stands
-                EXPECT_EQ(at, "[1/4]");
+                EXPECT_EQ(at, "[1/20]");
                 EXPECT_EQ(read("out/report.json"), read("old/report.json"));
                 EXPECT_THAT(ended.err, testing::HasSubstr("0 of 4 rows; nothing was written"));
                 continue;

@@ -63,6 +63,25 @@ TEST(Judge, RowsAreApartWhereEachRoundSaysSo) {
     EXPECT_EQ(measure::front_of({exact(10, 1), about(11, .9), exact(12, .9)}), (Front{1, 2}));
 }
 
+TEST(Judge, CloserIsLessFlipOverTheMirrorsHereOrOverViews) {
+    measure::Row a = exact(1, .1), b = exact(1, .2);
+    a.error.rmse = a.error_all.flip = .5; // of which nothing is asked
+    EXPECT_TRUE(measure::is_closer(a, b));
+    EXPECT_FALSE(measure::is_closer(b, a));
+    EXPECT_TRUE(measure::beats(a, b));
+    // Over views: b is closer in four of six, so neither is.
+    for (int view = 0; view < 6; ++view) {
+        a.views.push_back(a), b.views.push_back(b);
+        if (view < 4) std::swap(a.views.back().error.flip, b.views.back().error.flip);
+    }
+    EXPECT_FALSE(measure::is_closer(a, b));
+    EXPECT_FALSE(measure::is_closer(b, a));
+    EXPECT_EQ(measure::front_of({a, b}), (Front{0, 1}));
+    for (measure::Errors& view : a.views) view.error.flip = .3;
+    EXPECT_TRUE(measure::is_closer(b, a)) << "in every view";
+    EXPECT_EQ(measure::front_of({a, b}), (Front{1}));
+}
+
 TEST(Judge, FewerThanSixRoundsTellNobodyApart) {
     measure::Row a = exact(1, 1), b = exact(9, 1);
     ASSERT_TRUE(measure::is_faster(a, b));

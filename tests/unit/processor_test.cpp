@@ -27,16 +27,18 @@ TEST(Processor, TimeIsThatOfAllThreads) {
 }
 
 TEST(Processor, ThreadsTellHowLongTheyRanAndWaited) {
-    const auto before = thread_times();
+    const auto before = processor_use();
     ASSERT_TRUE(before) << "Linux tells";
     work_for(.05);
-    const auto after = thread_times();
+    const auto after = processor_use();
     ASSERT_TRUE(after);
-    EXPECT_NEAR(time_between(*before, *after).ran, .05, .02);
-    EXPECT_EQ(time_between(*after, *after).ran, 0);
+    EXPECT_NEAR(waiting_between(*before, *after).ran, .05, .02);
+    EXPECT_EQ(waiting_between(*after, *after).ran, 0);
+    EXPECT_GE(after->busy, before->busy);
 }
 
-/// More threads than processors: some are ready and wait.
+/// Three threads for each processor: two of them wait. Whether others had to do with it, the
+/// machine knows.
 TEST(Processor, WaitingIsSeen) {
     std::atomic<bool> stop{false};
     std::vector<std::jthread> crowd;
@@ -45,27 +47,41 @@ TEST(Processor, WaitingIsSeen) {
             while (!stop) {
             }
         });
-    const auto before = thread_times();
+    const auto before = processor_use();
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    const auto after = thread_times();
+    const auto after = processor_use();
     stop = true;
     ASSERT_TRUE(before && after);
-    const ThreadTime time = time_between(*before, *after);
-    EXPECT_GT(time.waited, time.ran) << "two of three wait";
-    EXPECT_TRUE(is_noisy(time));
+    const Waiting waiting = waiting_between(*before, *after);
+    EXPECT_GT(waiting.waited, waiting.ran);
 }
 
 TEST(Processor, ThreadsThatCameAndWent) {
-    const ThreadTimes before{{1, {10, 1}}, {2, {20, 2}}}, after{{1, {11, 1.25}}, {3, {.5, .125}}};
-    const ThreadTime time = time_between(before, after);
-    EXPECT_EQ(time.ran, 1.5) << "2 has ended: nobody knows what it did; 3 is new";
-    EXPECT_EQ(time.waited, .375);
+    const ProcessorUse before{{{1, {10, 1}}, {2, {20, 2}}}, 100},
+        after{{{1, {11, 1.25}}, {3, {.5, .125}}}, 104};
+    Waiting waiting = waiting_between(before, after);
+    EXPECT_EQ(waiting.ran, 1.5) << "2 has ended: nobody knows what it did; 3 is new";
+    EXPECT_EQ(waiting.waited, .375);
+    EXPECT_EQ(waiting.others, 2.5);
+    waiting += waiting;
+    EXPECT_EQ(waiting.ran, 3);
+    EXPECT_EQ(waiting.waited, .75);
+    EXPECT_EQ(waiting.others, 5);
+}
+
+TEST(Processor, WaitingForOnesOwnThreadsIsNoNoise) {
+    EXPECT_EQ(waited_share({0, 0, 0}), 0);
+    EXPECT_EQ(waited_share({6, 2, 0}), 0) << "nobody else was there";
+    EXPECT_EQ(waited_share({6, 2, -.01}), 0) << "the system counts in hundredths";
+    EXPECT_EQ(waited_share({6, 2, 2}), .25 * .25) << "in a quarter of the time others had them";
+    EXPECT_EQ(waited_share({6, 2, std::nan("")}), .25) << "nobody tells, so all of it counts";
+    EXPECT_EQ(waited_share({0, 2, 1}), 1);
 }
 
 TEST(Processor, NoisyIsMoreThanATwentiethOfTheTime) {
-    EXPECT_FALSE(is_noisy({0, 0}));
-    EXPECT_FALSE(is_noisy({.95, .05}));
-    EXPECT_TRUE(is_noisy({.949, .051}));
+    EXPECT_FALSE(is_noisy(.05));
+    EXPECT_TRUE(is_noisy(.0501));
+    EXPECT_FALSE(is_noisy(std::nan("")));
 }
 
 TEST(Processor, WithoutASayOfWaitingTheLoadOfOthersJudges) {

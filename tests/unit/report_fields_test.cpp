@@ -48,6 +48,7 @@ public:
         set(row.frame_ms, "/frame_ms", "frame_ms");
         set(row.wait_ms, "/wait_ms", "wait_ms");
         set(row.cpu_ms, "/cpu_ms", "cpu_ms");
+        set(row.waited, "/waited", "waited");
         set(row.host_parts.update, "/host_parts/update", "host_parts_update");
         set(row.host_parts.hierarchy, "/host_parts/hierarchy", "host_parts_hierarchy");
         set(row.host_parts.compile, "/host_parts/compile", "host_parts_compile");
