@@ -63,7 +63,7 @@ public:
         start();
         try {
             fill_reference();
-            for (int round = 0; round < comparison_.rounds; ++round) measure_round(round);
+            measure_rounds();
             if (!comparison_.views.empty()) add_views();
             if (request_.causes) add_causes();
             if (request_.lag) add_lag();
@@ -240,6 +240,12 @@ private:
         std::vector<std::vector<std::string>> lanes;
         for (const std::string& text : texts) lanes.push_back({text});
         return lanes;
+    }
+
+    void measure_rounds() {
+        const HeldThreads held;
+        comparison_.device.held_threads = static_cast<int>(held.count());
+        for (int round = 0; round < comparison_.rounds; ++round) measure_round(round);
     }
 
     void measure_round(int round) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include <sched.h>
 #include <unistd.h>
 
 namespace catoptric::app {
@@ -29,6 +30,29 @@ double busy_seconds() {
     const auto ticks = static_cast<double>(::sysconf(_SC_CLK_TCK));
     if (!file || name != "cpu" || !(ticks > 0)) return std::numeric_limits<double>::quiet_NaN();
     return (user + nice + system + irq + softirq + stolen) / ticks;
+}
+
+/// Numbers of this process's threads whose name begins so, by name.
+std::vector<int> threads_named(const std::string& prefix) {
+    std::map<std::string, int> found;
+    std::error_code error;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
+        std::string name;
+        std::getline(std::ifstream(task.path() / "comm"), name);
+        if (name.starts_with(prefix))
+            found.emplace(name, std::stoi(task.path().filename().string()));
+    }
+    std::vector<int> threads;
+    for (const auto& [name, thread] : found) threads.push_back(thread);
+    return threads;
+}
+
+/// Where this process's threads may run.
+cpu_set_t allowed_processors() {
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    ::sched_getaffinity(0, sizeof allowed, &allowed);
+    return allowed;
 }
 
 } // namespace
@@ -91,6 +115,25 @@ bool is_noisy(double load, double used_seconds, double elapsed_seconds) {
     const double own = used_seconds / elapsed_seconds *
                        (1 - std::exp(-elapsed_seconds / kLoadMemory));
     return load - own > kMostOthers;
+}
+
+HeldThreads::HeldThreads() : threads_(threads_named("llvmpipe-")) {
+    const cpu_set_t allowed = allowed_processors();
+    if (threads_.size() > static_cast<std::size_t>(CPU_COUNT(&allowed))) threads_.clear();
+    int processor = -1;
+    for (const int thread : threads_) {
+        do ++processor;
+        while (!CPU_ISSET(processor, &allowed));
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(processor, &one);
+        ::sched_setaffinity(thread, sizeof one, &one);
+    }
+}
+
+HeldThreads::~HeldThreads() {
+    const cpu_set_t allowed = allowed_processors();
+    for (const int thread : threads_) ::sched_setaffinity(thread, sizeof allowed, &allowed);
 }
 
 } // namespace catoptric::app

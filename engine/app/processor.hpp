@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
+#include <vector>
 
 /// What of the machine's processors this process had, and whether it had to wait for them.
 namespace catoptric::app {
@@ -49,5 +51,22 @@ bool is_noisy(double waited_share);
 /// busy. `load`: see machine_load, in which `used_seconds` of this process count that it spread
 /// over the last `elapsed_seconds`.
 bool is_noisy(double load, double used_seconds, double elapsed_seconds);
+
+/// As long as it lives, the threads of a software driver that draw (llvmpipe's, by their name) stay
+/// on a processor each, as far as this process may use that many. Left alone they now and then
+/// share one for some milliseconds while another is idle: frames of two threads then take up to
+/// twice as long, and no median of a few frames is free of it.
+class HeldThreads {
+public:
+    HeldThreads();
+    ~HeldThreads(); ///< they may go where they were allowed to before
+    HeldThreads(const HeldThreads&) = delete;
+    HeldThreads& operator=(const HeldThreads&) = delete;
+
+    std::size_t count() const { return threads_.size(); }
+
+private:
+    std::vector<int> threads_; ///< numbers
+};
 
 } // namespace catoptric::app

@@ -23,6 +23,8 @@ namespace catoptric::measure {
 struct DeviceFacts {
     std::string name, driver, api, type;
     int threads = 0; ///< of a cpu device
+    int held_threads =
+        0; ///< of these, how many stayed on a processor each while rows were measured
 };
 
 /// Where the picture was taken from, world units.

@@ -10,8 +10,10 @@ namespace catoptric::report {
 namespace {
 
 std::string device_text(const DeviceFacts& device) {
-    const std::string threads = device.threads > 0 ? fmt::format(", {} threads", device.threads)
-                                                   : std::string();
+    std::string threads;
+    if (device.threads > 0) threads = fmt::format(", {} threads", device.threads);
+    if (device.held_threads > 0)
+        threads += fmt::format(", {} of them held on a processor each", device.held_threads);
     return fmt::format("{} ({}{})", device.name, device.type, threads);
 }
 

@@ -166,11 +166,9 @@ Json to_json(const SetupFacts& setup) {
 
 void add_circumstances(Json& json, const Comparison& comparison) {
     const DeviceFacts& device = comparison.device;
-    json["device"] = {{"name", device.name},
-                      {"driver", device.driver},
-                      {"api", device.api},
-                      {"type", device.type},
-                      {"threads", device.threads}};
+    json["device"] = {{"name", device.name},       {"driver", device.driver},
+                      {"api", device.api},         {"type", device.type},
+                      {"threads", device.threads}, {"held_threads", device.held_threads}};
     const SceneFacts& scene = comparison.scene;
     json["scene"] = {{"name", scene.name},
                      {"triangles", scene.triangles},

@@ -10,6 +10,10 @@
 #include <thread>
 #include <vector>
 
+#include <pthread.h>
+#include <sched.h>
+#include <unistd.h>
+
 namespace {
 
 using namespace catoptric::app;
@@ -93,6 +97,44 @@ TEST(Processor, WithoutASayOfWaitingTheLoadOfOthersJudges) {
     EXPECT_FALSE(is_noisy(.54, 20, 10));
     EXPECT_TRUE(is_noisy(.57, 20, 10));
     EXPECT_FALSE(is_noisy(std::numeric_limits<double>::quiet_NaN(), 0, 600)) << "nobody tells";
+}
+
+/// Where a thread of this process may run.
+int processors_of(int thread) {
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    EXPECT_EQ(::sched_getaffinity(thread, sizeof allowed, &allowed), 0);
+    return CPU_COUNT(&allowed);
+}
+
+/// Threads named as the driver names its own stay on one processor each, and are free again.
+TEST(Processor, ThreadsThatDrawAreHeld) {
+    const int all = processors_of(0);
+    if (all < 2) GTEST_SKIP() << "one processor: nothing to be held from";
+    std::atomic<int> numbers[2] = {0, 0};
+    std::atomic<bool> stop{false};
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < 2; ++i)
+        threads.emplace_back([&, i] {
+            ::pthread_setname_np(::pthread_self(), ("llvmpipe-" + std::to_string(i)).c_str());
+            numbers[i] = ::gettid();
+            while (!stop) std::this_thread::yield();
+        });
+    while (numbers[0] == 0 || numbers[1] == 0) std::this_thread::yield();
+    {
+        const HeldThreads held;
+        EXPECT_EQ(held.count(), 2u);
+        cpu_set_t first, second, both;
+        ::sched_getaffinity(numbers[0], sizeof first, &first);
+        ::sched_getaffinity(numbers[1], sizeof second, &second);
+        CPU_AND(&both, &first, &second);
+        EXPECT_EQ(CPU_COUNT(&first), 1);
+        EXPECT_EQ(CPU_COUNT(&second), 1);
+        EXPECT_EQ(CPU_COUNT(&both), 0) << "not the same one";
+        EXPECT_EQ(processors_of(0), all) << "others go where they like";
+    }
+    for (const auto& thread : numbers) EXPECT_EQ(processors_of(thread), all);
+    stop = true;
 }
 
 } // namespace
