@@ -1,12 +1,10 @@
 #include "app/compare.hpp"
 
-#include "app/causes.hpp"
 #include "app/compare_row.hpp"
 #include "app/lag.hpp"
-#include "app/light_edges.hpp"
-#include "app/oracle.hpp"
 #include "app/plan_file.hpp"
 #include "app/processor.hpp"
+#include "app/row_judge.hpp"
 #include "app/row_run.hpp"
 #include "app/truths.hpp"
 #include "app/views.hpp"
@@ -35,12 +33,6 @@ bool same_pixels(const measure::Picture& a, const measure::Picture& b) {
     });
 }
 
-bool is_set(const report::Row& row, std::string_view knob, std::string_view text) {
-    return std::ranges::any_of(row.settings, [&](const report::Setting& setting) {
-        return setting.name == knob && setting.text == text;
-    });
-}
-
 /// Measures rows in rounds, one by one or together in each frame, and judges each against the
 /// reference at its sample count.
 class Comparer {
@@ -48,7 +40,8 @@ public:
     Comparer(Engine& engine, const CompareRequest& request)
         : engine_(engine), request_(request), compiled_before_(engine.compiled()),
           session_(engine, request.base.scene),
-          truths_(session_, request_.base, request_.reference, request_.watcher) {
+          truths_(session_, request_.base, request_.reference, request_.watcher),
+          judge_(session_, truths_, request_.base, request_.watcher) {
         if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
         check_rows(request_.base.techniques); // before any work
         for (const std::string& text : request_.base.techniques)
@@ -150,69 +143,9 @@ private:
         comparison_.reference_display = truths_.at("1").part.display;
     }
 
-    /// Where the row's mirrors looked and what its captures cut off: a run of its own, since saying
-    /// so costs time. No lookup for rows that do not look into captures.
-    Part looked_up(const std::string& text, int number) {
-        Request request = still(number);
-        request.techniques = {text};
-        request.frames = 1;
-        request.warmup = 1;
-        request.with_lookup = true;
-        Part part = std::move(app::run(session_, request, request_.watcher).parts.front());
-        const bool looks = std::ranges::any_of(part.lookup,
-                                               [](const vec4& pixel) { return pixel.w > 0; });
-        if (!looks) part.lookup.clear();
-        return part;
-    }
-
-    /// What frame `number` shows, standing still.
-    Request still(int number) const {
-        Request request = request_.base;
-        request.time = request_.base.instant(number);
-        request.animate = false;
-        return request;
-    }
-
-    const Oracle& oracle_of(int number) {
-        if (!oracle_ || (request_.base.animate && number != oracle_frame_))
-            oracle_.emplace(still(number));
-        oracle_frame_ = number;
-        return *oracle_;
-    }
-
-    /// Splits the row's error by cause.
-    report::Causes causes_of(const std::string& text, const report::Row& row) {
-        if (!finder_)
-            finder_.emplace(session_, request_.base, truths_.at("1").part.hdr, truths_.hits(),
-                            request_.watcher);
-        report::Causes causes = finder_->find(text);
-        causes.at_light_edges = row.light_edges->share;
-        return causes;
-    }
-
-    /// The row's picture and all that is said of it, from its frame `number`.
     void judge(std::size_t index, const Part& part, int number) {
-        const std::string& text = request_.base.techniques[index];
-        report::Row& row = comparison_.rows[index];
-        std::vector<std::string>& warnings = row_warnings_[index];
-        warnings.clear();
-        row.pictured = number;
-        const std::string samples = sample_count(parse_technique(text));
-        const Part& truth = truths_.at(samples, number).part;
-        const std::vector<std::uint32_t>& hits = truths_.hits(number);
-        fill_errors(row, part, truth, hits, mirrors_);
-        const Part looked = !part.rays || part.traced_fraction ? looked_up(text, number) : Part();
-        row.saturated_texels = looked.saturated;
-        if (looked.saturated.value_or(0) > 0)
-            warnings.push_back(
-                "'" + text + "': " + std::to_string(*looked.saturated) +
-                " texels of its captures are brighter than 65504, where colour=half ends");
-        for (const std::string& note : part.notes) warnings.push_back("'" + text + "': " + note);
-        if (looked.lookup.empty()) return;
-        const Oracle& oracle = oracle_of(number);
-        row.lookup = measure::lookup_error(
-            oracle.judge(looked.lookup, is_set(row, "mirrors", "left_out")));
-        row.light_edges = light_edges_of(row, truth, hits, looked.lookup, oracle);
+        row_warnings_[index] = judge_.judge(comparison_.rows[index],
+                                            request_.base.techniques[index], part, number);
     }
 
     void add(const std::string& text, const Part& part) {
@@ -246,6 +179,7 @@ private:
         const HeldThreads held;
         comparison_.device.held_threads = static_cast<int>(held.count());
         for (int round = 0; round < comparison_.rounds; ++round) measure_round(round);
+        runs_.clear(); // and the memory of the device that their histories take
     }
 
     void measure_round(int round) {
@@ -297,7 +231,7 @@ private:
             const bool is_plan = !read_plan(text).is_technique; // no one search is to blame
             if (!row.lookup || is_plan) continue;
             request_.watcher.row("causes of " + text, i, comparison_.rows.size());
-            row.causes = causes_of(text, row);
+            row.causes = judge_.causes_of(row, text);
             tell();
         }
     }
@@ -326,9 +260,7 @@ private:
     Session session_;          ///< of all rows
     std::size_t mirrors_ = 0;
     Truths truths_;
-    std::optional<Oracle> oracle_;
-    int oracle_frame_ = 0; ///< of whose instant it speaks
-    std::optional<CauseFinder> finder_;
+    RowJudge judge_;
     std::vector<std::unique_ptr<RowRun>> runs_; ///< of rows, or of all together
     std::vector<std::string> prefixes_;         ///< of the rows' passes
     std::vector<std::vector<double>> clear_ms_; ///< by round
