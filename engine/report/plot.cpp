@@ -22,6 +22,7 @@ constexpr double kLeft = 64, kRight = 836, kTop = 16, kLane = 380, kBottom = 424
 
 struct Point {
     double x, y;
+    double low, high; ///< ends of the time's interval; not beyond the axes
     const Row* row;
     bool front;
 };
@@ -65,6 +66,13 @@ std::string stairs(std::vector<Point> points) {
     std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, kTop);
     for (const Point& point : points) path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
     return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kRight) + "\"/>";
+}
+
+/// How far the time is known.
+std::string interval(const Point& point) {
+    if (!point.row->time_ms().ci95.is_known()) return "";
+    return fmt::format(R"(<path class="interval" d="M{:.1f} {:.1f}H{:.1f}"/>)", point.low, point.y,
+                       point.high);
 }
 
 /// Ray-traced rows are squares, all others discs; what one says on hover.
@@ -127,16 +135,20 @@ std::string plot(const Comparison& comparison) {
     const Scale x = svg::log_scale(times, kLeft, kRight);
     const Scale y = svg::log_scale(errors, kLane - 8, kTop);
     std::vector<Point> points;
-    for (const Row& row : comparison.rows)
-        if (can_be_placed(row))
-            points.push_back({x(row.time_ms().median),
-                              row.error.flip > 0 ? y(row.error.flip) : (kLane + kBottom) / 2, &row,
-                              measure::on_front(comparison, row)});
+    for (const Row& row : comparison.rows) {
+        if (!can_be_placed(row)) continue;
+        const measure::Interval& ci95 = row.time_ms().ci95;
+        points.push_back({x(row.time_ms().median),
+                          row.error.flip > 0 ? y(row.error.flip) : (kLane + kBottom) / 2,
+                          std::max(x(ci95.low), kLeft), std::min(x(ci95.high), kRight), &row,
+                          measure::on_front(comparison, row)});
+    }
     std::string svg = fmt::format(
         R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of time )"
         R"(against FLIP; the figures are in the table of every row">)",
         kWidth, kHeight);
     svg += axes(x, y, !errors.empty(), points.front().row->moves) + stairs(points);
+    for (const Point& point : points) svg += interval(point);
     for (const Point& point : points) svg += mark(point);
     return svg + labels(points) + "</svg>";
 }

@@ -191,6 +191,23 @@ TEST(ReportHtml, HoldsThePlotAndEveryPicture) {
     EXPECT_THAT(html, Not(HasSubstr("nan")));
 }
 
+/// A bar of the plot is as long as the time's interval, and there is none where that is not known.
+TEST(ReportHtml, DrawsIntervalsOfTimes) {
+    using catoptric::report::to_html;
+    Comparison made = usual();
+    made.rows[1].gpu_ms = times(7, .2);
+    made.rows[3].gpu_ms.ci95 = {};
+    const std::string html = to_html(made);
+    const std::regex bar("class=\"interval\" d=\"M([0-9.]+) [0-9.]+H([0-9.]+)\"");
+    std::vector<double> lengths;
+    for (std::sregex_iterator at(html.begin(), html.end(), bar), end; at != end; ++at)
+        lengths.push_back(std::stod((*at)[2]) - std::stod((*at)[1]));
+    ASSERT_EQ(lengths.size(), 3u);
+    EXPECT_EQ(lengths[0], 0) << "known exactly";
+    EXPECT_GT(lengths[1], 20) << "from 5.6 to 8.4 ms";
+    EXPECT_EQ(lengths[2], 0);
+}
+
 class ReportWrite : public test::InFolder {
 protected:
     Error error_of_writing_to(const fs::path& path) const {
