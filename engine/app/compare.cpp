@@ -15,9 +15,9 @@
 #include "scene/load.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <new>
+#include <span>
 
 namespace catoptric::app {
 
@@ -27,10 +27,10 @@ bool same(const TechniqueChoice& a, const TechniqueChoice& b) {
     return a.technique == b.technique && a.settings == b.settings;
 }
 
+/// Bit by bit, so that a NaN equals itself.
 bool same_pixels(const measure::Picture& a, const measure::Picture& b) {
-    return std::ranges::equal(a.pixels, b.pixels, [](const vec3& x, const vec3& y) {
-        return std::memcmp(&x, &y, sizeof x) == 0; // NaN too
-    });
+    return std::ranges::equal(std::as_bytes(std::span(a.pixels)),
+                              std::as_bytes(std::span(b.pixels)));
 }
 
 /// Measures rows in rounds, one by one or together in each frame, and judges each against the

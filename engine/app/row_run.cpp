@@ -11,8 +11,8 @@ namespace {
 /// Since the program began, about.
 double elapsed_seconds() {
     using Clock = std::chrono::steady_clock;
-    static const Clock::time_point start = Clock::now();
-    return std::chrono::duration<double>(Clock::now() - start).count();
+    static const Clock::time_point kStart = Clock::now();
+    return std::chrono::duration<double>(Clock::now() - kStart).count();
 }
 
 } // namespace
