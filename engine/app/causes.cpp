@@ -40,11 +40,11 @@ std::uint32_t mended_by(std::uint32_t coalition) {
     return mended;
 }
 
-/// A sequence of frames that pictures are taken beside.
-struct Sequence {
+/// The frames that pictures are taken beside: they have what these have left.
+struct History {
     std::string technique;
     bool is_settled = false; ///< history of this very instant: nothing is a frame late
-    auto operator<=>(const Sequence&) const = default;
+    auto operator<=>(const History&) const = default;
 };
 
 /// The technique with distances stored as 32-bit floats.
@@ -68,20 +68,20 @@ constexpr int kSettled = 16; // frames; deeper bounces are below a rounding of t
 
 /// The row's own frames, or those that are settled at its last picture's instant; the same where
 /// that is no difference.
-Sequence sequence_of(const Request& base, const std::string& technique, bool is_settled) {
+History history_of(const Request& base, const std::string& technique, bool is_settled) {
     const bool may_lag = base.animate || base.total() <= kSettled;
     return {technique, is_settled || !may_lag};
 }
 
-Request request_for(const Request& base, const Sequence& sequence) {
+Request request_for(const Request& base, const History& history) {
     Request request = base;
-    if (!base.animate || sequence.is_settled) {
+    if (!base.animate || history.is_settled) {
         request.time = base.instant(base.total());
         request.animate = false;
     }
     request.frames = 1;
-    request.warmup = sequence.is_settled ? kSettled : base.total() - 1;
-    request.techniques = {sequence.technique};
+    request.warmup = history.is_settled ? kSettled : base.total() - 1;
+    request.techniques = {history.technique};
     return request;
 }
 
@@ -101,24 +101,24 @@ Values only_where(const std::vector<bool>& chosen, bool told, Values values) {
 }
 
 /// That pictures of a row are taken beside; some may be the same.
-struct Sequences {
-    Sequence row, row_settled;
-    Sequence stored, settled; ///< with distances stored as 32-bit floats
+struct Histories {
+    History row, row_settled;
+    History stored, settled; ///< with distances stored as 32-bit floats
 };
 
-Sequences sequences_of(const Request& base, const std::string& technique) {
+Histories histories_of(const Request& base, const std::string& technique) {
     const std::string full = with_full_distance(technique);
-    return {sequence_of(base, technique, false), sequence_of(base, technique, true),
-            sequence_of(base, full, false), sequence_of(base, full, true)};
+    return {history_of(base, technique, false), history_of(base, technique, true),
+            history_of(base, full, false), history_of(base, full, true)};
 }
 
 /// Coalitions whose picture is wanted beside each.
-std::map<Sequence, std::vector<std::uint32_t>> wanted_of(const Sequences& sequences) {
-    std::map<Sequence, std::vector<std::uint32_t>> wanted;
-    for (const Sequence& sequence : {sequences.row, sequences.row_settled, sequences.stored})
-        wanted[sequence] = {0};
-    for (std::size_t i = 0; i < kPlayerCount; ++i) wanted[sequences.row].push_back(1U << i);
-    std::vector<std::uint32_t>& all = wanted[sequences.settled];
+std::map<History, std::vector<std::uint32_t>> wanted_of(const Histories& histories) {
+    std::map<History, std::vector<std::uint32_t>> wanted;
+    for (const History& history : {histories.row, histories.row_settled, histories.stored})
+        wanted[history] = {0};
+    for (std::size_t i = 0; i < kPlayerCount; ++i) wanted[histories.row].push_back(1U << i);
+    std::vector<std::uint32_t>& all = wanted[histories.settled];
     all.resize(kEveryPlayer + 1);
     std::iota(all.begin(), all.end(), 0U);
     return wanted;
@@ -127,25 +127,25 @@ std::map<Sequence, std::vector<std::uint32_t>> wanted_of(const Sequences& sequen
 /// Squared errors of the mirrors' pixels.
 struct Errors {
     measure::Shapley shapley; ///< of `settled`
-    std::map<std::pair<Sequence, std::uint32_t>, Values>
+    std::map<std::pair<History, std::uint32_t>, Values>
         kept;          ///< of coalitions that are looked at by themselves
     measure::Mask off; ///< of the row's own picture
 };
 
-std::vector<measure::PixelCause> parts_of(const Sequences& sequences, const Errors& errors,
+std::vector<measure::PixelCause> parts_of(const Histories& histories, const Errors& errors,
                                           const std::vector<bool>& disagree) {
-    const auto of = [&](const Sequence& sequence, std::uint32_t coalition = 0) -> const Values& {
-        return errors.kept.at({sequence, coalition});
+    const auto of = [&](const History& history, std::uint32_t coalition = 0) -> const Values& {
+        return errors.kept.at({history, coalition});
     };
-    const Values &row = of(sequences.row), &left = of(sequences.settled, kEveryPlayer),
-                 format = minus(row, of(sequences.stored));
+    const Values &row = of(histories.row), &left = of(histories.settled, kEveryPlayer),
+                 format = minus(row, of(histories.stored));
     std::vector<measure::PixelCause> parts{{"storage format", format, format},
                                            {"last frame",
-                                            minus(of(sequences.stored), of(sequences.settled)),
-                                            minus(row, of(sequences.row_settled))}};
+                                            minus(of(histories.stored), of(histories.settled)),
+                                            minus(row, of(histories.row_settled))}};
     for (std::size_t i = 0; i < kPlayerCount; ++i)
         parts.push_back({kPlayers[i].name, minus(Values(row.size()), errors.shapley.worth(i)),
-                         minus(row, of(sequences.row, 1U << i))});
+                         minus(row, of(histories.row, 1U << i))});
     parts.push_back(
         {"silhouettes", only_where(disagree, true, left), only_where(disagree, true, row)});
     parts.push_back({"rest", only_where(disagree, false, left), {}});
@@ -189,9 +189,9 @@ CauseFinder::CauseFinder(Session& session, const Request& base, const measure::P
 }
 
 report::Causes CauseFinder::find(const std::string& technique) const {
-    const Sequences sequences = sequences_of(base_, technique);
+    const Histories histories = histories_of(base_, technique);
     Errors found{measure::Shapley(kPlayerCount, pixels_.size()), {}, measure::Mask(hits_.size())};
-    for (const auto& [sequence, coalitions] : wanted_of(sequences)) {
+    for (const auto& [history, coalitions] : wanted_of(histories)) {
         std::vector<std::uint32_t> mended;
         std::ranges::transform(coalitions, std::back_inserter(mended), mended_by);
         const auto judge = [&](std::size_t entry, const measure::Picture& picture) {
@@ -200,17 +200,17 @@ report::Causes CauseFinder::find(const std::string& technique) const {
             for (const std::size_t place : pixels_) {
                 const vec3 &shown = picture.pixels[place], &truth = truth_.pixels[place];
                 errors.push_back(measure::squared_error(shown, truth));
-                if (sequence == sequences.row && coalition == 0)
+                if (history == histories.row && coalition == 0)
                     found.off[place] = measure::is_off(shown, truth);
             }
-            if (sequence == sequences.settled) found.shapley.add(coalition, errors);
+            if (history == histories.settled) found.shapley.add(coalition, errors);
             if (std::popcount(coalition) <= 1 || coalition == kEveryPlayer)
-                found.kept[{sequence, coalition}] = std::move(errors);
+                found.kept[{history, coalition}] = std::move(errors);
         };
-        last_pictures(session_, request_for(base_, sequence), mended, judge, watcher_);
+        last_pictures(session_, request_for(base_, history), mended, judge, watcher_);
     }
-    return measure::sum_up(hits_, found.off, found.kept.at({sequences.row, 0}),
-                           parts_of(sequences, found, disagree_));
+    return measure::sum_up(hits_, found.off, found.kept.at({histories.row, 0}),
+                           parts_of(histories, found, disagree_));
 }
 
 } // namespace catoptric::app

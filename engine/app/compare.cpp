@@ -48,6 +48,7 @@ public:
             reflect::assign(read_plan(text), mirror_names(request_.base.scene));
         check_has_mirror(request_.base.scene);
         check_rounds(request_.rounds);
+        if (request_.causes) check_explains(request_.reference);
         mirrors_ = scene::mirrors(request_.base.scene).size();
         comparison_.views = drawn_views(request_.base, request_.views);
     }
@@ -224,7 +225,6 @@ private:
     }
 
     void add_causes() {
-        if (!same(parse_technique(request_.reference), parse_technique(kReference))) return;
         for (std::size_t i = 0; i < comparison_.rows.size(); ++i) {
             report::Row& row = comparison_.rows[i];
             const std::string& text = request_.base.techniques[i];
@@ -269,38 +269,6 @@ private:
 };
 
 } // namespace
-
-std::vector<std::string> default_techniques() {
-    std::vector<std::string> rows;
-    for (const reflect::Technique* technique : reflect::techniques())
-        rows.insert(rows.end(), technique->compared.begin(), technique->compared.end());
-    return rows;
-}
-
-void check_has_mirror(const scene::Scene& scene) {
-    check(!scene::mirrors(scene).empty(), Failure::bad_data, "scene '", scene.name,
-          "': wanted a mirror, whose reflections are what is compared, found none. To make one, "
-          "give its "
-          "material metallicFactor 1, roughnessFactor 0 and a white base colour in glTF, or illum "
-          "3 and "
-          "Ks 1 1 1 in an .mtl");
-}
-
-void check_rounds(int rounds) {
-    check(rounds >= static_cast<int>(measure::kFewest), Failure::usage, "rounds: wanted at least ",
-          measure::kFewest, ", fewer bound no median, found ", rounds);
-}
-
-void check_rows(const std::vector<std::string>& techniques) {
-    std::vector<reflect::Plan> plans;
-    for (const std::string& text : techniques) {
-        reflect::Plan plan = read_plan(text);
-        for (const reflect::Plan& other : plans)
-            check(!plan.same_as(other), Failure::usage, "technique '", text,
-                  "' is asked for twice");
-        plans.push_back(std::move(plan));
-    }
-}
 
 report::Comparison compare(Engine& engine, const CompareRequest& request) {
     return Comparer(engine, request).run();

@@ -33,6 +33,9 @@ void check_has_mirror(const scene::Scene& scene);
 
 /// Throws `usage` for fewer than bound a median.
 void check_rounds(int rounds);
+/// Throws `usage` for a reference other than the default one, by its settings: what is mended is
+/// its own.
+void check_explains(const std::string& reference);
 /// Throws `usage` for rows that are unknown or, with the same settings, asked for twice.
 void check_rows(const std::vector<std::string>& techniques);
 

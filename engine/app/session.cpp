@@ -1,11 +1,8 @@
-#include "app/session.hpp"
+#include "app/session_impl.hpp"
 
-#include "app/engine_impl.hpp"
-#include "app/frame_graph.hpp"
 #include "app/plan_file.hpp"
 #include "core/error.hpp"
 #include "graph/dump.hpp"
-#include "render/captured.hpp"
 
 #include <chrono>
 #include <utility>
@@ -20,25 +17,8 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// What the device's copy of a scene was made for.
-struct Standing {
-    double time = 0;
-    scene::Camera camera;
-    uvec2 size{0, 0};
-    double ambient = 0;
-    bool operator==(const Standing&) const = default;
-};
-
 Standing standing_of(const FrameSpec& spec) {
     return {spec.time, spec.camera, spec.size, spec.ambient};
-}
-
-FrameTimes to_times(const graph::FrameTimes& times) {
-    FrameTimes frame{{}, times.span_ms, times.record_ms, times.wall_ms, times.wait_ms, {}};
-    frame.host.compile = times.compile_ms, frame.host.record = times.record_ms;
-    for (const graph::PassTime& pass : times.passes)
-        frame.passes.push_back({pass.name, pass.begin_ms, pass.end_ms});
-    return frame;
 }
 
 bool same(const std::vector<reflect::Plan>& a, const std::vector<reflect::Plan>& b) {
@@ -52,35 +32,6 @@ void check_spec(const FrameSpec& spec) {
 
 } // namespace
 
-struct Session::Impl {
-    Impl(Engine::Impl& shared, scene::Scene at_rest, std::uint32_t in_flight)
-        : engine(shared), scene(std::move(at_rest)),
-          resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
-          runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {
-        mirrors = mirror_names(scene);
-    }
-
-    /// Writes what is wanted and the device does not have yet; milliseconds of work.
-    double stand(const Standing& wanted);
-    /// The techniques' texts read; only once for as long as they stay.
-    const std::vector<reflect::Plan>& plans_of(const std::vector<std::string>& techniques);
-
-    Engine::Impl& engine;
-    scene::Scene scene;
-    std::unique_ptr<render::GpuScene> resident;
-    graph::Runner runner;
-    std::vector<std::string> mirrors; ///< their names
-    std::optional<Standing> standing;
-    std::vector<std::string> texts;
-    std::vector<reflect::Plan> plans;      ///< of `texts`
-    std::vector<reflect::Plan> remembered; ///< whose history the runner has
-    std::optional<graph::Ticket> last;     ///< of the frame that was submitted last
-    std::vector<std::uint64_t> read_by; ///< by copy of what is written: the last frame to read it
-    std::size_t copy = 0;               ///< that frames read now
-    std::uint64_t units = 0;            ///< times that the scene's units on the device changed
-    Counts counts;
-};
-
 struct Sequence::Impl {
     graph::Leavings leavings;
     std::vector<reflect::Plan> remembered;
@@ -93,25 +44,6 @@ Sequence::Sequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Sequence::Sequence(Sequence&&) noexcept = default;
 Sequence& Sequence::operator=(Sequence&&) noexcept = default;
 Sequence::~Sequence() = default;
-
-struct Frame::Impl {
-    std::shared_ptr<Session::Impl> session;
-    graph::Ticket ticket;
-    FrameSpec spec;
-    FrameGraph frame;
-    double update_ms = 0, declare_ms = 0, hierarchy_ms = 0;
-    mutable std::optional<FrameTimes> times; ///< once it was waited for
-
-    graph::Runner& runner() const { return session->runner; }
-    const Declared& part(std::size_t index) const { return frame.parts.at(index); }
-    const graph::Plan& plan() const { return runner().compiled(frame.graph); }
-    /// What outlives a frame is another's after the next.
-    void check_last() const {
-        check(session->last && session->last->frame == ticket.frame, Failure::internal, "frame ",
-              ticket.frame, " is read after frame ", session->last ? session->last->frame : 0,
-              " was rendered over it");
-    }
-};
 
 double Session::Impl::stand(const Standing& wanted) {
     if (standing == wanted && resident->knows_face_needs()) return 0;
@@ -272,64 +204,6 @@ FrameTimes Session::clear_cubes() {
     ++impl_->counts.frames;
     impl_->last = impl_->runner.submit(graph, graph::Timing::isolated);
     return to_times(impl_->runner.wait(*impl_->last));
-}
-
-const FrameTimes& Frame::times() const {
-    if (!impl_->times) {
-        impl_->times = to_times(impl_->runner().wait(impl_->ticket));
-        impl_->times->host.update = impl_->update_ms;
-        impl_->times->host.hierarchy = impl_->hierarchy_ms;
-        impl_->times->host.compile += impl_->declare_ms;
-    }
-    return *impl_->times;
-}
-
-std::size_t Frame::size() const { return impl_->frame.parts.size(); }
-
-bool Frame::remembers(std::size_t part) const {
-    return reads_previous(impl_->frame, impl_->plan(), impl_->part(part).prefix);
-}
-
-measure::Picture Frame::hdr(std::size_t part) const {
-    return read_hdr(impl_->runner(), impl_->ticket, impl_->part(part), impl_->spec.size);
-}
-
-Part Frame::read(std::size_t part) const {
-    if (impl_->spec.with_lookup) impl_->check_last();
-    return read_part(impl_->runner(), impl_->ticket, impl_->frame, part, impl_->session->mirrors,
-                     *impl_->session->resident, impl_->spec);
-}
-
-std::vector<Part> Frame::read_all() const {
-    std::vector<Part> parts;
-    for (std::size_t i = 0; i < size(); ++i) parts.push_back(read(i));
-    return parts;
-}
-
-render::Captured Frame::captures(std::size_t part) const {
-    const std::shared_ptr<const render::Captures>& captures = impl_->part(part).outputs.captures;
-    check(
-        impl_->spec.with_captures && captures && captures->arrays.size() == 1 &&
-            captures->arrays.front().distance,
-        Failure::internal, "'", impl_->part(part).plan.label,
-        "': wanted captures with distances in one array that the frame was asked for, found none");
-    impl_->check_last();
-    graph::Runner& runner = impl_->runner();
-    const render::Cubes& cubes = captures->arrays.front();
-    return {cubes.face, runner.read(impl_->ticket, cubes.colour),
-            runner.read(impl_->ticket, *cubes.distance), impl_->session->resident->space()};
-}
-
-std::vector<std::byte> Frame::state() const {
-    impl_->check_last();
-    graph::Runner& runner = impl_->runner();
-    std::vector<std::byte> bytes = runner.read_history();
-    if (bytes.empty()) return bytes;
-    for (const Declared& part : impl_->frame.parts) {
-        const std::vector<std::byte> picture = runner.read(impl_->ticket, part.outputs.hdr);
-        bytes.insert(bytes.end(), picture.begin(), picture.end());
-    }
-    return bytes;
 }
 
 } // namespace catoptric::app

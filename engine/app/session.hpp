@@ -69,7 +69,9 @@ struct FrameTimes {
     /// The host stood still for the device: for a place among the frames in flight, and until this
     /// one had ended. No work, and added to nothing.
     double wait_ms = 0;
-    double cpu_ms = 0; ///< of all the process's threads, while the frame was made and waited for
+    /// Of all the process's threads, while the frame was made and waited for; 0 where nobody
+    /// measured it (Frames does).
+    double cpu_ms = 0;
     HostTimes host;
     double passes_ms() const {
         double sum = 0;

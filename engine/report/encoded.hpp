@@ -8,8 +8,7 @@
 
 namespace catoptric::report {
 
-/// The pictures of a comparison as PNG, each encoded once however often the page is
-/// written.
+/// The pictures of a comparison as PNG, each encoded once however often the page is written.
 struct EncodedPictures {
     struct OfRow {
         int pictured = -1;   ///< Row::pictured of the row that it was encoded from

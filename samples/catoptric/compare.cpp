@@ -65,9 +65,7 @@ app::CompareRequest make_compare_request(const Options& options) {
     request.reference = options.common.reference;
     request.together = options.together;
     request.rounds = options.rounds;
-    check(!options.causes || options.common.reference == app::kReference, Failure::usage,
-          "--causes: wanted the default reference, ", app::kReference,
-          ", whose rays tell causes apart, found '", options.common.reference, "'");
+    if (options.causes) app::check_explains(options.common.reference);
     request.causes = options.causes;
     request.lag = options.lag;
     request.views = options.views;

@@ -1,0 +1,51 @@
+// What may be asked of a comparison.
+#include "app/compare.hpp"
+#include "app/plan_file.hpp"
+#include "core/error.hpp"
+#include "measure/interval.hpp"
+#include "reflect/technique.hpp"
+
+#include <utility>
+
+namespace catoptric::app {
+
+std::vector<std::string> default_techniques() {
+    std::vector<std::string> rows;
+    for (const reflect::Technique* technique : reflect::techniques())
+        rows.insert(rows.end(), technique->compared.begin(), technique->compared.end());
+    return rows;
+}
+
+void check_has_mirror(const scene::Scene& scene) {
+    check(!scene::mirrors(scene).empty(), Failure::bad_data, "scene '", scene.name,
+          "': wanted a mirror, whose reflections are what is compared, found none. To make one, "
+          "give its "
+          "material metallicFactor 1, roughnessFactor 0 and a white base colour in glTF, or illum "
+          "3 and "
+          "Ks 1 1 1 in an .mtl");
+}
+
+void check_rounds(int rounds) {
+    check(rounds >= static_cast<int>(measure::kFewest), Failure::usage, "rounds: wanted at least ",
+          measure::kFewest, ", fewer bound no median, found ", rounds);
+}
+
+void check_rows(const std::vector<std::string>& techniques) {
+    std::vector<reflect::Plan> plans;
+    for (const std::string& text : techniques) {
+        reflect::Plan plan = read_plan(text);
+        for (const reflect::Plan& other : plans)
+            check(!plan.same_as(other), Failure::usage, "technique '", text,
+                  "' is asked for twice");
+        plans.push_back(std::move(plan));
+    }
+}
+
+void check_explains(const std::string& reference) {
+    const TechniqueChoice found = parse_technique(reference), wanted = parse_technique(kReference);
+    check(found.technique == wanted.technique && found.settings == wanted.settings, Failure::usage,
+          "--causes: wanted the default reference, ", kReference,
+          ", whose rays tell causes apart, found '", reference, "'");
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "app/engine_impl.hpp"
+#include "app/frame_graph.hpp"
+#include "app/plan_file.hpp"
+#include "app/session.hpp"
+#include "core/error.hpp"
+#include "graph/run.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+// What a session is made of, for session.cpp and frame.cpp alone.
+namespace catoptric::app {
+
+/// What the device's copy of a scene was made for.
+struct Standing {
+    double time = 0;
+    scene::Camera camera;
+    uvec2 size{0, 0};
+    double ambient = 0;
+    bool operator==(const Standing&) const = default;
+};
+
+struct Session::Impl {
+    Impl(Engine::Impl& shared, scene::Scene at_rest, std::uint32_t in_flight)
+        : engine(shared), scene(std::move(at_rest)),
+          resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
+          runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {
+        mirrors = mirror_names(scene);
+    }
+
+    /// Writes what is wanted and the device does not have yet; milliseconds of work.
+    double stand(const Standing& wanted);
+    /// The techniques' texts read; only once for as long as they stay.
+    const std::vector<reflect::Plan>& plans_of(const std::vector<std::string>& techniques);
+
+    Engine::Impl& engine;
+    scene::Scene scene;
+    std::unique_ptr<render::GpuScene> resident;
+    graph::Runner runner;
+    std::vector<std::string> mirrors; ///< their names
+    std::optional<Standing> standing;
+    std::vector<std::string> texts;
+    std::vector<reflect::Plan> plans;      ///< of `texts`
+    std::vector<reflect::Plan> remembered; ///< whose history the runner has
+    std::optional<graph::Ticket> last;     ///< of the frame that was submitted last
+    std::vector<std::uint64_t> read_by; ///< by copy of what is written: the last frame to read it
+    std::size_t copy = 0;               ///< that frames read now
+    std::uint64_t units = 0;            ///< times that the scene's units on the device changed
+    Counts counts;
+};
+
+struct Frame::Impl {
+    std::shared_ptr<Session::Impl> session;
+    graph::Ticket ticket;
+    FrameSpec spec;
+    FrameGraph frame;
+    double update_ms = 0, declare_ms = 0, hierarchy_ms = 0;
+    mutable std::optional<FrameTimes> times; ///< once it was waited for
+
+    graph::Runner& runner() const { return session->runner; }
+    const Declared& part(std::size_t index) const { return frame.parts.at(index); }
+    const graph::Plan& plan() const { return runner().compiled(frame.graph); }
+    /// What outlives a frame is another's after the next.
+    void check_last() const {
+        check(session->last && session->last->frame == ticket.frame, Failure::internal, "frame ",
+              ticket.frame, " is read after frame ", session->last ? session->last->frame : 0,
+              " was rendered over it");
+    }
+};
+
+/// The runner's times with the names that callers know.
+FrameTimes to_times(const graph::FrameTimes& times);
+
+} // namespace catoptric::app
