@@ -231,7 +231,7 @@ private:
             const bool is_plan = !read_plan(text).is_technique; // no one search is to blame
             if (!row.lookup || is_plan) continue;
             request_.watcher.row("causes of " + text, i, comparison_.rows.size());
-            row.causes = judge_.causes_of(row, text);
+            row.causes = judge_.causes_of(text);
             tell();
         }
     }

@@ -70,12 +70,10 @@ std::vector<std::string> RowJudge::judge(report::Row& row, const std::string& te
     return warnings;
 }
 
-report::Causes RowJudge::causes_of(const report::Row& row, const std::string& text) {
+report::Causes RowJudge::causes_of(const std::string& text) {
     if (!finder_)
         finder_.emplace(session_, base_, truths_.at("1").part.hdr, truths_.hits(), watcher_);
-    report::Causes causes = finder_->find(text);
-    causes.at_light_edges = row.light_edges->share;
-    return causes;
+    return finder_->find(text);
 }
 
 } // namespace catoptric::app

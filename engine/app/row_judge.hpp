@@ -23,8 +23,8 @@ public:
     /// that says where mirrors looked, and nine rays a mirror pixel.
     std::vector<std::string> judge(report::Row& row, const std::string& text, const Part& part,
                                    int number);
-    /// Splits the error of a row that was judged, and that looks into captures, by cause.
-    report::Causes causes_of(const report::Row& row, const std::string& text);
+    /// Splits the error of a technique that looks into captures by cause.
+    report::Causes causes_of(const std::string& text);
 
 private:
     Request still(int number) const;

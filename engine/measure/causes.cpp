@@ -57,7 +57,9 @@ const Registered kAtLightEdges{
      .help = "share of the squared error in pixels that looked within a texel of a light's outline",
      .mask = kMirrors,
      .order = 273,
-     .get = figure<&Causes::at_light_edges>}};
+     .get = [](const Row& row) -> Value {
+         return row.causes && row.light_edges ? row.light_edges->share : NAN;
+     }}};
 const Registered kList{{.name = "causes/list",
                         .help = "each cause's share of the squared error (Shapley for five of "
                                 "them), 1 in sum over all, and what goes when it is mended alone",

@@ -35,8 +35,6 @@ struct Causes {
     std::vector<double> squared_error_per_mirror; ///< mean over each mirror's own pixels
     std::vector<Cause> list;
     double rest_rmse = 0; ///< when all is mended: near 0 where no cause is missing
-    /// Share of the squared error in pixels that looked within a texel of a light's outline, 0..1.
-    double at_light_edges = 0;
     /// Row-major: 1 + index in `list` of the cause with the largest part of the pixel's squared
     /// error; 0: no mirror, or the pixel is not off (kOff).
     std::vector<std::uint8_t> largest;
@@ -55,7 +53,7 @@ std::vector<std::size_t> mirror_pixels(std::span<const std::uint32_t> hits);
 /// Sums what is known of each of `mirror_pixels(hits)`: the row's squared error `whole`, which the
 /// parts of `causes` add up to, the last of them being what nothing explains. Pixels that are not
 /// finite in one of them are left out, as in `difference`. `off`, of the whole picture, says which
-/// to name in `largest`. Leaves `at_light_edges` alone.
+/// to name in `largest`.
 Causes sum_up(std::span<const std::uint32_t> hits, const Mask& off, std::span<const double> whole,
               const std::vector<PixelCause>& causes);
 

@@ -16,8 +16,6 @@ struct Interval {
     double high = std::numeric_limits<double>::quiet_NaN();
 
     bool is_known() const { return !std::isnan(low) && !std::isnan(high); }
-    /// Known, and `value` is not in it.
-    bool excludes(double value) const { return is_known() && (value < low || value > high); }
 };
 
 /// Of the median that the values are drawn around, with at least 95 % confidence if they are

@@ -106,7 +106,8 @@ Table cause_table(const Comparison& comparison) {
         for (const Line& line : kLines) {
             std::vector<std::string> cells = cells_of(line, *row.causes);
             cells.insert(cells.begin(), &line == kLines ? row.label : std::string());
-            if (&line == kLines) cells.back() = percent(row.causes->at_light_edges);
+            if (&line == kLines)
+                cells.back() = percent(row.light_edges ? row.light_edges->share : NAN);
             table.rows.push_back(std::move(cells));
         }
     }

@@ -20,6 +20,10 @@ std::vector<double> one_to(std::size_t n) {
     return values;
 }
 
+bool holds(const Interval& interval, double value) {
+    return interval.low <= value && value <= interval.high;
+}
+
 /// Ranks as tables of the sign test have them (Dixon and Mood 1946; two-sided 5 %).
 TEST(MedianInterval, EndsAtTheRanksOfTheSignTest) {
     const std::pair<std::size_t, double> ranks[] = {
@@ -36,7 +40,6 @@ TEST(MedianInterval, IsUnknownForFewerThanSixAndForWhatIsNoNumber) {
     std::vector<double> values = one_to(6);
     values[3] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(median_interval(values).is_known());
-    EXPECT_FALSE(Interval{}.excludes(1)) << "what is not known excludes nothing";
 }
 
 /// It holds the true median in 95 of 100 cases and more, however skewed what is drawn.
@@ -48,7 +51,7 @@ TEST(MedianInterval, HoldsTheMedianAsOftenAsItSays) {
         for (int k = 0; k < 4000; ++k) {
             std::vector<double> values(n);
             for (double& v : values) v = value(random);
-            held += !median_interval(values).excludes(1);
+            held += holds(median_interval(values), 1);
         }
         EXPECT_GE(held, 3800) << n;
         EXPECT_LT(held, 3960) << n << ": as wide as that it tells nobody apart";
@@ -61,7 +64,6 @@ TEST(MedianInterval, OfPairsIsOfWhatTheySayTogether) {
     const Interval ratio = ratio_interval(b, a);
     EXPECT_NEAR(ratio.low, 1.05, 1e-12);
     EXPECT_NEAR(ratio.high, 1.05, 1e-12);
-    EXPECT_TRUE(ratio.excludes(1));
     const Interval difference = difference_interval(b, a);
     EXPECT_NEAR(difference.low, .05, 1e-12);
     EXPECT_NEAR(difference.high, 1.5, 1e-12);

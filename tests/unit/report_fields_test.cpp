@@ -152,7 +152,9 @@ private:
     void fill_causes(Causes& causes) {
         set(causes.squared_error, "/causes/squared_error", "causes_squared_error");
         set(causes.rest_rmse, "/causes/rest_rmse", "causes_rest_rmse");
-        set(causes.at_light_edges, "/causes/at_light_edges", "causes_at_light_edges");
+        // The share that stands among the row's own figures, too.
+        fields.push_back(
+            {"/causes/at_light_edges", "causes_at_light_edges", row.light_edges.value().share});
         set(causes.squared_error_per_mirror.emplace_back(), "/causes/squared_error_per_mirror/0",
             "causes_squared_error_per_mirror#0");
         causes.list.resize(2);

@@ -95,7 +95,6 @@ Causes some_causes() {
                                .share_mirror_in_mirror = share * 3 / 4,
                                .alone = colour.cause == "rest" ? NAN : .125});
     }
-    causes.at_light_edges = .5;
     causes.largest = {0, 1, 9, 3, 0, 0, 0, 0, 0, 0, 0, 0};
     return causes;
 }
@@ -103,6 +102,7 @@ Causes some_causes() {
 TEST(CauseTable, SaysSharesSumsAndBounds) {
     report::Row row = report::sample::row("parallax", 6, .5, .1);
     row.causes = some_causes();
+    row.light_edges.emplace().share = .5;
     const report::Table table = report::cause_table(
         report::sample::comparison({report::sample::row("raytrace", 6, 0, 0), row}));
     using Cells = std::vector<std::string>;
