@@ -40,7 +40,7 @@ Oracle::Oracle(const Request& request) {
     geometry_ = render::make_geometry(now, space);
     mirror_objects_ = scene::mirrors(now);
     for (const scene::Object& object : now.objects)
-        emits_.push_back(now.materials[object.material].emission != vec3(0));
+        emits_.push_back(scene::glows(now.materials[object.material]));
     everything_ = hierarchy_without(geometry_, geometry_.ranges.size());
     for (const std::size_t object : mirror_objects_) {
         centres_.push_back(space.point(scene::bounds(now, now.objects[object]).centre()));

@@ -38,7 +38,8 @@ std::string name_of(const Constants& constants) {
 }
 
 std::string name_of(const RasterState& state, const Attachments& attachments) {
-    std::string name = state.vertex + "+" + state.fragment + name_of(state.constants);
+    std::string name = state.vertex + "+" + state.fragment + name_of(state.constants) +
+                       name_of(state.features);
     for (Format format : attachments.colour) name += "/" + std::string(catoptric::name_of(format));
     if (attachments.depth) name += "/depth";
     if (state.hidden != Winding::none)
@@ -53,10 +54,16 @@ bool before(const Constants& a, const Constants& b) {
     });
 }
 
+template <typename State>
+bool constants_before(const State& a, const State& b) {
+    if (before(a.constants, b.constants)) return true;
+    return !before(b.constants, a.constants) && before(a.features, b.features);
+}
+
 /// One stage: its module and its specialisation, which must outlive the create call.
 struct Stage {
     Stage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
-          const Constants& constants)
+          const Constants& constants, const Constants& features)
         : bit(stage) {
         const EmbeddedShader& shader = find_shader(name);
         reflection = reflect(name, shader.words);
@@ -69,12 +76,14 @@ struct Stage {
         check_vk(vkCreateShaderModule(device.handle(), &create, nullptr, &handle),
                  "load shader '" + name + "'");
         module = {device.handle(), handle};
-        for (const auto& [constant, value] : constants) {
-            const auto found = std::ranges::find(reflection.constants, constant, &Constant::name);
-            if (found == reflection.constants.end()) continue;
-            entries.push_back({found->id, static_cast<std::uint32_t>(values.size() * 4), 4});
-            values.push_back(bits_of(value));
-        }
+        for (const Constants* list : {&constants, &features})
+            for (const auto& [constant, value] : *list) add(constant, bits_of(value));
+    }
+    void add(const std::string& constant, std::uint32_t bits) {
+        const auto found = std::ranges::find(reflection.constants, constant, &Constant::name);
+        if (found == reflection.constants.end()) return;
+        entries.push_back({found->id, static_cast<std::uint32_t>(values.size() * 4), 4});
+        values.push_back(bits);
     }
     VkPipelineShaderStageCreateInfo info() {
         specialisation = {static_cast<std::uint32_t>(entries.size()), entries.data(),
@@ -243,11 +252,11 @@ bool Pipelines::Before::operator()(const RasterView& a, const RasterView& b) con
                         state.vertex);
     };
     const auto order = first(a) <=> first(b);
-    return order != 0 ? order < 0 : before(a.first.constants, b.first.constants);
+    return order != 0 ? order < 0 : constants_before(a.first, b.first);
 }
 
 bool Pipelines::Before::operator()(const ComputeState& a, const ComputeState& b) const {
-    return a.shader != b.shader ? a.shader < b.shader : before(a.constants, b.constants);
+    return a.shader != b.shader ? a.shader < b.shader : constants_before(a, b);
 }
 
 const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& attachments) {
@@ -259,10 +268,10 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
     Pipeline pipeline;
     std::vector<Stage> stages;
     stages.emplace_back(device_, variant_of(state.vertex), VK_SHADER_STAGE_VERTEX_BIT,
-                        state.constants);
+                        state.constants, state.features);
     if (!state.fragment.empty())
         stages.emplace_back(device_, variant_of(state.fragment), VK_SHADER_STAGE_FRAGMENT_BIT,
-                            state.constants);
+                            state.constants, state.features);
     lay_out(device_, name, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
     for (Stage& stage : stages) infos.push_back(stage.info());
@@ -277,10 +286,11 @@ const Pipeline& Pipelines::compute(const ComputeState& state) {
     if (const auto found = computes_.find(state); found != computes_.end()) return found->second;
 
     const Stopwatch watch(ms_);
-    const std::string name = state.shader + name_of(state.constants);
+    const std::string name = state.shader + name_of(state.constants) + name_of(state.features);
     Pipeline pipeline;
     pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
-    Stage stage(device_, variant_of(state.shader), VK_SHADER_STAGE_COMPUTE_BIT, state.constants);
+    Stage stage(device_, variant_of(state.shader), VK_SHADER_STAGE_COMPUTE_BIT, state.constants,
+                state.features);
     lay_out(device_, name, {&stage, 1}, state.constants, pipeline);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage = stage.info();

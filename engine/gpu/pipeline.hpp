@@ -24,11 +24,13 @@ struct RasterState {
     std::string fragment; ///< empty: depth only
     Constants constants;
     Winding hidden = Winding::none; ///< triangles that run so are left out
+    Constants features = {};        ///< of the scene: a shader that has not got one does without
 };
 
 struct ComputeState {
     std::string shader;
     Constants constants;
+    Constants features = {}; ///< of the scene: a shader that has not got one does without
 };
 
 struct Attachments {

@@ -45,9 +45,9 @@ gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, 
             {{"max_depth", tracer.depth},
              {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
              {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
-             {"own_spaces", scene.has_own_spaces() ? 1u : 0u},
              {"without", tracer.without},
-             {"fixed_offset", scene.space().length(kReportOffset)}}};
+             {"fixed_offset", scene.space().length(kReportOffset)}},
+            scene.features()};
 }
 
 /// What the body of a tracing pass binds.

@@ -9,17 +9,13 @@ bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphe
            (!a || (a->centre == b->centre && a->radius == b->radius));
 }
 
-bool same(const scene::Material& a, const scene::Material& b) {
-    return a.albedo == b.albedo && a.emission == b.emission && a.mirror == b.mirror &&
-           a.reflectance == b.reflectance && a.two_sided == b.two_sided;
-}
-
-bool glows(const scene::Material& material) { return material.emission != vec3(0); }
+bool lights(const scene::Material& material) { return scene::light_of(material) != vec3(0); }
 
 /// Whether the object is drawn, traced and counted in the same way with either material.
 bool same_kind(const scene::Material& a, const scene::Material& b) {
-    return a.mirror == b.mirror && glows(a) == glows(b) &&
-           scene::is_one_sided(a) == scene::is_one_sided(b);
+    return a.mirror == b.mirror && lights(a) == lights(b) &&
+           scene::is_one_sided(a) == scene::is_one_sided(b) &&
+           scene::is_masked(a) == scene::is_masked(b);
 }
 
 } // namespace
@@ -33,17 +29,18 @@ Changes Seen::take_over(const scene::Scene& now, bool anew) {
         const scene::Material& material = now.materials[object.material];
         Object& seen = objects_[i];
         const bool moved = seen.world_from_object != object.world_from_object;
-        const bool repainted = !same(seen.material, material);
+        const bool repainted = seen.material != material;
         changes.layout = changes.layout || seen.mesh != object.mesh ||
                          seen.seen_by_camera != object.seen_by_camera ||
+                         seen.mirror != object.mirror ||
                          seen.sphere.has_value() != object.sphere.has_value() ||
                          !same_kind(seen.material, material);
         changes.lights = changes.lights ||
-                         ((moved || repainted) && (glows(seen.material) || glows(material)));
+                         ((moved || repainted) && (lights(seen.material) || lights(material)));
         changes.materials = changes.materials || repainted || !same(seen.sphere, object.sphere);
         if (moved) changes.moved.push_back(i);
-        seen = {object.mesh, material, object.world_from_object, object.sphere,
-                object.seen_by_camera};
+        seen = {object.mesh,           material,     object.world_from_object, object.sphere,
+                object.seen_by_camera, object.mirror};
     }
     changes.lights = changes.lights || changes.layout;
     return changes;

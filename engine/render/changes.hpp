@@ -28,7 +28,7 @@ private:
         scene::Material material;
         dmat4 world_from_object{1};
         std::optional<scene::Sphere> sphere;
-        bool seen_by_camera = true;
+        bool seen_by_camera = true, mirror = false;
     };
     std::vector<Object> objects_;
 };

@@ -92,11 +92,11 @@ DrawRange range_of(const scene::Scene& now, const scene::Object& object) {
     DrawRange range;
     range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
     range.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
-    range.mirror = material.mirror;
-    range.casts_shadow = material.emission == vec3(0);
+    range.mirror = scene::is_mirror(now, object);
+    range.casts_shadow = scene::light_of(material) == vec3(0);
     range.seen_by_camera = object.seen_by_camera;
     range.exact_sphere = object.sphere.has_value();
-    range.one_sided = scene::is_one_sided(material);
+    range.one_sided = !range.mirror && scene::is_one_sided(material);
     return range;
 }
 

@@ -31,7 +31,8 @@ shared::Surface surface_of(const scene::Object& object, const scene::Material& m
 
 bool same(const scene::Camera& a, const scene::Camera& b) {
     return a.eye == b.eye && a.target == b.target && a.up == b.up &&
-           a.vertical_fov_degrees == b.vertical_fov_degrees;
+           a.vertical_fov_degrees == b.vertical_fov_degrees &&
+           a.orthographic_height == b.orthographic_height;
 }
 
 /// By object.
@@ -121,8 +122,8 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
     std::uint32_t mirrors = 0;
     for (const scene::Object& object : now.objects) {
         const scene::Material& material = now.materials[object.material];
-        surfaces_.push_back(
-            surface_of(object, material, material.mirror ? ++mirrors : kNoMirror, space_));
+        surfaces_.push_back(surface_of(
+            object, material, scene::is_mirror(now, object) ? ++mirrors : kNoMirror, space_));
     }
     // The walk meets exact spheres in spaces of their own; the shaders' list has the others.
     std::vector<shared::Surface> listed = surfaces_;

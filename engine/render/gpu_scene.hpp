@@ -61,6 +61,8 @@ public:
     shared::Placement placement_of(std::size_t object, std::uint32_t first_view) const;
     /// Whether some object has (DrawRange::own).
     bool has_own_spaces() const { return has_own_spaces_; }
+    /// What shaders are to be built for; what the scene has not got costs nothing.
+    gpu::Constants features() const { return {{"own_spaces", has_own_spaces() ? 1u : 0u}}; }
 
     static constexpr std::uint32_t kCameraView = 0;
     std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }

@@ -22,7 +22,7 @@ Amounts amounts_of(const scene::Scene& scene) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
         const scene::Mesh& mesh = scene.meshes[object.mesh];
-        amounts.mirrors += scene.materials[object.material].mirror ? 1 : 0;
+        amounts.mirrors += scene::is_mirror(scene, object) ? 1 : 0;
         if (shared[i] && stored[object.mesh]) continue;
         if (shared[i]) stored[object.mesh] = true;
         amounts.vertices += mesh.positions.size();

@@ -69,8 +69,7 @@ Looks mended(Looks looks, const FrameInputs& inputs, const Lighting& lighting) {
         for (const auto& [name, value] : {std::pair{"picture_width", inputs.size.x},
                                           {"picture_height", inputs.size.y},
                                           {"max_depth", kReferenceDepth},
-                                          {"shadow", lighting.shadow_map ? 1u : 0u},
-                                          {"own_spaces", inputs.scene.has_own_spaces() ? 1u : 0u}})
+                                          {"shadow", lighting.shadow_map ? 1u : 0u}})
             look.constants.emplace_back(name, value);
     }
     return looks;

@@ -12,7 +12,7 @@ namespace {
 /// 64-bit FNV-1a. Lists and texts go in with their length, so that no two scenes run together.
 struct Hasher {
     std::uint64_t state = 14695981039346656037ull;
-    std::unordered_map<const Keys*, std::uint64_t> known;
+    std::unordered_map<const void*, std::uint64_t> known;
 
     void bytes(std::span<const std::byte> data) {
         for (const std::byte byte : data)
@@ -40,10 +40,29 @@ struct Hasher {
 
     void add(const Mesh& mesh) {
         add(mesh.name), add(mesh.positions), add(mesh.normals), add(mesh.triangles);
+        add(mesh.uv[0]), add(mesh.uv[1]), add(mesh.colours);
+    }
+    template <typename Thing>
+    void add(const std::optional<Thing>& thing) {
+        add(thing.has_value());
+        if (thing) add(*thing);
+    }
+    void add(const Image& image) { add(image.size), add(image.texels); }
+    void add(const Texture& texture) {
+        add(state_of(texture.image.get()));
+        add(static_cast<int>(texture.wrap_u)), add(static_cast<int>(texture.wrap_v));
+        add(texture.nearest), add(texture.srgb), add(texture.uv_set);
+        add(texture.u_row), add(texture.v_row);
     }
     void add(const Material& material) {
         add(material.name), add(material.albedo), add(material.emission);
         add(material.mirror), add(material.reflectance), add(material.two_sided);
+        add(material.front_only), add(material.unlit);
+        add(material.metallic), add(material.roughness);
+        add(material.dielectric_f0), add(material.dielectric_f90);
+        add(material.alpha), add(material.alpha_cutoff);
+        add(material.albedo_texture), add(material.emission_texture);
+        add(material.roughness_texture), add(material.light);
     }
     void add(const std::monostate&) {}
     void add(const Harmonic& motion) { add(motion.amplitude), add(motion.period); }
@@ -52,29 +71,40 @@ struct Hasher {
         add(keys.times), add(keys.values), add(keys.in_tangents), add(keys.out_tangents);
     }
     void add(const Keyframes& motion) {
-        add(motion.keys ? state_of(motion.keys.get()) : 0);
+        add(state_of(motion.keys.get()));
         for (int column = 0; column < 3; ++column) add(motion.world_from_keys[column]);
         add(motion.rest);
     }
-    /// A hash of their own: many objects may follow the same keys.
-    std::uint64_t state_of(const Keys* keys) {
-        const auto [entry, is_new] = known.try_emplace(keys, 0);
-        if (!is_new) return entry->second;
+    /// A hash of their own: many objects may follow the same keys, many materials show an image.
+    template <typename Shared>
+    std::uint64_t state_of(const Shared* shared) {
+        const auto [entry, is_new] = known.try_emplace(shared, 0);
+        if (!is_new || shared == nullptr) return entry->second;
         Hasher hasher;
-        hasher.add(*keys);
+        hasher.add(*shared);
         return entry->second = hasher.state;
     }
     void add(const Object& object) {
         add(object.name), add(std::uint64_t(object.mesh)), add(std::uint64_t(object.material));
         add(object.world_from_object), add(std::uint64_t(object.motion.index()));
         std::visit([this](const auto& motion) { add(motion); }, object.motion);
-        add(object.sphere.has_value());
-        if (object.sphere) add(object.sphere->centre), add(object.sphere->radius);
-        add(object.seen_by_camera);
+        add(object.sphere);
+        add(object.seen_by_camera), add(object.mirror);
+    }
+    void add(const Sphere& sphere) { add(sphere.centre), add(sphere.radius); }
+    void add(const Punctual& light) {
+        add(light.name), add(static_cast<int>(light.kind)), add(light.intensity), add(light.range);
+        add(light.cos_inner), add(light.cos_outer), add(light.world_from_light);
+        add(std::uint64_t(light.motion.index()));
+        std::visit([this](const auto& motion) { add(motion); }, light.motion);
+    }
+    void add(const Environment& environment) {
+        add(environment.studio), add(environment.size), add(environment.texels);
+        add(environment.scale), add(environment.rotation_degrees);
     }
     void add(const Camera& camera) {
         add(camera.name), add(camera.eye), add(camera.target), add(camera.up);
-        add(camera.vertical_fov_degrees);
+        add(camera.vertical_fov_degrees), add(camera.orthographic_height);
     }
 };
 
@@ -86,6 +116,10 @@ std::string hash(const Scene& scene) {
     hasher.add(scene.materials);
     hasher.add(scene.objects);
     hasher.add(scene.cameras);
+    hasher.add(scene.punctual);
+    hasher.add(hasher.state_of(scene.environment.get()));
+    hasher.add(scene.mirror_max_roughness);
+    hasher.add(scene.exposure);
     std::string digits(16, '0');
     for (std::size_t i = 0; i < digits.size(); ++i)
         digits[i] = "0123456789abcdef"[(hasher.state >> (60 - 4 * i)) & 15];

@@ -59,7 +59,7 @@ PointLight light_of(const Sums& sums, const Material& material) {
             .normal = material.two_sided || vanishes(sums) ? dvec3(0)
                                                            : glm::normalize(sums.normals),
             .area = sums.area,
-            .emission = material.emission};
+            .emission = scene::light_of(material)};
 }
 
 double area_of(const std::vector<dvec3>& world, const uvec3& t) {
@@ -101,20 +101,30 @@ std::vector<Sums> sums_of(const Mesh& mesh, const dmat4& world_from_object) {
     return sums;
 }
 
-} // namespace
-
-bool is_one_sided(const Material& material) {
-    return material.emission != vec3(0) && !material.mirror && !material.two_sided;
+PointLight light_of(const Punctual& punctual) {
+    PointLight light{.position = dvec3(punctual.world_from_light[3]),
+                     .area = 1,
+                     .emission = punctual.intensity,
+                     .range = punctual.range};
+    if (punctual.kind == Punctual::Kind::point) return light;
+    light.axis = -normalized_or_zero(dvec3(punctual.world_from_light[2]));
+    light.directional = punctual.kind == Punctual::Kind::directional;
+    if (light.directional) return light;
+    light.cos_inner = punctual.cos_inner, light.cos_outer = punctual.cos_outer;
+    return light;
 }
+
+} // namespace
 
 std::vector<PointLight> lights(const Scene& scene) {
     std::vector<PointLight> all;
     for (const Object& object : scene.objects) {
         const Material& material = scene.materials[object.material];
-        if (material.emission == vec3(0)) continue;
+        if (scene::light_of(material) == vec3(0)) continue;
         for (const Sums& sums : sums_of(scene.meshes[object.mesh], object.world_from_object))
             all.push_back(light_of(sums, material));
     }
+    for (const Punctual& punctual : scene.punctual) all.push_back(light_of(punctual));
     return all;
 }
 

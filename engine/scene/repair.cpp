@@ -123,7 +123,7 @@ void finish(Scene& scene, const std::string& file, Notes& notes) {
           ": wanted at least one triangle with an area, found none");
     scene.warnings = notes.lines(file);
     const bool is_lit = std::ranges::any_of(scene.objects, [&](const Object& object) {
-        return scene.materials[object.material].emission != vec3(0);
+        return light_of(scene.materials[object.material]) != vec3(0);
     });
     if (!is_lit) scene.warnings.push_back(file + ": no light: ambient only");
 }

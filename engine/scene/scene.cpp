@@ -7,15 +7,20 @@
 namespace catoptric::scene {
 
 bool is_animated(const Scene& scene) {
-    return std::ranges::any_of(scene.objects, [](const Object& object) {
-        return !std::holds_alternative<std::monostate>(object.motion);
-    });
+    const auto moves = [](const auto& thing) {
+        return !std::holds_alternative<std::monostate>(thing.motion);
+    };
+    return std::ranges::any_of(scene.objects, moves) || std::ranges::any_of(scene.punctual, moves);
+}
+
+bool is_mirror(const Scene& scene, const Object& object) {
+    return object.mirror || scene.materials[object.material].mirror;
 }
 
 std::vector<std::size_t> mirrors(const Scene& scene) {
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
-        if (scene.materials[scene.objects[i].material].mirror) indices.push_back(i);
+        if (is_mirror(scene, scene.objects[i])) indices.push_back(i);
     return indices;
 }
 

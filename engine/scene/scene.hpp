@@ -1,8 +1,13 @@
 #pragma once
 
 #include "core/math.hpp"
+#include "scene/environment.hpp"
+#include "scene/gap.hpp"
+#include "scene/material.hpp"
 
+#include <array>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,21 +24,10 @@ struct Mesh {
     std::vector<dvec3> positions;
     std::vector<vec3> normals; ///< one per position, unit length
     std::vector<uvec3> triangles;
+    /// Of texture spaces 0 and 1, v downwards: one per position, or none, which is (0, 0).
+    std::array<std::vector<vec2>, 2> uv;
+    std::vector<vec4> colours; ///< one per position, linear with alpha, or none, which is 1
 };
-
-/// Lambertian surface, light, or perfect mirror (contract: "Light and materials").
-struct Material {
-    std::string name;
-    vec3 albedo{0};   ///< kd in [0,1]
-    vec3 emission{0}; ///< radiance Ke; non-zero makes each connected mesh a light
-    bool mirror = false;
-    vec3 reflectance{1};    ///< of a mirror, in [0,1]
-    bool two_sided = false; ///< of a light: shines to both sides, without a cosine
-};
-
-/// Whether the surface is only there from its front, for eyes and rays that see: a light that
-/// shines to one side. Anything else has two sides, and all but a light casts its shadow from both.
-bool is_one_sided(const Material& material);
 
 /// translation(t) = amplitude * (1 - cos(2 pi t / period)), world units; 0 at t = 0.
 struct Harmonic {
@@ -73,6 +67,9 @@ struct Object {
     Motion motion;
     std::optional<Sphere> sphere; ///< set when the mesh stands for this sphere
     bool seen_by_camera = true;   ///< false: camera rays pass through, everything else meets it
+    /// Enough of its surface is sharp and reflects enough to be a mirror (see classify.hpp), though
+    /// its material is none at every angle. A smooth dielectric that is none reflects, too.
+    bool mirror = false;
 };
 
 /// Looks from `eye` to `target`; +x of the picture is cross(forward, up).
@@ -82,16 +79,33 @@ struct Camera {
     dvec3 target{0, 0, 1};
     dvec3 up{0, 1, 0};
     double vertical_fov_degrees = 45;
+    double orthographic_height = 0; ///< of the picture, world units; 0: in perspective
     bool operator==(const Camera&) const = default;
 };
 
-/// One light as the shading formula sees it: a point with a one-sided cosine.
-/// `normal` zero means no cosine at the light.
+/// A light without a surface, as KHR_lights_punctual has them, along -z of its node.
+struct Punctual {
+    enum class Kind { point, spot, directional };
+    std::string name;
+    Kind kind = Kind::point;
+    vec3 intensity{0}; ///< candela; of a directional light illuminance, lux
+    double range = std::numeric_limits<double>::infinity(); ///< world units: where it ends
+    double cos_inner = 1, cos_outer = 0;                    ///< of a spot's half angles
+    dmat4 world_from_light{1};
+    Motion motion;
+};
+
+/// One light as the shading formula sees it: a point, with a one-sided cosine where it is that of a
+/// lamp; or a direction.
 struct PointLight {
     dvec3 position{0}; ///< mean of the mesh's vertices
-    dvec3 normal{0};   ///< mean of the vertex normals, unit length or zero
-    double area = 0;   ///< world units squared
-    vec3 emission{0};  ///< radiance
+    dvec3 normal{0};   ///< mean of the vertex normals, unit length or zero: no cosine at the light
+    double area = 0;   ///< world units squared; 1 for a light without a surface
+    vec3 emission{0};  ///< radiance; intensity or illuminance of a light without a surface
+    dvec3 axis{0};     ///< where a spot or a directional light shines to, unit; zero: all around
+    double range = std::numeric_limits<double>::infinity();
+    double cos_inner = 1, cos_outer = -1; ///< of a spot
+    bool directional = false;             ///< from infinitely far, against `axis`
 };
 
 struct Scene {
@@ -100,6 +114,11 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Object> objects;
     std::vector<Camera> cameras;
+    std::vector<Punctual> punctual;
+    std::shared_ptr<const Environment> environment; ///< none: black
+    float mirror_max_roughness = .1f;               ///< what is no rougher is sharp
+    std::optional<double> exposure;                 ///< stops, where the file says
+    std::vector<Gap> gaps;
     std::vector<std::string> warnings; ///< what the loader left out or repaired, for the user
     /// Real paths of the files that it was loaded from, the scene's own first, also of those that
     /// it names without their being read. Nothing else may be written there.
@@ -118,10 +137,13 @@ bool is_animated(const Scene& scene);
 /// The longest period of all motions, seconds; 0 when nothing moves.
 double period(const Scene& scene);
 
+/// Whether the object is a mirror: numbered, captured, counted.
+bool is_mirror(const Scene& scene, const Object& object);
 /// Indices into Scene::objects of the mirrors, in file order; mirror n (from 1) is entry n-1.
 std::vector<std::size_t> mirrors(const Scene& scene);
 
-/// One light for each connected component of each emissive object's mesh, in file order. Vertices
+/// One light for each connected component of each mesh that lights, in file order, then the others.
+/// Vertices
 /// connect through a shared index or an identical position (which then counts once in the mean);
 /// triangles without area, and vertices that only they use, contribute nothing.
 std::vector<PointLight> lights(const Scene& scene);

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace catoptric::scene {
+
+/// What a file says that is not shown as it says, or what was added to it. Ids are fixed words:
+/// "normal-texture", "rough-metal", "added-camera" ...
+struct Gap {
+    std::string id;
+    std::uint64_t count = 0;
+    std::string first; ///< where, printable
+    /// Indices into Scene::materials of those that have it, by which its pixels are told; empty
+    /// where it is not of materials.
+    std::vector<std::size_t> materials;
+};
+
+/// Adds to the scene's gap of this id, or a new one.
+void add_gap(std::vector<Gap>& gaps, const std::string& id, const std::string& first,
+             std::uint64_t count = 1);
+void add_material_gap(std::vector<Gap>& gaps, const std::string& id, const std::string& first,
+                      std::size_t material);
+
+} // namespace catoptric::scene
