@@ -31,6 +31,43 @@ struct Surface {
     float radius;     // 0: no exact sphere
 };
 
+// How a surface reads texels; see lib/material.glsl and lib/math/surface.glsl.
+struct TextureUse {
+    uint first; // texel in the list of all
+    uint size;  // width | height << 16; 0: no texture
+    uint how;   // wrap along u | along v << 2 | kTexture...
+    vec3 u_row; // texture space from the mesh's (u, v, 1)
+    vec3 v_row;
+};
+const uint kTextureNearest = 16u, kTextureSrgb = 32u, kTextureSecondUv = 64u;
+
+// What the surface of one object is beyond Surface.
+struct Detail {
+    uint flags;             // kDetail...
+    uint first_attribute;   // added to the number of a vertex as it is drawn: its attribute
+    float metallic;
+    float roughness;
+    float sharp_below;      // or at that roughness it is sharp
+    float alpha;
+    float alpha_cutoff;     // 0: nothing is cut out
+    vec3 f0;                // of the part that is no metal, towards the normal
+    vec3 f90;               // and across it
+    TextureUse albedo;      // and alpha
+    TextureUse emission;
+    TextureUse rough;       // roughness in green, metallic in blue
+};
+const uint kDetailVaries = 1u;     // more than one colour, or sharp
+const uint kDetailAttributes = 2u; // its vertices have attributes
+const uint kDetailConstant = 4u;   // reflects Surface::reflectance at any angle
+const uint kDetailUnlit = 8u;
+const uint kDetailTurns = 16u;     // its normal turns to who looks
+
+// What a vertex has beside position and normal.
+struct Attribute {
+    vec4 uv;     // both texture spaces
+    vec4 colour; // linear, with alpha
+};
+
 // A light as the shading formula sees it: one point with a one-sided cosine.
 // `right`, `down`, `forward`: axes of its shadow faces, unit, face +Z along `forward`.
 struct Light {
@@ -49,10 +86,13 @@ struct Probe {
     vec3 centre;      // of the mirror's bounds
     vec3 sphere;      // centre of the exact sphere that the mirror stands for
     float radius;     // of that sphere; 0: the mirror stands for none
-    vec3 reflectance; // of the mirror
+    vec3 reflectance; // of the mirror; of a metal, towards its normal
     vec3 lowest;      // corners of the mirror's bounds
     vec3 highest;
+    uint kind;        // kProbe...
 };
+// Reflects the same at any angle; as a metal by Schlick; or has light of its own, which only captures show.
+const uint kProbeConstant = 0u, kProbeMetal = 1u, kProbeLit = 2u;
 
 // One of the cube arrays that captures are kept in, and how distances are in it.
 struct CaptureArray {
@@ -134,7 +174,10 @@ struct Counters {
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
 static_assert(sizeof(Light) == 76);
-static_assert(sizeof(Probe) == 64);
+static_assert(sizeof(TextureUse) == 36);
+static_assert(sizeof(Detail) == 160);
+static_assert(sizeof(Attribute) == 32);
+static_assert(sizeof(Probe) == 68);
 static_assert(sizeof(CaptureTable) == 8256); // every device has uniform buffers of 16 KiB
 static_assert(sizeof(View) == 64);
 static_assert(sizeof(Frame) == 20);

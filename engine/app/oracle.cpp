@@ -83,7 +83,7 @@ int Oracle::captured_object(std::uint32_t mirror, const vec3& direction, bool se
         const bool faces = dot(f32::facet_normal(vec3(corner[0]), vec3(corner[1]), vec3(corner[2])),
                                ray.direction) < 0;
         const render::DrawRange& range = geometry_.ranges[hit->object];
-        if (!(left_out && range.mirror && range.exact_sphere)) {
+        if (!(left_out && range.mirror && range.exact_sphere && !range.lit)) {
             if (behind_first && (!second_layer || faces)) return static_cast<int>(hit->object);
             behind_first = true;
         }

@@ -11,11 +11,15 @@ bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphe
 
 bool lights(const scene::Material& material) { return scene::light_of(material) != vec3(0); }
 
-/// Whether the object is drawn, traced and counted in the same way with either material.
-bool same_kind(const scene::Material& a, const scene::Material& b) {
-    return a.mirror == b.mirror && lights(a) == lights(b) &&
-           scene::is_one_sided(a) == scene::is_one_sided(b) &&
-           scene::is_masked(a) == scene::is_masked(b);
+/// Whether the object is drawn, traced and counted in the same way with either material: only
+/// values differ.
+bool same_kind(const scene::Material& a, scene::Material b) {
+    if (lights(a) != lights(b) || (a.albedo == vec3(0)) != (b.albedo == vec3(0)) ||
+        (a.reflectance == vec3(1)) != (b.reflectance == vec3(1)))
+        return false;
+    b.albedo = a.albedo, b.emission = a.emission, b.reflectance = a.reflectance;
+    b.light = a.light, b.name = a.name;
+    return a == b;
 }
 
 } // namespace

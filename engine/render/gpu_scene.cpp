@@ -18,7 +18,9 @@ constexpr std::uint32_t kNoMirror = 0;
 shared::Surface surface_of(const scene::Object& object, const scene::Material& material,
                            std::uint32_t mirror, const Space& space) {
     shared::Surface surface{};
-    surface.albedo = material.mirror ? vec3(0) : material.albedo;
+    // Of a mirror that throws light back itself, or else of none.
+    const bool is_pure = material.mirror && material.reflectance == vec3(1);
+    surface.albedo = is_pure ? vec3(0) : material.albedo;
     surface.emission = material.emission;
     surface.reflectance = material.reflectance;
     surface.mirror = mirror;
@@ -60,7 +62,7 @@ GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t s
       view_buffer_("views", gpu::BufferUse::plain, slots),
       surface_buffer_("surfaces", gpu::BufferUse::plain, slots),
       light_buffer_("lights", gpu::BufferUse::uniform, slots),
-      probe_buffer_("probes", gpu::BufferUse::plain, slots),
+      probe_buffer_("probes", gpu::BufferUse::plain, slots), details_(slots),
       tracing_(std::make_unique<Tracing>(slots)) {}
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
@@ -75,6 +77,9 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     else
         move(now, changes.moved);
     if (changes.shapes() || changes.materials) fill_surfaces(now);
+    if (changes.layout || changes.materials || vertices_.layouts() != known_layouts_)
+        details_.fill(now, geometry_, vertices_, device_.limits().maxStorageBufferRange);
+    known_layouts_ = vertices_.layouts();
     if (changes.shapes() || changes.lights) fill_lights(now, changes.lights);
     if (changes.shapes() || changes.lights || changes.materials) fill_probes(now, changes);
     if (changes.shapes() || changes.lights || !same(camera_, camera) || size_ != size)
@@ -161,7 +166,7 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
 
 bool GpuScene::has_other_mirrors() const {
     return std::ranges::any_of(geometry_.ranges, [](const DrawRange& range) {
-        return range.mirror && !range.exact_sphere;
+        return range.mirror && (!range.exact_sphere || range.lit);
     });
 }
 
@@ -197,7 +202,12 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
         probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];
         probe.sphere = surface.centre, probe.radius = surface.radius;
-        probe.reflectance = surface.reflectance;
+        const scene::Material& material = now.materials[now.objects[object].material];
+        probe.reflectance = material.mirror ? material.reflectance : material.albedo;
+        const bool is_lit = geometry_.ranges[object].lit;
+        probe.kind = is_lit ? shared::kProbeLit
+                            : (material.mirror ? shared::kProbeConstant : shared::kProbeMetal);
+        if (is_lit) probe.radius = 0; // no ray is followed through it
         const Bounds<float>& box = geometry_.ranges[object].bounds;
         probe.lowest = box.lo, probe.highest = box.hi;
         const float gap = nearest_.distance(
@@ -243,6 +253,7 @@ void GpuScene::write(std::size_t slot) {
     for (Resident* buffer :
          {&frame_, &view_buffer_, &surface_buffer_, &light_buffer_, &probe_buffer_})
         uploads_ += buffer->write(device_, slot);
+    uploads_ += details_.write(device_, slot);
 }
 
 void GpuScene::bind(graph::Commands& commands) const {
@@ -251,7 +262,14 @@ void GpuScene::bind(graph::Commands& commands) const {
     commands.bind("Surfaces", surface_buffer_.at(slot_));
     commands.bind("Lights", light_buffer_.at(slot_));
     commands.bind("Probes", probe_buffer_.at(slot_));
+    details_.bind(commands, slot_);
     vertices_.bind(commands, slot_);
+}
+
+gpu::Constants GpuScene::features() const {
+    return {{"own_spaces", has_own_spaces() ? 1u : 0u},
+            {"details", details_.any() ? 1u : 0u},
+            {"masks", details_.masks() ? 1u : 0u}};
 }
 
 void GpuScene::bind_vertices(graph::Commands& commands, std::size_t object) const {

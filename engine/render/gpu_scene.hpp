@@ -2,6 +2,7 @@
 
 #include "graph/commands.hpp"
 #include "render/changes.hpp"
+#include "render/details.hpp"
 #include "render/nearest.hpp"
 #include "render/resident.hpp"
 #include "render/tracing.hpp"
@@ -62,7 +63,9 @@ public:
     /// Whether some object has (DrawRange::own).
     bool has_own_spaces() const { return has_own_spaces_; }
     /// What shaders are to be built for; what the scene has not got costs nothing.
-    gpu::Constants features() const { return {{"own_spaces", has_own_spaces() ? 1u : 0u}}; }
+    gpu::Constants features() const;
+    /// Whether some surface is more than one colour.
+    bool has_details() const { return details_.any(); }
 
     static constexpr std::uint32_t kCameraView = 0;
     std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }
@@ -127,9 +130,10 @@ private:
     bool complete_ = false; ///< the last update came to its end
     bool has_own_spaces_ = false;
     std::uint32_t shadow_faces_ = 6;
-    std::size_t slot_ = 0, uploads_ = 0;
+    std::size_t slot_ = 0, uploads_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
     Resident frame_, view_buffer_, surface_buffer_, light_buffer_, probe_buffer_;
+    Details details_;
     std::unique_ptr<Tracing> tracing_;
     mutable bool wants_tracing_ = false;
 };

@@ -54,7 +54,7 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
             draw_scene(commands, scene, drawing, [&](std::size_t object) {
                 const DrawRange& range = scene.ranges()[object];
                 return object != scene.mirror_object(mirror) &&
-                       !(leaves_out && range.mirror && range.exact_sphere);
+                       !(leaves_out && range.mirror && range.exact_sphere && !range.lit);
             });
         });
 }
@@ -92,9 +92,12 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
             .layers(faces)
             .record([&scene, light, faces](Commands& commands) {
                 scene.bind(commands);
-                draw_objects(commands, scene, {"scene.vert", "", {}}, scene.shadow_view(light),
-                             faces, 0,
-                             [&](std::size_t i) { return scene.ranges()[i].casts_shadow; });
+                for (const bool masked : {false, true})
+                    draw_objects(commands, scene, {"scene.vert", masked ? "masked.frag" : "", {}},
+                                 scene.shadow_view(light), faces, 0, [&](std::size_t i) {
+                                     const DrawRange& range = scene.ranges()[i];
+                                     return range.casts_shadow && range.masked == masked;
+                                 });
             });
     }
     return map;

@@ -2,13 +2,15 @@
 #ifndef CATOPTRIC_SURFACE_GLSL
 #define CATOPTRIC_SURFACE_GLSL
 
-#include "lib/bindings.glsl"
 #include "lib/constants.glsl"
+#include "lib/material.glsl"
 
 layout(push_constant, scalar) uniform Push { Draw draw; };
 layout(location = 0) flat in vec3 eye;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 from_eye; // position - eye
+layout(location = 4) in vec4 in_uv; // see Attribute
+layout(location = 5) in vec4 in_colour;
 
 layout(location = 0) out vec4 out_colour;
 // Captures that hold distances keep them. A view that leaves pixels to tracing keeps which tracer takes each, from 1;
@@ -46,6 +48,22 @@ bool is_peeled() {
     return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + half_step) || !(dot(normal, from_eye) < 0.0);
 }
 #endif
+
+// Before anything is written, after the derivatives.
+void leave_out_what_is_cut() {
+    if (masks != 0u && is_cut_out(draw.object, Attribute(in_uv, in_colour))) discard;
+}
+
+// The object's surface here. `facet`: along its triangle's normal.
+Surface surface_here(inout vec3 n, vec3 facet) {
+    Surface surface = draw.surface;
+    if (details != 0u) {
+        vec3 direction = normalize(from_eye);
+        n = turned_normal(draw.object, n, facet, direction);
+        evaluate(surface, draw.object, Attribute(in_uv, in_colour), -dot(n, direction));
+    }
+    return surface;
+}
 
 // Exact as a half; objects that far apart in the scene's list may share one.
 float surface_number() {

@@ -3,7 +3,7 @@
 #ifndef CATOPTRIC_VERTEX_GLSL
 #define CATOPTRIC_VERTEX_GLSL
 
-#include "lib/bindings.glsl"
+#include "lib/material.glsl"
 
 layout(push_constant, scalar) uniform Push {
     Draw draw;
@@ -17,6 +17,8 @@ layout(location = 0) flat out vec3 out_eye;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_from_eye;
 layout(location = 3) flat out uint out_layer;
+layout(location = 4) out vec4 out_uv;
+layout(location = 5) out vec4 out_colour;
 
 invariant gl_Position;
 
@@ -49,6 +51,11 @@ void main() {
 #endif
     out_from_eye = v;
     out_layer = uint(gl_InstanceIndex);
+    Attribute at = kNoAttribute;
+    if (details != 0u && (detail_of[draw.object].flags & kDetailAttributes) != 0u)
+        at = attributes[uint(gl_VertexIndex) + detail_of[draw.object].first_attribute];
+    out_uv = at.uv;
+    out_colour = at.colour;
 }
 
 #endif

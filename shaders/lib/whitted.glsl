@@ -5,22 +5,39 @@
 #ifndef CATOPTRIC_WHITTED_GLSL
 #define CATOPTRIC_WHITTED_GLSL
 
-#include "lib/bindings.glsl"
 #include "lib/constants.glsl"
+#include "lib/material.glsl"
+
+// A texel a corner: its normal, and the number of its attribute as a word of engine/bvh/words.hpp.
+#ifdef NAIVE
+layout(set = 0, binding = NORMALS_BINDING, std430) readonly buffer Normals { vec4 normals[]; };
+#define CORNER(i) normals[i]
+#else
+layout(set = 0, binding = NORMALS_BINDING) uniform samplerBuffer normals;
+#define CORNER(i) texelFetch(normals, int(i))
+#endif
+#define NORMAL(i) CORNER(i).xyz
+
+Attribute attribute_of(uint corner) { return attributes[floatBitsToUint(CORNER(corner).w) & kBvhIdMask]; }
+
+// At a place of the triangle whose corners are stored from `corner` on.
+Attribute attribute_at(uint corner, vec3 barycentric) {
+    Attribute a = attribute_of(corner), b = attribute_of(corner + 1u), c = attribute_of(corner + 2u);
+    return Attribute(barycentric.x * a.uv + barycentric.y * b.uv + barycentric.z * c.uv,
+                     barycentric.x * a.colour + barycentric.y * b.colour + barycentric.z * c.colour);
+}
+bool has_attributes(uint object) { return (detail_of[object].flags & kDetailAttributes) != 0u; }
+bool is_there(uint triangle, uint object, vec3 barycentric) {
+    return !is_cut_out(object, has_attributes(object) ? attribute_at(3u * triangle, barycentric) : kNoAttribute);
+}
+#define TRACE_IS_THERE(triangle, object, barycentric) is_there(triangle, object, barycentric)
+
 #include "lib/trace.glsl"
 #ifdef SHADOW_MAP
 #include "lib/shadow.glsl"
 #endif
 #ifdef DOUBLES
 #include "lib/double_hit.glsl"
-#endif
-
-#ifdef NAIVE
-layout(set = 0, binding = NORMALS_BINDING, std430) readonly buffer Normals { vec4 normals[]; };
-#define NORMAL(i) normals[i].xyz
-#else
-layout(set = 0, binding = NORMALS_BINDING) uniform samplerBuffer normals;
-#define NORMAL(i) texelFetch(normals, int(i)).xyz
 #endif
 
 layout(constant_id = MAX_DEPTH_CONSTANT) const uint max_depth = 8u;
@@ -42,6 +59,7 @@ struct Point {
     uint object;
     uint leaves; // for the rays that start here (see Ray)
     uint inside; // the record of the thing in whose own space it lies; 0: none
+    Attribute at;
     vec3 arm;    // from that thing's centre, scene units, and the bound of its error
     vec3 arm_error;
 };
@@ -89,6 +107,8 @@ Point on_triangle(Hit hit) {
     uint corner = 3u * hit.triangle;
     if (own_spaces != 0u && hit.inside != 0u) corner -= 3u * number_shift(hit.inside);
     p.normal = normalize(w.x * NORMAL(corner) + w.y * NORMAL(corner + 1u) + w.z * NORMAL(corner + 2u));
+    p.at = kNoAttribute;
+    if (details != 0u && has_attributes(hit.object)) p.at = attribute_at(corner, w);
     p.inside = 0u;
     p.arm = p.arm_error = vec3(0);
     if (own_spaces != 0u && hit.inside != 0u) {
@@ -123,6 +143,7 @@ Point on_sphere(Ray ray, float t, uint object) {
     p.position = vec3(exact_point);
 #endif
     p.normal = p.facet = (p.position - surfaces[object].centre) / surfaces[object].radius;
+    p.at = kNoAttribute;
     p.object = object;
     p.leaves = 0u;
     p.inside = 0u;
@@ -137,6 +158,7 @@ Point on_own_sphere(Ray ray, vec3 low, Hit hit) {
     float radius = own_radius(hit.inside);
     p.position = sphere_point(vec3(0), radius, own_ray(place, ray, low), hit.t, p.error);
     p.normal = p.position / radius;
+    p.at = kNoAttribute;
     p.object = hit.object;
     p.leaves = 0u;
     put_into_scene(p, hit.inside);
@@ -164,6 +186,16 @@ bool trace_ray(Ray ray, uint skipped, out Point p) {
     if (found && own_spaces != 0u && hit.place == kOnSphere) p = on_own_sphere(ray, low, hit);
     else if (found) p = on_triangle(hit);
     return found;
+}
+
+// What the surface is at the point, whose normal turns to where `direction` comes from if it has two sides.
+Surface surface_at(inout Point p, vec3 direction) {
+    Surface surface = surfaces[p.object];
+    if (details != 0u) {
+        p.normal = turned_normal(p.object, p.normal, p.facet, direction);
+        evaluate(surface, p.object, p.at, -dot(p.normal, direction));
+    }
+    return surface;
 }
 
 // A ray that leaves the point along `direction`.
@@ -213,10 +245,15 @@ vec3 radiance(Ray ray, uint first, out uint met) {
             done = true;
             continue;
         }
-        Surface surface = surfaces[point.object];
+        Surface surface = surface_at(point, ray.direction);
         if (bounce < first + 2u) met |= surface.mirror << (16u * (bounce - first));
-        if (surface.mirror == 0u) {
-            result = weight * shade(surface, point.position, point.normal);
+        bool reflects = surface.mirror != 0u;
+        if (details != 0u) {
+            reflects = surface.reflectance != vec3(0);
+            if (reflects) result += weight * shade(surface, point.position, point.normal);
+        }
+        if (!reflects) {
+            result += weight * shade(surface, point.position, point.normal);
             done = true;
         } else if (bounce == max_depth) {
             done = true;
