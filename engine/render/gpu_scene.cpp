@@ -249,7 +249,8 @@ std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) con
         std::ranges::copy(sun_views(light.forward, space_.core, bounds_of(geometry_)),
                           std::back_inserter(views));
     } else {
-        views = turned_cube_views(light.position, light.forward, 0);
+        views = turned_cube_views(light.position,
+                                  glm::mat3(light.right, -light.down, light.forward), 0);
         for (shared::View& view : views) view.near = light.near;
     }
     views.resize(shadow_faces_); // the last one looks back, where a one-sided light is dark

@@ -31,9 +31,6 @@ Sky::Sky(std::size_t slots)
       vertices_("sky.vertices", gpu::BufferUse::vertex, slots),
       indices_("sky.indices", gpu::BufferUse::index, slots) {
     sky_.set(std::vector(1, shared::Sky{}));
-    vertices_.set(
-        std::vector<shared::Vertex>{{{-1, -1, 0}, {}}, {{3, -1, 0}, {}}, {{-1, 3, 0}, {}}});
-    indices_.set(std::vector<std::uint32_t>{0, 1, 2});
 }
 
 void Sky::set(const std::shared_ptr<const scene::Environment>& environment) {
@@ -45,6 +42,10 @@ void Sky::set(const std::shared_ptr<const scene::Environment>& environment) {
     if (kind_ == kMap)
         for (const vec3& texel : environment->texels) texels.emplace_back(texel, 1.0f);
     texels_.set(texels);
+    if (kind_ == kNone) return;
+    vertices_.set(
+        std::vector<shared::Vertex>{{{-1, -1, 0}, {}}, {{3, -1, 0}, {}}, {{-1, 3, 0}, {}}});
+    indices_.set(std::vector<std::uint32_t>{0, 1, 2});
 }
 
 std::size_t Sky::write(gpu::Device& device, std::size_t slot) {

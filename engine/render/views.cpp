@@ -104,7 +104,10 @@ std::vector<shared::View> cube_views(vec3 eye, float gap) {
 }
 
 std::vector<shared::View> turned_cube_views(vec3 eye, vec3 forward, float gap) {
-    const glm::mat3 world_from_cube = forward == vec3(0) ? glm::mat3(1) : turned_cube(forward);
+    return turned_cube_views(eye, forward == vec3(0) ? glm::mat3(1) : turned_cube(forward), gap);
+}
+
+std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_from_cube, float gap) {
     std::vector<shared::View> views;
     for (int face = 0; face < 6; ++face) {
         shared::View view{};

@@ -21,6 +21,8 @@ std::vector<shared::View> cube_views(vec3 eye, float gap);
 
 /// The same, turned so that face +Z looks along `forward` (unit; zero: world axes).
 std::vector<shared::View> turned_cube_views(vec3 eye, vec3 forward, float gap);
+/// Turned by this matrix.
+std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_from_cube, float gap);
 
 /// Two parallel views along `forward` (unit) from one eye before everything, down to its end: one
 /// over `core`, and one over everything; the same twice where that is hardly larger.
