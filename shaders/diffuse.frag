@@ -14,6 +14,6 @@ void main() {
     vec3 shown = shade(surface, surface_position(), n);
     // A smooth surface that is no mirror shows what surrounds the scene, and nothing nearer.
     if (details != 0u && surface.reflectance != vec3(0))
-        shown += surface.reflectance * surroundings(mirror_direction(normalize(from_eye), n, normalize(facet)));
+        shown += surface.reflectance * environment(mirror_direction(normalize(seen_along()), n, normalize(facet)));
     write_surface(shown);
 }

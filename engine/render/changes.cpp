@@ -1,5 +1,7 @@
 #include "render/changes.hpp"
 
+#include <algorithm>
+
 namespace catoptric::render {
 
 namespace {
@@ -7,6 +9,13 @@ namespace {
 bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
     return a.has_value() == b.has_value() &&
            (!a || (a->centre == b->centre && a->radius == b->radius));
+}
+
+/// As scene::at leaves them, without motion.
+bool same(const scene::Punctual& a, const scene::Punctual& b) {
+    return a.kind == b.kind && a.intensity == b.intensity && a.range == b.range &&
+           a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer &&
+           a.world_from_light == b.world_from_light;
 }
 
 bool lights(const scene::Material& material) { return scene::light_of(material) != vec3(0); }
@@ -46,7 +55,11 @@ Changes Seen::take_over(const scene::Scene& now, bool anew) {
         seen = {object.mesh,           material,     object.world_from_object, object.sphere,
                 object.seen_by_camera, object.mirror};
     }
-    changes.lights = changes.lights || changes.layout;
+    const bool other_lights = !std::ranges::equal(
+        punctual_, now.punctual,
+        [](const scene::Punctual& a, const scene::Punctual& b) { return same(a, b); });
+    if (other_lights) punctual_ = now.punctual;
+    changes.lights = changes.lights || changes.layout || other_lights;
     return changes;
 }
 

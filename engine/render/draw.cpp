@@ -118,7 +118,7 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& draw
 void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
                   const Wanted& wanted) {
-    state.features = scene.features();
+    state.features = scene.features(first_view);
     for (const bool own : {false, true}) {
         if (own && !scene.has_own_spaces()) break;
         if (own) state.vertex = "placed.vert";

@@ -39,9 +39,6 @@ vec4 texture_colour(TextureUse use, vec4 uv) {
                mix(texel_colour(use, left, bottom), texel_colour(use, right, bottom), across), down);
 }
 
-// What is seen in a direction in which the scene has nothing.
-vec3 surroundings(vec3 direction) { return vec3(0); }
-
 // Whether the surface is not there.
 bool is_cut_out(uint object, Attribute at) {
     Detail detail = detail_of[object];

@@ -86,7 +86,7 @@ vec3 looked_up(Path path, Lookup lookup, End target, bool is_target) {
     End captured = target;
     if (!is_target) captured = captured_end(path.mirror, lookup);
     if (captured.mirror != 0u) return colour; // its picture in the capture stays as it is
-    if (!captured.meets) return mends(kMendTexels) ? vec3(0) : colour;
+    if (!captured.meets) return mends(kMendTexels) ? environment(lookup.direction) : colour;
     uint by = mends(kMendShadows) ? kShadowRay : shadow;
     vec3 truth = shaded(captured.point, lookup.direction, by);
     // The texels were lit through the map: what a ray would have changed.

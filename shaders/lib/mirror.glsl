@@ -181,7 +181,7 @@ void main() {
     leave_out_what_is_cut();
     vec3 n = normalize(normal);
     Surface surface = surface_here(n, facet);
-    Path path = Path(draw.surface.mirror - 1u, surface_position(), mirror_direction(normalize(from_eye), n, facet),
+    Path path = Path(draw.surface.mirror - 1u, surface_position(), mirror_direction(normalize(seen_along()), n, facet),
                      draw.probe_centre, surface.reflectance, 0u);
     Lookup lookup = follow(path);
 #ifdef MEND

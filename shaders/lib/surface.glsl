@@ -3,6 +3,7 @@
 #define CATOPTRIC_SURFACE_GLSL
 
 #include "lib/constants.glsl"
+#include "lib/eye.glsl"
 #include "lib/material.glsl"
 
 layout(push_constant, scalar) uniform Push { Draw draw; };
@@ -23,6 +24,9 @@ layout(location = 2) out vec4 out_more;
 // Where the surface is. A perspective interpolation errs along the ray from the eye, by a part of its length: the floor
 // that a low eye sees stays a floor. Interpolated itself, the position would err towards the origin instead.
 vec3 surface_position() { return eye + from_eye; }
+
+// The way that who looks looks here, of any length.
+vec3 seen_along() { return orthographic != 0u ? views[draw.first_view].forward : from_eye; }
 
 // How far that may be off along a unit normal. No specification bounds what a rasteriser's interpolation may do:
 // 2^-16 of the way along the ray and 2^-20 across it are some ten times what was seen (docs/extremes.md).
@@ -58,7 +62,7 @@ void leave_out_what_is_cut() {
 Surface surface_here(inout vec3 n, vec3 facet) {
     Surface surface = draw.surface;
     if (details != 0u) {
-        vec3 direction = normalize(from_eye);
+        vec3 direction = normalize(seen_along());
         n = turned_normal(draw.object, n, facet, direction);
         evaluate(surface, draw.object, Attribute(in_uv, in_colour), -dot(n, direction));
     }

@@ -3,6 +3,7 @@
 #ifndef CATOPTRIC_VERTEX_GLSL
 #define CATOPTRIC_VERTEX_GLSL
 
+#include "lib/eye.glsl"
 #include "lib/material.glsl"
 
 layout(push_constant, scalar) uniform Push {
@@ -39,7 +40,9 @@ void main() {
 #else
     vec3 v = position - view.eye;
 #endif
-    gl_Position = vec4(dot(view.right, v), dot(view.down, v), view.near, dot(view.forward, v));
+    float along = dot(view.forward, v);
+    gl_Position = vec4(dot(view.right, v), dot(view.down, v), view.near, along);
+    if (orthographic != 0u) gl_Position.zw = vec2(1.0 - view.near * along, 1.0);
 #ifdef LAYERED
     gl_Layer = gl_InstanceIndex;
 #endif

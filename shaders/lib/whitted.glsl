@@ -6,6 +6,9 @@
 #define CATOPTRIC_WHITTED_GLSL
 
 #include "lib/constants.glsl"
+#include "lib/environment.glsl"
+#include "lib/eye.glsl"
+#include "lib/lights.glsl"
 #include "lib/material.glsl"
 
 // A texel a corner: its normal, and the number of its attribute as a word of engine/bvh/words.hpp.
@@ -214,6 +217,10 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
     vec3 origin = leaving(point, direction);
     Ray ray = Ray(origin, lights[light].position - origin, point.leaves);
     float t = keeps(kShadowEnd) ? kShadowRayEnd : 1.0;
+    if (is_directional(light)) {
+        ray.direction = direction;
+        t = kLargest;
+    }
     if (any_hit(ray, t, kBvhShadowless | passed_by())) return 0.0;
     uint object;
     return exact_spheres != 0u && nearest_sphere(ray, t, object) ? 0.0 : 1.0;
@@ -225,6 +232,9 @@ Ray camera_ray(vec2 place, uvec2 size) {
     View view = views[0];
     vec2 ndc = place / vec2(size) * 2.0 - 1.0;
     if (own_spaces != 0u) trace_low = view.eye_low;
+    if (orthographic != 0u)
+        return Ray(view.eye + (ndc.x * view.right / dot(view.right, view.right) + ndc.y * view.down / dot(view.down, view.down)),
+                   view.forward, 0u);
     return Ray(view.eye, normalize(view.forward + ndc.x * view.right / dot(view.right, view.right) +
                                    ndc.y * view.down / dot(view.down, view.down)), 0u);
 }
@@ -242,6 +252,7 @@ vec3 radiance(Ray ray, uint first, out uint met) {
     bool done = false;
     for (uint bounce = first; !done; ++bounce) {
         if (!trace_ray(ray, skipped, point)) {
+            if (environment_kind != kNoEnvironment) result += weight * environment(ray.direction);
             done = true;
             continue;
         }
