@@ -64,12 +64,14 @@ MapUse map_of(const Line& line) {
     return map;
 }
 
-/// Where a map lies: as it is called, or as a path of another system would be here, or, where such
-/// a path leads nowhere, beside the scene.
+/// Where a map lies: as it is called, or as a path of another system would be here, or, where that
+/// leads nowhere or begins at the root of somebody's machine, beside the scene.
 fs::path find_map(const std::string& name, const std::string& place, Files& files) {
     std::string slashed = name;
     std::ranges::replace(slashed, '\\', '/');
-    fs::path real = files.find(slashed, place);
+    const bool is_absolute = slashed.starts_with('/') ||
+                             (slashed.size() > 2 && slashed.substr(1, 2) == ":/");
+    fs::path real = is_absolute ? fs::path() : files.find(slashed, place);
     const std::size_t last = slashed.rfind('/');
     if (real.empty() && last != slashed.npos && last + 1 < slashed.size())
         real = files.find(slashed.substr(last + 1), place);
