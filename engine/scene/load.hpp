@@ -28,6 +28,8 @@ struct LoadOptions {
     /// The files that a scene names lie below the real folder of the scene, or below this one;
     /// empty: no other.
     std::filesystem::path root;
+    /// Which animation of a glTF file moves its nodes: by name, or "none"; empty: the first.
+    std::string animation;
     Budget budget;
 };
 

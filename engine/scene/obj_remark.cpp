@@ -90,6 +90,10 @@ void add_remark(Remarks& remarks, const Line& line, Account& account) {
     const Words list = words(line);
     check(!list.empty(), Failure::bad_data, line.where(), ": ", in_quotes(line.keyword),
           " wants a name, found none");
+    if (line.keyword == "#exposure") {
+        remarks.exposure = number_of(line, list[0]);
+        return;
+    }
     const std::string name(list[0]);
     if (line.keyword == "#camera") {
         account.cameras.add(1, line.where());
@@ -108,7 +112,7 @@ void add_remark(Remarks& remarks, const Line& line, Account& account) {
         remarks.hidden[name] = true;
     else
         fail(Failure::bad_data, line.where(),
-             ": '# catoptric' wants camera, motion, sphere or hidden, found ",
+             ": '# catoptric' wants camera, motion, sphere, hidden or exposure, found ",
              in_quotes(line.keyword.substr(1)));
 }
 
