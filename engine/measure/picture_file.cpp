@@ -20,11 +20,12 @@ namespace {
 constexpr int kLargestSide = 1 << 16;
 constexpr OIIO::imagesize_t kMostValues = OIIO::imagesize_t{1} << 29; // 2 GiB of float
 
-enum class Kind { exr, png, other };
+enum class Kind { exr, hdr, png, other };
 
 /// By the first bytes, not by the name.
 Kind kind_of(std::string_view bytes) {
     if (bytes.starts_with("\x76\x2f\x31\x01")) return Kind::exr;
+    if (bytes.starts_with("#?RADIANCE") || bytes.starts_with("#?RGBE")) return Kind::hdr;
     if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return Kind::png;
     return Kind::other;
 }
@@ -79,10 +80,13 @@ Raw decode(const std::filesystem::path& path) {
     const std::string name = path.string();
     Raw raw{.kind = kind_of(bytes)};
     check(raw.kind != Kind::other, Failure::bad_data, name,
-          ": wanted an OpenEXR or PNG picture, found ", bytes.size(), " bytes of something else");
+          ": wanted an OpenEXR, Radiance or PNG picture, found ", bytes.size(),
+          " bytes of something else");
 
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    const std::string format = raw.kind == Kind::exr ? "openexr" : "png";
+    const std::string format = raw.kind == Kind::exr   ? "openexr"
+                               : raw.kind == Kind::hdr ? "hdr"
+                                                       : "png";
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
     check(input != nullptr, Failure::internal, "this OpenImageIO cannot read ", format);
     OIIO::ImageSpec hints;
@@ -149,8 +153,8 @@ Picture read_picture(const std::filesystem::path& path) {
 
 Mask read_mask(const std::filesystem::path& path, int width, int height) {
     const Raw raw = decode_or_say_memory(path);
-    check(raw.kind == Kind::png, Failure::bad_data, path.string(),
-          ": wanted a PNG as mask, found OpenEXR");
+    check(raw.kind == Kind::png, Failure::bad_data, path.string(), ": wanted a PNG as mask, found ",
+          raw.kind == Kind::exr ? "OpenEXR" : "Radiance");
     check(raw.width == width && raw.height == height, Failure::bad_data, path.string(),
           ": wanted a mask of ", width, "x", height, " as the pictures, found ", raw.width, "x",
           raw.height);

@@ -210,7 +210,9 @@ Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
     const gltf::Document document = gltf::read(file, files, account, notes);
     gltf::check_forest(document);
     Builder builder{.context = {.document = document, .account = account, .notes = notes}};
-    builder.scene = {.name = path.stem().string(), .materials = read_materials(builder.context)};
+    builder.scene = {.name = path.stem().string(),
+                     .materials = read_materials(builder.context),
+                     .exposure = document.exposure};
     builder.cameras = read_cameras(document);
     builder.parts = read_parts(builder.scene.materials, builder.context);
     const std::vector<Placed> placed = place(document, read_motions(builder.context), notes);

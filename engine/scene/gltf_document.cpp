@@ -34,6 +34,18 @@ std::string text_of(Container& container) {
     return document.dump();
 }
 
+/// Of the scene that is shown: {"exposure": stops}.
+std::optional<double> read_exposure(const Item& root) {
+    const std::size_t count = root.size("scenes");
+    if (count == 0) return std::nullopt;
+    const Item scene = root.at("scenes", root.index("scene", count).value_or(0));
+    const Json* extras = scene.find("extras"); // of any kind; ours is an object
+    if (extras == nullptr || !extras->is_object()) return std::nullopt;
+    const std::optional<Item> ours = scene.object("extras")->object("catoptric");
+    if (!ours || !ours->has("exposure")) return std::nullopt;
+    return ours->number("exposure", 0);
+}
+
 tinygltf::Model parse(const std::string& file, Container& container) {
     const std::string text = text_of(container);
     tinygltf::TinyGLTF parser;
@@ -55,14 +67,19 @@ std::string Document::label(std::size_t node) const {
 Document read(const std::string& file, Files& files, Account& account, Notes& notes) {
     Container container = read_container(file, files, account);
     std::vector<Marks> marks;
+    std::optional<double> exposure;
     {
         const Item root(container.document, file);
         check_members(root, account, notes);
         check_bounds(root, container.buffers);
         check_uses(root, files, notes);
         marks = read_marks(root);
+        exposure = read_exposure(root);
     }
-    return {.file = file, .model = parse(file, container), .marks = std::move(marks)};
+    return {.file = file,
+            .model = parse(file, container),
+            .marks = std::move(marks),
+            .exposure = exposure};
 }
 
 } // namespace catoptric::scene::gltf

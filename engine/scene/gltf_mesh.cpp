@@ -107,7 +107,8 @@ void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Primitive& pri
 }
 
 std::vector<Part> parts_of(std::size_t mesh, std::vector<Material>& materials, Context& context) {
-    const auto& [file, model, marks] = context.document;
+    const std::string& file = context.document.file;
+    const tinygltf::Model& model = context.document.model;
     std::vector<Part> parts;
     std::unordered_map<std::size_t, std::size_t> part_of; // by material
     const std::vector<tinygltf::Primitive>& primitives = model.meshes[mesh].primitives;

@@ -29,6 +29,8 @@ struct Document {
     std::string file; ///< begins every message
     tinygltf::Model model;
     std::vector<Marks> marks; ///< of each node; tinygltf would cut their numbers to 32 bits
+    std::optional<double>
+        exposure; ///< of the scene that is shown: {"catoptric": {"exposure": stops}}
 
     /// "nodes[3] 'lamp'".
     std::string label(std::size_t node) const;

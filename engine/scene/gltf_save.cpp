@@ -273,6 +273,7 @@ void save_glb(const Scene& scene, const std::filesystem::path& path) {
     model.asset.version = "2.0", model.asset.generator = "catoptric";
     model.defaultScene = 0;
     model.scenes.emplace_back().name = scene.name;
+    if (scene.exposure) model.scenes[0].extras = marked({{"exposure", Value(*scene.exposure)}});
     writer.motion.name = "motion";
     for (const Material& material : scene.materials) writer.add_material(material);
     for (const Object& object : scene.objects) writer.add_object(object);

@@ -168,6 +168,7 @@ Scene load_obj(const std::filesystem::path& path, const LoadOptions& options) {
     builder.scene = {.name = path.stem().string(),
                      .materials = materials_of(text.library, parsed.materials),
                      .cameras = text.remarks.cameras,
+                     .exposure = text.remarks.exposure,
                      .files = files.found()};
     for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_shape(shape);
     finish(builder.scene, file, notes);

@@ -96,6 +96,10 @@ void add_remark(Remarks& remarks, const Line& line, Account& account) {
         remarks.cameras.push_back(camera(line, list));
         return;
     }
+    if (line.keyword == "#exposure") {
+        remarks.exposure = numbers(line, list, 0, 1)[0];
+        return;
+    }
     if (!remarks.named_at.contains(name)) {
         account.remarks.add(1, line.where());
         remarks.named_at[name] = line.where();
@@ -108,7 +112,7 @@ void add_remark(Remarks& remarks, const Line& line, Account& account) {
         remarks.hidden[name] = true;
     else
         fail(Failure::bad_data, line.where(),
-             ": '# catoptric' wants camera, motion, sphere or hidden, found ",
+             ": '# catoptric' wants camera, motion, sphere, hidden or exposure, found ",
              in_quotes(line.keyword.substr(1)));
 }
 

@@ -120,6 +120,7 @@ void save_obj(const Scene& scene, const std::filesystem::path& path) {
 
     std::string text = "# catoptric's comment lines hold what .obj has no word for\nmtllib " +
                        library.filename().string() + "\n";
+    if (scene.exposure) text += "# catoptric exposure " + number_text(*scene.exposure) + "\n";
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
         text += camera_text(scene.cameras[i], camera_names[i]);
     std::size_t first = 0;

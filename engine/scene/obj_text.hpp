@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -94,11 +95,13 @@ std::vector<Material> materials_of(const Library& library,
 ///       (cubic: t, in-tangent, value, out-tangent)
 ///   # catoptric sphere OBJECT cx cy cz r
 ///   # catoptric hidden OBJECT            (camera rays pass through it)
+///   # catoptric exposure STOPS           (of the scene)
 struct Remarks {
     std::vector<Camera> cameras;
     std::map<std::string, Motion> motions;
     std::map<std::string, Sphere> spheres;
     std::map<std::string, bool> hidden;
+    std::optional<double> exposure;
     std::map<std::string, std::string> named_at; ///< each object named, and the line that does
 };
 
