@@ -198,7 +198,8 @@ report::Causes CauseFinder::find(const std::string& technique) const {
             const std::uint32_t coalition = coalitions[entry];
             Values errors;
             for (const std::size_t place : pixels_) {
-                const vec3 &shown = picture.pixels[place], &truth = truth_.pixels[place];
+                const vec3 shown = measure::exposed(picture.pixels[place], base_.exposure),
+                           truth = measure::exposed(truth_.pixels[place], base_.exposure);
                 errors.push_back(measure::squared_error(shown, truth));
                 if (history == histories.row && coalition == 0)
                     found.off[place] = measure::is_off(shown, truth);

@@ -1,18 +1,19 @@
 #include "app/compare.hpp"
 
 #include "app/compare_row.hpp"
+#include "app/exposure.hpp"
 #include "app/lag.hpp"
 #include "app/plan_file.hpp"
 #include "app/processor.hpp"
 #include "app/row_judge.hpp"
 #include "app/row_run.hpp"
+#include "app/scene_facts.hpp"
 #include "app/truths.hpp"
 #include "app/views.hpp"
 #include "core/error.hpp"
 #include "measure/interval.hpp"
 #include "measure/judge.hpp"
 #include "reflect/technique.hpp"
-#include "scene/load.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -49,11 +50,11 @@ public:
         check_has_mirror(request_.base.scene);
         check_rounds(request_.rounds);
         if (request_.causes) check_explains(request_.reference);
-        mirrors_ = scene::mirrors(request_.base.scene).size();
         comparison_.views = drawn_views(request_.base, request_.views);
     }
 
     report::Comparison run() {
+        settle_exposure(session_, request_.base);
         start();
         try {
             fill_reference();
@@ -80,15 +81,11 @@ private:
         comparison_.version = version();
         comparison_.commit = commit();
         comparison_.command = request_.command;
+        comparison_.images = request_.images;
         comparison_.complete = false;
         comparison_.asked = base.techniques.size();
         comparison_.device = {device.name, device.driver, device.api, device.type, device.threads};
-        comparison_.scene = {base.scene.name,
-                             scene::triangle_count(base.scene),
-                             mirrors_,
-                             scene::hash(base.scene),
-                             scene::hash(base.scene) == scene::hash(scene::cornell_mirrors()),
-                             facts_of(base.camera)};
+        comparison_.scene = scene_facts(base);
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);
         comparison_.frames = base.frames;
@@ -258,7 +255,6 @@ private:
     CompareRequest request_;
     Compiled compiled_before_; ///< by the engine, for others
     Session session_;          ///< of all rows
-    std::size_t mirrors_ = 0;
     Truths truths_;
     RowJudge judge_;
     std::vector<std::unique_ptr<RowRun>> runs_; ///< of rows, or of all together

@@ -20,6 +20,7 @@ struct CompareRequest {
     int views = 1; ///< beside the one of the pictures as many drawn ones (app/views.hpp); 1: none
     bool lag = false; ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row
     std::vector<std::string> command; ///< for the record
+    std::string images;               ///< Comparison::images
     Watcher watcher;
     /// Called after each row of the first round, each later round, and each row or drawn view of
     /// what follows, with what there is so far, not `complete`; may be empty.

@@ -1,7 +1,9 @@
 // What may be asked of a comparison.
+#include "app/candidates.hpp"
 #include "app/compare.hpp"
 #include "app/plan_file.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "measure/interval.hpp"
 #include "reflect/technique.hpp"
 
@@ -17,12 +19,13 @@ std::vector<std::string> default_techniques() {
 }
 
 void check_has_mirror(const scene::Scene& scene) {
-    check(!scene::mirrors(scene).empty(), Failure::bad_data, "scene '", scene.name,
-          "': wanted a mirror, whose reflections are what is compared, found none. To make one, "
-          "give its "
-          "material metallicFactor 1, roughnessFactor 0 and a white base colour in glTF, or illum "
-          "3 and "
-          "Ks 1 1 1 in an .mtl");
+    if (!scene::mirrors(scene).empty()) return;
+    std::string lines;
+    for (const std::string& option : mirror_options(scene)) lines += "\n  " + option;
+    fail(Failure::bad_data, "scene ", in_quotes(scene.name),
+         ": wanted a mirror, whose reflections are what is compared, found none; make one with "
+         "--mirror PATTERN[=REFLECTANCE]",
+         lines.empty() ? "" : ", such as" + lines);
 }
 
 void check_rounds(int rounds) {

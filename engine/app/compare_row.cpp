@@ -48,9 +48,12 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
 } // namespace
 
 measure::Errors errors_of(const Part& part, const Part& truth, std::span<const float> flip_map,
-                          const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
+                          const std::vector<std::uint32_t>& hits, std::size_t mirrors,
+                          double exposure) {
+    const measure::Picture found = measure::exposed(part.hdr, exposure),
+                           wanted = measure::exposed(truth.hdr, exposure);
     const auto against = [&](const measure::Mask& mask) {
-        return measure::difference(part.hdr, truth.hdr, mask, flip_map);
+        return measure::difference(found, wanted, mask, flip_map);
     };
     measure::Errors errors{
         against(measure::mirrors(hits)),          against(measure::first_order(hits)),
@@ -62,11 +65,12 @@ measure::Errors errors_of(const Part& part, const Part& truth, std::span<const f
 }
 
 void fill_errors(report::Row& row, const Part& part, const Part& truth,
-                 const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
+                 const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
     row.hdr = part.hdr;
     row.display = part.display;
     row.flip_map = measure::flip(part.display, truth.display);
-    static_cast<measure::Errors&>(row) = errors_of(part, truth, row.flip_map, hits, mirrors);
+    static_cast<measure::Errors&>(row) = errors_of(part, truth, row.flip_map, hits, mirrors,
+                                                   exposure);
     row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);
     row.mean = measure::mean_of(part.hdr, measure::Range::unclamped);
     row.mean_clamped = measure::mean_of(part.hdr, measure::Range::clamped);

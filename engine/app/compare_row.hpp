@@ -18,11 +18,12 @@ report::Row make_row(const std::string& text, const Part& part);
 void fill_times(report::Row& row, const std::vector<std::vector<FrameTimes>>& rounds,
                 const std::string& prefix, bool on_processor);
 /// How far a picture is from the truth, over all masks. `flip_map`: of the two; `hits`: of the same
-/// picture, see Part::hits.
+/// picture, see Part::hits; `exposure`: stops.
 measure::Errors errors_of(const Part& part, const Part& truth, std::span<const float> flip_map,
-                          const std::vector<std::uint32_t>& hits, std::size_t mirrors);
+                          const std::vector<std::uint32_t>& hits, std::size_t mirrors,
+                          double exposure);
 /// The row's picture with its errors and means. `hits`: of the same instant.
 void fill_errors(report::Row& row, const Part& part, const Part& truth,
-                 const std::vector<std::uint32_t>& hits, std::size_t mirrors);
+                 const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure);
 
 } // namespace catoptric::app

@@ -63,18 +63,19 @@ Path path_of(const LagRequest& request) {
     return path;
 }
 
-/// All figures. `exposure`: stops, of the pictures as displayed.
+/// All figures. `exposure`: stops.
 measure::Difference apart(const measure::Picture& a, const measure::Picture& b,
                           const measure::Mask& mask, double exposure) {
     return measure::difference(
-        a, b, mask,
+        measure::exposed(a, exposure), measure::exposed(b, exposure), mask,
         measure::flip(measure::to_display(a, exposure), measure::to_display(b, exposure)));
 }
 
 /// Without FLIP, which takes longer than all others.
-measure::Difference apart(const measure::Picture& a, const measure::Picture& b,
-                          const measure::Mask& mask) {
-    return measure::difference(a, b, mask, std::vector<float>(a.pixels.size(), 0.0f));
+measure::Difference apart_without_flip(const measure::Picture& a, const measure::Picture& b,
+                                       const measure::Mask& mask, double exposure) {
+    return measure::difference(measure::exposed(a, exposure), measure::exposed(b, exposure), mask,
+                               std::vector<float>(a.pixels.size(), 0.0f));
 }
 
 bool same_bytes(const measure::Picture& a, const measure::Picture& b) {
@@ -208,8 +209,9 @@ private:
         begin_run(frames_done_);
         for (int k = 0; k < before; ++k) frame(text, lag_.jump_from);
         for (int k = 0; k < kFrameCap; ++k) {
-            const measure::Difference error = apart(frame(text, path_.start).hdr(), stills_.front(),
-                                                    instants_.front().mirrors);
+            const measure::Difference error = apart_without_flip(
+                frame(text, path_.start).hdr(), stills_.front(), instants_.front().mirrors,
+                request_.base.exposure);
             settling.rmse.push_back(error.rmse);
             settling.max.push_back(error.max);
         }

@@ -27,15 +27,18 @@ std::vector<std::uint32_t> faces_of(const report::Row& row) {
 
 measure::LightEdges light_edges_of(const report::Row& row, const Part& truth,
                                    const std::vector<std::uint32_t>& hits,
-                                   const std::vector<vec4>& lookup, const Oracle& oracle) {
+                                   const std::vector<vec4>& lookup, const Oracle& oracle,
+                                   double exposure) {
     measure::Mask there = oracle.at_light_edges(lookup, faces_of(row));
     measure::Mask elsewhere = measure::mirrors(hits);
     for (std::size_t i = 0; i < there.size(); ++i) {
         there[i] = there[i] & elsewhere[i];
         elsewhere[i] = elsewhere[i] & static_cast<std::uint8_t>(~there[i]);
     }
+    const measure::Picture found = measure::exposed(row.hdr, exposure),
+                           wanted = measure::exposed(truth.hdr, exposure);
     const auto over = [&](const measure::Mask& mask) {
-        return measure::difference(row.hdr, truth.hdr, mask, row.flip_map);
+        return measure::difference(found, wanted, mask, row.flip_map);
     };
     return measure::light_edges(over(there), over(elsewhere));
 }

@@ -52,14 +52,14 @@ std::vector<std::string> RowJudge::judge(report::Row& row, const std::string& te
     const Part& truth = truths_.at(sample_count(parse_technique(text)), number).part;
     const std::vector<std::uint32_t>& hits = truths_.hits(number);
     row.pictured = number;
-    fill_errors(row, part, truth, hits, scene::mirrors(base_.scene).size());
+    fill_errors(row, part, truth, hits, scene::mirrors(base_.scene).size(), base_.exposure);
     const Part looked = !part.rays || part.traced_fraction ? looked_up(text, number) : Part();
     row.saturated_texels = looked.saturated;
     if (!looked.lookup.empty()) {
         const Oracle& oracle = oracle_of(number);
         row.lookup = measure::lookup_error(
             oracle.judge(looked.lookup, is_set(row, "mirrors", "left_out")));
-        row.light_edges = light_edges_of(row, truth, hits, looked.lookup, oracle);
+        row.light_edges = light_edges_of(row, truth, hits, looked.lookup, oracle, base_.exposure);
     }
     std::vector<std::string> warnings;
     if (looked.saturated.value_or(0) > 0)

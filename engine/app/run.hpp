@@ -17,7 +17,8 @@ struct Request : FrameSpec {
     /// else when a frame's linear pictures and all captures equal those of the frame before, byte
     /// for byte.
     bool until_settled = false;
-    bool animate = false; ///< frame k at time + (k-1)/60 s; otherwise all at `time`
+    bool auto_exposure = false; ///< `exposure` is still to be found (app/exposure.hpp)
+    bool animate = false;       ///< frame k at time + (k-1)/60 s; otherwise all at `time`
 
     int total() const { return warmup + frames; }
     /// Seconds into the scene's motion of frame k, from 1.

@@ -23,7 +23,12 @@ double instant_of(double start, double period, double share) {
 }
 
 scene::Camera camera_of(const measure::CameraFacts& facts) {
-    return {facts.name, facts.eye, facts.target, facts.up, facts.vertical_fov_degrees};
+    return {facts.name,
+            facts.eye,
+            facts.target,
+            facts.up,
+            facts.vertical_fov_degrees,
+            facts.orthographic_height};
 }
 
 /// The request's picture from a view, as `render` takes it.
@@ -49,9 +54,9 @@ measure::Picture beside(const measure::Picture& left, const measure::Picture& ri
 }
 
 void add_view(report::Row& row, const Part& part, const Part& truth,
-              const std::vector<std::uint32_t>& hits, std::size_t mirrors) {
+              const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
     const std::vector<float> flip_map = measure::flip(part.display, truth.display);
-    row.views.push_back(errors_of(part, truth, flip_map, hits, mirrors));
+    row.views.push_back(errors_of(part, truth, flip_map, hits, mirrors, exposure));
     const double flip = row.views.back().error.flip;
     // A view without a judged pixel is the worst of none.
     if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
@@ -61,7 +66,12 @@ void add_view(report::Row& row, const Part& part, const Part& truth,
 } // namespace
 
 measure::CameraFacts facts_of(const scene::Camera& camera) {
-    return {camera.name, camera.eye, camera.target, camera.up, camera.vertical_fov_degrees};
+    return {camera.name,
+            camera.eye,
+            camera.target,
+            camera.up,
+            camera.vertical_fov_degrees,
+            camera.orthographic_height};
 }
 
 std::vector<measure::View> drawn_views(const Request& request, int count) {
@@ -106,7 +116,8 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
             one.techniques = {texts[k]};
             const Result result = run(session, one, request.watcher);
             add_view(comparison.rows[k], result.parts.front(),
-                     truths.at(sample_count(parse_technique(texts[k]))).part, hits, mirrors);
+                     truths.at(sample_count(parse_technique(texts[k]))).part, hits, mirrors,
+                     request.base.exposure);
         }
         if (request.on_finished_view) request.on_finished_view();
     }

@@ -32,6 +32,31 @@ struct CameraFacts {
     std::string name; ///< empty: none
     dvec3 eye{0}, target{0}, up{0};
     double vertical_fov_degrees = 0;
+    double orthographic_height = 0; ///< of the picture, world units; 0: in perspective
+};
+
+/// What the scene says that is not shown so, or what was added to it.
+struct GapFacts {
+    std::string id;
+    std::uint64_t count = 0;
+    std::string first;                 ///< where
+    std::optional<double> pixel_share; ///< of the picture, 0..1; none: pixels cannot tell it
+};
+
+/// A light as the shading formula sees it.
+struct LightFacts {
+    std::string kind; ///< "mesh", "point", "spot" or "directional"
+    std::string name; ///< of a light without a surface
+    dvec3 position{0};
+    dvec3 direction{
+        0}; ///< where a spot or a directional light shines to, a mesh faces; 0: all round
+    dvec3 emission{0}; ///< radiance of a mesh; candela, or lux of a directional light
+    double area = 0;   ///< of a mesh
+};
+
+struct EnvironmentFacts {
+    std::string name;
+    double scale = 1, rotation_degrees = 0;
 };
 
 struct SceneFacts {
@@ -41,6 +66,9 @@ struct SceneFacts {
     std::string hash;
     bool is_seed = false; ///< the scene of the seed report, beside whose figures its own may stand
     CameraFacts camera;
+    std::vector<LightFacts> lights = {};
+    std::optional<EnvironmentFacts> environment = {};
+    std::vector<GapFacts> gaps = {};
 };
 
 /// What the rows needed once, milliseconds of the host each; no row's times hold it.
@@ -176,6 +204,7 @@ struct Comparison {
     std::vector<std::size_t> pareto; ///< rows on the front of gpu_ms.median against error.flip
     std::optional<Lag> lag;          ///< of the rows that remember, when it was asked for
     std::vector<std::string> warnings;
+    std::string images; ///< folder of its pictures below images/, "1-room/"; empty: that itself
 };
 
 } // namespace catoptric::measure

@@ -47,14 +47,16 @@ const Registered kShareOff{
      .order = 102,
      .columns = {{"off, %", Style::percent, 2}},
      .get = [](const Difference& error) -> Value { return error.off; }}};
-const Registered kMae{{.name = "mae",
-                       .help = "mean absolute difference, linear RGB clamped to [0,1]",
-                       .better = Better::less,
-                       .order = 103,
-                       .columns = {{"MAE"}},
-                       .get = [](const Difference& error) -> Value { return error.mae; }}};
+const Registered kMae{
+    {.name = "mae",
+     .help = "mean absolute difference, linear RGB times 2^exposure, clamped to [0,1]",
+     .better = Better::less,
+     .order = 103,
+     .columns = {{"MAE"}},
+     .get = [](const Difference& error) -> Value { return error.mae; }}};
 const Registered kRmse{{.name = "rmse",
-                        .help = "root of the mean square difference, linear RGB clamped to [0,1]",
+                        .help = "root of the mean square difference, linear RGB times 2^exposure, "
+                                "clamped to [0,1]",
                         .better = Better::less,
                         .order = 104,
                         .each_mask_in_table = true,

@@ -10,9 +10,10 @@
 
 namespace catoptric::measure {
 
-/// How far two pictures are apart where a mask says. All but `flip` are on linear RGB, both clamped
-/// to [0,1]. Where there is no finite pixel to judge, every figure is NaN (null in JSON) and the
-/// place is (-1, -1): no answer is not "no error".
+/// How far two pictures are apart where a mask says. All but `flip` are on linear RGB as exposed
+/// (`exposed` of measure/picture.hpp), both clamped to [0,1]. Where there is no finite pixel to
+/// judge, every figure is NaN (null in JSON) and the place is (-1, -1): no answer is not "no
+/// error".
 struct Difference {
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 

@@ -6,6 +6,16 @@
 
 namespace catoptric::measure {
 
+vec3 exposed(const vec3& pixel, double exposure_stops) {
+    return vec3(std::exp2(exposure_stops) * dvec3(pixel));
+}
+
+Picture exposed(Picture picture, double exposure_stops) {
+    if (exposure_stops == 0) return picture;
+    for (vec3& pixel : picture.pixels) pixel = exposed(pixel, exposure_stops);
+    return picture;
+}
+
 Picture to_display(const Picture& picture, double exposure_stops) {
     const double gain = std::exp2(exposure_stops);
     const auto shown = [gain](float linear) {

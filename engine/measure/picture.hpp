@@ -32,6 +32,10 @@ private:
 /// One byte a pixel, row-major; non-zero counts. Empty means "every pixel".
 using Mask = std::vector<std::uint8_t>;
 
+/// Times 2^stops: what errors are figured on. 0 stops leave every bit as it is.
+vec3 exposed(const vec3& pixel, double exposure_stops);
+Picture exposed(Picture picture, double exposure_stops);
+
 /// What the screen shows: `picture` times 2^exposure_stops, clamped to [0,1], sRGB curve, rounded
 /// to 8 bits; values in [0,1] again (multiples of 1/255). NaN becomes 0.
 Picture to_display(const Picture& picture, double exposure_stops = 0);

@@ -18,11 +18,12 @@ constexpr std::uint64_t kMostValues = std::uint64_t{1} << 29; // 2 GiB of float
 
 /// A picture as it is in the file.
 struct Raw {
-    bool is_png = false;
+    std::string format; ///< "openexr", "hdr" or "png"
     ImageShape shape;
     std::array<std::size_t, 3> rgb = {}; ///< which channels; the same one three times for grey
     std::vector<float> values;
 
+    bool is_png() const { return format == "png"; }
     float value(std::size_t pixel, std::size_t c) const {
         return values[pixel * shape.channel_count + rgb[c]];
     }
@@ -44,10 +45,11 @@ std::array<std::size_t, 3> find_rgb(const std::vector<std::string>& channels) {
 Raw decode(const std::filesystem::path& path) {
     const std::string bytes = read_file(path);
     const std::string name = path.string(), format = image_format(bytes);
-    check(format == "openexr" || format == "png", Failure::bad_data, name,
-          ": wanted an OpenEXR or PNG picture, found ", bytes.size(), " bytes of something else");
+    check(format == "openexr" || format == "hdr" || format == "png", Failure::bad_data, name,
+          ": wanted an OpenEXR, Radiance or PNG picture, found ", bytes.size(),
+          " bytes of something else");
     ImageReader reader(bytes, format, name);
-    Raw raw{.is_png = format == "png", .shape = reader.shape()};
+    Raw raw{.format = format, .shape = reader.shape()};
     const auto& [size, channel_count, channels] = raw.shape;
     check(std::uint64_t(size.x) * size.y * channel_count <= kMostValues, Failure::bad_data, name,
           ": wanted at most ", kMostValues, " values, found ", size.x, "x", size.y, " with ",
@@ -71,7 +73,7 @@ Picture read_picture(const std::filesystem::path& path) {
     Picture picture(static_cast<int>(raw.shape.size.x), static_cast<int>(raw.shape.size.y));
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         vec3 pixel(raw.value(i, 0), raw.value(i, 1), raw.value(i, 2));
-        if (raw.is_png)
+        if (raw.is_png())
             for (int c = 0; c < 3; ++c)
                 pixel[c] = static_cast<float>(linear_from_srgb(static_cast<double>(pixel[c])));
         picture.pixels[i] = pixel;
@@ -81,7 +83,8 @@ Picture read_picture(const std::filesystem::path& path) {
 
 Mask read_mask(const std::filesystem::path& path, int width, int height) {
     const Raw raw = decode(path);
-    check(raw.is_png, Failure::bad_data, path.string(), ": wanted a PNG as mask, found OpenEXR");
+    check(raw.is_png(), Failure::bad_data, path.string(), ": wanted a PNG as mask, found ",
+          raw.format == "hdr" ? "Radiance" : "OpenEXR");
     const ivec2 size(raw.shape.size);
     check(size == ivec2(width, height), Failure::bad_data, path.string(), ": wanted a mask of ",
           width, "x", height, " as the pictures, found ", size.x, "x", size.y);

@@ -9,9 +9,9 @@
 // `Failure::missing_input`, input that is no such picture `bad_data`; output as in core/file.hpp.
 namespace catoptric::measure {
 
-/// Linear light from an OpenEXR (half or float, taken as it is, infinities and NaN included) or a
-/// PNG (8 or 16 bit, always decoded with the sRGB curve, whatever its gamma chunk says). Grey
-/// becomes RGB; alpha and further channels are left out.
+/// Linear light from an OpenEXR (half or float, taken as it is, infinities and NaN included), a
+/// Radiance .hdr or a PNG (8 or 16 bit, always decoded with the sRGB curve, whatever its gamma
+/// chunk says). Grey becomes RGB; alpha and further channels are left out.
 Picture read_picture(const std::filesystem::path& path);
 
 /// A mask from a PNG: a pixel counts (255) if a colour channel is not zero; alpha does not matter.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-// How far two pixels are apart: linear RGB, both clamped to [0,1].
+// How far two pixels are apart: linear RGB as exposed (measure/picture.hpp), both clamped to [0,1].
 namespace catoptric::measure {
 
 inline bool is_finite(const vec3& pixel) {

@@ -189,7 +189,7 @@ Line line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) 
     line.add("model", row.model);
     add_figures(line, row, mirrors);
     add_views(line, comparison, row);
-    line.add("image", "images/" + row.image + ".png");
+    line.add("image", image_path(comparison, row.image + ".png"));
     line.add("on_front", int{measure::on_front(comparison, row)});
     line.add("is_reference", int{row.is_reference});
     add_identity(line, comparison, row);
@@ -229,20 +229,25 @@ private:
 
 } // namespace
 
-std::string to_csv(const Comparison& comparison) {
+std::string to_csv(const Comparison& comparison) { return to_csv(std::vector{&comparison}); }
+
+std::string to_csv(const std::vector<const Comparison*>& comparisons) {
     std::size_t mirrors = 0;
-    for (const Row& row : comparison.rows) mirrors = std::max(mirrors, row.error_per_mirror.size());
-    std::vector<Line> lines{line_of(comparison, Row{}, mirrors)}; // every column without parts
-    for (const Row& row : comparison.rows) lines.push_back(line_of(comparison, row, mirrors));
+    for (const Comparison* comparison : comparisons)
+        for (const Row& row : comparison->rows)
+            mirrors = std::max(mirrors, row.error_per_mirror.size());
+    std::vector<Line> lines;
     Columns columns;
+    for (const Comparison* comparison : comparisons) {
+        columns.add(line_of(*comparison, Row{}, mirrors)); // every column without parts
+        for (const Row& row : comparison->rows) lines.push_back(line_of(*comparison, row, mirrors));
+        if (comparison->complete || !comparison->rows.empty()) continue;
+        lines.emplace_back(); // one that says nothing else
+        lines.back().add("incomplete", incomplete_text(*comparison));
+    }
     for (const Line& line : lines) columns.add(line);
     std::string csv = columns.header();
-    for (std::size_t i = 1; i < lines.size(); ++i) csv += columns.text_of(lines[i]);
-    if (!comparison.complete && comparison.rows.empty()) { // a line that says nothing else
-        Line line;
-        line.add("incomplete", incomplete_text(comparison));
-        csv += columns.text_of(line);
-    }
+    for (const Line& line : lines) csv += columns.text_of(line);
     return csv;
 }
 

@@ -26,7 +26,11 @@ struct EncodedPictures {
 /// their worst views may change.
 void encode_new(EncodedPictures& pictures, const Comparison& comparison);
 
-/// report.html with these pictures.
+/// report.html with these pictures: a page of one section.
 std::string to_html(const Comparison& comparison, const EncodedPictures& pictures);
+std::string html_section(const Comparison& comparison, const EncodedPictures& pictures);
+std::string html_page(const std::string& title, const std::string& content);
+/// What ids of the comparison's section begin with; empty where it is the page's only one.
+std::string section_of(const Comparison& comparison);
 
 } // namespace catoptric::report

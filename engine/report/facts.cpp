@@ -22,6 +22,19 @@ std::string settings_of(const Comparison& comparison) {
                        comparison.ambient, comparison.exposure, comparison.model);
 }
 
+/// "3 lights, environment studio"; with the gaps' ids.
+std::string light_text(const SceneFacts& scene) {
+    std::string text = fmt::format("{} light{}", scene.lights.size(),
+                                   scene.lights.size() == 1 ? "" : "s");
+    if (!scene.environment) return text + ", no environment";
+    const EnvironmentFacts& environment = *scene.environment;
+    text += ", environment " + environment.name;
+    if (environment.scale != 1) text += fmt::format(" times {}", environment.scale);
+    if (environment.rotation_degrees != 0)
+        text += fmt::format(" turned by {} degrees", environment.rotation_degrees);
+    return text;
+}
+
 std::string cache_text(const std::string& cache) {
     if (cache == "used") return "with the cache on disk";
     return cache == "made" ? "the cache on disk was empty" : "no cache on disk";
@@ -45,6 +58,7 @@ std::vector<Fact> facts(const Comparison& comparison) {
         {"Scene",
          fmt::format("{}, {} triangles, {} mirrors, hash {}", comparison.scene.name,
                      comparison.scene.triangles, comparison.scene.mirrors, comparison.scene.hash)},
+        {"Light", light_text(comparison.scene)},
         {"Picture",
          fmt::format("{}x{}, {}", comparison.width, comparison.height, settings_of(comparison))},
         {"Device", device_text(comparison.device)},

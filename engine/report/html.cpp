@@ -26,8 +26,14 @@ std::string cell(const Column& column, const char* tag, const char* scope,
                        content, tag);
 }
 
-/// `linked`: the first cell of row i leads to the pictures of row i.
-std::string to_html(const Table& table, const std::string& look, bool linked) {
+/// Where the pictures of a row stand in the page.
+std::string anchor_of(const Comparison& comparison, std::size_t row) {
+    return fmt::format("{}row-{}", section_of(comparison), row);
+}
+
+/// `linked`: the first cell of row i leads to the pictures of row i of this comparison.
+std::string to_html(const Table& table, const std::string& look,
+                    const Comparison* linked = nullptr) {
     if (table.rows.empty()) return "";
     const std::string title = html_escaped(table.title);
     std::string html = fmt::format(
@@ -42,7 +48,8 @@ std::string to_html(const Table& table, const std::string& look, bool linked) {
         html += marked ? "\n<tr class=\"front\">" : "\n<tr>";
         for (std::size_t i = 0; i < table.columns.size(); ++i) {
             std::string content = html_escaped(table.rows[r][i]);
-            if (i == 0 && linked) content = fmt::format("<a href=\"#row-{}\">{}</a>", r, content);
+            if (i == 0 && linked != nullptr)
+                content = fmt::format("<a href=\"#{}\">{}</a>", anchor_of(*linked, r), content);
             html += cell(table.columns[i], i == 0 ? "th" : "td", i == 0 ? " scope=\"row\"" : "",
                          content);
         }
@@ -126,8 +133,8 @@ std::string details(const Row& row) {
 std::string article(const Comparison& comparison, const EncodedPictures& encoded,
                     std::size_t index) {
     const Row& row = comparison.rows[index];
-    std::string html = fmt::format("<article id=\"row-{}\"><div class=\"title\"><h3>{}</h3>", index,
-                                   html_escaped(row.label));
+    std::string html = fmt::format("<article id=\"{}\"><div class=\"title\"><h3>{}</h3>",
+                                   anchor_of(comparison, index), html_escaped(row.label));
     for (const auto& [holds, name] :
          {std::pair(measure::on_front(comparison, row), "on the front"),
           std::pair(row.is_reference, "the reference"), std::pair(measure::failed(row), "failed"),
@@ -188,7 +195,7 @@ std::string pictures(const Comparison& comparison, const EncodedPictures& encode
 std::string over_views(const Comparison& comparison, const EncodedPictures& encoded) {
     const Table table = views_table(comparison);
     if (table.rows.empty()) return "";
-    std::string html = to_html(table, "views", false) + "<section><h2>Apart and ties</h2>" +
+    std::string html = to_html(table, "views") + "<section><h2>Apart and ties</h2>" +
                        list_of(views_in_words(comparison)) +
                        "</section><section><h2>Worst views</h2><p>Each row at its view of the "
                        "largest FLIP, beside the reference.</p>";
@@ -229,40 +236,56 @@ std::string circumstances(const Comparison& comparison) {
 
 } // namespace
 
+std::string section_of(const Comparison& comparison) {
+    std::string name = comparison.images;
+    std::ranges::replace(name, '/', '-');
+    return name;
+}
+
 std::string to_html(const Comparison& comparison) {
     EncodedPictures pictures;
     encode_new(pictures, comparison);
     return to_html(comparison, pictures);
 }
 
-std::string to_html(const Comparison& comparison, const EncodedPictures& encoded) {
-    const std::string scene = html_escaped(comparison.scene.name);
-    std::string html =
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
-        "<title>Reflections compared: " +
-        scene + "</title><style>" + kStyle +
-        "</style></head>\n<body><header><p class=\"kicker\">Reflections compared</p><h1>" + scene +
-        "</h1><p class=\"lede\">What each way of rendering its reflections costs, and what it gets "
-        "wrong.</p>";
+std::string html_page(const std::string& title, const std::string& content) {
+    return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+           "<title>Reflections compared: " +
+           html_escaped(title) + "</title><style>" + kStyle + "</style></head>\n<body>" + content +
+           "</body></html>\n";
+}
+
+std::string html_section(const Comparison& comparison, const EncodedPictures& encoded) {
+    std::string html = "<header><p class=\"kicker\">Reflections compared</p><h1>" +
+                       html_escaped(comparison.scene.name) +
+                       "</h1><p class=\"lede\">What each way of rendering its reflections costs, "
+                       "and what it gets wrong.</p>";
     const std::vector<std::string> notes = cautions(comparison);
     if (!notes.empty()) html += "<aside class=\"caution\">" + list_of(notes) + "</aside>";
-    html += headlines(comparison) + "</header>\n<main>" + front(comparison) +
-            (comparison.scene.is_seed ? to_html(seed_table(comparison), "seed", false) : "");
+    const bool is_page = section_of(comparison).empty(); // which has one <main>
+    html += headlines(comparison) + "</header>\n" + (is_page ? "<main>" : "<div class=\"main\">") +
+            front(comparison) +
+            (comparison.scene.is_seed ? to_html(seed_table(comparison), "seed") : "");
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty())
         html += "<section><h2>" + findings_title(comparison) + "</h2>" + list_of(sentences) +
                 "</section>\n";
     html += "<section><h2>Set-up, once</h2><p>" + html_escaped(setup_text(comparison.setup)) +
-            "</p></section>\n" + to_html(rows_table(comparison), "all", true) +
-            to_html(plan_table(comparison), "plans", true) + over_views(comparison, encoded) +
-            to_html(mirror_table(comparison), "mirrors", true) +
-            to_html(lookup_table(comparison), "lookups", true) +
-            to_html(cause_table(comparison), "causes", false) + lag_plots(comparison) +
-            to_html(lag_table(comparison), "lag", false) +
-            to_html(settling_table(comparison), "lag", false) + pictures(comparison, encoded) +
+            "</p></section>\n" + to_html(rows_table(comparison), "all", &comparison) +
+            to_html(plan_table(comparison), "plans", &comparison) +
+            over_views(comparison, encoded) +
+            to_html(mirror_table(comparison), "mirrors", &comparison) +
+            to_html(lookup_table(comparison), "lookups", &comparison) +
+            to_html(cause_table(comparison), "causes") + lag_plots(comparison) +
+            to_html(lag_table(comparison), "lag") + to_html(settling_table(comparison), "lag") +
+            pictures(comparison, encoded) + to_html(gaps_table(comparison.scene), "gaps") +
             circumstances(comparison);
-    return html + "</main></body></html>\n";
+    return html + (is_page ? "</main>\n" : "</div>\n");
+}
+
+std::string to_html(const Comparison& comparison, const EncodedPictures& encoded) {
+    return html_page(comparison.scene.name, html_section(comparison, encoded));
 }
 
 } // namespace catoptric::report

@@ -122,14 +122,6 @@ Json point_json(const dvec3& point) {
     return Json::array({number(point.x), number(point.y), number(point.z)});
 }
 
-Json camera_json(const measure::CameraFacts& camera) {
-    return {{"name", camera.name},
-            {"eye", point_json(camera.eye)},
-            {"target", point_json(camera.target)},
-            {"up", point_json(camera.up)},
-            {"vertical_fov_degrees", number(camera.vertical_fov_degrees)}};
-}
-
 Json plan_json(const std::vector<PlanEntry>& plan) {
     Json json = Json::array();
     for (const PlanEntry& entry : plan)
@@ -143,14 +135,14 @@ Json plan_json(const std::vector<PlanEntry>& plan) {
 
 namespace {
 
-Json to_json(const Row& row) {
+Json to_json(const Comparison& comparison, const Row& row) {
     Json json{{"technique", row.technique}, {"settings", to_json(row.settings)}};
     json["label"] = row.label;
     json["model"] = row.model;
     add_figures(json, row);
-    json["views"] = views_json(row);
+    json["views"] = views_json(comparison, row);
     json["plan"] = plan_json(row.plan);
-    json["image"] = "images/" + row.image + ".png";
+    json["image"] = image_path(comparison, row.image + ".png");
     json["is_reference"] = row.is_reference;
     return json;
 }
@@ -169,12 +161,7 @@ void add_circumstances(Json& json, const Comparison& comparison) {
     json["device"] = {{"name", device.name},       {"driver", device.driver},
                       {"api", device.api},         {"type", device.type},
                       {"threads", device.threads}, {"held_threads", device.held_threads}};
-    const SceneFacts& scene = comparison.scene;
-    json["scene"] = {{"name", scene.name},
-                     {"triangles", scene.triangles},
-                     {"mirrors", scene.mirrors},
-                     {"hash", scene.hash},
-                     {"camera", camera_json(scene.camera)}};
+    json["scene"] = scene_json(comparison.scene);
     json["setup"] = to_json(comparison.setup);
     json["size"] = Json::array({comparison.width, comparison.height});
     json["frames"] = comparison.frames;
@@ -193,7 +180,7 @@ void add_circumstances(Json& json, const Comparison& comparison) {
 
 Json value_json(const measure::Value& value) { return std::visit(Writes{}, value); }
 
-std::string to_json(const Comparison& comparison) {
+Json document_of(const Comparison& comparison) {
     Json json{{"schema", "catoptric/compare/1"},
               {"version", comparison.version},
               {"commit", comparison.commit},
@@ -212,11 +199,17 @@ std::string to_json(const Comparison& comparison) {
     json["model"] = comparison.model;
     json["views"] = views_json(comparison);
     json["rows"] = Json::array();
-    for (const Row& row : comparison.rows) json["rows"].push_back(to_json(row));
+    for (const Row& row : comparison.rows) json["rows"].push_back(to_json(comparison, row));
     json["pareto"] = comparison.pareto;
     if (comparison.lag) json["lag"] = to_json(*comparison.lag);
-    // Names from files may be any bytes. In ASCII no terminal finds an order in them.
-    return json.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
+    return json;
 }
+
+std::string written(const Json& document) {
+    // Names from files may be any bytes. In ASCII no terminal finds an order in them.
+    return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_json(const Comparison& comparison) { return written(document_of(comparison)); }
 
 } // namespace catoptric::report

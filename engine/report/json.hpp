@@ -11,6 +11,11 @@ namespace catoptric::report {
 
 using Json = nlohmann::ordered_json;
 
+/// report.json of one scene.
+Json document_of(const Comparison& comparison);
+/// In ASCII, with a newline at its end.
+std::string written(const Json& document);
+
 /// Whole numbers without a fraction, null for what JSON has no number for.
 Json number(double value);
 /// What a quantity came to; null where it says nothing.
@@ -20,9 +25,15 @@ Json to_json(const Lag& lag);
 
 /// The field "views": of the comparison, a list; of a row, null where none were drawn.
 Json views_json(const Comparison& comparison);
-Json views_json(const Row& row);
+Json views_json(const Comparison& comparison, const Row& row);
 Json point_json(const dvec3& point);
 Json camera_json(const measure::CameraFacts& camera);
+/// Lists, and null for no environment.
+Json lights_json(const std::vector<LightFacts>& lights);
+Json environment_json(const std::optional<EnvironmentFacts>& environment);
+Json gaps_json(const std::vector<GapFacts>& gaps);
+/// The field "scene".
+Json scene_json(const SceneFacts& scene);
 
 /// A list with an object for each mirror: mirror, name, technique, settings, why.
 Json plan_json(const std::vector<PlanEntry>& plan);

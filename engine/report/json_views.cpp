@@ -1,6 +1,7 @@
 // The fields "views" of report.json.
 #include "measure/views.hpp"
 #include "report/json.hpp"
+#include "report/text.hpp"
 #include "report/views.hpp"
 
 namespace catoptric::report {
@@ -36,7 +37,7 @@ Json views_json(const Comparison& comparison) {
     return views;
 }
 
-Json views_json(const Row& row) {
+Json views_json(const Comparison& comparison, const Row& row) {
     if (row.views.empty()) return nullptr;
     Json json = Json::object();
     for (const measure::RowMask& mask : measure::masks())
@@ -45,7 +46,7 @@ Json views_json(const Row& row) {
     if (row.worst)
         json["worst"] = {{"view", row.worst->view},
                          {"flip", number(row.views[row.worst->view].error.flip)},
-                         {"image", "images/" + worst_image(row.image)}};
+                         {"image", image_path(comparison, worst_image(row.image))}};
     return json;
 }
 

@@ -90,7 +90,8 @@ std::string to_markdown(const Comparison& comparison) {
             to_markdown(rows_table(comparison)) + to_markdown(plan_table(comparison)) +
             over_views(comparison) + to_markdown(mirror_table(comparison)) +
             to_markdown(lookup_table(comparison)) + to_markdown(cause_table(comparison)) +
-            to_markdown(lag_table(comparison)) + to_markdown(settling_table(comparison));
+            to_markdown(lag_table(comparison)) + to_markdown(settling_table(comparison)) +
+            to_markdown(gaps_table(comparison.scene));
     text += "## The Pareto front: time against FLIP\n\n" + list_of(front_in_words(comparison));
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty())

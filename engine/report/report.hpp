@@ -16,6 +16,8 @@ std::string to_json(const Comparison& comparison);
 /// rows.csv: one line a row, header first (RFC 4180). The last field of each says what an
 /// incomplete run lacks; without a row one line holds nothing else.
 std::string to_csv(const Comparison& comparison);
+/// The same of several, under one header.
+std::string to_csv(const std::vector<const Comparison*>& comparisons);
 /// report.md: the seed report's Table 1 beside ours, errors, what is dominated, and what to make of
 /// its guesses.
 std::string to_markdown(const Comparison& comparison);
@@ -38,6 +40,8 @@ public:
     void write(const Comparison& comparison);
 
 private:
+    friend class ScenesWriter;
+    /// Those that are new, encoded and put into their folder.
     void write_pictures(const Comparison& comparison);
 
     std::filesystem::path folder_;
@@ -48,9 +52,48 @@ private:
     std::vector<std::optional<std::size_t>> worst_; ///< by row: view whose picture is there
 };
 
+/// One report of several scenes.
+struct Scenes {
+    std::vector<std::string> asked; ///< as they were asked for
+    std::vector<Comparison> list;   ///< so far; each with an `images` of its own
+    /// Whether all are there and complete.
+    bool is_complete() const;
+};
+/// "catoptric/compare-scenes/1": version, commit, command, complete, asked, and in "scenes" the
+/// document of each.
+std::string to_json(const Scenes& scenes);
+std::string to_csv(const Scenes& scenes);
+std::string to_markdown(const Scenes& scenes);
+/// `sections`: html_section of each.
+std::string to_html(const Scenes& scenes, const std::vector<std::string>& sections);
+/// Folder below images/ of the scene asked for at `index`, from 0: "1-room/".
+std::string images_folder(std::size_t index, const std::string& scene);
+/// All but the pictures, which take most of the memory.
+Comparison without_pictures(const Comparison& comparison);
+
+/// As Writer, of several scenes one after the other: pictures in images/N-SCENE/.
+class ScenesWriter {
+public:
+    ScenesWriter(std::filesystem::path folder, const std::vector<std::string>& scenes);
+    /// `index`: of the scene, from 0; those before it stay as they were.
+    void write(std::size_t index, const Comparison& comparison);
+    const Scenes& scenes() const { return scenes_; }
+
+private:
+    struct Section {
+        explicit Section(const std::filesystem::path& folder) : writer(folder) {}
+        Writer writer; ///< of its pictures
+        std::string html;
+    };
+    std::filesystem::path folder_;
+    Scenes scenes_;
+    std::vector<Section> sections_;
+};
+
 /// The files that a writer of rows with these `Row::image`s may put into its folder, relative to
-/// it.
-std::vector<std::filesystem::path> files_of(const std::vector<std::string>& images);
+/// it; `folder`: Comparison::images.
+std::vector<std::filesystem::path> files_of(const std::vector<std::string>& images,
+                                            const std::string& folder = {});
 
 /// All of it once.
 void write(const Comparison& comparison, const std::filesystem::path& folder);

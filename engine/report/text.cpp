@@ -48,6 +48,10 @@ std::string mebibytes(std::uint64_t bytes) {
     return fixed(static_cast<double>(bytes) / (1024 * 1024), 1);
 }
 
+std::string image_path(const Comparison& comparison, const std::string& file) {
+    return "images/" + comparison.images + file;
+}
+
 std::string settings_text(const Row& row) {
     std::vector<std::string> parts;
     for (const Setting& setting : row.settings) parts.push_back(setting.name + "=" + setting.text);

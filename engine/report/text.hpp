@@ -23,6 +23,8 @@ int ms_decimals(const Comparison& comparison);
 /// 1000 / ms with three significant digits; "–" when no time passed.
 std::string fps_text(double ms);
 std::string mebibytes(std::uint64_t bytes);
+/// Of a picture of the comparison, from the report's folder.
+std::string image_path(const Comparison& comparison, const std::string& file);
 /// "bounces=3, face=256".
 std::string settings_text(const Row& row);
 /// What a run has of what it was asked for and why no more: "4 of 8 rows: ...".

@@ -1,6 +1,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "measure/picture_file.hpp"
+#include "report/encoded.hpp"
 #include "report/report.hpp"
 #include "report/views.hpp"
 
@@ -18,7 +19,9 @@ void create_folder(const fs::path& folder) {
 }
 
 void Writer::write_pictures(const Comparison& comparison) {
-    const fs::path images = folder_ / "images";
+    const fs::path images = folder_ / "images" / comparison.images;
+    create_folder(images);
+    encode_new(pictures_, comparison);
     if (!has_reference_ && !pictures_.reference.empty()) {
         write_file(images / "reference.png", pictures_.reference);
         has_reference_ = true;
@@ -48,8 +51,6 @@ void Writer::write_pictures(const Comparison& comparison) {
 }
 
 void Writer::write(const Comparison& comparison) {
-    create_folder(folder_ / "images");
-    encode_new(pictures_, comparison);
     write_pictures(comparison);
     write_file(folder_ / "rows.csv", to_csv(comparison));
     write_file(folder_ / "report.md", to_markdown(comparison));
@@ -58,16 +59,37 @@ void Writer::write(const Comparison& comparison) {
     write_file(folder_ / "report.json", to_json(comparison));
 }
 
-std::vector<fs::path> files_of(const std::vector<std::string>& images) {
+std::vector<fs::path> files_of(const std::vector<std::string>& images, const std::string& folder) {
+    const fs::path there = fs::path("images") / folder;
     std::vector<fs::path> files{"report.json", "report.html", "report.md", "rows.csv",
-                                "images/reference.png"};
+                                there / "reference.png"};
     for (const std::string& image : images) {
         for (const char* ending : {".exr", ".png", "-error.png"})
-            files.push_back(fs::path("images") / (image + ending));
+            files.push_back(there / (image + ending));
         for (const std::string& more : {"causes-" + image + ".png", worst_image(image)})
-            files.push_back(fs::path("images") / more);
+            files.push_back(there / more);
     }
     return files;
+}
+
+ScenesWriter::ScenesWriter(fs::path folder, const std::vector<std::string>& scenes)
+    : folder_(std::move(folder)) {
+    scenes_.asked = scenes;
+}
+
+void ScenesWriter::write(std::size_t index, const Comparison& comparison) {
+    if (sections_.size() == index) sections_.emplace_back(folder_);
+    if (scenes_.list.size() == index) scenes_.list.emplace_back();
+    Section& section = sections_.at(index);
+    section.writer.write_pictures(comparison);
+    section.html = html_section(comparison, section.writer.pictures_);
+    scenes_.list.at(index) = without_pictures(comparison);
+    std::vector<std::string> pages;
+    for (const Section& one : sections_) pages.push_back(one.html);
+    write_file(folder_ / "rows.csv", to_csv(scenes_));
+    write_file(folder_ / "report.md", to_markdown(scenes_));
+    write_file(folder_ / "report.html", to_html(scenes_, pages));
+    write_file(folder_ / "report.json", to_json(scenes_));
 }
 
 void write(const Comparison& comparison, const fs::path& folder) {

@@ -51,7 +51,7 @@ void add_walls(Scene& scene) {
 } // namespace
 
 Scene cornell_mirrors() {
-    Scene scene{.name = "cornell-mirrors", .materials = materials()};
+    Scene scene{.name = "cornell-mirrors", .materials = materials(), .exposure = 0};
     add_walls(scene);
     const std::size_t unit_ball = scene.meshes.size();
     scene.meshes.push_back(ball("ball", 5));

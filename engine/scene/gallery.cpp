@@ -104,6 +104,18 @@ void add_on_walls(Scene& scene, std::size_t mirror) {
         dvec4(1, 0, 0, 0), dvec4(0, 0, -1, 0), dvec4(0, 1, 0, 0), dvec4(0, 1.7, kLength - .05, 1));
 }
 
+/// To the far end and back within twelve seconds, slow where it turns.
+Follows walk() {
+    Rig rig{.repeats = true};
+    const Keys keys{.interpolation = Interpolation::cubic,
+                    .times = {0, 6, 12},
+                    .values = {{0, 0, 0}, {.3, 0, kLength - 5}, {0, 0, 0}},
+                    .in_tangents = {{}, {}, {}},
+                    .out_tangents = {{}, {}, {}}};
+    rig.nodes.push_back({.translations = std::make_shared<const Keys>(keys)});
+    return {.rig = std::make_shared<const Rig>(std::move(rig))};
+}
+
 } // namespace
 
 Scene gallery() {
@@ -133,7 +145,8 @@ Scene gallery() {
     scene.cameras.push_back({.name = "visitor",
                              .eye = {0, 1.6, .6},
                              .target = {0, 1.3, 5},
-                             .vertical_fov_degrees = 62});
+                             .vertical_fov_degrees = 62,
+                             .follows = walk()});
     scene.cameras.push_back({.name = "from the end",
                              .eye = {1.9, 2.6, 13.4},
                              .target = {-.4, 1, 9},

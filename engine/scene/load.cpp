@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/knob.hpp"
 #include "core/text.hpp"
+#include "scene/classify.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -21,6 +22,11 @@ std::string lower_case_extension(const std::filesystem::path& path) {
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return extension;
+}
+
+Scene classified(Scene scene) {
+    classify(scene);
+    return scene;
 }
 
 [[noreturn]] void fail_unknown(const std::string& word) {
@@ -50,10 +56,11 @@ const std::vector<BuiltIn>& built_in_scenes() {
 
 Scene load(const std::string& name_or_path, const LoadOptions& options) {
     for (const BuiltIn& scene : built_in_scenes())
-        if (scene.name == name_or_path) return scene.make();
+        if (scene.name == name_or_path) return classified(scene.make());
     const std::string extension = lower_case_extension(name_or_path);
-    if (extension == ".glb" || extension == ".gltf") return load_gltf(name_or_path, options);
-    if (extension == ".obj") return load_obj(name_or_path, options);
+    if (extension == ".glb" || extension == ".gltf")
+        return classified(load_gltf(name_or_path, options));
+    if (extension == ".obj") return classified(load_obj(name_or_path, options));
     fail_unknown(name_or_path);
 }
 

@@ -33,7 +33,7 @@ struct LoadOptions {
     Budget budget;
 };
 
-/// A built-in scene by name, or a .glb, .gltf or .obj file.
+/// A built-in scene by name, or a .glb, .gltf or .obj file, its mirrors found (scene/classify.hpp).
 /// Throws `Failure::usage` for a word that is neither (with the nearest built-in name),
 /// `missing_input` for a file that is not there, `bad_data` naming file and place for what cannot
 /// be read, asks for more than the budget or lies elsewhere than it may. What is left out or

@@ -112,7 +112,7 @@ std::vector<Material> materials_of(const Library& library, Context& context);
 ///       (cubic: t, in-tangent, value, out-tangent)
 ///   # catoptric sphere OBJECT cx cy cz r
 ///   # catoptric hidden OBJECT            (camera rays pass through it)
-///   # catoptric exposure STOPS
+///   # catoptric exposure STOPS           (of the scene)
 struct Remarks {
     std::optional<double> exposure;
     std::vector<Camera> cameras;

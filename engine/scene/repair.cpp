@@ -144,11 +144,6 @@ void finish(Scene& scene, const std::string& file, Notes& notes, std::vector<Gap
           lines == gaps.end() ? "" : ", only points or lines, which are not drawn");
     scene.gaps = std::move(gaps);
     scene.warnings = notes.lines(file);
-    const bool is_lit = !scene.punctual.empty() ||
-                        std::ranges::any_of(scene.objects, [&](const Object& object) {
-                            return light_of(scene.materials[object.material]) != vec3(0);
-                        });
-    if (!is_lit) scene.warnings.push_back(file + ": no light: ambient only");
 }
 
 } // namespace catoptric::scene

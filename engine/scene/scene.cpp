@@ -45,22 +45,4 @@ std::size_t triangle_count(const Scene& scene) {
     return count;
 }
 
-Camera default_camera(const Scene& scene) {
-    constexpr double kMargin = 1.05; // of the distance, so that the outermost edge is inside
-    Bounds<double> box = bounds(scene);
-    if (box.empty()) box.lo = dvec3(-1), box.hi = dvec3(1);
-    const dvec3 half = box.extent() * 0.5;
-    const int axis = half.z <= half.x && half.z <= half.y ? 2 : half.x <= half.y ? 0 : 1;
-    const double widest = std::max(half[(axis + 1) % 3], half[(axis + 2) % 3]);
-
-    Camera camera{.name = "default"};
-    camera.target = box.centre();
-    const double slope = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
-    const double distance = widest > 0 ? kMargin * (half[axis] + widest / slope) : 1;
-    camera.eye = camera.target;
-    camera.eye[axis] += distance;
-    camera.up = axis == 1 ? dvec3(0, 0, -1) : dvec3(0, 1, 0);
-    return camera;
-}
-
 } // namespace catoptric::scene

@@ -131,9 +131,11 @@ Bounds<double> bounds(const Scene& scene);
 
 std::size_t triangle_count(const Scene& scene);
 
-/// Where a file has no camera: along the axis of the bounds' smallest extent, whole bounds in view
-/// of a square picture. Stands on the positive side, as glTF models face +z.
-Camera default_camera(const Scene& scene);
+/// Where a file has no camera: a three-quarter view of the centre of the bounds at rest, from the
+/// front right and above (30 degrees, 20 degrees), vertical field of view 40 degrees, as near as
+/// the bounds' eight corners lie within 90 % of the height and width of a picture `aspect` times as
+/// wide as it is high.
+Camera default_camera(const Scene& scene, double aspect = 1);
 
 /// 64-bit FNV-1a over names, geometry, materials, motion and cameras as 16 hex digits. The scene's
 /// own name, its warnings and its files do not count: a copied file has the same hash.

@@ -49,6 +49,11 @@ void Verb::argument(const std::string& name, const std::string& help, std::strin
     app_.add_option(name, value, help)->type_name("")->required(need == Need::required);
 }
 
+void Verb::arguments(const std::string& name, const std::string& help,
+                     std::vector<std::string>& values) {
+    app_.add_option(name, values, help)->type_name("");
+}
+
 void Verb::flag(const std::string& names, const std::string& help, bool& value) {
     app_.add_flag(names, value, help);
 }
@@ -66,6 +71,21 @@ void Verb::option(const std::string& names, const std::string& type, const std::
 void Verb::option(const std::string& names, const std::string& type, const std::string& help,
                   const Take& take) {
     app_.add_option_function<std::string>(names, take, help)->type_name(type);
+}
+
+void Verb::repeated(const std::string& names, const std::string& type, const std::string& help,
+                    const Take& take) {
+    const auto take_all = [take](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) take(text);
+    };
+    app_.add_option_function<std::vector<std::string>>(names, take_all, help)
+        ->type_name(type)
+        ->allow_extra_args(false);
+}
+
+void Verb::option_without_value(const std::string& names, const std::string& help,
+                                const std::function<void()>& take) {
+    app_.add_flag_callback(names, take, help);
 }
 
 CommandLine::CommandLine(const std::string& name, const std::string& summary,

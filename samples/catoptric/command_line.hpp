@@ -28,6 +28,9 @@ public:
 
     enum class Need : std::uint8_t { optional, required };
     void argument(const std::string& name, const std::string& help, std::string& value, Need need);
+    /// Any number of words.
+    void arguments(const std::string& name, const std::string& help,
+                   std::vector<std::string>& values);
     void flag(const std::string& names, const std::string& help, bool& value);
     /// `names` as in "-o,--output"; `type` stands for the value in the help.
     void option(const std::string& names, const std::string& type, const std::string& help,
@@ -38,6 +41,11 @@ public:
     /// `take` gets the text while the line is parsed; what it throws, `CommandLine::parse` throws.
     void option(const std::string& names, const std::string& type, const std::string& help,
                 const Take& take);
+    /// The same, each time that it is given.
+    void repeated(const std::string& names, const std::string& type, const std::string& help,
+                  const Take& take);
+    void option_without_value(const std::string& names, const std::string& help,
+                              const std::function<void()>& take);
 
     /// Called once the whole line is parsed; returns the exit code.
     void does(std::function<int()> run) { run_ = std::move(run); }

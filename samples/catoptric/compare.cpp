@@ -22,12 +22,15 @@ constexpr const char* kExamples = R"(Examples:
   catoptric compare scene.glb -o out --size 256x256 --techniques reuse parallax:face=512
   catoptric compare -o out --together --json > report.json
   catoptric compare -o out --views 30 --techniques secant march layered
+  catoptric compare cornell-mirrors room.glb -o out
   catoptric compare -o out --lag --size 256x256 --techniques reuse parallax secant
 
-SCENE comes before --techniques. DIR gets report.html, report.md, report.json, rows.csv and images/.)";
+SCENE comes before --techniques; several become one report with a section and a front for each. DIR gets
+report.html, report.md, report.json, rows.csv and images/.)";
 
 struct Options {
-    Common common;
+    Common common; ///< of every scene
+    std::vector<std::string> scenes;
     std::string folder;
     std::vector<std::string> techniques;
     bool together = false;
@@ -56,16 +59,21 @@ int parse_views(const std::string& text) {
     return views;
 }
 
-app::CompareRequest make_compare_request(const Options& options) {
+/// As they were asked for; one, the built-in scene, where none was.
+std::vector<std::string> scenes_of(const Options& options) {
+    return options.scenes.empty() ? std::vector{options.common.scene} : options.scenes;
+}
+
+/// What is asked of every scene.
+app::CompareRequest make_compare_request(const Options& options, const std::string& scene) {
     app::CompareRequest request;
-    for (const std::string& text : options.techniques) check_no_scene(text); // before any work
-    app::check_rows(options.techniques);
-    request.base = make_request(options.common, app::check_has_mirror);
+    Common common = options.common;
+    common.scene = scene;
+    request.base = make_request(common, app::check_has_mirror);
     request.base.techniques = options.techniques;
     request.reference = options.common.reference;
     request.together = options.together;
     request.rounds = options.rounds;
-    if (options.causes) app::check_explains(options.common.reference);
     request.causes = options.causes;
     request.lag = options.lag;
     request.views = options.views;
@@ -73,15 +81,37 @@ app::CompareRequest make_compare_request(const Options& options) {
     return request;
 }
 
-void check_places(const Options& options, const app::Request& request) {
+/// All of them before any work, so that the last one's fault is known at once.
+std::vector<app::CompareRequest> make_compare_requests(const Options& options) {
+    for (const std::string& text : options.techniques) check_no_scene(text);
+    app::check_rows(options.techniques);
+    if (options.causes) app::check_explains(options.common.reference);
+    std::vector<app::CompareRequest> requests;
+    const std::vector<std::string> scenes = scenes_of(options);
+    for (const std::string& scene : scenes) {
+        app::CompareRequest request = make_compare_request(options, scene);
+        if (scenes.size() > 1)
+            request.images = report::images_folder(requests.size(), request.base.scene.name);
+        requests.push_back(std::move(request));
+    }
+    return requests;
+}
+
+void check_places(const Options& options, const std::vector<app::CompareRequest>& requests) {
     std::vector<std::string> images;
     for (const std::string& text :
          options.techniques.empty() ? app::default_techniques() : options.techniques)
         images.push_back(app::parse_technique(text).file_name);
-    std::vector<std::filesystem::path> outputs{kStdout};
-    for (const std::filesystem::path& file : report::files_of(images))
-        outputs.push_back(std::filesystem::path(options.folder) / file);
-    check_apart(outputs, request.scene.files);
+    std::vector<std::filesystem::path> outputs{kStdout}, inputs;
+    for (const app::CompareRequest& request : requests) {
+        const bool is_first = &request == &requests.front();
+        for (const std::filesystem::path& file : report::files_of(images, request.images))
+            if (is_first || file.has_parent_path()) // the documents are of all
+                outputs.push_back(std::filesystem::path(options.folder) / file);
+        const std::vector<std::filesystem::path>& files = request.base.scene.files;
+        inputs.insert(inputs.end(), files.begin(), files.end());
+    }
+    check_apart(outputs, inputs);
 }
 
 /// Labels of the rows with pixels that are NaN or infinite.
@@ -92,13 +122,6 @@ std::vector<std::string> broken_rows(const report::Comparison& comparison) {
             broken.push_back("'" + row.label + "' has " + std::to_string(row.error_all.nonfinite) +
                              " pixels that are not finite");
     return broken;
-}
-
-void show(const Options& options, const report::Comparison& comparison) {
-    const Manners& manners = options.common.manners;
-    for (const std::string& warning : comparison.warnings) detail(manners, "warning: " + warning);
-    put(manners.json ? report::to_json(comparison) : compare_table(comparison));
-    if (!comparison.stopped) note(manners, "written: " + options.folder);
 }
 
 /// What was on its way when a run with all its rows ended early.
@@ -118,31 +141,78 @@ int exit_code(const Options& options, const report::Comparison& comparison) {
     return 0;
 }
 
+/// Where the reports of one or of several scenes go.
+class Output {
+public:
+    Output(const Options& options, std::size_t count)
+        : options_(options), one_(options.folder), several_(options.folder, scenes_of(options)),
+          is_one_(count == 1) {}
+
+    void write(std::size_t index, const report::Comparison& comparison) {
+        is_one_ ? one_.write(comparison) : several_.write(index, comparison);
+    }
+    /// The table of one scene, once it is done.
+    void show(const report::Comparison& comparison) const {
+        const Manners& manners = options_.common.manners;
+        for (const std::string& warning : comparison.warnings)
+            detail(manners, "warning: " + warning);
+        if (!manners.json)
+            put((is_one_ ? "" : comparison.scene.name + "\n") + compare_table(comparison));
+        else if (is_one_)
+            put(report::to_json(comparison));
+    }
+    /// What is said of all of them, at the end.
+    void show_all() const {
+        if (options_.common.manners.json && !is_one_) put(report::to_json(several_.scenes()));
+    }
+
+private:
+    const Options& options_;
+    report::Writer one_;
+    report::ScenesWriter several_;
+    bool is_one_;
+};
+
+/// Measures one of the scenes and writes what there is of all so far.
+report::Comparison compare_one(app::Engine& engine, app::CompareRequest& request, std::size_t index,
+                               Progress& progress, Output& output) {
+    const std::size_t row_count = request.base.techniques.empty() ? app::default_techniques().size()
+                                                                  : request.base.techniques.size();
+    request.watcher = watcher_of(progress);
+    request.watcher.row("reference " + request.reference, 0, row_count);
+    request.on_finished_row = [&](const report::Comparison& so_far) {
+        output.write(index, so_far);
+    };
+    report::Comparison comparison = app::compare(engine, request);
+    progress.clear();
+    // Where no row came to its end, a report of before is worth more.
+    if (!comparison.rows.empty()) output.write(index, comparison);
+    output.show(comparison);
+    return comparison;
+}
+
 int run(const Options& options) {
     const Manners& manners = options.common.manners;
     require_given(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
     check_folder_can_be_made(options.folder);
     check_folder_can_be_made(std::filesystem::path(options.folder) / "images");
-    app::CompareRequest request = make_compare_request(options);
-    check_places(options, request.base);
-    const std::size_t row_count = options.techniques.empty() ? app::default_techniques().size()
-                                                             : options.techniques.size();
+    std::vector<app::CompareRequest> requests = make_compare_requests(options);
+    check_places(options, requests);
     app::Engine engine(engine_options(options.common.device, options.common.validate));
     introduce(engine, options.common.manners);
     report::create_folder(options.folder);
 
     Progress progress(manners);
-    request.watcher = watcher_of(progress);
-    request.watcher.row("reference " + request.reference, 0, row_count);
-    report::Writer writer(options.folder);
-    request.on_finished_row = [&](const report::Comparison& so_far) { writer.write(so_far); };
-    const report::Comparison comparison = app::compare(engine, request);
-    progress.clear();
-
-    // Where no row came to its end, a report of before is worth more.
-    if (!comparison.rows.empty()) writer.write(comparison);
-    show(options, comparison);
-    const int code = exit_code(options, comparison);
+    Output output(options, requests.size());
+    int code = 0;
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        const report::Comparison comparison = compare_one(engine, requests[i], i, progress, output);
+        if (comparison.stopped || i + 1 == requests.size()) output.show_all();
+        if (!comparison.stopped && i + 1 == requests.size())
+            note(manners, "written: " + options.folder);
+        code = exit_code(options, comparison);
+        requests[i].base.scene = scene::Scene(); // its memory
+    }
     if (options.common.validate) engine.check_validation();
     return code;
 }
@@ -155,6 +225,10 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
     Verb& verb = program.add("compare",
                              "every technique against the reference: speed and error in one table");
     verb.examples(kExamples);
+    verb.arguments("SCENE",
+                   "built-in names (see 'list scenes') or .glb, .gltf or .obj files "
+                   "(cornell-mirrors)",
+                   options->scenes);
     verb.option("-o,--output", "DIR", "folder for the report; required, made if missing",
                 options->folder);
     verb.option(
@@ -179,7 +253,7 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
               "also how far the rows that read last frame's captures are behind a moving "
               "scene: about 2300 frames a row",
               options->lag);
-    add_common(verb, options->common);
+    add_common_without_scene(verb, options->common);
     verb.does([options] { return run(*options); });
 }
 

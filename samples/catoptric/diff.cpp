@@ -25,7 +25,7 @@ constexpr const char* kExamples = R"(Examples:
   catoptric diff a.png b.png --mask mirrors.png --json
   catoptric diff new.exr golden.exr --max-flip 0.01 --max-rmse 0.001
 
-All on linear RGB clamped to [0,1], flip on the pictures as displayed at 67 pixels per degree.
+All on linear RGB times 2^STOPS, clamped to [0,1], flip on the pictures as displayed at 67 pixels per degree.
 Exit code 1 when a figure is over its threshold or, with one given, a pixel is not finite.)";
 
 struct Options {
@@ -59,7 +59,8 @@ DiffFacts compare_files(const Options& options) {
                     options.mask,
                     {a.width, a.height},
                     options.exposure,
-                    measure::difference(a, b, mask, map),
+                    measure::difference(measure::exposed(a, options.exposure),
+                                        measure::exposed(b, options.exposure), mask, map),
                     measure::mean_of(a, Range::unclamped, mask),
                     measure::mean_of(b, Range::unclamped, mask),
                     measure::mean_of(a, Range::clamped, mask),
@@ -122,7 +123,8 @@ void add_diff(CommandLine& program) {
                 [options](const std::string& text) {
                     options->most_rmse = parse_real("--max-rmse", text, 0);
                 });
-    add_exposure(verb, options->exposure);
+    verb.option("--exposure", "STOPS", "figures are of light times 2^STOPS (0)",
+                [options](const std::string& text) { options->exposure = parse_stops(text); });
     add_manners(verb, options->manners);
     verb.does([options] { return run(*options); });
 }

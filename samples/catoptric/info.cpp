@@ -1,10 +1,16 @@
-// catoptric info: version, device, features.
+// catoptric info: what a scene is made of; or version, device, features.
 #include "app/engine.hpp"
+#include "app/exposure.hpp"
+#include "app/scene_info.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/text.hpp"
 #include "json.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "scene/load.hpp"
+#include "scene/scene_file.hpp"
+#include "scene_text.hpp"
 #include "verbs.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +20,11 @@
 namespace catoptric::cli {
 
 namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  catoptric info --json
+  catoptric info room.glb
+  catoptric info room.glb --mirror 'wall mirror' --write)";
 
 InfoFacts gather(const std::string& device) {
     InfoFacts facts;
@@ -52,24 +63,87 @@ std::string text_of(const InfoFacts& facts) {
     return text;
 }
 
+struct Options {
+    Common common; ///< without a scene: about the program
+    bool writes = false, replaces = false;
+};
+
+/// The exposure that the scene is shown with; none where no device can tell.
+std::optional<double> exposure_of(app::Request& request, const Options& options) {
+    if (!request.auto_exposure) return request.exposure;
+    try {
+        app::Engine engine(engine_options(options.common.device, options.common.validate));
+        introduce(engine, options.common.manners);
+        app::Session session(engine, request.scene);
+        return app::auto_exposure(session, request);
+    } catch (const Error& error) {
+        if (error.failure != Failure::no_device) throw;
+        note(options.common.manners, std::string("exposure not told: ") + error.what());
+        return std::nullopt;
+    }
+}
+
+/// What was asked for, with what was added.
+void write_scene_file(const Options& options, const app::Wanted& wanted,
+                      const scene::Scene& scene) {
+    check(wanted.is_file, Failure::usage,
+          "--write: wanted a scene's file, beside which to write, found the built-in ",
+          in_quotes(scene.name));
+    const std::filesystem::path path = scene::scene_file_of(options.common.scene);
+    std::error_code error;
+    check(options.replaces ||
+              !std::filesystem::exists(std::filesystem::symlink_status(path, error)),
+          Failure::cannot_create, path.string(), ": is there already; --force replaces it");
+    scene::Wishes wishes = wanted.wishes;
+    if (!wishes.environment)
+        wishes.environment = scene.environment && scene.environment->studio ? "studio" : "none";
+    write_file(path, scene::scene_file_text(wishes, options.common.scene));
+    note(options.common.manners, "written: " + path.string());
+}
+
+int about_scene(const Options& options) {
+    Asked asked = make_asked(options.common);
+    app::Request& request = asked.request;
+    if (options.writes) write_scene_file(options, asked.wanted, request.scene);
+    SceneWords words{.info = app::scene_info(request)};
+    words.auto_exposure = request.auto_exposure;
+    words.exposure = exposure_of(request, options);
+    words.ambient = request.ambient;
+    if (asked.wanted.scene_file) words.scene_file = asked.wanted.scene_file->string();
+    words.warnings = request.scene.warnings;
+    put(options.common.manners.json ? scene_json(words) : scene_text(words));
+    return 0;
+}
+
+int run(const Options& options) {
+    check(options.writes || !options.replaces, Failure::usage, "--force: wanted --write beside it");
+    if (!options.common.scene.empty()) return about_scene(options);
+    check(!options.writes, Failure::usage, "--write: wanted a SCENE");
+    const InfoFacts facts = gather(options.common.device);
+    put(options.common.manners.json ? info_json(facts) : text_of(facts));
+    return 0;
+}
+
 } // namespace
 
 void add_info(CommandLine& program) {
-    struct Options {
-        Manners manners;
-        std::string device;
-    };
     const auto options = std::make_shared<Options>();
-    Verb& verb = program.add("info", "version, device and features");
-    verb.examples("Example:\n  catoptric info --json");
+    options->common.scene.clear();
+    Verb& verb = program.add("info", "what a scene is made of; or version, device and features");
+    verb.examples(kExamples);
+    verb.argument(
+        "SCENE",
+        "built-in name or .glb, .gltf or .obj file; none: about the program and the device",
+        options->common.scene, Verb::Need::optional);
+    verb.flag("--write", "what is said of the scene here also becomes SCENE.catoptric.json",
+              options->writes);
+    verb.flag("--force", "--write may replace one", options->replaces);
     verb.option("--device", "D", "index from 0 or part of a name (the fastest kind)",
-                options->device);
-    add_manners(verb, options->manners);
-    verb.does([options] {
-        const InfoFacts facts = gather(options->device);
-        put(options->manners.json ? info_json(facts) : text_of(facts));
-        return 0;
-    });
+                options->common.device);
+    add_view(verb, options->common);
+    add_wishes(verb, options->common);
+    add_manners(verb, options->common.manners);
+    verb.does([options] { return run(*options); });
 }
 
 } // namespace catoptric::cli

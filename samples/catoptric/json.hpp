@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/run.hpp"
+#include "app/scene_info.hpp"
 #include "measure/difference.hpp"
 
 #include <optional>
@@ -46,5 +47,16 @@ struct InfoFacts {
     std::vector<std::pair<std::string, std::vector<std::string>>> features;
 };
 std::string info_json(const InfoFacts& facts);
+
+/// What `info SCENE` has to say.
+struct SceneWords {
+    app::SceneInfo info;
+    std::optional<double> exposure; ///< stops; none: not known
+    bool auto_exposure = false;
+    double ambient = 0;
+    std::string scene_file; ///< that was read; empty: none
+    std::vector<std::string> warnings;
+};
+std::string scene_json(const SceneWords& words);
 
 } // namespace catoptric::cli

@@ -1,5 +1,6 @@
 #include "options.hpp"
 
+#include "app/candidates.hpp"
 #include "app/seeded_camera.hpp"
 #include "core/error.hpp"
 #include "core/knob.hpp"
@@ -21,8 +22,6 @@ const std::string kCommonGroup = "Common options";
 const std::string kMannersGroup = "Output";
 
 void add_numbers(Verb& verb, Common& common) {
-    verb.option("--size", "WxH", "picture size (512x512)",
-                [&](const std::string& text) { common.size = parse_size("--size", text); });
     verb.option("--frames", "N", "measured frames, at least 1 (20)", [&](const std::string& text) {
         common.frames = static_cast<int>(parse_whole("--frames", text, 1, kMostFrames));
     });
@@ -30,17 +29,8 @@ void add_numbers(Verb& verb, Common& common) {
                 [&](const std::string& text) {
                     common.warmup = static_cast<int>(parse_whole("--warmup", text, 0, kMostFrames));
                 });
-    verb.option("--time", "SECONDS", "instant of the scene's motion (0)",
-                [&](const std::string& text) { common.time = parse_real("--time", text); });
     verb.flag("--animate", "frame k at --time + (k-1)/60 s; otherwise all frames at --time",
               common.animate);
-    verb.option("--seed", "N",
-                "of --camera seeded and of sample patterns that are no regular grid (1)",
-                [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
-    verb.option("--ambient", "A", "ambient light, at least 0 (0.05)", [&](const std::string& text) {
-        common.ambient = parse_real("--ambient", text, 0);
-    });
-    add_exposure(verb, common.exposure);
 }
 
 void take_model(const std::string& text) {
@@ -50,17 +40,6 @@ void take_model(const std::string& text) {
 }
 
 void add_choices(Verb& verb, Common& common) {
-    verb.option("--root", "DIR",
-                "the files that SCENE names may lie below DIR too (below the scene's own folder)",
-                [&](const std::string& text) {
-                    check(!text.empty(), Failure::usage, "--root: wanted a folder, found ''");
-                    common.root = text;
-                });
-    verb.option(
-        "--camera", "C",
-        "name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV, or seeded: drawn from --seed, a mirror in "
-        "view (the file's first)",
-        [&](const std::string& text) { common.camera = text; });
     verb.option("--model", "M",
                 "everything: each mirror, six faces, every frame. required: not there yet",
                 take_model);
@@ -85,66 +64,30 @@ void add_choices(Verb& verb, Common& common) {
               common.validate);
 }
 
-std::string camera_list(const scene::Scene& scene) {
-    constexpr std::size_t kMostListed = 20;
-    const std::size_t count = scene.cameras.size();
-    std::string list;
-    for (std::size_t i = 0; i < std::min(count, kMostListed); ++i)
-        list += (i ? ", " : "") + std::to_string(i) + " " + in_quotes(scene.cameras[i].name);
-    if (count > kMostListed) list += " and " + std::to_string(count - kMostListed) + " more";
-    return list.empty() ? "none" : list;
-}
-
-dvec3 parse_point(const std::string& text) {
-    const std::vector<std::string> parts = split(text, ',');
-    check(parts.size() == 3, Failure::usage, "--camera: wanted a point X,Y,Z, found '", text, "'");
-    return {parse_real("--camera", parts[0]), parse_real("--camera", parts[1]),
-            parse_real("--camera", parts[2])};
-}
-
-/// "EX,EY,EZ:TX,TY,TZ:FOV".
-scene::Camera placed_camera(const std::string& text) {
-    const std::vector<std::string> parts = split(text, ':');
-    check(parts.size() == 3, Failure::usage,
-          "--camera: wanted EX,EY,EZ:TX,TY,TZ:FOV (eye, target, degrees), found '", text, "'");
-    scene::Camera camera{
-        .name = text, .eye = parse_point(parts[0]), .target = parse_point(parts[1])};
-    camera.vertical_fov_degrees = parse_real("--camera", parts[2], 0.001, 179);
-    check(camera.eye != camera.target, Failure::usage,
-          "--camera: wanted a target away from the eye, found both at ", parts[0]);
-    const dvec3 along = camera.target - camera.eye;
-    if (along.x == 0 && along.z == 0) camera.up = dvec3(0, 0, 1); // straight up or down
-    return camera;
-}
-
-scene::Camera choose_camera(const Common& common, const scene::Scene& scene) {
-    const auto is_called_so = [&](const scene::Camera& camera) {
-        return camera.name == common.camera;
-    };
-    if (common.camera == "seeded" && std::ranges::none_of(scene.cameras, is_called_so)) {
+scene::Camera choose_camera(const Common& common, app::Wanted& wanted) {
+    const scene::Scene& scene = wanted.scene;
+    const auto is_called_so = [](const scene::Camera& camera) { return camera.name == "seeded"; };
+    if (wanted.wishes.camera == "seeded" && std::ranges::none_of(scene.cameras, is_called_so)) {
         scene::Camera camera = app::seeded_camera(scene, common.time, common.seed);
         note(common.manners,
              "camera drawn from seed " + std::to_string(common.seed) + ": " + camera.name);
         return camera;
     }
-    if (!common.camera.empty()) return parse_camera(common.camera, scene);
-    if (!scene.cameras.empty()) return scene.cameras.front();
-    const scene::Camera camera = scene::default_camera(scene);
-    std::ostringstream text;
-    text << "no camera in file: using eye " << camera.eye.x << ',' << camera.eye.y << ','
-         << camera.eye.z << ", target " << camera.target.x << ',' << camera.target.y << ','
-         << camera.target.z << ", " << camera.vertical_fov_degrees << " degrees";
-    note(common.manners, text.str());
-    return camera;
+    return app::camera_of(wanted, double(common.size.x) / double(common.size.y));
+}
+
+/// One warning, with what to type.
+void warn_of_no_mirror(const scene::Scene& scene) {
+    if (!scene::mirrors(scene).empty()) return;
+    const std::vector<std::string> options = app::mirror_options(scene, 1);
+    warn("scene " + in_quotes(scene.name) + " has no mirror" +
+         (options.empty() ? "" : "; one is made with, for example, " + options.front()));
 }
 
 } // namespace
 
-void add_exposure(Verb& verb, double& exposure) {
-    verb.option("--exposure", "STOPS", "brightness of PNG, HTML and FLIP: times 2^STOPS (0)",
-                [&](const std::string& text) {
-                    exposure = parse_real("--exposure", text, -kMostStops, kMostStops);
-                });
+double parse_stops(const std::string& text) {
+    return parse_real("--exposure", text, -kMostStops, kMostStops);
 }
 
 void add_manners(Verb& verb, Manners& manners) {
@@ -159,14 +102,30 @@ void add_manners(Verb& verb, Manners& manners) {
                 });
 }
 
+void add_view(Verb& verb, Common& common) {
+    verb.option("--size", "WxH", "picture size (512x512)",
+                [&](const std::string& text) { common.size = parse_size("--size", text); });
+    verb.option("--time", "SECONDS", "instant of the scene's motion (0)",
+                [&](const std::string& text) { common.time = parse_real("--time", text); });
+    verb.option("--seed", "N",
+                "of --camera seeded and of sample patterns that are no regular grid (1)",
+                [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
+}
+
+void add_common_without_scene(Verb& verb, Common& common) {
+    verb.heading(kCommonGroup);
+    add_view(verb, common);
+    add_numbers(verb, common);
+    add_choices(verb, common);
+    add_wishes(verb, common);
+    add_manners(verb, common.manners);
+}
+
 void add_common(Verb& verb, Common& common) {
     verb.argument("SCENE",
                   "built-in name (see 'list scenes') or .glb, .gltf or .obj file (cornell-mirrors)",
                   common.scene, Verb::Need::optional);
-    verb.heading(kCommonGroup);
-    add_numbers(verb, common);
-    add_choices(verb, common);
-    add_manners(verb, common.manners);
+    add_common_without_scene(verb, common);
 }
 
 void require_given(bool given, const std::string& verb, const std::string& option,
@@ -174,28 +133,40 @@ void require_given(bool given, const std::string& verb, const std::string& optio
     check(given, Failure::usage, "'", verb, "' needs ", option, ": ", what);
 }
 
-app::Request make_request(const Common& common,
-                          const std::function<void(const scene::Scene&)>& check) {
-    app::Request request;
+Asked make_asked(const Common& common, const std::function<void(const scene::Scene&)>& check) {
+    Asked asked;
+    app::Request& request = asked.request;
     request.seed = common.seed;
     double load_ms = 0;
     {
         const Stopwatch watch(load_ms);
-        request.scene = scene::load(common.scene, {.root = common.root});
+        asked.wanted = app::load_wanted(common.scene, {.load = {.root = common.root},
+                                                       .wishes = common.wishes,
+                                                       .use_scene_file = common.use_scene_file});
     }
     request.load_ms = load_ms;
-    if (check) check(request.scene);
-    for (const std::string& warning : request.scene.warnings) warn(warning);
-    request.camera = choose_camera(common, request.scene);
+    if (check) check(asked.wanted.scene);
+    for (const std::string& warning : asked.wanted.scene.warnings) warn(warning);
+    request.camera = choose_camera(common, asked.wanted);
+    for (const std::string& sentence : asked.wanted.said) note(common.manners, sentence);
+    if (!check) warn_of_no_mirror(asked.wanted.scene);
     request.size = common.size;
     request.frames = common.frames.value_or(request.frames);
     request.warmup = common.warmup.value_or(request.warmup);
     request.time = common.time;
     request.animate = common.animate;
-    request.ambient = common.ambient;
-    request.exposure = common.exposure;
+    request.ambient = app::ambient_of(asked.wanted);
+    const std::optional<double> exposure = app::exposure_of(asked.wanted);
+    request.exposure = exposure.value_or(0);
+    request.auto_exposure = !exposure;
     request.timing = common.timing;
-    return request;
+    request.scene = std::move(asked.wanted.scene);
+    return asked;
+}
+
+app::Request make_request(const Common& common,
+                          const std::function<void(const scene::Scene&)>& check) {
+    return make_asked(common, check).request;
 }
 
 app::EngineOptions engine_options(const std::string& device, bool validate) {
@@ -205,23 +176,6 @@ app::EngineOptions engine_options(const std::string& device, bool validate) {
 void introduce(const app::Engine& engine, const Manners& manners) {
     detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
     if (!engine.warning().empty()) warn(engine.warning());
-}
-
-scene::Camera parse_camera(const std::string& text, const scene::Scene& scene) {
-    std::vector<std::string> names;
-    for (const scene::Camera& camera : scene.cameras) {
-        if (camera.name == text) return camera;
-        names.push_back(camera.name);
-    }
-    if (text.find(':') != std::string::npos) return placed_camera(text);
-    const bool is_index = text.find_first_not_of("0123456789") == std::string::npos &&
-                          text.size() < 10;
-    if (is_index && !text.empty() && std::stoul(text) < scene.cameras.size())
-        return scene.cameras[std::stoul(text)];
-    names.emplace_back("seeded");
-    fail(Failure::usage, "--camera: scene '", scene.name, "' has no camera '", text,
-         "'; it has: ", camera_list(scene), "; or seeded, or EX,EY,EZ:TX,TY,TZ:FOV",
-         did_you_mean(text, names));
 }
 
 } // namespace catoptric::cli

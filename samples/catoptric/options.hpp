@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/run.hpp"
+#include "app/wanted.hpp"
 #include "command_line.hpp"
 #include "output.hpp"
 
@@ -21,10 +22,9 @@ struct Common {
     std::optional<int> warmup; ///< 8
     double time = 0;
     bool animate = false;
-    std::string camera; ///< resolved when the scene is there; empty = its first
     std::uint64_t seed = 1;
-    double ambient = 0.05;
-    double exposure = 0;
+    scene::Wishes wishes; ///< of the scene: mirrors, lights, environment, camera, exposure ...
+    bool use_scene_file = true;
     std::string reference = "raytrace:depth=16";
     std::string device;
     app::Timing timing = app::Timing::isolated;
@@ -35,22 +35,33 @@ struct Common {
 void add_manners(Verb& verb, Manners& manners);
 /// SCENE, every common option, and `add_manners`. `common` must outlive the parsing.
 void add_common(Verb& verb, Common& common);
-void add_exposure(Verb& verb, double& exposure);
+/// Every common option but SCENE, and `add_manners`.
+void add_common_without_scene(Verb& verb, Common& common);
+/// The options that say what the scene is: --root to --no-scene-file.
+void add_wishes(Verb& verb, Common& common);
+/// --size, --time and --seed.
+void add_view(Verb& verb, Common& common);
+/// -64 to 64.
+double parse_stops(const std::string& text);
 
 /// Throws `usage` saying that `verb` needs `option`, unless it was given.
 void require_given(bool given, const std::string& verb, const std::string& option,
                    const std::string& what);
 
 /// Scene, camera and numbers as the engine takes them, without techniques. What the loader had to
-/// say and which camera stands in for a missing one goes to stderr.
-/// `check`, where given, refuses the scene before anything else is said of it.
+/// say and what was added goes to stderr.
+/// `check`, where given, refuses the scene before anything else is said of it; else one without a
+/// mirror is warned of.
 app::Request make_request(const Common& common,
                           const std::function<void(const scene::Scene&)>& check = {});
+/// The same with what it was made from.
+struct Asked {
+    app::Request request;
+    app::Wanted wanted; ///< without its scene, which the request has
+};
+Asked make_asked(const Common& common, const std::function<void(const scene::Scene&)>& check = {});
 app::EngineOptions engine_options(const std::string& device, bool validate);
 /// The device, and what the engine warns of, on stderr.
 void introduce(const app::Engine& engine, const Manners& manners);
-
-/// The camera that the user named: a name, an index from 0, or "EX,EY,EZ:TX,TY,TZ:FOV".
-scene::Camera parse_camera(const std::string& text, const scene::Scene& scene);
 
 } // namespace catoptric::cli

@@ -1,4 +1,5 @@
 // catoptric render: one picture.
+#include "app/exposure.hpp"
 #include "app/run.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -133,6 +134,7 @@ int run(const Options& options) {
     const app::Watcher watcher = watcher_of(progress);
     watcher.row(choice.label, 0, 1);
     app::Session session(engine, request.scene);
+    app::settle_exposure(session, request);
     app::Frames frames(session, request);
     watcher.check_stopped();
     while (frames.next()) watcher.frame(frames.number(), request.total());

@@ -24,13 +24,30 @@ TEST_F(Cli, GarbageScenes) {
 /// The first thing said is what is missing and how to make it; what the loader has to say comes
 /// after.
 TEST_F(Cli, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
-    write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("plain.obj", "o a b\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const test::Ended ended = cli({"compare", "plain.obj", "-o", "out"});
-    expect_ended(ended, 65, {"wanted a mirror", "roughnessFactor 0", "illum 3"});
-    EXPECT_THAT(ended.err, testing::StartsWith("catoptric: scene 'plain"));
+    EXPECT_EQ(ended.exit_code, 65);
+    EXPECT_EQ(ended.err,
+              "catoptric: scene 'plain': wanted a mirror, whose reflections are what is compared, "
+              "found none; make one with --mirror PATTERN[=REFLECTANCE], such as\n"
+              "  --mirror 'a b'\n");
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
-    EXPECT_EQ(cli(quick({"render", "plain.obj", "--technique", "reuse", "-o", "x.png"})).exit_code,
+    // Pasted, it works.
+    EXPECT_EQ(cli(quick({"compare", "plain.obj", "-o", "out", "--mirror", "a b", "--techniques",
+                         "reuse"}))
+                  .exit_code,
               0);
+    const std::string warning =
+        "catoptric: warning: scene 'plain' has no mirror; one is made with, "
+        "for example, --mirror 'a b'\n";
+    for (const Words& words :
+         {quick({"render", "plain.obj", "--technique", "reuse", "-o", "x.png"}),
+          {"graph", "plain.obj", "--technique", "reuse"},
+          {"info", "plain.obj"}}) {
+        const test::Ended goes_on = cli(words);
+        EXPECT_EQ(goes_on.exit_code, 0);
+        EXPECT_THAT(goes_on.err, testing::HasSubstr(warning)) << words[0];
+    }
 }
 
 TEST_F(Cli, TruncatedGlb) {
@@ -60,7 +77,7 @@ TEST_F(Cli, NoCameraIsSaidAndReplaced) {
     const test::Ended ended = cli(
         quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.err, testing::HasSubstr("no camera in file: using eye"));
+    EXPECT_THAT(ended.err, testing::HasSubstr("no camera in the scene: using --camera "));
     const test::Ended quiet = cli(
         quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png", "--quiet"}));
     EXPECT_THAT(quiet.err, testing::Not(testing::HasSubstr("no camera")));

@@ -25,10 +25,36 @@ TEST_F(Cli, HelpOfEveryVerbHasExamples) {
 
 TEST_F(Cli, HelpNamesEveryCommonOption) {
     const std::string help = cli({"render", "--help"}).out;
-    for (const char* option :
-         {"--size",     "--frames",  "--warmup",   "--time",  "--animate",   "--root",   "--camera",
-          "--seed",     "--ambient", "--exposure", "--model", "--reference", "--device", "--timing",
-          "--validate", "--json",    "--quiet",    "-v",      "--progress",  "--help"})
+    for (const char* option : {"--size",
+                               "--frames",
+                               "--warmup",
+                               "--time",
+                               "--animate",
+                               "--root",
+                               "--camera",
+                               "--seed",
+                               "--ambient",
+                               "--exposure",
+                               "--model",
+                               "--reference",
+                               "--device",
+                               "--timing",
+                               "--validate",
+                               "--json",
+                               "--quiet",
+                               "-v",
+                               "--progress",
+                               "--help",
+                               "--mirror",
+                               "--light",
+                               "--mirror-max-roughness",
+                               "--dielectric-mirrors",
+                               "--environment",
+                               "--environment-scale",
+                               "--environment-rotate",
+                               "--up",
+                               "--animation",
+                               "--no-scene-file"})
         EXPECT_THAT(help, testing::HasSubstr(option));
 }
 
@@ -110,6 +136,7 @@ TEST_F(Cli, CameraThatCannotBe) {
     expect_refused(camera("0,0,nan:0,0,1:40"), 2, {"--camera", "finite", "'nan'"});
     expect_refused(camera("1e200,0,0:0,0,1:40"), 2, {"camera", "1e+18", "1e+200"});
     expect_refused(camera("1e60,0,0:0,0,1:40"), 2, {"camera", "1e+18", "1e+60"});
+    expect_refused(camera("0,0,0:0,0,1:h=-1"), 2, {"--camera", "1e+18", "'-1'"});
     expect_refused(camera("0,0,0:0,0,1"), 2, {"--camera", "EX,EY,EZ:TX,TY,TZ:FOV"});
 }
 
@@ -137,7 +164,13 @@ TEST_F(Cli, NumbersThatCannotBe) {
         refused("--time", time, "finite");
     for (const std::string light : {"nan", "-0.1", "inf"})
         refused("--ambient", light, "at least 0");
-    for (const std::string stops : {"nan", "65", "-65"}) refused("--exposure", stops, "-64 to 64");
+    for (const std::string stops : {"nan", "65", "-65", "Auto"})
+        refused("--exposure", stops, "-64 to 64");
+    for (const std::string share : {"-0.1", "1.1", "nan"})
+        refused("--mirror-max-roughness", share, "from 0 to 1");
+    for (const std::string scale : {"-1", "inf"}) refused("--environment-scale", scale, "from 0");
+    refused("--environment-rotate", "north", "finite");
+    refused("--mirror", "a=2", "from 0 to 1");
     for (const std::string seed : {"-1", "1.5", "18446744073709551616"})
         refused("--seed", seed, "whole number");
 }
@@ -150,6 +183,25 @@ TEST_F(Cli, ChoicesThatAreNone) {
                    {"--format", "did you mean 'dot'"});
     expect_refused({"graph", "--technique", "reuse", "--format", "dot", "--json"}, 2,
                    {"--format", "--json"});
+}
+
+TEST_F(Cli, WishesForNothingThatIsThere) {
+    const auto refused = [&](const Words& wish, const Words& parts) {
+        Words words{"render", "--technique", "reuse", "-o", "x.png"};
+        words.insert(words.end(), wish.begin(), wish.end());
+        expect_refused(words, 2, parts);
+    };
+    refused({"--mirror", "bal1"}, {"--mirror 'bal1': matches no object or material of scene "
+                                   "'cornell-mirrors'; it has: 'back', 'ball1'",
+                                   "did you mean 'ball1'"});
+    refused({"--light", "Light"}, {"--light 'Light'", "did you mean 'light'"});
+    refused({"--light", "floor"}, {"--light 'floor': wanted something that emits light"});
+    refused({"--up", "x"}, {"--up: wanted one of y, z, found 'x'"});
+    refused({"--environment-scale", "2"}, {"--environment-scale: wanted an environment"});
+    refused({"--environment", ""}, {"--environment: wanted FILE.exr"});
+    expect_refused({"info", "--write"}, 2, {"--write: wanted a SCENE"});
+    expect_refused({"info", "cornell-mirrors", "--write"}, 2, {"--write: wanted a scene's file"});
+    expect_refused({"info", "--force"}, 2, {"--force: wanted --write"});
 }
 
 TEST_F(Cli, WhatIsNotThereYetSaysSo) {

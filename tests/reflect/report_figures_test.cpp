@@ -49,18 +49,19 @@ app::Part rendered(const std::string& technique) {
 /// Which pixels a figure is about, by the first two mirrors that a ray meets; 0: none.
 using Chosen = std::function<bool(unsigned, unsigned)>;
 
-/// Computed from the definitions: linear, clamped, over pixels and channels.
+/// Computed from the definitions: linear, exposed, clamped, over pixels and channels.
 void expect_errors(const json& found, const app::Part& part, const app::Part& truth,
                    const std::vector<std::uint32_t>& hits, const Chosen& chosen) {
     const std::vector<float> map = measure::flip(part.display, truth.display);
+    const double gain = std::exp2(kStops);
     double squares = 0, sum = 0, flip = 0;
     std::vector<std::pair<double, std::size_t>> largest;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         if (!chosen(hits[i] & 0xffff, hits[i] >> 16)) continue;
         double most = 0;
         for (int c = 0; c < 3; ++c) {
-            const double a = std::clamp<double>(part.hdr.pixels[i][c], 0, 1);
-            const double b = std::clamp<double>(truth.hdr.pixels[i][c], 0, 1);
+            const double a = std::clamp<double>(gain * part.hdr.pixels[i][c], 0, 1);
+            const double b = std::clamp<double>(gain * truth.hdr.pixels[i][c], 0, 1);
             squares += (a - b) * (a - b), sum += std::abs(a - b);
             most = std::max(most, std::abs(a - b));
         }

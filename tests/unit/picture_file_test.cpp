@@ -178,7 +178,7 @@ TEST_F(PictureFile, MissingAndUndecodableInput) {
     EXPECT_THAT(test::refusal(Failure::missing_input, [&] { read_picture(folder / "no.png"); }),
                 HasSubstr("no.png"));
     EXPECT_THAT(test::refusal(Failure::bad_data, [&] { read_picture(file("t.png", "Hello")); }),
-                HasSubstr("t.png: wanted an OpenEXR or PNG picture, found 5 bytes"));
+                HasSubstr("t.png: wanted an OpenEXR, Radiance or PNG picture, found 5 bytes"));
     EXPECT_THAT(test::refusal(Failure::bad_data, [&] { read_picture(file("e.png", "")); }),
                 HasSubstr("found 0 bytes"));
 }

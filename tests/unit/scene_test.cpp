@@ -294,21 +294,39 @@ TEST(Lights, NormalAndAreaFollowTheTransform) {
 
 // ---- the rest
 
-TEST(DefaultCamera, LooksAlongTheSmallestExtentWithEverythingInView) {
-    const Scene scene = at(cornell_mirrors(), 0);
-    const Camera camera = default_camera(scene); // 556 x 548.8 x 559.2: y is smallest
+/// How far out of the middle of the picture the bounds' corners lie, at most: 1 is its edge.
+dvec2 reach_of(const Scene& scene, const Camera& camera, double aspect) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
-    EXPECT_EQ(forward, dvec3(0, -1, 0));
     const dvec3 right = glm::normalize(glm::cross(forward, camera.up));
     const dvec3 up = glm::cross(right, forward);
     const double slope = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     const Bounds<double> box = bounds(scene);
+    dvec2 most(0);
     for (int corner = 0; corner < 8; ++corner) {
         const dvec3 p(corner & 1 ? box.lo.x : box.hi.x, corner & 2 ? box.lo.y : box.hi.y,
                       corner & 4 ? box.lo.z : box.hi.z);
         const dvec3 view = p - camera.eye;
-        EXPECT_LT(std::abs(glm::dot(view, right)), slope * glm::dot(view, forward));
-        EXPECT_LT(std::abs(glm::dot(view, up)), slope * glm::dot(view, forward));
+        const double depth = glm::dot(view, forward);
+        EXPECT_GT(depth, 0);
+        most = glm::max(most, dvec2(std::abs(glm::dot(view, right)) / (slope * aspect * depth),
+                                    std::abs(glm::dot(view, up)) / (slope * depth)));
+    }
+    return most;
+}
+
+/// 30 degrees to the right, 20 above, as near as 90 % of width and height allow.
+TEST(DefaultCamera, IsAThreeQuarterViewThatJustHoldsTheBounds) {
+    const Scene scene = at(cornell_mirrors(), 0);
+    const dvec3 to_eye(std::sin(M_PI / 6) * std::cos(M_PI / 9), std::sin(M_PI / 9),
+                       std::cos(M_PI / 6) * std::cos(M_PI / 9));
+    for (const double aspect : {.25, 1.0, 16.0 / 9}) {
+        const Camera camera = default_camera(scene, aspect);
+        EXPECT_EQ(camera.target, bounds(scene).centre());
+        EXPECT_EQ(camera.vertical_fov_degrees, 40);
+        EXPECT_EQ(camera.up, dvec3(0, 1, 0));
+        expect_near(glm::normalize(camera.eye - camera.target), to_eye, 1e-12);
+        const dvec2 reach = reach_of(scene, camera, aspect);
+        EXPECT_NEAR(std::max(reach.x, reach.y), .9, 1e-12) << aspect;
     }
 }
 

@@ -1,0 +1,58 @@
+#include "app/candidates.hpp"
+
+#include "scene/classify.hpp"
+#include "scene/transform.hpp"
+#include "scene/wishes.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace catoptric::app {
+
+namespace {
+
+struct Candidate {
+    float roughness = 1;
+    double area = 0; ///< of its bounds: cheap, and enough to tell a wall from a screw
+    std::string name;
+};
+
+double area_of(const Bounds<double>& box) {
+    const dvec3 side = box.extent();
+    return side.x * side.y + side.y * side.z + side.z * side.x;
+}
+
+} // namespace
+
+std::string shell_word(const std::string& text) {
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+}
+
+std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t most) {
+    constexpr std::size_t kMostObjects = 20'000; // each is sampled
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < std::min(scene.objects.size(), kMostObjects); ++i) {
+        const scene::Object& object = scene.objects[i];
+        const scene::Material& material = scene.materials[object.material];
+        const std::string& name = object.name.empty() ? material.name : object.name;
+        if (material.mirror || object.mirror || !object.seen_by_camera || scene::glows(material))
+            continue;
+        candidates.push_back({scene::surface_of(scene, object).smoothest,
+                              area_of(scene::bounds(scene, object)), name});
+    }
+    std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
+        return a.roughness != b.roughness ? a.roughness < b.roughness : a.area > b.area;
+    });
+    std::vector<std::string> options;
+    std::set<std::string> known;
+    for (const Candidate& candidate : candidates)
+        if (options.size() < most && known.insert(candidate.name).second)
+            options.push_back("--mirror " + shell_word(candidate.name.empty()
+                                                           ? "*" // and all others
+                                                           : scene::pattern_of(candidate.name)));
+    return options;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,44 @@
+#include "app/exposure.hpp"
+
+#include "app/scene_facts.hpp"
+#include "measure/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::app {
+
+double exposure_for(const measure::Picture& picture) {
+    constexpr double kPercentile = .95, kWanted = .8, kSteps = 3; // a stop
+    std::vector<double> luminances;
+    for (const vec3& pixel : picture.pixels) {
+        const double luminance = .2126 * double{pixel.x} + .7152 * double{pixel.y} +
+                                 .0722 * double{pixel.z};
+        if (std::isfinite(luminance)) luminances.push_back(luminance);
+    }
+    if (luminances.empty()) return 0;
+    const double bright = measure::percentile(std::move(luminances), kPercentile);
+    if (!(bright > 0)) return 0;
+    constexpr double kMostStops = 64; // as --exposure
+    return std::clamp(std::round(kSteps * std::log2(kWanted / bright)) / kSteps, -kMostStops,
+                      kMostStops);
+}
+
+double auto_exposure(Session& session, const Request& request) {
+    FrameSpec spec = request;
+    spec.techniques = {"raytrace:depth=4"};
+    spec.size = small_size(request.size);
+    spec.time = request.instant(1);
+    spec.exposure = 0;
+    session.forget();
+    const measure::Picture picture = session.frame(spec).hdr();
+    session.forget();
+    return exposure_for(picture);
+}
+
+void settle_exposure(Session& session, Request& request) {
+    if (request.auto_exposure) request.exposure = auto_exposure(session, request);
+    request.auto_exposure = false;
+}
+
+} // namespace catoptric::app

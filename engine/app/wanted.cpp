@@ -1,0 +1,139 @@
+#include "app/wanted.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/text.hpp"
+#include "measure/picture_file.hpp"
+#include "scene/camera_named.hpp"
+#include "scene/scene_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace catoptric::app {
+
+namespace {
+
+constexpr std::size_t kMostLights = 16;
+constexpr std::size_t kMostTexels = std::size_t{1} << 25; // 8192 x 4096
+
+bool is_built_in(const std::string& name) {
+    return std::ranges::any_of(scene::built_in_scenes(),
+                               [&](const scene::BuiltIn& scene) { return scene.name == name; });
+}
+
+std::shared_ptr<scene::Environment> read_environment(const std::string& path) {
+    const measure::Picture picture = measure::read_picture(path);
+    check(picture.pixels.size() <= kMostTexels, Failure::bad_data, path,
+          ": wanted an environment of at most ", kMostTexels, " texels, found ", picture.width, "x",
+          picture.height);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const vec3& texel = picture.pixels[i];
+        const auto is_light = [](float value) { return std::isfinite(value) && value >= 0; };
+        const auto width = static_cast<std::size_t>(picture.width);
+        check(is_light(texel.x) && is_light(texel.y) && is_light(texel.z), Failure::bad_data, path,
+              ": texel ", i % width, ",", i / width, ": wanted finite light of at least 0, found ",
+              texel.x, ",", texel.y, ",", texel.z);
+    }
+    auto environment = std::make_shared<scene::Environment>();
+    environment->name = std::filesystem::path(path).filename().string();
+    environment->size = {static_cast<std::uint32_t>(picture.width),
+                         static_cast<std::uint32_t>(picture.height)};
+    environment->texels = picture.pixels;
+    return environment;
+}
+
+/// Null for "none".
+std::shared_ptr<scene::Environment> environment_of(const std::string& word) {
+    if (word == "none") return nullptr;
+    if (word != "studio") return read_environment(word);
+    auto studio = std::make_shared<scene::Environment>();
+    studio->name = "studio", studio->studio = true;
+    return studio;
+}
+
+void surround(Wanted& wanted) {
+    scene::Scene& scene = wanted.scene;
+    const scene::Wishes& wishes = wanted.wishes;
+    std::shared_ptr<scene::Environment> environment;
+    if (scene.environment) environment = std::make_shared<scene::Environment>(*scene.environment);
+    if (wishes.environment) {
+        environment = environment_of(*wishes.environment);
+        if (environment && !environment->studio)
+            scene.files.push_back(real_path(*wishes.environment));
+    } else if (wanted.is_file && !environment && scene::lights(scene).empty()) {
+        environment = environment_of("studio");
+        scene::add_gap(scene.gaps, "added-studio", "scene " + in_quotes(scene.name));
+        wanted.said.push_back(
+            "no light in the scene: lit by the environment 'studio'; --environment "
+            "FILE.exr|FILE.hdr|none says otherwise");
+    }
+    const bool is_changed = wishes.environment_scale || wishes.environment_rotation;
+    check(environment != nullptr || !is_changed, Failure::usage, "--environment-",
+          wishes.environment_scale ? "scale" : "rotate",
+          ": wanted an environment, found none; give --environment");
+    if (wishes.environment_scale) environment->scale = *wishes.environment_scale;
+    if (wishes.environment_rotation) environment->rotation_degrees = *wishes.environment_rotation;
+    scene.environment = std::move(environment);
+}
+
+/// What the scene file says belongs to the scene, and so to its hash: the camera comes first.
+void adopt(Wanted& wanted, const scene::Wishes& filed) {
+    scene::Scene& scene = wanted.scene;
+    if (filed.exposure) scene.exposure = filed.exposure->stops;
+    if (!filed.camera || *filed.camera == "seeded") return;
+    const scene::Camera camera = scene::camera_named(*filed.camera, scene);
+    std::erase(scene.cameras, camera);
+    scene.cameras.insert(scene.cameras.begin(), camera);
+}
+
+} // namespace
+
+Wanted load_wanted(const std::string& name, const WantedOptions& options) {
+    Wanted wanted{.wishes = options.wishes, .is_file = !is_built_in(name)};
+    std::optional<scene::SceneFile> filed;
+    if (wanted.is_file && options.use_scene_file)
+        filed = scene::read_scene_file(name, options.load);
+    if (filed) {
+        wanted.scene_file = filed->path;
+        wanted.wishes = scene::over(options.wishes, filed->wishes);
+        wanted.said.push_back("read beside the scene: " + filed->path.string() +
+                              " (--no-scene-file leaves it out)");
+    }
+    scene::LoadOptions load = options.load;
+    if (wanted.wishes.animation) load.animation = *wanted.wishes.animation;
+    wanted.scene = scene::load(name, load);
+    scene::apply(wanted.scene, wanted.wishes);
+    if (filed) {
+        adopt(wanted, filed->wishes);
+        std::vector<std::filesystem::path>& files = wanted.scene.files;
+        files.insert(files.end(), filed->files.begin(), filed->files.end());
+    }
+    if (wanted.is_file) scene::leave_out_lights(wanted.scene, kMostLights);
+    surround(wanted);
+    return wanted;
+}
+
+double ambient_of(const Wanted& wanted) {
+    return wanted.wishes.ambient.value_or(wanted.scene.environment ? 0 : .05);
+}
+
+std::optional<double> exposure_of(const Wanted& wanted) {
+    if (wanted.wishes.exposure) return wanted.wishes.exposure->stops;
+    if (wanted.scene.exposure) return wanted.scene.exposure;
+    return wanted.is_file ? std::nullopt : std::optional(0.0);
+}
+
+scene::Camera camera_of(Wanted& wanted, double aspect) {
+    scene::Scene& scene = wanted.scene;
+    if (wanted.wishes.camera) return scene::camera_named(*wanted.wishes.camera, scene);
+    if (!scene.cameras.empty()) return scene.cameras.front();
+    const scene::Camera camera = scene::default_camera(scene, aspect);
+    if (wanted.is_file)
+        scene::add_gap(scene.gaps, "added-camera", "scene " + in_quotes(scene.name));
+    wanted.said.push_back("no camera in the scene: using --camera " + scene::camera_text(camera));
+    return camera;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,61 @@
+// The field "scene" of report.json.
+#include "report/json.hpp"
+
+namespace catoptric::report {
+
+Json camera_json(const measure::CameraFacts& camera) {
+    const bool is_flat = camera.orthographic_height > 0;
+    return {{"name", camera.name},
+            {"eye", point_json(camera.eye)},
+            {"target", point_json(camera.target)},
+            {"up", point_json(camera.up)},
+            {"vertical_fov_degrees", is_flat ? Json(nullptr) : number(camera.vertical_fov_degrees)},
+            {"orthographic_height", is_flat ? number(camera.orthographic_height) : Json(nullptr)}};
+}
+
+Json lights_json(const std::vector<LightFacts>& lights) {
+    Json list = Json::array();
+    for (const LightFacts& light : lights) {
+        const bool is_mesh = light.kind == "mesh";
+        list.push_back(
+            {{"kind", light.kind},
+             {"name", is_mesh ? Json(nullptr) : Json(light.name)},
+             {"position", light.kind == "directional" ? Json(nullptr) : point_json(light.position)},
+             {"direction",
+              light.direction == dvec3(0) ? Json(nullptr) : point_json(light.direction)},
+             {"emission", point_json(light.emission)},
+             {"area", is_mesh ? number(light.area) : Json(nullptr)}});
+    }
+    return list;
+}
+
+Json environment_json(const std::optional<EnvironmentFacts>& environment) {
+    if (!environment) return nullptr;
+    return {{"name", environment->name},
+            {"scale", number(environment->scale)},
+            {"rotation_degrees", number(environment->rotation_degrees)}};
+}
+
+Json gaps_json(const std::vector<GapFacts>& gaps) {
+    Json list = Json::array();
+    for (const GapFacts& gap : gaps)
+        list.push_back(
+            {{"id", gap.id},
+             {"count", gap.count},
+             {"first", gap.first},
+             {"pixel_share", gap.pixel_share ? number(*gap.pixel_share) : Json(nullptr)}});
+    return list;
+}
+
+Json scene_json(const SceneFacts& scene) {
+    return {{"name", scene.name},
+            {"triangles", scene.triangles},
+            {"mirrors", scene.mirrors},
+            {"hash", scene.hash},
+            {"camera", camera_json(scene.camera)},
+            {"lights", lights_json(scene.lights)},
+            {"environment", environment_json(scene.environment)},
+            {"gaps", gaps_json(scene.gaps)}};
+}
+
+} // namespace catoptric::report

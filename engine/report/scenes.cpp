@@ -1,0 +1,83 @@
+// One report of several scenes.
+#include "report/encoded.hpp"
+#include "report/html_text.hpp"
+#include "report/json.hpp"
+#include "report/report.hpp"
+#include "report/text.hpp"
+
+#include <algorithm>
+
+namespace catoptric::report {
+
+namespace {
+
+std::string title_of(const Scenes& scenes) { return joined(scenes.asked, ", "); }
+
+} // namespace
+
+bool Scenes::is_complete() const {
+    return list.size() == asked.size() && std::ranges::all_of(list, &Comparison::complete);
+}
+
+std::string images_folder(std::size_t index, const std::string& scene) {
+    constexpr std::size_t kLongest = 40;
+    std::string name;
+    for (const char c : scene.substr(0, kLongest)) {
+        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                              (c >= '0' && c <= '9') || c == '-' || c == '_';
+        name += is_plain ? c : '_';
+    }
+    return std::to_string(index + 1) + "-" + name + "/";
+}
+
+Comparison without_pictures(const Comparison& comparison) {
+    Comparison bare = comparison;
+    bare.reference_display = {};
+    for (Row& row : bare.rows) {
+        row.hdr = row.display = {};
+        row.flip_map = {};
+        if (row.causes) row.causes->largest = {};
+        if (row.worst) row.worst->display = {};
+    }
+    return bare;
+}
+
+std::string to_json(const Scenes& scenes) {
+    Json json{{"schema", "catoptric/compare-scenes/1"}};
+    if (!scenes.list.empty()) {
+        const Comparison& first = scenes.list.front();
+        json["version"] = first.version, json["commit"] = first.commit;
+        json["command"] = first.command;
+    }
+    json["complete"] = scenes.is_complete();
+    json["asked"] = scenes.asked;
+    json["scenes"] = Json::array();
+    for (const Comparison& comparison : scenes.list)
+        json["scenes"].push_back(document_of(comparison));
+    return written(json);
+}
+
+std::string to_csv(const Scenes& scenes) {
+    std::vector<const Comparison*> all;
+    for (const Comparison& comparison : scenes.list) all.push_back(&comparison);
+    return to_csv(all);
+}
+
+std::string to_markdown(const Scenes& scenes) {
+    std::string text;
+    for (const Comparison& comparison : scenes.list) text += to_markdown(comparison);
+    return text;
+}
+
+std::string to_html(const Scenes& scenes, const std::vector<std::string>& sections) {
+    std::string content = "<nav><ul>";
+    for (const Comparison& comparison : scenes.list)
+        content += "<li><a href=\"#" + section_of(comparison) + "\">" +
+                   html_escaped(comparison.scene.name) + "</a></li>";
+    content += "</ul></nav>\n";
+    for (std::size_t i = 0; i < sections.size(); ++i)
+        content += "<div id=\"" + section_of(scenes.list[i]) + "\">" + sections[i] + "</div>\n";
+    return html_page(title_of(scenes), content);
+}
+
+} // namespace catoptric::report

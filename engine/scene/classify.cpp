@@ -1,0 +1,178 @@
+#include "scene/classify.hpp"
+
+#include "core/text.hpp"
+#include "scene/texel.hpp"
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace catoptric::scene {
+
+namespace {
+
+constexpr std::size_t kSamples = 4096;
+
+/// What a material is at one place.
+struct Spot {
+    vec4 colour{1}; ///< base colour and alpha
+    float metallic = 0, roughness = 1;
+};
+
+/// Sums of what spots are.
+struct Sums {
+    double all = 0, mirror = 0, smooth_dielectric = 0, rough_metal = 0;
+    dvec3 mirror_f0{0};
+    float smoothest = 1;
+
+    void add(const Scene& scene, const Material& material, const Spot& spot) {
+        if (material.unlit || spot.colour.w < material.alpha_cutoff) return;
+        all += 1;
+        smoothest = std::min(smoothest, spot.roughness);
+        if (!(spot.roughness <= scene.mirror_max_roughness)) {
+            rough_metal += spot.metallic > 0;
+            return;
+        }
+        const vec3 f0 = f0_of(material, vec3(spot.colour), spot.metallic);
+        if (largest_channel(f0) >= kLeastMirrorF0)
+            mirror += 1, mirror_f0 += dvec3(f0);
+        else
+            smooth_dielectric += f0 != vec3(0) || material.dielectric_f90 != vec3(0);
+    }
+    Surface surface() const {
+        if (all == 0) return {};
+        return {mirror / all, smooth_dielectric / all, rough_metal / all,
+                mirror > 0 ? vec3(mirror_f0 / mirror) : vec3(0), smoothest};
+    }
+};
+
+bool varies(const Material& material, const Mesh& mesh) {
+    return material.albedo_texture || material.roughness_texture || !mesh.colours.empty();
+}
+
+template <typename Value>
+Value between(const std::vector<Value>& at, const uvec3& t, const vec3& weights) {
+    return weights.x * at[t.x] + weights.y * at[t.y] + weights.z * at[t.z];
+}
+
+vec4 sampled(const Texture& texture, const Mesh& mesh, const uvec3& t, const vec3& weights) {
+    const std::vector<vec2>& uv = mesh.uv[std::min<std::uint32_t>(texture.uv_set, 1)];
+    return texel_at(texture, uv.empty() ? vec2(0) : between(uv, t, weights));
+}
+
+Spot spot_at(const Material& material, const Mesh& mesh, const uvec3& t, const vec3& weights) {
+    Spot spot{vec4(material.albedo, material.alpha), material.metallic, material.roughness};
+    if (!mesh.colours.empty()) spot.colour *= between(mesh.colours, t, weights);
+    if (material.albedo_texture) spot.colour *= sampled(*material.albedo_texture, mesh, t, weights);
+    if (material.roughness_texture) {
+        const vec4 texel = sampled(*material.roughness_texture, mesh, t, weights);
+        spot.roughness *= texel.y, spot.metallic *= texel.z;
+    }
+    return spot;
+}
+
+/// A point of the unit triangle, evenly spread: the plastic number's sequence (Roberts 2018).
+vec3 weights_of(std::size_t sample) {
+    constexpr double kX = .7548776662466927, kY = .5698402909980532;
+    double x = .5 + kX * static_cast<double>(sample), y = .5 + kY * static_cast<double>(sample);
+    x -= std::floor(x), y -= std::floor(y);
+    const double root = std::sqrt(x);
+    return {1 - root, root * (1 - y), root * y};
+}
+
+std::vector<double> areas_so_far(const Mesh& mesh, const dmat3& linear) {
+    std::vector<double> sums;
+    sums.reserve(mesh.triangles.size());
+    double sum = 0;
+    for (const uvec3& t : mesh.triangles) {
+        const dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+        sum += glm::length(glm::cross(linear * (b - a), linear * (c - a)));
+        sums.push_back(sum);
+    }
+    return sums;
+}
+
+/// Places in equal steps of area, so that each triangle has its part.
+Sums sampled(const Scene& scene, const Object& object) {
+    const Material& material = scene.materials[object.material];
+    const Mesh& mesh = scene.meshes[object.mesh];
+    Sums sums;
+    if (!varies(material, mesh)) {
+        sums.add(scene, material,
+                 {vec4(material.albedo, material.alpha), material.metallic, material.roughness});
+        return sums;
+    }
+    const std::vector<double> areas = areas_so_far(mesh, dmat3(object.world_from_object));
+    const double whole = areas.empty() ? 0 : areas.back();
+    if (!(whole > 0) || !std::isfinite(whole)) return sums;
+    auto triangle = areas.begin();
+    for (std::size_t i = 0; i < kSamples; ++i) {
+        const double wanted = whole * (static_cast<double>(i) + .5) / kSamples;
+        while (triangle + 1 != areas.end() && *triangle < wanted) ++triangle;
+        const auto index = static_cast<std::size_t>(triangle - areas.begin());
+        sums.add(scene, material, spot_at(material, mesh, mesh.triangles[index], weights_of(i)));
+    }
+    return sums;
+}
+
+/// Whether lengths in all directions grow alike, so that shares of areas are the mesh's own.
+bool is_similarity(const dmat3& m) {
+    constexpr double kSimilar = 1e-9;
+    const dmat3 square = glm::transpose(m) * m;
+    const double scale = (square[0][0] + square[1][1] + square[2][2]) / 3;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!(std::abs(square[column][row] - (column == row ? scale : 0)) <= kSimilar * scale))
+                return false;
+    return true;
+}
+
+} // namespace
+
+vec3 f0_of(const Material& material, const vec3& colour, float metallic) {
+    return glm::mix(material.dielectric_f0, colour, metallic);
+}
+
+float largest_channel(const vec3& colour) { return std::max({colour.x, colour.y, colour.z}); }
+
+Surface surface_of(const Scene& scene, const Object& object) {
+    return sampled(scene, object).surface();
+}
+
+void classify(Scene& scene, bool dielectric_mirrors) {
+    std::erase_if(scene.gaps, [](const Gap& gap) {
+        return gap.id == "smooth-dielectric" || gap.id == "rough-metal";
+    });
+    std::map<std::pair<std::size_t, std::size_t>, Surface> known; // by mesh and material
+    std::set<std::size_t> dielectrics, rough_metals;              // materials
+    for (Object& object : scene.objects) {
+        object.mirror = false;
+        if (scene.materials[object.material].mirror) continue;
+        Surface surface;
+        if (is_similarity(dmat3(object.world_from_object))) {
+            const auto [entry, is_new] = known.try_emplace({object.mesh, object.material});
+            if (is_new) entry->second = surface_of(scene, object);
+            surface = entry->second;
+        } else {
+            surface = surface_of(scene, object);
+        }
+        object.mirror = surface.mirror >= kLeastMirrorShare;
+        if (!object.mirror && surface.smooth_dielectric >= kLeastMirrorShare) {
+            object.mirror = dielectric_mirrors;
+            if (!dielectric_mirrors) dielectrics.insert(object.material);
+        }
+        if (surface.rough_metal > 0) rough_metals.insert(object.material);
+    }
+    const auto add = [&](const char* id, const std::set<std::size_t>& materials) {
+        for (const std::size_t i : materials)
+            add_material_gap(scene.gaps, id, "material " + in_quotes(scene.materials[i].name), i);
+    };
+    add("smooth-dielectric", dielectrics);
+    add("rough-metal", rough_metals);
+}
+
+} // namespace catoptric::scene

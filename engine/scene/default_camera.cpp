@@ -1,0 +1,33 @@
+#include "scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::scene {
+
+Camera default_camera(const Scene& scene, double aspect) {
+    constexpr double kShare = .9, kAcross = 30, kAbove = 20; // degrees
+    Bounds<double> box = bounds(scene);
+    if (box.empty()) box.lo = dvec3(-1), box.hi = dvec3(1);
+    const double across = glm::radians(kAcross), above = glm::radians(kAbove);
+    const dvec3 to_eye(std::sin(across) * std::cos(above), std::sin(above),
+                       std::cos(across) * std::cos(above));
+    Camera camera{.name = "default", .vertical_fov_degrees = 40};
+    const dvec3 right = glm::normalize(glm::cross(-to_eye, camera.up));
+    const dvec3 upward = glm::cross(right, -to_eye);
+
+    const double slope = kShare * std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
+    double distance = 0; // at which each corner lies on the edge that it is nearest to, or within
+    for (int i = 0; i < 8; ++i) {
+        const dvec3 sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+        const dvec3 corner = box.extent() * .5 * sign;
+        const double aside = std::max(std::abs(glm::dot(right, corner)) / aspect,
+                                      std::abs(glm::dot(upward, corner)));
+        distance = std::max(distance, aside / slope + glm::dot(to_eye, corner));
+    }
+    camera.target = box.centre();
+    camera.eye = camera.target + (distance > 0 ? distance : 1) * to_eye;
+    return camera;
+}
+
+} // namespace catoptric::scene

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What a user says of a scene, on the command line or in a file beside it (scene_file.hpp).
+namespace catoptric::scene {
+
+/// Reflects this constant share of all light; the rest of the surface is dropped.
+struct MirrorWish {
+    std::string pattern; ///< as `matches` takes it
+    vec3 reflectance{1}; ///< in [0,1]
+    bool operator==(const MirrorWish&) const = default;
+};
+
+struct ExposureWish {
+    std::optional<double> stops; ///< none: "auto"
+    bool operator==(const ExposureWish&) const = default;
+};
+
+enum class Up { y, z };
+
+/// Each as the user gave it; what is empty was not said.
+struct Wishes {
+    std::vector<MirrorWish> mirrors; ///< a later one wins
+    std::vector<std::string> lights; ///< patterns
+    std::optional<double> mirror_max_roughness;
+    std::optional<bool> dielectric_mirrors;
+    std::optional<std::string> environment; ///< "studio", "none", or a picture's file
+    std::optional<double> environment_scale, environment_rotation;
+    std::optional<ExposureWish> exposure;
+    std::optional<std::string> camera; ///< as camera_named takes it
+    std::optional<Up> up;
+    std::optional<std::string> animation; ///< name, or "none"
+    std::optional<double> ambient;
+    bool operator==(const Wishes&) const = default;
+};
+
+/// Both, `stronger` where both say something; its mirrors and lights come after the others.
+Wishes over(const Wishes& stronger, const Wishes& weaker);
+
+/// Whether a whole name is the pattern, or what the pattern (fnmatch: * ? [...]) stands for; case
+/// counts.
+bool matches(const std::string& pattern, const std::string& name);
+
+/// "PATTERN" or "PATTERN=REFLECTANCE", a number or r,g,b in [0,1]; a name may hold a '=' as long as
+/// no number follows it. `option` begins the message. Throws `usage`.
+MirrorWish read_mirror_wish(const std::string& option, const std::string& text);
+
+/// The word that gives exactly this object's mirror: its name, with what a pattern would read as a
+/// sign escaped.
+std::string pattern_of(const std::string& name);
+
+/// Applies mirrors, lights, roughness and dielectrics, turns the scene, and finds its mirrors anew
+/// (classify.hpp). What names a picture is left to app/wanted.hpp. Throws `usage`, with the nearest
+/// names, for a pattern without a match.
+void apply(Scene& scene, const Wishes& wishes);
+
+/// Turns a scene whose up is +z so that it is +y: (x, y, z) becomes (x, z, -y), exactly.
+void turn_z_up(Scene& scene);
+
+/// Leaves `most` lights, the strongest at the centre of the bounds, at rest; what a mesh that is
+/// left out emits is seen, but lights nothing. Adds the gap "lights-left-out".
+void leave_out_lights(Scene& scene, std::size_t most);
+
+} // namespace catoptric::scene

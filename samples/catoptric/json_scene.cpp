@@ -1,0 +1,92 @@
+// What `info SCENE --json` says.
+#include "app/engine.hpp"
+#include "json.hpp"
+#include "report/json.hpp"
+#include "scene/number.hpp"
+
+namespace catoptric::cli {
+
+namespace {
+
+using report::Json;
+
+Json colour_json(const vec3& colour) {
+    return {scene::as_typed(colour.x), scene::as_typed(colour.y), scene::as_typed(colour.z)};
+}
+
+Json material_json(const app::MaterialInfo& material) {
+    return {{"name", material.name},
+            {"kind", material.kind},
+            {"objects", material.objects},
+            {"albedo", colour_json(material.albedo)},
+            {"metallic", scene::as_typed(material.metallic)},
+            {"roughness", scene::as_typed(material.roughness)},
+            {"f0", colour_json(material.f0)},
+            {"light", material.light == vec3(0) ? Json() : colour_json(material.light)},
+            {"glows", material.glows},
+            {"masked", material.is_masked},
+            {"two_sided", material.is_two_sided},
+            {"textures", material.textures}};
+}
+
+Json shape_json(const scene::Shape& shape) {
+    Json json{{"kind", scene::name_of(shape.kind)}, {"closed", shape.is_closed}};
+    json["sphere"] = nullptr;
+    if (shape.fit)
+        json["sphere"] = {{"centre", report::point_json(shape.fit->centre)},
+                          {"radius", report::number(shape.fit->radius)},
+                          {"tolerance", report::number(shape.tolerance)}};
+    return json;
+}
+
+Json mirror_json(const app::MirrorInfo& mirror) {
+    return {{"mirror", mirror.number},
+            {"name", mirror.name},
+            {"shape", shape_json(mirror.shape)},
+            {"screen_share", report::number(mirror.screen_share)},
+            {"capture_centre", report::point_json(mirror.capture_centre)},
+            {"reflectance", colour_json(mirror.reflectance)},
+            {"constant", mirror.is_constant}};
+}
+
+template <typename List, typename ToJson>
+Json list_json(const List& list, ToJson&& to_json) {
+    Json json = Json::array();
+    for (const auto& item : list) json.push_back(to_json(item));
+    return json;
+}
+
+} // namespace
+
+std::string scene_json(const SceneWords& words) {
+    const app::SceneInfo& info = words.info;
+    const report::SceneFacts& facts = info.facts;
+    Json document{
+        {"schema", "catoptric/scene/1"}, {"version", app::version()}, {"commit", app::commit()}};
+    document["scene"] = facts.name;
+    document["hash"] = facts.hash;
+    document["scene_file"] = words.scene_file.empty() ? Json() : Json(words.scene_file);
+    document["triangles"] = facts.triangles;
+    document["stored_triangles"] = info.stored_triangles;
+    document["objects"] = info.objects;
+    document["meshes"] = info.meshes;
+    document["instances"] = info.instances;
+    document["bytes"] = {{"geometry", info.geometry_bytes},
+                         {"images", info.image_bytes},
+                         {"files", info.file_bytes}};
+    document["materials"] = list_json(info.materials, material_json);
+    document["mirrors"] = list_json(info.mirrors, mirror_json);
+    document["mirror_options"] = info.mirror_options;
+    document["lights"] = report::lights_json(facts.lights);
+    document["environment"] = report::environment_json(facts.environment);
+    document["cameras"] = list_json(info.cameras, report::camera_json);
+    document["camera"] = report::camera_json(facts.camera);
+    document["ambient"] = report::number(words.ambient);
+    document["exposure"] = words.exposure ? report::number(*words.exposure) : Json();
+    document["auto_exposure"] = words.auto_exposure;
+    document["gaps"] = report::gaps_json(facts.gaps);
+    document["warnings"] = words.warnings;
+    return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,198 @@
+// What a user says of a scene, and what `info` answers.
+#include "cli/program.hpp"
+
+#include <fstream>
+
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+/// A floor and a board above it, without light, camera or mirror.
+class Wishes : public Cli {
+protected:
+    Wishes() {
+        write("m.mtl", "newmtl wood\nKd .5 .4 .3\nnewmtl tin\nKd .8 .8 .8\n");
+        write("x.obj", "mtllib m.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 0 -1\nv 1 0 -1\n"
+                       "v 1 2 -1\nv -1 2 -1\no floor\nusemtl wood\nf 4 3 2 1\n"
+                       "o the board\nusemtl tin\nf 5 6 7 8\n");
+    }
+    json info(const Words& more = {}) const {
+        Words words{"info", "x.obj", "--json", "--size", "64x64"};
+        words.insert(words.end(), more.begin(), more.end());
+        const test::Ended ended = cli(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return json::parse(ended.out);
+    }
+    static std::vector<std::string> ids(const json& gaps) {
+        std::vector<std::string> ids;
+        for (const json& gap : gaps) ids.push_back(gap["id"]);
+        return ids;
+    }
+};
+
+TEST_F(Wishes, InfoSaysWhatASceneIs) {
+    const json found = info();
+    EXPECT_EQ(found["schema"], "catoptric/scene/1");
+    EXPECT_EQ(found["scene"], "x");
+    EXPECT_EQ(found["triangles"], 4);
+    EXPECT_EQ(found["objects"], 2);
+    EXPECT_EQ(found["instances"], 0);
+    EXPECT_EQ(found["bytes"]["files"], std::filesystem::file_size(folder / "x.obj") +
+                                           std::filesystem::file_size(folder / "m.mtl"));
+    ASSERT_EQ(found["materials"].size(), 2u);
+    EXPECT_EQ(found["materials"][0]["name"], "wood");
+    EXPECT_EQ(found["materials"][0]["kind"], "diffuse");
+    EXPECT_EQ(found["mirrors"], json::array());
+    EXPECT_EQ(found["mirror_options"][0], "--mirror 'floor'");
+    EXPECT_EQ(found["lights"], json::array());
+    EXPECT_EQ(found["environment"], json::parse(R"({"name": "studio", "scale": 1,
+                                                    "rotation_degrees": 0})"));
+    EXPECT_EQ(found["cameras"], json::array());
+    EXPECT_EQ(found["camera"]["vertical_fov_degrees"], 40);
+    EXPECT_TRUE(found["exposure"].is_number());
+    EXPECT_EQ(found["auto_exposure"], true);
+    EXPECT_EQ(found["ambient"], 0);
+    EXPECT_THAT(ids(found["gaps"]), testing::ElementsAre("added-studio", "added-camera"));
+    EXPECT_TRUE(found["gaps"][0]["pixel_share"].is_null());
+}
+
+TEST_F(Wishes, AMirrorByNameIsOneThatInfoKnows) {
+    const json found = info({"--mirror", "the board=.5,.25,1", "--environment", "none"});
+    ASSERT_EQ(found["mirrors"].size(), 1u);
+    const json& mirror = found["mirrors"][0];
+    EXPECT_EQ(mirror["mirror"], 1);
+    EXPECT_EQ(mirror["name"], "the board");
+    EXPECT_EQ(mirror["shape"]["kind"], "flat");
+    EXPECT_EQ(mirror["shape"]["closed"], false);
+    EXPECT_EQ(mirror["reflectance"], json({.5, .25, 1}));
+    EXPECT_EQ(mirror["capture_centre"], json({0, 1, -1}));
+    EXPECT_GT(mirror["screen_share"], .05);
+    EXPECT_LT(mirror["screen_share"], .6);
+    EXPECT_THAT(ids(found["gaps"]), testing::ElementsAre("added-camera"));
+    EXPECT_EQ(found["ambient"], .05);
+}
+
+/// The same words without --json.
+TEST_F(Wishes, InfoAsText) {
+    const test::Ended ended = cli({"info", "x.obj", "--size", "64x64", "--mirror", "tin"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, StartsWith("scene        x, hash "));
+    for (const char* words : {"triangles    4 shown, 4 stored", "environment  studio",
+                              "Materials\n", "Mirrors\n", "flat, open", "added-camera"})
+        EXPECT_THAT(ended.out, HasSubstr(words));
+    EXPECT_THAT(ended.err, HasSubstr("no light in the scene: lit by the environment 'studio'"));
+    EXPECT_THAT(ended.err, HasSubstr("no camera in the scene: using --camera "));
+    EXPECT_THAT(cli({"info", "x.obj"}).out,
+                HasSubstr("  --mirror 'floor'\n  --mirror 'the board'"));
+}
+
+TEST_F(Wishes, SharesOfPixelsAreThoseOfTheCamera) {
+    write("m.mtl", "newmtl wood\nKd .5 .4 .3\nnewmtl tin\nKd .8 .8 .8\nillum 3\nKs 1 1 1\n");
+    // Straight down, 4 units wide: the floor is 2 by 2.
+    const json found = info({"--camera", "0,10,0:0,0,0:h=4", "--mirror", "floor"});
+    EXPECT_EQ(found["camera"]["orthographic_height"], 4);
+    EXPECT_TRUE(found["camera"]["vertical_fov_degrees"].is_null());
+}
+
+TEST_F(Wishes, WhatIsWrittenBesideIsRead) {
+    const Words write_it{"info",     "x.obj",          "--write",    "--mirror", "tin=.5",
+                         "--camera", "0,1,9:0,1,0:30", "--exposure", "1"};
+    EXPECT_EQ(cli(write_it).exit_code, 0);
+    EXPECT_EQ(json::parse(read("x.obj.catoptric.json")),
+              json::parse(R"({"mirrors": ["tin=0.5"], "environment": "studio", "exposure": 1.0,
+                              "camera": "0,1,9:0,1,0:30"})"));
+    const test::Ended again = cli(write_it);
+    EXPECT_EQ(again.exit_code, 73);
+    EXPECT_THAT(again.err,
+                HasSubstr("x.obj.catoptric.json: is there already; --force replaces it"));
+    Words by_force = write_it;
+    by_force.emplace_back("--force");
+    EXPECT_EQ(cli(by_force).exit_code, 0);
+
+    const json found = info();
+    EXPECT_EQ(found["scene_file"], "x.obj.catoptric.json");
+    EXPECT_EQ(found["mirrors"].size(), 1u);
+    EXPECT_EQ(found["exposure"], 1);
+    EXPECT_EQ(found["camera"]["eye"], json({0, 1, 9}));
+    EXPECT_EQ(found["gaps"], json::array());
+    EXPECT_NE(found["hash"], info({"--no-scene-file"})["hash"]);
+    const Words render = quick({"render", "x.obj", "--technique", "raytrace", "-o", "x.png"});
+    EXPECT_THAT(cli(render).err, HasSubstr("read beside the scene: x.obj.catoptric.json"));
+    write("x.obj.catoptric.json", R"({"mirror": ["tin"]})");
+    expect_refused(render, 65, {"x.obj.catoptric.json: 'mirror': wanted one of mirrors, "});
+    Words without = render;
+    without.emplace_back("--no-scene-file");
+    EXPECT_EQ(cli(without).exit_code, 0);
+}
+
+TEST_F(Wishes, OutputsMayNotReplaceTheSceneFile) {
+    write("x.obj.catoptric.json", "{}");
+    expect_refused(quick({"render", "x.obj", "--technique", "raytrace", "-o", "y.png", "--trace",
+                          "x.obj.catoptric.json"}),
+                   2, {"x.obj.catoptric.json", "which the scene is read from"});
+}
+
+TEST_F(Wishes, CompareSaysWhatItCompared) {
+    const test::Ended ended = cli(quick({"compare", "x.obj", "-o", "out", "--mirror", "tin",
+                                         "--exposure", "-1", "--techniques", "reuse"}));
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const json document = json::parse(read("out/report.json"));
+    EXPECT_EQ(document["exposure"], -1);
+    EXPECT_EQ(document["ambient"], 0);
+    const json& scene = document["scene"];
+    EXPECT_THAT(ids(scene["gaps"]), testing::ElementsAre("added-studio", "added-camera"));
+    EXPECT_EQ(scene["environment"]["name"], "studio");
+    EXPECT_EQ(scene["lights"], json::array());
+    EXPECT_EQ(scene["camera"]["name"], "default");
+    for (const char* page : {"out/report.md", "out/report.html"}) {
+        EXPECT_THAT(read(page), HasSubstr("Added, approximated, left out")) << page;
+        EXPECT_THAT(read(page), HasSubstr("added-studio")) << page;
+    }
+}
+
+TEST_F(Wishes, SeveralScenesAreOneReport) {
+    Words words = quick({"compare", "x.obj", "cornell-mirrors", "-o", "out", "--mirror", "*o*",
+                         "--techniques", "reuse", "proxy"});
+    const test::Ended ended = cli(words);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("x\n"));
+    EXPECT_THAT(ended.out, HasSubstr("cornell-mirrors\n"));
+    const json document = json::parse(read("out/report.json"));
+    EXPECT_EQ(document["schema"], "catoptric/compare-scenes/1");
+    EXPECT_EQ(document["complete"], true);
+    EXPECT_EQ(document["asked"], json({"x.obj", "cornell-mirrors"}));
+    ASSERT_EQ(document["scenes"].size(), 2u);
+    for (const json& scene : document["scenes"]) {
+        EXPECT_EQ(scene["schema"], "catoptric/compare/1");
+        EXPECT_EQ(scene["rows"].size(), 2u);
+        EXPECT_FALSE(scene["pareto"].empty());
+        for (const json& row : scene["rows"])
+            EXPECT_TRUE(std::filesystem::exists(folder / "out" / row["image"])) << row["image"];
+    }
+    EXPECT_EQ(document["scenes"][1]["rows"][0]["image"], "images/2-cornell-mirrors/reuse.png");
+    const std::string page = read("out/report.html");
+    for (const char* words : {"id=\"1-x-\"", "id=\"1-x-row-1\"", "id=\"2-cornell-mirrors-row-0\"",
+                              "href=\"#2-cornell-mirrors-row-1\""})
+        EXPECT_THAT(page, HasSubstr(words));
+    const std::string csv = read("out/rows.csv");
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 5) << "a header and four rows";
+
+    // A later scene's fault is known before any work.
+    words[2] = "gone.obj";
+    EXPECT_EQ(cli(words).exit_code, 66);
+    words[2] = "x.obj";
+    EXPECT_EQ(cli(words).exit_code, 0) << "the same scene twice";
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/images/2-x/reuse.png"));
+}
+
+TEST_F(Wishes, SeveralScenesInOneDocument) {
+    const test::Ended ended = cli(quick({"compare", "cornell-mirrors", "cornell-mirrors-closed",
+                                         "-o", "out", "--techniques", "proxy", "--json"}));
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(ended.out, read("out/report.json"));
+}
+
+} // namespace

@@ -1,0 +1,213 @@
+// SCENE.catoptric.json, and what completes a file.
+#include "app/wanted.hpp"
+#include "core/file.hpp"
+#include "measure/picture_file.hpp"
+#include "scene/camera_named.hpp"
+#include "scene/scene_file.hpp"
+#include "support/folder.hpp"
+#include "support/refusal.hpp"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::scene;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kDark = "o thing\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string kCamera = "# catoptric camera c 0 0 5 0 0 0 0 1 0 40\n";
+
+class Beside : public test::InFolder {
+protected:
+    std::string write(const std::string& name, const std::string& text) const {
+        write_file(folder / name, text);
+        return (folder / name).string();
+    }
+    /// The scene with a file beside it.
+    app::Wanted load(const std::string& beside, const Wishes& wishes = {}) const {
+        const std::string scene = write("x.obj", kDark + kCamera);
+        write("x.obj.catoptric.json", beside);
+        return app::load_wanted(scene, {.wishes = wishes});
+    }
+    std::string refused(const std::string& beside) const {
+        return test::refusal(Failure::bad_data, [&] { load(beside); });
+    }
+};
+
+TEST_F(Beside, EveryKeyIsRead) {
+    measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
+    const app::Wanted found = load(
+        R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true,
+            "environment": "sky.exr", "environment_scale": 2, "environment_rotate": -90,
+            "ambient": 0.125, "exposure": -1.5, "camera": "1,2,3:0,0,0:30", "up": "y",
+            "animation": "none"})");
+    const Scene& scene = found.scene;
+    EXPECT_EQ(scene.materials.back().reflectance, vec3(.5f));
+    EXPECT_EQ(scene.mirror_max_roughness, .25f);
+    EXPECT_EQ(found.wishes.dielectric_mirrors, true);
+    ASSERT_NE(scene.environment, nullptr);
+    EXPECT_EQ(scene.environment->name, "sky.exr");
+    EXPECT_EQ(scene.environment->size, uvec2(4, 2));
+    EXPECT_EQ(scene.environment->scale, 2);
+    EXPECT_EQ(scene.environment->rotation_degrees, -90);
+    EXPECT_EQ(app::ambient_of(found), .125);
+    EXPECT_EQ(app::exposure_of(found), -1.5);
+    EXPECT_EQ(scene.cameras.front().eye, dvec3(1, 2, 3)) << "first, so that it is hashed";
+    EXPECT_EQ(scene.cameras.size(), 2u);
+    EXPECT_EQ(found.wishes.animation, "none");
+    EXPECT_THAT(found.said, ElementsAre(HasSubstr("x.obj.catoptric.json (--no-scene-file")));
+    EXPECT_EQ(scene.files.size(), 3u) << "nothing may be written over what was read";
+}
+
+TEST_F(Beside, ItIsPartOfTheHashAndCanBeLeftOut) {
+    const app::Wanted plain = load("{}");
+    const std::string path = (folder / "x.obj").string();
+    for (const char* text : {R"({"mirrors": ["thing"]})", R"({"environment": "none"})",
+                             R"({"camera": "1,2,3:0,0,0:30"})", R"({"exposure": 1})"}) {
+        EXPECT_NE(hash(load(text).scene), hash(plain.scene)) << text;
+        EXPECT_EQ(hash(app::load_wanted(path, {.use_scene_file = false}).scene), hash(plain.scene));
+    }
+}
+
+TEST_F(Beside, TheCommandLineWins) {
+    Wishes wishes;
+    wishes.exposure = ExposureWish{2};
+    wishes.environment = "none";
+    wishes.ambient = .5;
+    wishes.camera = "c";
+    wishes.mirrors = {{"thing", vec3(1)}};
+    app::Wanted found = load(
+        R"({"mirrors": ["thing=0.5"], "environment": "studio", "ambient": 0, "exposure": "auto",
+            "camera": "1,2,3:0,0,0:30"})",
+        wishes);
+    EXPECT_EQ(found.scene.materials[found.scene.objects[0].material].reflectance, vec3(1));
+    EXPECT_EQ(found.scene.environment, nullptr);
+    EXPECT_EQ(app::ambient_of(found), .5);
+    EXPECT_EQ(app::exposure_of(found), 2);
+    EXPECT_EQ(app::camera_of(found, 1).name, "c");
+}
+
+TEST_F(Beside, WhatCannotBeNamesFileAndKey) {
+    EXPECT_THAT(refused(R"({"camra": "c"})"),
+                HasSubstr("x.obj.catoptric.json: 'camra': wanted one of mirrors, lights, "));
+    EXPECT_THAT(refused(R"({"camra": "c"})"), HasSubstr("(did you mean 'camera'?)"));
+    EXPECT_THAT(refused("[]"), HasSubstr("wanted an object, found an array"));
+    EXPECT_THAT(refused("{"), HasSubstr("x.obj.catoptric.json: JSON: "));
+    EXPECT_THAT(refused(R"({"exposure": 99})"),
+                HasSubstr("exposure: wanted a number from -64 to 64, found 99"));
+    EXPECT_THAT(refused(R"({"exposure": "bright"})"), HasSubstr("found \"bright\""));
+    EXPECT_THAT(refused(R"({"mirrors": "thing"})"), HasSubstr("mirrors: wanted a list of texts"));
+    EXPECT_THAT(refused(R"({"mirrors": ["thing=7"]})"), HasSubstr("from 0 to 1, found 'thing=7'"));
+    EXPECT_THAT(refused(R"({"dielectric_mirrors": 1})"), HasSubstr("wanted true or false"));
+    EXPECT_THAT(refused(R"({"up": "x"})"), HasSubstr("up: wanted \"y\" or \"z\", found \"x\""));
+    EXPECT_THAT(refused(R"({"environment": "../sky.exr"})"), HasSubstr("--root"));
+    EXPECT_THAT(
+        test::refusal(Failure::missing_input, [&] { load(R"({"environment": "gone.exr"})"); }),
+        HasSubstr("x.obj.catoptric.json: environment: 'gone.exr' is not there"));
+}
+
+TEST_F(Beside, WhatIsWrittenIsReadAgain) {
+    measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
+    Wishes wishes;
+    wishes.mirrors = {{"a=b", vec3(1)}, {"c", {.1f, .5f, 0}}};
+    wishes.lights = {"l*"};
+    wishes.mirror_max_roughness = .3, wishes.dielectric_mirrors = false;
+    wishes.environment = (folder / "sky.exr").string(), wishes.environment_rotation = 12.5;
+    wishes.exposure = ExposureWish{}, wishes.up = Up::z, wishes.camera = "c";
+    const std::string scene = write("x.obj", kDark);
+    const std::string text = scene_file_text(wishes, scene);
+    EXPECT_THAT(text, HasSubstr("\"environment\": \"sky.exr\""));
+    write("x.obj.catoptric.json", text);
+    const std::optional<SceneFile> found = read_scene_file(scene, {});
+    ASSERT_TRUE(found);
+    wishes.environment = real_path(folder / "sky.exr").string();
+    EXPECT_EQ(found->wishes, wishes);
+    wishes.environment = "/dev/null";
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { scene_file_text(wishes, scene); }),
+                HasSubstr("wanted a picture below"));
+}
+
+TEST_F(Beside, AFileWithoutLightAndCameraIsCompleted) {
+    const std::string path = write("x.obj", kDark);
+    app::Wanted found = app::load_wanted(path, {});
+    const Camera camera = app::camera_of(found, 2);
+    ASSERT_NE(found.scene.environment, nullptr);
+    EXPECT_TRUE(found.scene.environment->studio);
+    EXPECT_EQ(app::ambient_of(found), 0);
+    EXPECT_EQ(app::exposure_of(found), std::nullopt) << "auto";
+    EXPECT_EQ(camera, default_camera(found.scene, 2));
+    std::vector<std::string> ids;
+    for (const Gap& gap : found.scene.gaps) ids.push_back(gap.id);
+    EXPECT_THAT(ids, ElementsAre("added-studio", "added-camera"));
+    EXPECT_THAT(found.said, ElementsAre(HasSubstr("lit by the environment 'studio'"),
+                                        HasSubstr("using --camera " + camera_text(camera))));
+    // The numbers that are said give the same camera again.
+    const Camera typed = camera_named(camera_text(camera), found.scene);
+    EXPECT_EQ(typed.eye, camera.eye);
+    EXPECT_EQ(typed.target, camera.target);
+}
+
+TEST_F(Beside, ALightOrAWordAboutItIsEnough) {
+    Wishes none;
+    none.environment = "none";
+    const std::string dark = write("x.obj", kDark + kCamera);
+    const app::Wanted black = app::load_wanted(dark, {.wishes = none});
+    EXPECT_EQ(black.scene.environment, nullptr);
+    EXPECT_EQ(app::ambient_of(black), .05);
+    EXPECT_THAT(black.scene.gaps, IsEmpty());
+    EXPECT_THAT(black.said, IsEmpty());
+    write("l.mtl", "newmtl l\nKe 1 1 1\n");
+    const std::string lit = write("y.obj", "mtllib l.mtl\nusemtl l\n" + kDark + kCamera);
+    EXPECT_EQ(app::load_wanted(lit, {}).scene.environment, nullptr);
+    Wishes turned;
+    turned.environment_rotation = 3;
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { app::load_wanted(lit, {.wishes = turned}); }),
+                HasSubstr("--environment-rotate: wanted an environment, found none"));
+}
+
+TEST_F(Beside, EnvironmentsAreLightOnly) {
+    measure::Picture picture(3, 2);
+    picture.at(1, 1) = vec3(0, -1, 0);
+    measure::write_exr(picture, folder / "sky.exr");
+    Wishes wishes;
+    wishes.environment = (folder / "sky.exr").string();
+    const std::string path = write("x.obj", kDark);
+    EXPECT_THAT(
+        test::refusal(Failure::bad_data, [&] { app::load_wanted(path, {.wishes = wishes}); }),
+        HasSubstr("sky.exr: texel 1,1: wanted finite light of at least 0, found 0,-1,0"));
+    wishes.environment = "gone.hdr";
+    EXPECT_THAT(
+        test::refusal(Failure::missing_input, [&] { app::load_wanted(path, {.wishes = wishes}); }),
+        HasSubstr("gone.hdr"));
+}
+
+/// A flat Radiance file: shared exponents, rows from the top.
+TEST_F(Beside, RadianceFilesAreRead) {
+    std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+    for (const unsigned char byte : {128, 64, 32, 129, 255, 128, 0, 133})
+        file += static_cast<char>(byte);
+    Wishes wishes;
+    wishes.environment = write("sky.hdr", file);
+    const app::Wanted found = app::load_wanted(write("x.obj", kDark), {.wishes = wishes});
+    ASSERT_EQ(found.scene.environment->size, uvec2(2, 1));
+    const std::vector<vec3>& texels = found.scene.environment->texels;
+    for (int c = 0; c < 3; ++c) { // mantissa / 256 * 2^(exponent - 128), half a step more or none
+        EXPECT_NEAR(texels[0][c], std::vector{1.f, .5f, .25f}[std::size_t(c)], 1.0 / 256);
+        EXPECT_NEAR(texels[1][c], std::vector{31.875f, 16.f, 0.f}[std::size_t(c)], 1.0 / 8);
+    }
+}
+
+TEST_F(Beside, BuiltInScenesStayAsTheyAre) {
+    app::Wanted found = app::load_wanted("cornell-mirrors", {});
+    EXPECT_EQ(hash(found.scene), hash(cornell_mirrors()));
+    EXPECT_EQ(app::ambient_of(found), .05);
+    EXPECT_EQ(app::exposure_of(found), 0);
+    EXPECT_THAT(found.scene.gaps, IsEmpty());
+    EXPECT_EQ(app::camera_of(found, 1).name, "contract");
+    EXPECT_THAT(found.said, IsEmpty());
+}
+
+} // namespace

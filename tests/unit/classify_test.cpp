@@ -1,0 +1,236 @@
+// What surfaces are.
+#include "scene/build.hpp"
+#include "scene/classify.hpp"
+#include "scene/mirror_shape.hpp"
+#include "scene/shapes.hpp"
+#include "scene/texel.hpp"
+#include "support/scenes.hpp"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::scene;
+using testing::ElementsAre;
+
+/// A wall of 1 x 1 with this material, its texture space over it once.
+Scene panel(Material material) {
+    Scene scene{.name = "wall"};
+    Mesh mesh = quad("wall", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+    mesh.uv[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    add_mesh(scene, mesh, add_material(scene, std::move(material)));
+    return scene;
+}
+
+Texture texture(uvec2 size, std::vector<std::uint32_t> texels, bool srgb = false) {
+    Texture made;
+    made.image = std::make_shared<Image>(Image{"i", size, std::move(texels)});
+    made.srgb = srgb, made.nearest = true;
+    return made;
+}
+
+Material metal(float roughness, vec3 colour = vec3(1)) {
+    return {.name = "m", .albedo = colour, .metallic = 1, .roughness = roughness};
+}
+
+TEST(Classify, SharpMetalIsAMirrorAndRoughOneAGap) {
+    for (const auto& [roughness, is] : {std::pair(0.f, true), {.1f, true}, {.11f, false}}) {
+        Scene scene = panel(metal(roughness));
+        classify(scene);
+        EXPECT_EQ(mirrors(scene).size(), is ? 1u : 0u) << roughness;
+        ASSERT_EQ(scene.gaps.size(), is ? 0u : 1u);
+        if (is) continue;
+        EXPECT_EQ(scene.gaps[0].id, "rough-metal");
+        EXPECT_EQ(scene.gaps[0].first, "material 'm'");
+        EXPECT_THAT(scene.gaps[0].materials, ElementsAre(0u));
+        scene.mirror_max_roughness = .2f;
+        classify(scene); // again, with another limit
+        EXPECT_EQ(mirrors(scene).size(), 1u);
+        EXPECT_TRUE(scene.gaps.empty());
+    }
+}
+
+TEST(Classify, TheLargestChannelOfF0Tells) {
+    for (const auto& [blue, is] : {std::pair(.19f, false), {.2f, true}}) {
+        Scene scene = panel(metal(0, {.05f, .1f, blue}));
+        classify(scene);
+        EXPECT_EQ(scene.objects[0].mirror, is) << blue;
+        EXPECT_EQ(scene.gaps.size(), is ? 0u : 1u);
+    }
+}
+
+TEST(Classify, SmoothDielectricsAreMirrorsOnlyWhereAsked) {
+    Scene scene = panel({.name = "lacquer", .albedo = vec3(.5f), .roughness = .05f});
+    classify(scene);
+    EXPECT_FALSE(scene.objects[0].mirror);
+    ASSERT_EQ(scene.gaps.size(), 1u);
+    EXPECT_EQ(scene.gaps[0].id, "smooth-dielectric");
+    classify(scene, true);
+    EXPECT_TRUE(scene.objects[0].mirror);
+    EXPECT_TRUE(scene.gaps.empty());
+    scene.materials[0].unlit = true;
+    classify(scene, true);
+    EXPECT_FALSE(scene.objects[0].mirror);
+}
+
+TEST(Classify, ConstantMirrorsStayAsTheyAre) {
+    Scene scene = panel({.name = "m", .mirror = true, .reflectance = vec3(.01f)});
+    classify(scene);
+    EXPECT_FALSE(scene.objects[0].mirror);
+    EXPECT_EQ(mirrors(scene).size(), 1u);
+    EXPECT_TRUE(scene.gaps.empty());
+}
+
+/// One texel in `columns` is smooth: roughness lies in green, metallic in blue.
+Scene partly_smooth(std::uint32_t columns) {
+    std::vector<std::uint32_t> texels(columns, 0xffffff00u); // green 255, blue 255
+    texels[0] = 0xffff0000u;
+    Material material = metal(1);
+    material.roughness_texture = texture({columns, 1}, texels);
+    return panel(material);
+}
+
+TEST(Classify, TexturedIsAMirrorFromATwentiethOfItsArea) {
+    for (const auto& [columns, is] : {std::pair(2u, true), {19u, true}, {21u, false}}) {
+        Scene scene = partly_smooth(columns);
+        EXPECT_NEAR(surface_of(scene, scene.objects[0]).mirror, 1.0 / columns, .003);
+        classify(scene);
+        EXPECT_EQ(scene.objects[0].mirror, is) << columns;
+        EXPECT_EQ(scene.gaps.size(), 1u) << "the rest is rough metal";
+    }
+}
+
+/// Area counts, not triangles; and it is that of the world.
+TEST(Classify, AreasAreThoseOfTheWorld) {
+    Scene scene{.name = "two"};
+    Material material = metal(1);
+    material.roughness_texture = texture({2, 1}, {0xffff0000u, 0xffffff00u}); // left is smooth
+    const std::size_t index = add_material(scene, material);
+    Mesh mesh = quad("both", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+    mesh.uv[0].assign(4, {.25f, .5f});
+    const Mesh rough = quad("r", {1, 0, 0}, {1, 0, 3}, {1, 1, 3}, {1, 1, 0});
+    for (int i = 0; i < 4; ++i) {
+        mesh.positions.push_back(rough.positions[std::size_t(i)]);
+        mesh.normals.push_back(rough.normals[std::size_t(i)]);
+        mesh.uv[0].push_back({.75f, .5f});
+    }
+    for (const uvec3& t : rough.triangles) mesh.triangles.push_back(t + 4u);
+    add_mesh(scene, mesh, index);
+    EXPECT_NEAR(surface_of(scene, scene.objects[0]).mirror, .25, .001);
+    scene.objects[0].world_from_object[2].z = 1.0 / 3; // squeezed: now 1 to 1
+    EXPECT_NEAR(surface_of(scene, scene.objects[0]).mirror, .5, .001);
+}
+
+TEST(Classify, ColoursOfTexturesAndVerticesAreMultiplied) {
+    Material material = metal(0, {.5f, .5f, .5f});
+    material.albedo_texture = texture({1, 1}, {0xff808080u}, true); // .2159 linear
+    Scene scene = panel(material);
+    scene.meshes[0].colours.assign(4, vec4(1));
+    const float f0 = .5f * linear_from_srgb(0x80);
+    EXPECT_NEAR(f0, .1079, 1e-4);
+    EXPECT_EQ(surface_of(scene, scene.objects[0]).mirror, 0);
+    scene.materials[0].albedo = vec3(1);
+    const Surface surface = surface_of(scene, scene.objects[0]);
+    EXPECT_EQ(surface.mirror, 1);
+    EXPECT_NEAR(surface.mirror_f0.x, .2159, 1e-4);
+    scene.meshes[0].colours.assign(4, vec4(.5f, .5f, .5f, 1));
+    EXPECT_EQ(surface_of(scene, scene.objects[0]).mirror, 0);
+}
+
+TEST(Classify, WhatIsCutOutIsNoArea) {
+    Material material = metal(1);
+    material.alpha_cutoff = .5f;
+    material.albedo_texture = texture({2, 1}, {0xffffffffu, 0x00ffffffu}); // right: not there
+    material.roughness_texture = texture({2, 1}, {0xffff0000u, 0xffffff00u});
+    const Scene scene = panel(material);
+    EXPECT_EQ(surface_of(scene, scene.objects[0]).mirror, 1);
+}
+
+TEST(Texel, WrapsAsItsTextureSays) {
+    using enum Texture::Wrap;
+    Texture one = texture({3, 1}, {10, 20, 30});
+    const auto red = [&](float u) { return std::lround(255 * texel_at(one, {u, 0}).x); };
+    one.wrap_u = repeat;
+    EXPECT_EQ(red(.1f), 10);
+    EXPECT_EQ(red(1.5f), 20);
+    EXPECT_EQ(red(-.1f), 30);
+    one.wrap_u = mirrored;
+    EXPECT_EQ(red(1.1f), 30);
+    EXPECT_EQ(red(1.9f), 10);
+    EXPECT_EQ(red(-.4f), 20);
+    EXPECT_EQ(red(-.9f), 30);
+    one.wrap_u = clamp;
+    EXPECT_EQ(red(7), 30);
+    EXPECT_EQ(red(-7), 10);
+    one.u_row = {0, 0, .5f}; // a transform
+    EXPECT_EQ(red(7), 20);
+    EXPECT_NEAR(mean_texel(one).x, 20 / 255.0, 1e-6);
+}
+
+Shape::Kind kind_of(Mesh mesh) {
+    Scene scene;
+    add_mesh(scene, std::move(mesh), add_material(scene, {}));
+    return shape_of(scene, scene.objects[0]).kind;
+}
+
+TEST(ShapeOf, KnowsTheKinds) {
+    using enum Shape::Kind;
+    EXPECT_EQ(kind_of(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})), flat);
+    EXPECT_EQ(kind_of(ball("b", 4)), sphere);
+    EXPECT_EQ(kind_of(ball("b", 1)), convex) << "too few facets for a ball";
+    Mesh inside = ball("b", 4);
+    for (uvec3& t : inside.triangles) std::swap(t.y, t.z);
+    Mesh dish = inside;
+    std::erase_if(dish.triangles, [&](const uvec3& t) { return dish.positions[t.x].y > -.5; });
+    EXPECT_EQ(kind_of(dish), concave);
+    for (uvec3& t : dish.triangles) std::swap(t.y, t.z);
+    EXPECT_EQ(kind_of(dish), convex);
+    Mesh step = quad("s", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+    step.positions.insert(step.positions.end(), {{2, 0, 1}, {2, 1, 1}, {3, 0, 1}, {3, 1, 1}});
+    step.triangles.insert(step.triangles.end(), {{1, 4, 5}, {1, 5, 2}, {4, 6, 7}, {4, 7, 5}});
+    EXPECT_EQ(kind_of(step), other);
+}
+
+TEST(ShapeOf, FitsTheSphereOfAPart) {
+    Scene scene;
+    Mesh dish = ball("dish", 4);
+    std::erase_if(dish.triangles, [&](const uvec3& t) { return dish.positions[t.x].y > -.5; });
+    std::vector<dvec3> used; // as loaders leave it: no vertex that nothing uses
+    for (uvec3& t : dish.triangles)
+        for (int k = 0; k < 3; ++k) {
+            used.push_back(dish.positions[t[k]]);
+            t[k] = static_cast<std::uint32_t>(used.size() - 1);
+        }
+    dish.positions = used, dish.normals.assign(used.size(), vec3(0, 1, 0));
+    add_mesh(scene, dish, add_material(scene, {}));
+    dmat4& world = scene.objects[0].world_from_object;
+    world = dmat4(3), world[3] = dvec4(100, 5, -7, 1);
+    const Shape shape = shape_of(scene, scene.objects[0]);
+    EXPECT_FALSE(shape.is_closed);
+    ASSERT_TRUE(shape.fit);
+    EXPECT_NEAR(shape.fit->radius, 3, 1e-6);
+    EXPECT_NEAR(glm::distance(shape.fit->centre, dvec3(100, 5, -7)), 0, 1e-6);
+    EXPECT_LT(shape.tolerance, 1e-6);
+}
+
+TEST(ShapeOf, ABoxIsConvexAndClosed) {
+    Scene scene;
+    Mesh box{.name = "box"};
+    for (int face = 0; face < 6; ++face) {
+        const Mesh side = wall(face, {-1, -1, -1}, {1, 2, 1});
+        const auto first = static_cast<std::uint32_t>(box.positions.size());
+        box.positions.insert(box.positions.end(), side.positions.begin(), side.positions.end());
+        box.normals.insert(box.normals.end(), side.normals.begin(), side.normals.end());
+        for (const uvec3& t : side.triangles) box.triangles.push_back(t + first);
+    }
+    add_mesh(scene, box, add_material(scene, {}));
+    Shape shape = shape_of(scene, scene.objects[0]);
+    EXPECT_EQ(shape.kind, Shape::Kind::concave) << "walls face in";
+    EXPECT_TRUE(shape.is_closed);
+    for (uvec3& t : scene.meshes[0].triangles) std::swap(t.y, t.z);
+    shape = shape_of(scene, scene.objects[0]);
+    EXPECT_EQ(shape.kind, Shape::Kind::convex);
+}
+
+} // namespace

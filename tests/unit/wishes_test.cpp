@@ -1,0 +1,192 @@
+// What a user says of a scene.
+#include "app/candidates.hpp"
+#include "app/exposure.hpp"
+#include "scene/build.hpp"
+#include "scene/camera_named.hpp"
+#include "scene/load.hpp"
+#include "scene/wishes.hpp"
+#include "support/numbers.hpp"
+#include "support/refusal.hpp"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::scene;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Three objects, two of which share a material, and a lamp.
+Scene room() {
+    Scene scene{.name = "room"};
+    const std::size_t wood = add_material(
+        scene, {.name = "wood", .albedo = vec3(.5f), .emission = vec3(.25f), .roughness = .5f});
+    const std::size_t glass = add_material(scene, {.name = "glass", .roughness = 0});
+    add_ball(scene, "table top", wood, {0, 0, 0}, 1);
+    add_ball(scene, "table leg", wood, {0, 0, -5}, 1);
+    add_ball(scene, "frame/glass", glass, {5, 0, 0}, 1);
+    add_ball(scene, "lamp", add_material(scene, {.name = "lamp", .emission = vec3(3)}), {0, 9, 0},
+             .1);
+    return scene;
+}
+
+const Material& of(const Scene& scene, std::size_t object) {
+    return scene.materials[scene.objects[object].material];
+}
+
+TEST(MirrorWish, IsReadAsPatternAndReflectance) {
+    const auto read = [](const std::string& text) { return read_mirror_wish("--mirror", text); };
+    EXPECT_EQ(read("a"), (MirrorWish{"a", vec3(1)}));
+    EXPECT_EQ(read("a=.5"), (MirrorWish{"a", vec3(.5f)}));
+    EXPECT_EQ(read("a b=1,0.5,0"), (MirrorWish{"a b", {1, .5f, 0}}));
+    EXPECT_EQ(read("x=wood"), (MirrorWish{"x=wood", vec3(1)}));
+    EXPECT_EQ(read("x=3=1"), (MirrorWish{"x=3", vec3(1)}));
+    for (const char* text : {"a=2", "a=-1", "a=.5,.5", "a=1,1,1,1"})
+        EXPECT_THAT(test::refusal(Failure::usage, [&] { read(text); }),
+                    HasSubstr("--mirror: wanted PATTERN or PATTERN=REFLECTANCE, a number or r,g,b "
+                              "from 0 to 1, found '" +
+                              std::string(text) + "'"));
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { read("=1"); }), HasSubstr("wanted a name"));
+}
+
+TEST(MirrorWish, MakesAMirrorOfOneObjectAlone) {
+    Scene scene = room();
+    apply(scene, {.mirrors = {{"table top", {1, .5f, .25f}}}});
+    EXPECT_THAT(mirrors(scene), ElementsAre(0u));
+    const Material mirror{.name = "wood", .mirror = true, .reflectance = {1, .5f, .25f}};
+    EXPECT_EQ(of(scene, 0), mirror) << "the rest of the surface is dropped";
+    EXPECT_EQ(of(scene, 1), room().materials[0]) << "who shares the material keeps it";
+}
+
+TEST(MirrorWish, NamesObjectsNodesAndMaterials) {
+    const auto made = [](const std::string& pattern) {
+        Scene scene = room();
+        apply(scene, {.mirrors = {{pattern, vec3(1)}}});
+        return mirrors(scene);
+    };
+    EXPECT_THAT(made("table*"), ElementsAre(0u, 1u));
+    EXPECT_THAT(made("wood"), ElementsAre(0u, 1u));
+    EXPECT_THAT(made("frame"), ElementsAre(2u)) << "the node of several materials";
+    EXPECT_THAT(made("frame/glass"), ElementsAre(2u));
+    EXPECT_THAT(made("[tf]*"), ElementsAre(0u, 1u, 2u));
+    EXPECT_THAT(made("table ???"), ElementsAre(0u, 1u));
+    for (const char* pattern : {"Table top", "table", "woo", "top"})
+        EXPECT_THAT(test::refusal(Failure::usage, [&] { made(pattern); }),
+                    HasSubstr("--mirror '" + std::string(pattern) +
+                              "': matches no object or material of scene 'room'; it has: "
+                              "'frame', 'frame/glass', 'glass', 'lamp', 'table leg', 'table top', "
+                              "'wood'"));
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { made("tabel top"); }),
+                HasSubstr("(did you mean 'table top'?)"));
+}
+
+TEST(MirrorWish, ALaterOneWins) {
+    Scene scene = room();
+    apply(scene, over({.mirrors = {{"wood", vec3(.5f)}}}, {.mirrors = {{"table*", vec3(.1f)}}}));
+    EXPECT_EQ(of(scene, 0).reflectance, vec3(.5f));
+}
+
+TEST(MirrorOptions, CanBePastedAndMeanThatObject) {
+    Scene scene = room();
+    scene.objects[1].name = "it's a * [1]=2";
+    const std::vector<std::string> options = app::mirror_options(scene);
+    EXPECT_THAT(options, ElementsAre("--mirror 'frame/glass'"))
+        << "what emits light is no candidate";
+    scene.materials[0].emission = vec3(0);
+    EXPECT_THAT(app::mirror_options(scene),
+                ElementsAre("--mirror 'frame/glass'", "--mirror 'table top'",
+                            "--mirror 'it'\\''s a \\* \\[1]=2=1'"));
+    const MirrorWish wish = read_mirror_wish("--mirror", pattern_of(scene.objects[1].name));
+    apply(scene, {.mirrors = {wish}});
+    EXPECT_THAT(mirrors(scene), ElementsAre(1u));
+    EXPECT_TRUE(matches(pattern_of("\x1b[2J\xff"), "\x1b[2J\xff"));
+}
+
+TEST(LightWish, TakesFactorTimesMeanTexel) {
+    Scene scene = room();
+    Texture half;
+    half.image = std::make_shared<Image>(Image{"i", {2, 1}, {0xff0000ffu, 0xff000000u}});
+    scene.materials[0].emission_texture = half;
+    EXPECT_EQ(lights(scene).size(), 1u);
+    apply(scene, {.lights = {"table top"}});
+    EXPECT_EQ(of(scene, 0).light, vec3(.125f, 0, 0));
+    EXPECT_EQ(of(scene, 1).light, std::nullopt);
+    EXPECT_EQ(lights(scene).size(), 2u);
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { apply(scene, {.lights = {"frame"}}); }),
+                HasSubstr("--light 'frame': wanted something that emits light"));
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { apply(scene, {.lights = {"lmap"}}); }),
+                HasSubstr("did you mean 'lamp'"));
+}
+
+TEST(TurnZUp, MakesZYExactly) {
+    Scene scene = room();
+    scene.cameras.push_back({.name = "c", .eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 0, 1}});
+    scene.punctual.push_back({.kind = Punctual::Kind::spot});
+    scene.objects[3].motion = Harmonic{.amplitude = {1, 2, 3}};
+    const dvec3 before = at(scene, .25).objects[3].sphere->centre;
+    apply(scene, {.up = Up::z});
+    EXPECT_EQ(scene.cameras[0].eye, dvec3(1, 3, -2));
+    EXPECT_EQ(scene.cameras[0].up, dvec3(0, 1, 0));
+    EXPECT_EQ(bounds(scene, scene.objects[1]).centre(), dvec3(0, -5, 0));
+    EXPECT_EQ(scene.objects[1].sphere->centre, dvec3(0, -5, 0));
+    EXPECT_EQ(at(scene, .25).objects[3].sphere->centre, dvec3(before.x, before.z, -before.y));
+    EXPECT_EQ(lights(scene).back().axis, dvec3(0, -1, 0)) << "along -z of the file";
+    EXPECT_GT(glm::determinant(dmat3(scene.objects[0].world_from_object)), 0);
+}
+
+TEST(LeaveOutLights, KeepsTheStrongestAtTheCentre) {
+    Scene scene = room();
+    for (int i = 0; i < 6; ++i) { // the nearer, the stronger; its intensity is no measure
+        Punctual light{.name = "p" + std::to_string(i), .intensity = vec3(100)};
+        light.world_from_light[3] = dvec4(100.0 * (6 - i), 0, 0, 1);
+        scene.punctual.push_back(light);
+    }
+    Punctual away{.name = "away", .kind = Punctual::Kind::spot, .intensity = vec3(1e6)};
+    away.cos_outer = .9; // shines along -z, not to the centre
+    away.world_from_light[3] = dvec4(2, 4, -50, 1);
+    scene.punctual.push_back(away);
+    leave_out_lights(scene, 8);
+    EXPECT_EQ(scene.gaps.size(), 1u);
+    EXPECT_EQ(scene.gaps[0].id, "lights-left-out");
+    EXPECT_EQ(scene.gaps[0].count, 1u);
+    EXPECT_EQ(scene.gaps[0].first, "light 'away'");
+    scene.gaps.clear();
+    leave_out_lights(scene, 3);
+    std::vector<std::string> kept;
+    for (const Punctual& light : scene.punctual) kept.push_back(light.name);
+    EXPECT_EQ(lights(scene).size(), 3u);
+    EXPECT_THAT(kept, ElementsAre("p3", "p4", "p5"));
+    EXPECT_EQ(of(scene, 3).light, vec3(0)) << "the far small lamp glows, and lights nothing";
+    EXPECT_EQ(of(scene, 3).emission, vec3(3));
+    EXPECT_EQ(scene.gaps[0].first, "object 'lamp'");
+}
+
+TEST(CameraNamed, OrthographicInNumbers) {
+    const Camera camera = camera_named("1,2,3:4,5,6:h=2.5", Scene());
+    EXPECT_EQ(camera.eye, dvec3(1, 2, 3));
+    EXPECT_EQ(camera.target, dvec3(4, 5, 6));
+    EXPECT_EQ(camera.orthographic_height, 2.5);
+    EXPECT_EQ(camera_text(camera), "1,2,3:4,5,6:h=2.5");
+    EXPECT_EQ(camera_text(camera_named("0.5,0,0:0,0,1:40", Scene())), "0.5,0,0:0,0,1:40");
+    EXPECT_THAT(test::refusal(Failure::usage, [] { camera_named("0,0,0:0,0,1:h=0", Scene()); }),
+                HasSubstr("--camera: wanted a finite number from 1e-09 to 1e+18, found '0'"));
+}
+
+TEST(ExposureFor, BringsTheNinetyFifthPercentileToFourFifths) {
+    measure::Picture picture(10, 10);
+    for (std::size_t i = 0; i < 100; ++i) picture.pixels[i] = vec3(i < 90 ? .01f : .1f);
+    EXPECT_EQ(app::exposure_for(picture), 3) << "log2(.8 / .1)";
+    for (vec3& pixel : picture.pixels) pixel *= 1.25f; // log2 .8 = -.32 is nearest to -1/3
+    EXPECT_DOUBLE_EQ(app::exposure_for(picture), 8.0 / 3);
+    picture.pixels.assign(100, vec3(0, 1, 0)); // Rec. 709: .7152
+    EXPECT_EQ(app::exposure_for(picture), 0);
+    picture.pixels.assign(100, vec3(0, 0, 1)); // .0722: 3.47 stops
+    EXPECT_DOUBLE_EQ(app::exposure_for(picture), 10.0 / 3);
+    picture.pixels.assign(100, vec3(NAN));
+    EXPECT_EQ(app::exposure_for(picture), 0);
+    picture.pixels.assign(100, vec3(0));
+    EXPECT_EQ(app::exposure_for(picture), 0);
+}
+
+} // namespace
