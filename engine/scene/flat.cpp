@@ -30,7 +30,7 @@ Scene flat() {
              lathe("vase", {{0, .5}, {.09, .5}, {.14, .6}, {.12, .74}, {.05, .84}, {.07, .9}}, 32),
              clay);
     scene.objects.back().world_from_object[3] = dvec4(.75, 0, 1.15, 1);
-    add_quad(scene, "lamp", add_material(scene, {.name = "lamp", .emission = {14, 12.5f, 10}}),
+    add_quad(scene, "lamp", add_material(scene, {.name = "lamp", .emission = {30, 27, 22}}),
              {-.4, 2.59, -.4}, {.4, 2.59, -.4}, {.4, 2.59, .4}, {-.4, 2.59, .4});
     scene.cameras.push_back({.name = "standing",
                              .eye = {-.7, 1.5, -2.6},

@@ -72,7 +72,7 @@ void add_furniture(Scene& scene) {
     add_copies(scene, chair, oak,
                {placed({-.45, 0, .95}), placed({.45, 0, .95}), placed({-.45, 0, -.35}, 180),
                 placed({.45, 0, -.35}, 180), placed({1.05, 0, .3}, 90),
-                placed({-2.1, 0, 1.6}, 40)});
+                placed({1.9, 0, 1.7}, 130)});
     Mesh cushion = box("cushion", {-.2, .46, -.2}, {.2, .5, .17});
     for (vec2& uv : cushion.uv[0]) uv *= 4;
     add_copies(scene, cushion, linen,
@@ -95,19 +95,19 @@ void add_furniture(Scene& scene) {
 
 void add_lights(Scene& scene) {
     const std::size_t bulb = add_material(
-        scene, {.name = "bulb", .emission = {90, 76, 55}, .two_sided = true});
+        scene, {.name = "bulb", .emission = {520, 440, 320}, .two_sided = true});
     const std::size_t shade = add_material(
         scene, {.name = "shade", .albedo = {.8f, .75f, .62f}, .two_sided = true});
-    const std::vector<dmat4> places{placed({0, 1.75, .3}), placed({-2.1, 1.5, -1.9})};
+    const std::vector<dmat4> places{placed({0, 1.75, .3}), placed({-2.1, 1.5, 2})};
     Mesh lamp = ball("bulb", 2);
     for (dvec3& position : lamp.positions) position *= .04;
     add_copies(scene, lamp, bulb, places);
     add_copies(scene, lathe("shade", {{.24, -.12}, {.1, .14}}, 32), shade, places);
     add_copies(scene, lathe("stand", {{.14, 0}, {.14, .02}, {.012, .04}, {.012, 1.42}}, 12), shade,
-               {placed({-2.1, 0, -1.9})});
+               {placed({-2.1, 0, 2})});
     Punctual spot{.name = "spot on the wall",
                   .kind = Punctual::Kind::spot,
-                  .intensity = {30, 30, 34},
+                  .intensity = {16, 16, 18},
                   .cos_inner = std::cos(glm::radians(14.0)),
                   .cos_outer = std::cos(glm::radians(24.0))};
     const dvec3 at(1.2, 2.5, .6), to(2.5, 1.1, .9),
@@ -139,7 +139,7 @@ Scene furnished_room() {
     add_furniture(scene);
     add_lights(scene);
     scene.cameras.push_back({.name = "door",
-                             .eye = {-1.9, 1.6, -2.2},
+                             .eye = {-1.8, 1.6, -2.2},
                              .target = {.3, .9, 1},
                              .vertical_fov_degrees = 58});
     scene.cameras.push_back({.name = "above the table",
