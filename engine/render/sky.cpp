@@ -1,5 +1,6 @@
 #include "render/sky.hpp"
 
+#include "core/error.hpp"
 #include "render/gpu_scene.hpp"
 #include "scene/surroundings.hpp"
 #include "shared.h"
@@ -35,6 +36,12 @@ Sky::Sky(std::size_t slots)
 
 void Sky::set(const std::shared_ptr<const scene::Environment>& environment) {
     if (environment_ == environment) return;
+    if (environment && !environment->studio) {
+        const auto [width, height] = std::pair(environment->size.x, environment->size.y);
+        check(width > 0 && height > 0 && environment->texels.size() == std::size_t{width} * height,
+              Failure::bad_data, "environment '", environment->name, "': wanted ", width, "x",
+              height, " texels, at least one, found ", environment->texels.size());
+    }
     environment_ = environment;
     kind_ = !environment ? kNone : environment->studio ? kStudio : kMap;
     sky_.set(std::vector(1, environment ? sky_of(*environment) : shared::Sky{}));

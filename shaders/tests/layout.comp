@@ -34,7 +34,7 @@ void main() {
     put(l.position), put(l.normal), put(l.intensity), put(l.right), put(l.down), put(l.forward), put(l.near);
     put(l.reach), put(l.cos_outer), put(l.sharpness), put(l.directional);
     put(probes[1].centre), put(probes[1].sphere), put(probes[1].radius), put(probes[1].reflectance);
-    put(probes[1].lowest), put(probes[1].highest);
+    put(probes[1].lowest), put(probes[1].highest), put(probes[1].kind);
     View v = views[1];
     put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near), put(v.eye_low), put(v.parallel);
     Sky s = skies[1];

@@ -49,8 +49,9 @@ TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
         EXPECT_EQ(one->kind, kind) << name;
     }
     EXPECT_EQ(constants(found),
-              (std::vector<std::string>{"exact_spheres", "fixed_offset", "max_depth", "own_spaces",
-                                        "shadow", "without"}));
+              (std::vector<std::string>{"details", "environment_kind", "exact_spheres",
+                                        "fixed_offset", "light_kinds", "masks", "max_depth",
+                                        "orthographic", "own_spaces", "shadow", "without"}));
 }
 
 TEST(Reflection, LeavesOutWhatTheCodeDoesNotUse) {

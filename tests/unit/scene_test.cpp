@@ -211,6 +211,19 @@ TEST(Motion, CubicKeysReproduceACubic) {
     for (const double t : {0.1, 0.5, 0.9, 1.7}) expect_near(moved(keys, t), p(t), 1e-14);
 }
 
+TEST(Motion, LightsWithoutASurfaceMoveToo) {
+    Scene scene;
+    scene.punctual.push_back(
+        {.world_from_light = dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1),
+         .motion = Harmonic{{0, 4, 0}, 2}});
+    EXPECT_TRUE(is_animated(scene));
+    EXPECT_EQ(period(scene), 2);
+    const Scene still = at(scene, 1);
+    EXPECT_EQ(lights(still).at(0).position, dvec3(1, 10, 3));
+    EXPECT_FALSE(is_animated(still));
+    EXPECT_EQ(at(scene, 2).punctual[0].world_from_light, scene.punctual[0].world_from_light);
+}
+
 TEST(Motion, TimeMustBeFinite) { EXPECT_THROW(at(cornell_mirrors(), std::nan("")), Error); }
 
 // ---- lights
