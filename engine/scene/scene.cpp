@@ -26,10 +26,12 @@ std::vector<std::size_t> mirrors(const Scene& scene) {
 
 Bounds<double> bounds(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
-    Bounds<double> box;
+    std::vector<bool> is_used(mesh.positions.size(), false); // once each, however many share it
     for (const uvec3& triangle : mesh.triangles)
-        for (int corner = 0; corner < 3; ++corner)
-            box.add(transform_point(object.world_from_object, mesh.positions[triangle[corner]]));
+        is_used[triangle.x] = is_used[triangle.y] = is_used[triangle.z] = true;
+    Bounds<double> box;
+    for (std::size_t i = 0; i < is_used.size(); ++i)
+        if (is_used[i]) box.add(transform_point(object.world_from_object, mesh.positions[i]));
     return box;
 }
 
