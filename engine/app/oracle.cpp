@@ -51,7 +51,8 @@ Oracle::Oracle(const Request& request) {
 
 void Oracle::trace(const Request& request) {
     const render::Space space = render::space_of(request.scene);
-    const shared::View view = render::camera_view(request.camera, space, request.size, 0,
+    const shared::View view = render::camera_view(scene::camera_at(request.camera, request.time),
+                                                  space, request.size, 0,
                                                   render::bounds_of(geometry_));
     const auto mirror_of = [&](std::uint32_t object) {
         return static_cast<std::uint32_t>(std::ranges::find(mirror_objects_, object) -

@@ -18,7 +18,7 @@ double milliseconds_since(Clock::time_point start) {
 }
 
 Standing standing_of(const FrameSpec& spec) {
-    return {spec.time, spec.camera, spec.size, spec.ambient};
+    return {spec.time, scene::camera_at(spec.camera, spec.time), spec.size, spec.ambient};
 }
 
 bool same(const std::vector<reflect::Plan>& a, const std::vector<reflect::Plan>& b) {

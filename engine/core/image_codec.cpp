@@ -94,7 +94,8 @@ struct ImageReader::Open {
 ImageReader::ImageReader(std::string_view bytes, const std::string& format, std::string name)
     : open_(std::make_unique<Open>(bytes, std::move(name))) {
     open_->input = OIIO::ImageInput::create(format);
-    check(open_->input != nullptr, Failure::internal, "this OpenImageIO cannot read ", format);
+    check(open_->input != nullptr, Failure::bad_data, open_->name,
+          ": this OpenImageIO cannot read ", format);
     OIIO::ImageSpec hints, spec;
     hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not times alpha
     open_->input->set_ioproxy(&open_->memory);

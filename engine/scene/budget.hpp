@@ -21,9 +21,7 @@ struct Budget {
     /// add): each of these.
     std::uint64_t vertices = 4'000'000;
     std::uint64_t triangles = 2'000'000; ///< in meshes
-    /// Vertices and triangles, each, of all objects, which may share meshes: what they take of the
-    /// device is another limit (render/limits.hpp).
-    std::uint64_t shown = 128'000'000;
+    std::uint64_t shown = 200'000'000;   ///< vertices, and triangles, as often as objects show them
     /// Nodes, meshes, primitives, materials, cameras, animation channels, objects: each of these.
     std::uint64_t objects = 125'000;
     std::uint64_t keys = 1'000'000;       ///< of animations, each sampler once

@@ -65,6 +65,7 @@ private:
     void emission();
     void alpha();
     void left_out();
+    void be_mirror(const vec3& reflectance, const vec3& diffuse);
     void marks();
 
     const Item& from_;
@@ -159,6 +160,12 @@ void Reader::left_out() {
     }
 }
 
+/// As a scene made in code would say it: nothing but what is reflected and what is diffuse.
+void Reader::be_mirror(const vec3& reflectance, const vec3& diffuse) {
+    material_.mirror = true, material_.reflectance = reflectance, material_.albedo = diffuse;
+    material_.metallic = 0, material_.roughness = 1;
+}
+
 /// What glTF has no word for, from `extras`: {"catoptric": {"reflectance": [r, g, b],
 /// "diffuse": [r, g, b], "fixed_normals": true}}: a mirror at any angle, over what is diffuse; a
 /// surface of two sides with one normal.
@@ -167,11 +174,11 @@ void Reader::marks() {
     const std::optional<Item> ours = extras && extras->is_object()
                                          ? from_.object("extras")->object("catoptric")
                                          : std::nullopt;
-    if (ours && ours->has("reflectance")) {
-        material_.mirror = true;
-        material_.reflectance = vec3(glm::clamp(vector_of(*ours, "reflectance", 1), 0.0, 1.0));
-        material_.albedo = vec3(glm::clamp(vector_of(*ours, "diffuse", 0), 0.0, 1.0));
-    }
+    const auto colour = [&](std::string_view key, double otherwise) {
+        return vec3(glm::clamp(vector_of(*ours, key, otherwise), 0.0, 1.0));
+    };
+    if (ours && (ours->has("reflectance") || ours->has("diffuse")))
+        be_mirror(colour("reflectance", 1), colour("diffuse", 0));
     if (ours && ours->flag("fixed_normals", false)) material_.two_sided = false;
 }
 
@@ -190,16 +197,16 @@ Material Reader::read() {
     const bool doubled = from_.flag("doubleSided", false);
     material_.two_sided = doubled, material_.front_only = !doubled;
     left_out();
-    // What reflects everything at every angle needs no angle.
-    const bool is_perfect = material_.metallic == 1 && material_.roughness == 0 &&
-                            material_.albedo == vec3(1) && !material_.albedo_texture &&
-                            !material_.roughness_texture;
-    if (is_perfect) material_.mirror = true, material_.albedo = vec3(0);
-    marks();
     if (extension("KHR_materials_unlit")) {
         material_.unlit = true, material_.metallic = 0, material_.roughness = 1;
         material_.emission = vec3(0), material_.emission_texture.reset();
     }
+    // What reflects everything at every angle needs no angle.
+    const bool is_perfect = material_.metallic == 1 && material_.roughness == 0 &&
+                            material_.albedo == vec3(1) && !material_.albedo_texture &&
+                            !material_.roughness_texture;
+    if (is_perfect) be_mirror(vec3(1), vec3(0));
+    marks();
     return material_;
 }
 

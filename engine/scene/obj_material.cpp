@@ -248,15 +248,16 @@ private:
         const vec3 f0 = fraction(draft_.specular.value_or(dvec3(0)));
         const double shininess = draft_.shininess.value_or(100);
         const bool is_sharp = shininess >= 100;
+        constexpr float kLeast = .2f; // of a mirror, which is numbered
+        if (kind_ != 5 && is_sharp && std::max({f0.x, f0.y, f0.z}) >= kLeast) {
+            material_.mirror = true, material_.reflectance = f0;
+            return;
+        }
         material_.roughness = is_sharp ? 0
                                        : static_cast<float>(
                                              std::sqrt(2 / (std::max(shininess, 0.0) + 2)));
         material_.dielectric_f0 = f0;
-        if (kind_ == 5) return;
-        material_.dielectric_f90 = f0;
-        constexpr float kLeast = .2f; // of a mirror, which is numbered
-        if (!is_sharp || std::max({f0.x, f0.y, f0.z}) < kLeast) return;
-        material_.mirror = true, material_.reflectance = f0;
+        if (kind_ != 5) material_.dielectric_f90 = f0;
     }
 
     const Draft& draft_;

@@ -10,7 +10,9 @@ bool is_animated(const Scene& scene) {
     const auto moves = [](const auto& thing) {
         return !std::holds_alternative<std::monostate>(thing.motion);
     };
-    return std::ranges::any_of(scene.objects, moves) || std::ranges::any_of(scene.punctual, moves);
+    const auto rides = [](const Camera& camera) { return camera.follows.rig != nullptr; };
+    return std::ranges::any_of(scene.objects, moves) ||
+           std::ranges::any_of(scene.punctual, moves) || std::ranges::any_of(scene.cameras, rides);
 }
 
 bool is_mirror(const Scene& scene, const Object& object) {

@@ -109,7 +109,7 @@ Scene at(const Scene& scene, double seconds);
 /// The same of one camera.
 Camera camera_at(const Camera& camera, double seconds);
 
-/// True when some object or light moves.
+/// True when some object, light or camera moves.
 bool is_animated(const Scene& scene);
 /// The longest period of all motions, seconds; 0 when nothing moves.
 double period(const Scene& scene);

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "scene/load.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+/// What the targets share: a folder of one process, and loading with a small budget, after which
+/// nothing but the two errors that a file can be to blame for may have been thrown.
+namespace fuzz {
+
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+    return {reinterpret_cast<const char*>(data), size};
+}
+
+/// On a file system in memory, where there is one.
+inline const std::filesystem::path& folder() {
+    static const std::filesystem::path kFolder = [] {
+        const char* root = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
+        std::string name = std::string(root) + "/catoptric-fuzz-XXXXXX";
+        if (::mkdtemp(name.data()) == nullptr) std::abort();
+        static std::string removed;
+        removed = name;
+        std::atexit([] { std::filesystem::remove_all(removed); });
+        return std::filesystem::path(name);
+    }();
+    return kFolder;
+}
+
+/// Puts the bytes there as they are: no rename, no flush.
+inline void put(const std::string& name, std::string_view bytes) {
+    std::FILE* const file = std::fopen((folder() / name).c_str(), "wb");
+    if (file == nullptr) std::abort();
+    std::fwrite(bytes.data(), 1, bytes.size(), file);
+    std::fclose(file);
+}
+
+template <typename Body>
+void expect_only_bad_data(Body&& body) {
+    try {
+        body();
+    } catch (const catoptric::Error& error) {
+        using catoptric::Failure;
+        if (error.failure == Failure::bad_data || error.failure == Failure::missing_input) return;
+        std::fprintf(stderr, "failure %d: %s\n", static_cast<int>(error.failure), error.what());
+        std::abort();
+    }
+}
+
+/// A scene that loads can be hashed, moved and asked for its lights.
+inline void load(const std::string& name) {
+    expect_only_bad_data([&] {
+        const catoptric::scene::Budget small{.file_bytes = 1 << 20,
+                                             .json_memory = 16 << 20,
+                                             .vertices = 20'000,
+                                             .triangles = 10'000,
+                                             .objects = 1'000,
+                                             .keys = 10'000,
+                                             .texels = 1 << 18,
+                                             .made_bytes = 1 << 20,
+                                             .cuts = 100'000};
+        const auto scene = catoptric::scene::load((folder() / name).string(), {.budget = small});
+        catoptric::scene::hash(scene);
+        lights(catoptric::scene::at(scene, .5));
+    });
+}
+
+} // namespace fuzz

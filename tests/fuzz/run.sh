@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# run.sh TARGET SECONDS FOLDER: builds tests/fuzz/TARGET.cpp in FOLDER with libFuzzer and the sanitizers, and lets it
+# run on the committed corpus. What it finds lies in FOLDER/TARGET.
+set -euo pipefail
+target=$1 seconds=$2
+mkdir -p "$3/objects" "$3/$target"
+folder=$(cd "$3" && pwd)
+cd "$(dirname "$0")/../.."
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 folder
+compile() { # SOURCE; the compiler cache knows what is out of date
+    local compiler=(clang++-16)
+    ! command -v ccache >/dev/null || compiler=(ccache clang++-16)
+    "${compiler[@]}" -std=c++20 -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined,fuzzer-no-link \
+        -fno-sanitize-recover=undefined -Iengine -Ishaders -Itests/fuzz -c "$1" -o "$folder/objects/${1//\//_}.o"
+}
+export -f compile
+sources=(engine/core/*.cpp engine/scene/*.cpp "tests/fuzz/$target.cpp")
+{
+    flock 9 # targets share the engine's objects
+    printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" bash -c 'compile "$1"' compile
+    objects=("${sources[@]//\//_}")
+    objects=("${objects[@]/#/$folder/objects/}")
+    clang++-16 -fsanitize=address,undefined,fuzzer "${objects[@]/%/.o}" -o "$folder/$target/$target" \
+        -ltinygltf -ltinyobjloader -lOpenImageIO -lOpenImageIO_Util
+} 9>"$folder/lock"
+# A leak of OpenImageIO's own tables is none of ours.
+LSAN_OPTIONS=suppressions=tests/fuzz/leaks.txt:print_suppressions=0 \
+    "$folder/$target/$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=65536 \
+    -dict="tests/fuzz/$target.dict" -artifact_prefix="$folder/$target/" -print_final_stats=1 \
+    "$folder/$target" "tests/fuzz/corpus/$target"
