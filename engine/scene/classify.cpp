@@ -50,8 +50,12 @@ struct Sums {
     }
 };
 
-bool varies(const Material& material, const Mesh& mesh) {
-    return material.albedo_texture || material.roughness_texture || !mesh.colours.empty();
+/// Whether what counts may differ from place to place: F0 of a dielectric has no colour.
+bool varies(const Scene& scene, const Material& material, const Mesh& mesh) {
+    if (material.roughness_texture) return true;
+    const bool has_colour = material.roughness <= scene.mirror_max_roughness &&
+                            material.metallic > 0;
+    return has_colour && (material.albedo_texture || !mesh.colours.empty());
 }
 
 template <typename Value>
@@ -101,7 +105,7 @@ Sums sampled(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
     const Mesh& mesh = scene.meshes[object.mesh];
     Sums sums;
-    if (!varies(material, mesh)) {
+    if (!varies(scene, material, mesh)) {
         sums.add(scene, material,
                  {vec4(material.albedo, material.alpha), material.metallic, material.roughness});
         return sums;

@@ -122,6 +122,10 @@ void finish(Scene& scene, const std::string& file, Notes& notes) {
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none");
     scene.warnings = notes.lines(file);
+    const bool is_lit = std::ranges::any_of(scene.objects, [&](const Object& object) {
+        return light_of(scene.materials[object.material]) != vec3(0);
+    });
+    if (!is_lit) scene.warnings.push_back(file + ": no light: ambient only");
 }
 
 } // namespace catoptric::scene
