@@ -150,6 +150,17 @@ Edges edges_of(const Soup& soup) {
     return edges;
 }
 
+/// Whether most of its area faces away from a point.
+bool faces_out(const Soup& soup, const dvec3& point) {
+    double area = 0;
+    for (const Triangle& t : soup.triangles) {
+        const dvec3 cross = soup.cross_of(t);
+        area += glm::dot(cross, soup.places[t[0]] - point) > 0 ? glm::length(cross)
+                                                               : -glm::length(cross);
+    }
+    return area > 0;
+}
+
 } // namespace
 
 Shape shape_of(const Scene& scene, const Object& object) {
@@ -169,10 +180,14 @@ Shape shape_of(const Scene& scene, const Object& object) {
         if (off <= kRound) shape.fit = fit, shape.tolerance = off;
     }
     if (object.sphere) shape.fit = object.sphere, shape.tolerance = 0;
-    shape.kind = shape.fit && edges.closed         ? sphere
-                 : edges.is_mostly(edges.outwards) ? convex
-                 : edges.is_mostly(edges.inwards)  ? concave
-                                                   : other;
+    if (shape.fit && edges.closed)
+        shape.kind = sphere;
+    else if (shape.fit) // subdivided balls bend inwards at some edges
+        shape.kind = faces_out(soup, shape.fit->centre - soup.centre) ? convex : concave;
+    else
+        shape.kind = edges.is_mostly(edges.outwards)  ? convex
+                     : edges.is_mostly(edges.inwards) ? concave
+                                                      : other;
     return shape;
 }
 
