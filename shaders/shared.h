@@ -31,28 +31,73 @@ struct Surface {
     float radius;     // 0: no exact sphere
 };
 
-// A light as the shading formula sees it: one point with a one-sided cosine.
-// `right`, `down`, `forward`: axes of its shadow faces, unit, face +Z along `forward`.
+// How a surface reads texels; see lib/material.glsl and lib/math/surface.glsl.
+struct TextureUse {
+    uint first; // texel in the list of all
+    uint size;  // width | height << 16; 0: no texture
+    uint how;   // wrap along u | along v << 2 | kTexture...
+    vec3 u_row; // texture space from the mesh's (u, v, 1)
+    vec3 v_row;
+};
+const uint kTextureNearest = 16u, kTextureSrgb = 32u, kTextureSecondUv = 64u;
+
+// What the surface of one object is beyond Surface.
+struct Detail {
+    uint flags;             // kDetail...
+    uint first_attribute;   // added to the number of a vertex as it is drawn: its attribute
+    float metallic;
+    float roughness;
+    float sharp_below;      // or at that roughness it is sharp
+    float alpha;
+    float alpha_cutoff;     // 0: nothing is cut out
+    vec3 f0;                // of the part that is no metal, towards the normal
+    vec3 f90;               // and across it
+    TextureUse albedo;      // and alpha
+    TextureUse emission;
+    TextureUse rough;       // roughness in green, metallic in blue
+};
+const uint kDetailVaries = 1u;     // more than one colour, or sharp
+const uint kDetailAttributes = 2u; // its vertices have attributes
+const uint kDetailConstant = 4u;   // reflects Surface::reflectance at any angle
+const uint kDetailUnlit = 8u;
+const uint kDetailTurns = 16u;     // its normal turns to who looks
+
+// What a vertex has beside position and normal.
+struct Attribute {
+    vec4 uv;     // both texture spaces
+    vec4 colour; // linear, with alpha
+};
+
+// A light as the shading formula sees it: one point with a one-sided cosine; or a light without a surface.
+// `right`, `down`, `forward`: axes of its shadow faces, unit, face +Z along `forward`, where a spot or a directional
+// light shines to.
 struct Light {
     vec3 position;
-    vec3 normal;    // zero: no cosine at the light
-    vec3 intensity; // emission * area
+    vec3 normal;      // zero: no cosine at the light
+    vec3 intensity;   // emission * area
     vec3 right;
     vec3 down;
     vec3 forward;
-    float near;     // of the shadow faces' reversed depth
+    float near;       // of the shadow faces' reversed depth
+    float reach;      // one over its range; 0: without end
+    float cos_outer;  // of a spot's cone; below -1 where there is none
+    float sharpness;  // 1 / max(.001, cos inner - cos outer) of it
+    uint directional; // 1: from infinitely far, along `forward`
 };
-const uint kMaxLights = 128u; // the smallest uniform buffer that every device has, 16 KiB, holds 215
+const uint kMaxLights = 128u; // the smallest uniform buffer that every device has, 16 KiB, holds 178
 
 // Where a mirror's surroundings are captured from: layers [6 n, 6 n + 6) of the cubes, n from 0.
 struct Probe {
     vec3 centre;      // of the mirror's bounds
     vec3 sphere;      // centre of the exact sphere that the mirror stands for
     float radius;     // of that sphere; 0: the mirror stands for none
-    vec3 reflectance; // of the mirror
+    vec3 reflectance; // of the mirror; of a metal, towards its normal
     vec3 lowest;      // corners of the mirror's bounds
     vec3 highest;
+    uint kind;        // kProbe...
 };
+// Reflects the same at any angle; as a metal by Schlick; or has light of its own, which only captures show.
+const uint kProbeConstant = 0u, kProbeMetal = 1u, kProbeLit = 2u;
 
 // One of the cube arrays that captures are kept in, and how distances are in it.
 struct CaptureArray {
@@ -69,13 +114,23 @@ struct CaptureTable {
 
 // One projection: clip = (dot(right, v), dot(down, v), near, dot(forward, v)) with v = position - eye.
 // Reversed-Z with infinite far: depth = near / distance along forward.
+// A parallel one: clip = (dot(right, v), dot(down, v), 1 - near dot(forward, v), 1), `near` one over how far it looks.
 struct View {
     vec3 eye;
-    vec3 right;   // scaled by 1 / tan(half horizontal field of view)
-    vec3 down;    // scaled by 1 / tan(half vertical field of view)
+    vec3 right;   // scaled by 1 / tan(half horizontal field of view), or by 1 / half the width
+    vec3 down;    // scaled by 1 / tan(half vertical field of view), or by 1 / half the height
     vec3 forward; // unit length
     float near;
     vec3 eye_low; // what `eye` lacks as a sum of two floats
+    uint parallel; // 1: an orthographic view
+};
+
+// What is seen where the scene ends.
+struct Sky {
+    uvec2 size;         // of its map, texels
+    float scale;
+    vec2 turn;          // cosine and sine of its rotation
+    vec3 irradiance[9]; // coefficients, scaled and turned
 };
 
 // What is true for the whole frame.
@@ -133,10 +188,14 @@ struct Counters {
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
-static_assert(sizeof(Light) == 76);
-static_assert(sizeof(Probe) == 64);
+static_assert(sizeof(Light) == 92);
+static_assert(sizeof(TextureUse) == 36);
+static_assert(sizeof(Detail) == 160);
+static_assert(sizeof(Attribute) == 32);
+static_assert(sizeof(Probe) == 68);
 static_assert(sizeof(CaptureTable) == 8256); // every device has uniform buffers of 16 KiB
-static_assert(sizeof(View) == 64);
+static_assert(sizeof(View) == 68);
+static_assert(sizeof(Sky) == 128);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(Draw) == 80);
 static_assert(sizeof(Draw) + sizeof(Placement) == 128); // what every device has

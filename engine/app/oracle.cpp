@@ -51,7 +51,8 @@ Oracle::Oracle(const Request& request) {
 
 void Oracle::trace(const Request& request) {
     const render::Space space = render::space_of(request.scene);
-    const shared::View view = render::camera_view(request.camera, space, request.size, 0);
+    const shared::View view = render::camera_view(request.camera, space, request.size, 0,
+                                                  render::bounds_of(geometry_));
     const auto mirror_of = [&](std::uint32_t object) {
         return static_cast<std::uint32_t>(std::ranges::find(mirror_objects_, object) -
                                           mirror_objects_.begin());
@@ -83,7 +84,7 @@ int Oracle::captured_object(std::uint32_t mirror, const vec3& direction, bool se
         const bool faces = dot(f32::facet_normal(vec3(corner[0]), vec3(corner[1]), vec3(corner[2])),
                                ray.direction) < 0;
         const render::DrawRange& range = geometry_.ranges[hit->object];
-        if (!(left_out && range.mirror && range.exact_sphere)) {
+        if (!(left_out && range.mirror && range.exact_sphere && !range.lit)) {
             if (behind_first && (!second_layer || faces)) return static_cast<int>(hit->object);
             behind_first = true;
         }

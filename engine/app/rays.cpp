@@ -25,6 +25,10 @@ f32::Ray camera_ray(const shared::View& view, uvec2 size, std::size_t pixel) {
     const vec2 place(static_cast<float>(pixel % size.x) + 0.5f,
                      static_cast<float>(pixel / size.x) + 0.5f);
     const vec2 ndc = place / vec2(size) * 2.0f - 1.0f;
+    if (view.parallel != 0)
+        return {view.eye + (ndc.x * view.right / dot(view.right, view.right) +
+                            ndc.y * view.down / dot(view.down, view.down)),
+                view.forward, 0};
     return {view.eye,
             normalize(view.forward + ndc.x * view.right / dot(view.right, view.right) +
                       ndc.y * view.down / dot(view.down, view.down)),

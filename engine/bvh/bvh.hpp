@@ -12,13 +12,14 @@ namespace catoptric::bvh {
 struct Triangle {
     vec3 a{0}, b{0}, c{0};
     std::uint32_t object = 0; ///< below 2^29; comes back with a hit
-    std::uint32_t flags = 0;  ///< kHidden | kShadowless | kSphere | kOneSided
+    std::uint32_t flags = 0;  ///< kHidden | kShadowless | kSphere | kOneSided | kMasked
 };
 
 inline constexpr std::uint32_t kHidden = f32::kBvhHidden;         ///< camera rays pass through
 inline constexpr std::uint32_t kShadowless = f32::kBvhShadowless; ///< shadow rays pass through
 inline constexpr std::uint32_t kSphere = f32::kBvhSphere;         ///< stands for an exact sphere
 inline constexpr std::uint32_t kOneSided = f32::kBvhOneSided; ///< where skipped: met in front alone
+inline constexpr std::uint32_t kMasked = f32::kBvhMasked;     ///< parts of it may be cut out
 inline constexpr std::uint32_t kMaxDepth = f32::kBvhMaxDepth;
 inline constexpr std::uint32_t kMaxLeaf = 4; ///< triangles in a leaf
 

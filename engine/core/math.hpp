@@ -11,6 +11,7 @@ namespace catoptric {
 
 using glm::dmat3;
 using glm::dmat4;
+using glm::dvec2;
 using glm::dvec3;
 using glm::dvec4;
 using glm::ivec2;

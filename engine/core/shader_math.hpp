@@ -16,8 +16,8 @@
     using real = scalar;                                                                           \
     using vec3 = glm::vec<3, real>;                                                                \
     using uint = std::uint32_t;                                                                    \
-    using glm::abs, glm::cross, glm::dot, glm::length, glm::max, glm::min, glm::normalize,         \
-        glm::pow, glm::sqrt;                                                                       \
+    using glm::abs, glm::atan, glm::clamp, glm::cross, glm::dot, glm::floor, glm::length,          \
+        glm::max, glm::min, glm::mix, glm::normalize, glm::pow, glm::smoothstep, glm::sqrt;        \
     using std::isnan;                                                                              \
     const real kUnitRoundoff = std::numeric_limits<real>::epsilon() / 2;                           \
     const real kSplitter = splitter;                                                               \

@@ -2,148 +2,77 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/image_codec.hpp"
 #include "measure/srgb.hpp"
-
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
-#include <new>
-#include <string_view>
+#include <cstdint>
+#include <vector>
 
 namespace catoptric::measure {
 namespace {
 
-constexpr int kLargestSide = 1 << 16;
-constexpr OIIO::imagesize_t kMostValues = OIIO::imagesize_t{1} << 29; // 2 GiB of float
-
-enum class Kind { exr, hdr, png, other };
-
-/// By the first bytes, not by the name.
-Kind kind_of(std::string_view bytes) {
-    if (bytes.starts_with("\x76\x2f\x31\x01")) return Kind::exr;
-    if (bytes.starts_with("#?RADIANCE") || bytes.starts_with("#?RGBE")) return Kind::hdr;
-    if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return Kind::png;
-    return Kind::other;
-}
+constexpr std::uint64_t kMostValues = std::uint64_t{1} << 29; // 2 GiB of float
 
 /// A picture as it is in the file.
 struct Raw {
-    Kind kind = Kind::other;
-    int width = 0;
-    int height = 0;
-    std::size_t channel_count = 0;
+    bool is_png = false;
+    ImageShape shape;
     std::array<std::size_t, 3> rgb = {}; ///< which channels; the same one three times for grey
     std::vector<float> values;
 
     float value(std::size_t pixel, std::size_t c) const {
-        return values[pixel * channel_count + rgb[c]];
+        return values[pixel * shape.channel_count + rgb[c]];
     }
 };
 
 /// Where R, G and B are; a picture without them is grey in its first channel.
-std::array<std::size_t, 3> find_rgb(const OIIO::ImageSpec& spec) {
+std::array<std::size_t, 3> find_rgb(const std::vector<std::string>& channels) {
     std::array<std::size_t, 3> rgb = {0, 0, 0};
     constexpr std::array<const char*, 3> kNames = {"R", "G", "B"};
     for (std::size_t c = 0; c < rgb.size(); ++c) {
-        const int index = spec.channelindex(kNames[c]);
-        if (index < 0) return {0, 0, 0};
-        rgb[c] = static_cast<std::size_t>(index);
+        const auto at = std::ranges::find(channels, kNames[c]);
+        if (at == channels.end()) return {0, 0, 0};
+        rgb[c] = static_cast<std::size_t>(at - channels.begin());
     }
     return rgb;
 }
 
-/// ": " and what OpenImageIO has to say, in one line; nothing if it says nothing.
-template <typename Codec>
-std::string reason(const Codec& codec) {
-    std::string text = codec.geterror();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text.empty() ? text : ": " + text;
-}
-
-void check_shape(const OIIO::ImageSpec& spec, const std::string& name) {
-    check(spec.width > 0 && spec.height > 0 && spec.width <= kLargestSide &&
-              spec.height <= kLargestSide && spec.nchannels > 0 && !spec.deep,
-          Failure::bad_data, name, ": wanted a flat picture of 1 to ", kLargestSide,
-          " pixels a side, found ", spec.deep ? "a deep one of " : "", spec.width, "x", spec.height,
-          " with ", spec.nchannels, " channels");
-    check(spec.image_pixels() * static_cast<OIIO::imagesize_t>(spec.nchannels) <= kMostValues,
-          Failure::bad_data, name, ": wanted at most ", kMostValues, " values, found ", spec.width,
-          "x", spec.height, " with ", spec.nchannels, " channels");
-}
-
+/// By the first bytes, not by the name.
 Raw decode(const std::filesystem::path& path) {
     const std::string bytes = read_file(path);
-    const std::string name = path.string();
-    Raw raw{.kind = kind_of(bytes)};
-    check(raw.kind != Kind::other, Failure::bad_data, name,
+    const std::string name = path.string(), format = image_format(bytes);
+    check(format == "openexr" || format == "hdr" || format == "png", Failure::bad_data, name,
           ": wanted an OpenEXR, Radiance or PNG picture, found ", bytes.size(),
           " bytes of something else");
-
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    const std::string format = raw.kind == Kind::exr   ? "openexr"
-                               : raw.kind == Kind::hdr ? "hdr"
-                                                       : "png";
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
-    check(input != nullptr, Failure::internal, "this OpenImageIO cannot read ", format);
-    OIIO::ImageSpec hints;
-    hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not times alpha
-    input->set_ioproxy(&memory);
-    OIIO::ImageSpec spec;
-    const bool opened = input->open(name, spec, hints);
-    check(opened, Failure::bad_data, name, ": cannot be decoded", reason(*input));
-    check_shape(spec, name);
-    raw.width = spec.width;
-    raw.height = spec.height;
-    raw.channel_count = static_cast<std::size_t>(spec.nchannels);
-    raw.rgb = find_rgb(spec);
-    raw.values.resize(static_cast<std::size_t>(spec.image_pixels()) * raw.channel_count);
-    const bool read = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat,
-                                        raw.values.data());
-    check(read, Failure::bad_data, name, ": cannot be decoded", reason(*input));
-    input->close();
+    ImageReader reader(bytes, format, name);
+    Raw raw{.is_png = format == "png", .shape = reader.shape()};
+    const auto& [size, channel_count, channels] = raw.shape;
+    check(std::uint64_t(size.x) * size.y * channel_count <= kMostValues, Failure::bad_data, name,
+          ": wanted at most ", kMostValues, " values, found ", size.x, "x", size.y, " with ",
+          channel_count, " channels");
+    raw.rgb = find_rgb(channels);
+    raw.values = reader.floats();
     return raw;
 }
 
-Raw decode_or_say_memory(const std::filesystem::path& path) {
-    try {
-        return decode(path);
-    } catch (const std::bad_alloc&) {
-        fail(Failure::exhausted, path.string(), ": not enough memory to decode it");
-    }
-}
-
-/// Encodes in memory: OpenImageIO's PNG writer reports success on a full disk.
-template <typename Value>
-std::string encode(const std::string& format, const Picture& picture,
-                   const std::vector<Value>& values, const OIIO::TypeDesc& type) {
-    check(picture.width > 0 && picture.height > 0, Failure::internal, "a picture of ",
-          picture.width, "x", picture.height, " cannot be written");
-    OIIO::ImageSpec spec(picture.width, picture.height, 3, type);
-    spec.attribute("DateTime", "2000:01:01 00:00:00"); // not the clock: same picture, same bytes
-    spec.attribute("oiio:ColorSpace", format == "png" ? "sRGB" : "Linear");
-    OIIO::Filesystem::IOVecOutput memory;
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-    check(output != nullptr, Failure::internal, "this OpenImageIO cannot write ", format);
-    output->set_ioproxy(&memory);
-    const bool encoded = output->open("memory." + format, spec) &&
-                         output->write_image(type, values.data()) && output->close();
-    check(encoded, Failure::internal, "OpenImageIO cannot encode ", format, reason(*output));
-    const std::vector<unsigned char>& bytes = memory.buffer();
-    return {bytes.begin(), bytes.end()};
+ImageShape shape_of(const Picture& picture) {
+    return {{static_cast<std::uint32_t>(std::max(picture.width, 0)),
+             static_cast<std::uint32_t>(std::max(picture.height, 0))},
+            3,
+            {}};
 }
 
 } // namespace
 
 Picture read_picture(const std::filesystem::path& path) {
-    const Raw raw = decode_or_say_memory(path);
-    Picture picture(raw.width, raw.height);
+    const Raw raw = decode(path);
+    Picture picture(static_cast<int>(raw.shape.size.x), static_cast<int>(raw.shape.size.y));
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         vec3 pixel(raw.value(i, 0), raw.value(i, 1), raw.value(i, 2));
-        if (raw.kind == Kind::png)
+        if (raw.is_png)
             for (int c = 0; c < 3; ++c)
                 pixel[c] = static_cast<float>(linear_from_srgb(static_cast<double>(pixel[c])));
         picture.pixels[i] = pixel;
@@ -152,12 +81,12 @@ Picture read_picture(const std::filesystem::path& path) {
 }
 
 Mask read_mask(const std::filesystem::path& path, int width, int height) {
-    const Raw raw = decode_or_say_memory(path);
-    check(raw.kind == Kind::png, Failure::bad_data, path.string(), ": wanted a PNG as mask, found ",
-          raw.kind == Kind::exr ? "OpenEXR" : "Radiance");
-    check(raw.width == width && raw.height == height, Failure::bad_data, path.string(),
-          ": wanted a mask of ", width, "x", height, " as the pictures, found ", raw.width, "x",
-          raw.height);
+    const Raw raw = decode(path);
+    check(raw.is_png, Failure::bad_data, path.string(),
+          ": wanted a PNG as mask, found OpenEXR or Radiance");
+    const ivec2 size(raw.shape.size);
+    check(size == ivec2(width, height), Failure::bad_data, path.string(), ": wanted a mask of ",
+          width, "x", height, " as the pictures, found ", size.x, "x", size.y);
     Mask mask(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (std::size_t i = 0; i < mask.size(); ++i)
         if (raw.value(i, 0) > 0 || raw.value(i, 1) > 0 || raw.value(i, 2) > 0) mask[i] = 255;
@@ -169,7 +98,7 @@ std::string exr_bytes(const Picture& picture) {
     values.reserve(3 * picture.pixels.size());
     for (const vec3& pixel : picture.pixels)
         values.insert(values.end(), {pixel.x, pixel.y, pixel.z});
-    return encode("exr", picture, values, OIIO::TypeFloat);
+    return openexr_bytes(shape_of(picture), values);
 }
 
 std::string png_bytes(const Picture& display) {
@@ -181,7 +110,7 @@ std::string png_bytes(const Picture& display) {
     values.reserve(3 * display.pixels.size());
     for (const vec3& pixel : display.pixels)
         values.insert(values.end(), {byte(pixel.x), byte(pixel.y), byte(pixel.z)});
-    return encode("png", display, values, OIIO::TypeUInt8);
+    return catoptric::png_bytes(shape_of(display), values);
 }
 
 void write_exr(const Picture& picture, const std::filesystem::path& path) {

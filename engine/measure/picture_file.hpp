@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-// The only place that knows OpenImageIO. Every error names the file: missing input is
+// Every error names the file: missing input is
 // `Failure::missing_input`, input that is no such picture `bad_data`; output as in core/file.hpp.
 namespace catoptric::measure {
 

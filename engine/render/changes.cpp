@@ -1,5 +1,7 @@
 #include "render/changes.hpp"
 
+#include <algorithm>
+
 namespace catoptric::render {
 
 namespace {
@@ -9,13 +11,24 @@ bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphe
            (!a || (a->centre == b->centre && a->radius == b->radius));
 }
 
+/// As scene::at leaves them, without motion.
+bool same(const scene::Punctual& a, const scene::Punctual& b) {
+    return a.kind == b.kind && a.intensity == b.intensity && a.range == b.range &&
+           a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer &&
+           a.world_from_light == b.world_from_light;
+}
+
 bool lights(const scene::Material& material) { return scene::light_of(material) != vec3(0); }
 
-/// Whether the object is drawn, traced and counted in the same way with either material.
-bool same_kind(const scene::Material& a, const scene::Material& b) {
-    return a.mirror == b.mirror && lights(a) == lights(b) &&
-           scene::is_one_sided(a) == scene::is_one_sided(b) &&
-           scene::is_masked(a) == scene::is_masked(b);
+/// Whether the object is drawn, traced and counted in the same way with either material: only
+/// values differ.
+bool same_kind(const scene::Material& a, scene::Material b) {
+    if (lights(a) != lights(b) || (a.albedo == vec3(0)) != (b.albedo == vec3(0)) ||
+        (a.reflectance == vec3(1)) != (b.reflectance == vec3(1)))
+        return false;
+    b.albedo = a.albedo, b.emission = a.emission, b.reflectance = a.reflectance;
+    b.light = a.light, b.name = a.name;
+    return a == b;
 }
 
 } // namespace
@@ -42,7 +55,11 @@ Changes Seen::take_over(const scene::Scene& now, bool anew) {
         seen = {object.mesh,           material,     object.world_from_object, object.sphere,
                 object.seen_by_camera, object.mirror};
     }
-    changes.lights = changes.lights || changes.layout;
+    const bool other_lights = !std::ranges::equal(
+        punctual_, now.punctual,
+        [](const scene::Punctual& a, const scene::Punctual& b) { return same(a, b); });
+    if (other_lights) punctual_ = now.punctual;
+    changes.lights = changes.lights || changes.layout || other_lights;
     return changes;
 }
 

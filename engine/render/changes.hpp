@@ -31,6 +31,7 @@ private:
         bool seen_by_camera = true, mirror = false;
     };
     std::vector<Object> objects_;
+    std::vector<scene::Punctual> punctual_;
 };
 
 } // namespace catoptric::render

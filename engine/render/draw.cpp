@@ -3,6 +3,7 @@
 #include "render/views.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace catoptric::render {
 
@@ -84,14 +85,16 @@ void add_places(const Captures& captures, gpu::Constants& constants) {
 }
 
 /// The build of the fragment shader that the look asks for.
-std::string build_of(const MirrorLook& look, bool peeled, bool shadow_map) {
+std::string build_of(const MirrorLook& look, bool peeled, bool shadow_map, bool lit) {
     std::string build = look.captures && look.captures->table ? "arrays" : "";
     const auto add = [&](const char* more) {
         build += (build.empty() ? "" : "_") + std::string(more);
     };
+    const bool mended = !peeled && look.mended;
+    if (mended) add("mend");
+    if (lit && !mended) add("lit");
+    if ((lit || mended) && !shadow_map) add("unshadowed");
     if (peeled) add("peel");
-    if (!peeled && look.mended) add("mend");
-    if (!peeled && look.mended && !shadow_map) add("unshadowed");
     return look.fragment + (build.empty() ? "" : "#" + build);
 }
 
@@ -100,7 +103,7 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& draw
     gpu::RasterState state{"scene.vert", black, drawing.store};
     if (!look.fragment.empty() && !look.blank) {
         state.fragment = build_of(look, drawing.peeled.has_value(),
-                                  drawing.lighting.shadow_map.has_value());
+                                  drawing.lighting.shadow_map.has_value(), scene.has_details());
         state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
         if (look.captures) bind_captures(commands, *look.captures);
         if (look.captures) add_places(*look.captures, state.constants);
@@ -115,14 +118,16 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& draw
 void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
                   const Wanted& wanted) {
-    state.features = scene.features();
+    state.features = scene.features(first_view);
     for (const bool own : {false, true}) {
         if (own && !scene.has_own_spaces()) break;
         if (own) state.vertex = "placed.vert";
-        commands.use(state);
-        for (std::size_t i = 0; i < scene.ranges().size(); ++i)
-            if (scene.ranges()[i].own.has_value() == own && wanted(i))
-                draw_object(commands, scene, i, first_view, layers, mended);
+        bool in_use = false; // a pipeline that draws nothing is not made
+        for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+            if (scene.ranges()[i].own.has_value() != own || !wanted(i)) continue;
+            if (!std::exchange(in_use, true)) commands.use(state);
+            draw_object(commands, scene, i, first_view, layers, mended);
+        }
     }
 }
 
@@ -134,8 +139,10 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
     scene.bind(commands);
     if (std::ranges::any_of(looks->looks, &MirrorLook::mended)) scene.bind_tracing(commands);
     if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
+    if (scene.has_details()) black += lighting.shadow_map ? "#lit" : "#lit_unshadowed";
     if (peeled) {
-        diffuse += lighting.shadow_map ? "#peel" : "_peel", black += "#peel";
+        diffuse += lighting.shadow_map ? "#peel" : "_peel";
+        black += scene.has_details() ? "_peel" : "#peel";
         commands.bind("first_layer", *peeled);
     }
     const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {

@@ -27,6 +27,15 @@ std::vector<std::uint32_t> own_indices(const Geometry& geometry, const DrawRange
     return indices;
 }
 
+/// An orthographic picture's pixels are taken as those of an eye that stands a scene's size in
+/// front of what it shows there.
+shared::View in_perspective(shared::View view, const vec3& shown) {
+    if (view.parallel == 0) return view;
+    view.eye += view.forward * (dot(view.forward, shown - view.eye) - 1);
+    view.parallel = 0;
+    return view;
+}
+
 } // namespace
 
 std::vector<double> find_face_needs(const Geometry& geometry, std::span<const std::size_t> mirrors,
@@ -37,8 +46,9 @@ std::vector<double> find_face_needs(const Geometry& geometry, std::span<const st
     for (std::size_t mirror = 0; mirror < mirrors.size(); ++mirror) {
         const DrawRange& range = geometry.ranges[mirrors[mirror]];
         const double radius{probes[mirror].radius};
-        Pixels pixels{camera, height};
-        if (range.own) pixels.view.eye = vec3(eye - range.own->centre);
+        Pixels pixels{in_perspective(camera, range.bounds.centre()), height};
+        if (range.own)
+            pixels.view.eye = vec3(eye + dvec3(pixels.view.eye - camera.eye) - range.own->centre);
         if (!range.seen_by_camera || !may_meet(camera, range.bounds))
             needs.push_back(0);
         else if (radius > 0)

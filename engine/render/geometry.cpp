@@ -21,7 +21,7 @@ void store_indices(Geometry& geometry, const scene::Mesh& mesh, const DrawRange&
     std::size_t index = range.first_index;
     for (uvec3 triangle : mesh.triangles) {
         triangle += range.first_vertex;
-        if (range.one_sided && runs_clockwise(geometry.vertices, triangle))
+        if (range.one_sided && !range.casts_shadow && runs_clockwise(geometry.vertices, triangle))
             std::swap(triangle.y, triangle.z);
         for (int i = 0; i < 3; ++i) geometry.indices[index++] = triangle[i];
     }
@@ -85,6 +85,23 @@ void move_flat(Geometry& geometry, const scene::Scene& now, const Space& space, 
     }
 }
 
+/// Whether what is seen of the surface is more than one colour and its light.
+bool varies(const scene::Mesh& mesh, const scene::Material& material, float sharp_below) {
+    const bool is_sharp = material.roughness <= sharp_below || material.roughness_texture;
+    const bool throws_back = material.mirror && material.albedo != vec3(0) &&
+                             material.reflectance != vec3(1);
+    return !mesh.colours.empty() || material.albedo_texture || material.emission_texture ||
+           material.unlit || scene::is_masked(material) ||
+           (material.mirror ? throws_back : is_sharp);
+}
+
+/// A mirror that shows nothing but what it mirrors.
+bool is_pure(const scene::Mesh& mesh, const scene::Material& material) {
+    if (material.mirror) return material.albedo == vec3(0) || material.reflectance == vec3(1);
+    return material.metallic == 1 && mesh.colours.empty() && !material.albedo_texture &&
+           !material.roughness_texture && !material.emission_texture && !material.unlit;
+}
+
 /// What is known of an object without its place.
 DrawRange range_of(const scene::Scene& now, const scene::Object& object) {
     const scene::Mesh& mesh = now.meshes[object.mesh];
@@ -97,6 +114,10 @@ DrawRange range_of(const scene::Scene& now, const scene::Object& object) {
     range.seen_by_camera = object.seen_by_camera;
     range.exact_sphere = object.sphere.has_value();
     range.one_sided = !range.mirror && scene::is_one_sided(material);
+    range.varies = varies(mesh, material, now.mirror_max_roughness);
+    range.turns = material.two_sided && (material.albedo != vec3(0) || range.varies);
+    range.masked = scene::is_masked(material);
+    range.lit = range.mirror && !is_pure(mesh, material);
     return range;
 }
 
@@ -129,6 +150,26 @@ void lay_out(Geometry& geometry, const scene::Scene& now) {
     geometry.indices.resize(indices);
 }
 
+/// Attributes of every mesh that has them.
+void lay_out_attributes(Geometry& geometry, const scene::Scene& now) {
+    std::vector<std::optional<std::uint32_t>> first_of(now.meshes.size());
+    for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
+        const scene::Mesh& mesh = now.meshes[now.objects[i].mesh];
+        const auto& [uv, other_uv] = mesh.uv;
+        if (!geometry.ranges[i].varies && !geometry.ranges[i].masked) continue;
+        if (uv.empty() && other_uv.empty() && mesh.colours.empty()) continue;
+        std::optional<std::uint32_t>& first = first_of[now.objects[i].mesh];
+        if (!first) {
+            first = static_cast<std::uint32_t>(geometry.attributes.size());
+            for (std::size_t k = 0; k < mesh.positions.size(); ++k)
+                geometry.attributes.push_back(
+                    {vec4(uv.empty() ? vec2(0) : uv[k], other_uv.empty() ? vec2(0) : other_uv[k]),
+                     mesh.colours.empty() ? vec4(1) : mesh.colours[k]});
+        }
+        geometry.ranges[i].first_attribute = first;
+    }
+}
+
 } // namespace
 
 Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces spaces) {
@@ -144,6 +185,7 @@ Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces space
         geometry.ranges.push_back(range);
     }
     lay_out(geometry, now);
+    lay_out_attributes(geometry, now);
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
         const std::size_t mesh = now.objects[i].mesh;

@@ -26,8 +26,14 @@ struct DrawRange {
     bool mirror = false;
     bool casts_shadow = true; ///< a light's own mesh does not: it would hide the light
     bool seen_by_camera = true;
-    bool exact_sphere = false;   ///< the mesh stands for one
-    bool one_sided = false;      ///< not there from behind, where triangles run clockwise
+    bool exact_sphere = false; ///< the mesh stands for one
+    bool one_sided = false;    ///< not there from behind, where triangles run clockwise
+    bool varies = false;       ///< more than one colour, or sharp without being a mirror
+    bool turns = false;        ///< its normal turns to who looks
+    bool masked = false;       ///< parts of it may be cut out
+    bool lit = false;          ///< a mirror with light of its own, which only its picture shows
+    /// Of its mesh, in Geometry::attributes; none: its vertices have none.
+    std::optional<std::uint32_t> first_attribute;
     std::optional<OwnSpace> own; ///< none: vertices are in scene units
     /// Object whose vertices and indices these are, the first that has the mesh; itself where it
     /// shares none.
@@ -41,6 +47,7 @@ struct Geometry {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<DrawRange> ranges;
+    std::vector<shared::Attribute> attributes;    ///< of meshes that have them, once each
     std::map<std::size_t, MeshSpace> mesh_spaces; ///< by mesh, of those that share
     Bounds<float> core;                           ///< where most of it is (Space::core)
     Spaces spaces = Spaces::one;

@@ -18,7 +18,9 @@ constexpr std::uint32_t kNoMirror = 0;
 shared::Surface surface_of(const scene::Object& object, const scene::Material& material,
                            std::uint32_t mirror, const Space& space) {
     shared::Surface surface{};
-    surface.albedo = material.mirror ? vec3(0) : material.albedo;
+    // Of a mirror that throws light back itself, or else of none.
+    const bool is_pure = material.mirror && material.reflectance == vec3(1);
+    surface.albedo = is_pure ? vec3(0) : material.albedo;
     surface.emission = material.emission;
     surface.reflectance = material.reflectance;
     surface.mirror = mirror;
@@ -27,6 +29,24 @@ shared::Surface surface_of(const scene::Object& object, const scene::Material& m
         surface.radius = space.length(object.sphere->radius);
     }
     return surface;
+}
+
+/// But for where it is and the frame of its shadows.
+shared::Light light_of(const scene::PointLight& light, const Space& space) {
+    constexpr double kNarrowest = .001; // a spot's edge, as a difference of cosines
+    shared::Light entry{};
+    entry.normal = vec3(light.normal);
+    entry.forward = light.axis == dvec3(0) ? entry.normal : vec3(light.axis);
+    const double area = light.directional ? 1 : light.area * space.scale * space.scale;
+    entry.intensity = light.emission * static_cast<float>(area);
+    entry.reach = 1 / space.length(light.range);
+    entry.directional = light.directional ? 1 : 0;
+    const bool is_spot = light.axis != dvec3(0) && !light.directional;
+    entry.cos_outer = is_spot ? static_cast<float>(light.cos_outer) : -3.0f; // whole everywhere
+    entry.sharpness = is_spot ? static_cast<float>(
+                                    1 / std::max(kNarrowest, light.cos_inner - light.cos_outer))
+                              : 1.0f;
+    return entry;
 }
 
 bool same(const scene::Camera& a, const scene::Camera& b) {
@@ -60,7 +80,7 @@ GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t s
       view_buffer_("views", gpu::BufferUse::plain, slots),
       surface_buffer_("surfaces", gpu::BufferUse::plain, slots),
       light_buffer_("lights", gpu::BufferUse::uniform, slots),
-      probe_buffer_("probes", gpu::BufferUse::plain, slots),
+      probe_buffer_("probes", gpu::BufferUse::plain, slots), details_(slots), sky_(slots),
       tracing_(std::make_unique<Tracing>(slots)) {}
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
@@ -75,7 +95,11 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     else
         move(now, changes.moved);
     if (changes.shapes() || changes.materials) fill_surfaces(now);
+    if (changes.layout || changes.materials || vertices_.layouts() != known_layouts_)
+        details_.fill(now, geometry_, vertices_, device_.limits().maxStorageBufferRange);
+    known_layouts_ = vertices_.layouts();
     if (changes.shapes() || changes.lights) fill_lights(now, changes.lights);
+    sky_.set(now.environment);
     if (changes.shapes() || changes.lights || changes.materials) fill_probes(now, changes);
     if (changes.shapes() || changes.lights || !same(camera_, camera) || size_ != size)
         fill_views(camera, size);
@@ -138,19 +162,23 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
           world_lights_.size(), " lights, ", shared::kMaxLights, " are allowed");
     lights_.clear(), light_places_.clear();
     shadow_faces_ = 5;
+    has_punctual_ = !now.punctual.empty();
     for (const scene::PointLight& light : world_lights_) {
-        const double area = light.area * space_.scale * space_.scale;
-        shared::Light entry{};
-        light_places_.push_back(space_.place(light.position));
+        shared::Light entry = light_of(light, space_);
+        if (light.directional)
+            light_places_.emplace_back(
+                sun_views(entry.forward, space_.core, bounds_of(geometry_))[0].eye);
+        else
+            light_places_.push_back(space_.place(light.position));
         entry.position = vec3(light_places_.back());
-        entry.normal = vec3(light.normal);
-        entry.intensity = light.emission * static_cast<float>(area);
-        const float gap = nearest_.distance(
-            geometry_, light_places_.back(),
-            [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
-        const shared::View main = turned_cube_views(entry.position, entry.normal, gap)[4];
-        entry.right = main.right, entry.down = main.down, entry.forward = main.forward,
-        entry.near = main.near;
+        if (!light.directional) {
+            const float gap = nearest_.distance(
+                geometry_, light_places_.back(),
+                [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
+            const shared::View main = turned_cube_views(entry.position, entry.forward, gap)[4];
+            entry.right = main.right, entry.down = main.down, entry.forward = main.forward,
+            entry.near = main.near;
+        }
         lights_.push_back(entry);
         if (light.normal == dvec3(0)) shadow_faces_ = 6;
     }
@@ -161,7 +189,7 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
 
 bool GpuScene::has_other_mirrors() const {
     return std::ranges::any_of(geometry_.ranges, [](const DrawRange& range) {
-        return range.mirror && !range.exact_sphere;
+        return range.mirror && (!range.exact_sphere || range.lit);
     });
 }
 
@@ -197,7 +225,12 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
         probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];
         probe.sphere = surface.centre, probe.radius = surface.radius;
-        probe.reflectance = surface.reflectance;
+        const scene::Material& material = now.materials[now.objects[object].material];
+        probe.reflectance = material.mirror ? material.reflectance : material.albedo;
+        const bool is_lit = geometry_.ranges[object].lit;
+        probe.kind = is_lit ? shared::kProbeLit
+                            : (material.mirror ? shared::kProbeConstant : shared::kProbeMetal);
+        if (is_lit) probe.radius = 0; // no ray is followed through it
         const Bounds<float>& box = geometry_.ranges[object].bounds;
         probe.lowest = box.lo, probe.highest = box.hi;
         const float gap = nearest_.distance(
@@ -205,13 +238,27 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
             [&](std::size_t i, const DrawRange&) { return i == object; });
         std::ranges::copy(cube_views(probe.centre, gap), std::back_inserter(scene_views_));
     }
-    for (const shared::Light& light : lights_) {
-        std::vector<shared::View> faces = turned_cube_views(light.position, light.normal, 0);
-        for (shared::View& face : faces) face.near = light.near;
-        faces.resize(shadow_faces_); // the last one looks back, where a one-sided light is dark
-        std::ranges::copy(faces, std::back_inserter(scene_views_));
-    }
+    for (const shared::Light& light : lights_)
+        std::ranges::copy(shadow_views(light), std::back_inserter(scene_views_));
     probe_buffer_.set(probes_);
+}
+
+std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) const {
+    std::vector<shared::View> views;
+    if (light.directional != 0) {
+        std::ranges::copy(sun_views(light.forward, space_.core, bounds_of(geometry_)),
+                          std::back_inserter(views));
+    } else {
+        views = turned_cube_views(light.position,
+                                  glm::mat3(light.right, -light.down, light.forward), 0);
+        for (shared::View& view : views) view.near = light.near;
+    }
+    views.resize(shadow_faces_); // the last one looks back, where a one-sided light is dark
+    return views;
+}
+
+std::uint32_t GpuScene::drawn_shadow_faces(std::uint32_t light) const {
+    return lights_[light].directional != 0 ? 2 : shadow_faces_;
 }
 
 /// The camera's, then those of mirrors and lights.
@@ -219,11 +266,13 @@ void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
     eye_ = space_.place(camera.eye);
     const float gap = nearest_.distance(
         geometry_, eye_, [](std::size_t, const DrawRange& range) { return !range.seen_by_camera; });
-    views_ = {camera_view(camera, space_, size, gap)};
+    views_ = {camera_view(camera, space_, size, gap, bounds_of(geometry_))};
+    const bool is_parallel = views_.front().parallel != 0;
+    if (is_parallel) eye_ = dvec3(views_.front().eye) + dvec3(views_.front().eye_low);
     views_.insert(views_.end(), scene_views_.begin(), scene_views_.end());
     hides_all_.clear();
     for (const DrawRange& range : geometry_.ranges)
-        hides_all_.push_back(range.mirror && encloses(geometry_, range, eye_));
+        hides_all_.push_back(range.mirror && !is_parallel && encloses(geometry_, range, eye_));
     camera_ = camera, size_ = size;
     view_buffer_.set(views_);
 }
@@ -239,10 +288,11 @@ std::uint32_t GpuScene::common_face() const {
 }
 
 void GpuScene::write(std::size_t slot) {
-    uploads_ += vertices_.write(device_, slot);
+    uploads_ += vertices_.write(device_, slot) + sky_.write(device_, slot);
     for (Resident* buffer :
          {&frame_, &view_buffer_, &surface_buffer_, &light_buffer_, &probe_buffer_})
         uploads_ += buffer->write(device_, slot);
+    uploads_ += details_.write(device_, slot);
 }
 
 void GpuScene::bind(graph::Commands& commands) const {
@@ -251,7 +301,19 @@ void GpuScene::bind(graph::Commands& commands) const {
     commands.bind("Surfaces", surface_buffer_.at(slot_));
     commands.bind("Lights", light_buffer_.at(slot_));
     commands.bind("Probes", probe_buffer_.at(slot_));
+    details_.bind(commands, slot_);
+    sky_.bind(commands, slot_);
     vertices_.bind(commands, slot_);
+}
+
+gpu::Constants GpuScene::features(std::uint32_t view) const {
+    return {{"own_spaces", has_own_spaces() ? 1u : 0u}, {"details", details_.any() ? 1u : 0u},
+            {"masks", details_.masks() ? 1u : 0u},      {"light_kinds", has_punctual_ ? 1u : 0u},
+            {"environment_kind", sky_.kind()},          {"orthographic", views_[view].parallel}};
+}
+
+void GpuScene::bind_sky_vertices(graph::Commands& commands) const {
+    sky_.bind_vertices(commands, slot_);
 }
 
 void GpuScene::bind_vertices(graph::Commands& commands, std::size_t object) const {

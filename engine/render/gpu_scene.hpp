@@ -2,8 +2,10 @@
 
 #include "graph/commands.hpp"
 #include "render/changes.hpp"
+#include "render/details.hpp"
 #include "render/nearest.hpp"
 #include "render/resident.hpp"
+#include "render/sky.hpp"
 #include "render/tracing.hpp"
 #include "render/vertices.hpp"
 
@@ -31,7 +33,9 @@ public:
     /// Whether some mirror is no exact sphere.
     bool has_other_mirrors() const;
     std::uint32_t light_count() const { return static_cast<std::uint32_t>(lights_.size()); }
+    /// Layers of each light in shadow maps, and how many of them are drawn.
     std::uint32_t shadow_faces() const { return shadow_faces_; }
+    std::uint32_t drawn_shadow_faces(std::uint32_t light) const;
     const Space& space() const { return space_; }
     const std::vector<DrawRange>& ranges() const { return geometry_.ranges; }
     const std::vector<shared::View>& views() const { return views_; }
@@ -61,8 +65,13 @@ public:
     shared::Placement placement_of(std::size_t object, std::uint32_t first_view) const;
     /// Whether some object has (DrawRange::own).
     bool has_own_spaces() const { return has_own_spaces_; }
-    /// What shaders are to be built for; what the scene has not got costs nothing.
-    gpu::Constants features() const { return {{"own_spaces", has_own_spaces() ? 1u : 0u}}; }
+    /// What shaders that show this view are to be built for; what the scene has not got costs
+    /// nothing.
+    gpu::Constants features(std::uint32_t view = kCameraView) const;
+    /// Whether some surface is more than one colour.
+    bool has_details() const { return details_.any(); }
+    /// Whether something is seen where the scene ends.
+    bool has_sky() const { return sky_.kind() != 0; }
 
     static constexpr std::uint32_t kCameraView = 0;
     std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }
@@ -72,6 +81,8 @@ public:
 
     /// Binds every buffer of the scene but the hierarchy under the name it has in shaders/lib.
     void bind(graph::Commands& commands) const;
+    /// Binds the triangle that the sky is drawn with.
+    void bind_sky_vertices(graph::Commands& commands) const;
     /// Binds the object's vertices. After `bind`, before each draw.
     void bind_vertices(graph::Commands& commands, std::size_t object) const;
 
@@ -101,6 +112,7 @@ private:
     void fill_surfaces(const scene::Scene& now);
     void fill_lights(const scene::Scene& now, bool others);
     void fill_probes(const scene::Scene& now, const Changes& changes);
+    std::vector<shared::View> shadow_views(const shared::Light& light) const;
     void fill_views(const scene::Camera& camera, uvec2 size);
     void fill_frame(double ambient);
     const dvec3& eye_of(std::uint32_t view) const;
@@ -126,10 +138,13 @@ private:
     uvec2 size_{0};
     bool complete_ = false; ///< the last update came to its end
     bool has_own_spaces_ = false;
+    bool has_punctual_ = false; ///< some light has no surface
     std::uint32_t shadow_faces_ = 6;
-    std::size_t slot_ = 0, uploads_ = 0;
+    std::size_t slot_ = 0, uploads_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
     Resident frame_, view_buffer_, surface_buffer_, light_buffer_, probe_buffer_;
+    Details details_;
+    Sky sky_;
     std::unique_ptr<Tracing> tracing_;
     mutable bool wants_tracing_ = false;
 };

@@ -29,6 +29,7 @@ Amounts amounts_of(const scene::Scene& scene) {
         amounts.triangles += mesh.triangles.size();
     }
     amounts.objects = scene.objects.size();
+    if (scene.environment) amounts.environment_texels = scene.environment->texels.size();
     return amounts;
 }
 
@@ -44,6 +45,7 @@ void check_limits(const std::string& scene, const Amounts& amounts, const Limits
     within(amounts.vertices, std::numeric_limits<std::uint32_t>::max(), "vertices");
     within(3 * amounts.triangles, std::numeric_limits<std::uint32_t>::max(), "indices");
     within(texels, limits.texels, "texels of triangles");
+    within(amounts.environment_texels, limits.texels, "texels of the environment");
     within(amounts.objects * sizeof(shared::Surface), limits.storage_bytes, "bytes of surfaces");
     within((1 + 6 * amounts.mirrors) * sizeof(shared::View), limits.storage_bytes,
            "bytes of views");

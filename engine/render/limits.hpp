@@ -10,6 +10,7 @@ namespace catoptric::render {
 /// mesh whose copies share them count once (own_space.hpp).
 struct Amounts {
     std::uint64_t vertices = 0, triangles = 0, objects = 0, mirrors = 0;
+    std::uint64_t environment_texels = 0;
 };
 /// Costs what shared_objects does.
 Amounts amounts_of(const scene::Scene& scene);

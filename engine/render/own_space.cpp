@@ -45,8 +45,9 @@ std::vector<bool> shared_meshes(const scene::Scene& scene) {
 } // namespace
 
 bool may_share(const scene::Scene& now, const scene::Object& object) {
-    return !scene::is_one_sided(now.materials[object.material]) &&
-           bvh::stretch(dmat3(object.world_from_object)) <= kWorstStretch;
+    const scene::Material& material = now.materials[object.material];
+    const bool is_lamp = scene::is_one_sided(material) && scene::light_of(material) != vec3(0);
+    return !is_lamp && bvh::stretch(dmat3(object.world_from_object)) <= kWorstStretch;
 }
 
 std::vector<bool> shared_objects(const scene::Scene& scene) {

@@ -54,8 +54,10 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
             draw_scene(commands, scene, drawing, [&](std::size_t object) {
                 const DrawRange& range = scene.ranges()[object];
                 return object != scene.mirror_object(mirror) &&
-                       !(leaves_out && range.mirror && range.exact_sphere);
+                       !(leaves_out && range.mirror && range.exact_sphere && !range.lit);
             });
+            if (!drawing.peeled)
+                draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
 }
 
@@ -90,11 +92,15 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
         graph.pass(inputs.prefix + name + suffix, Tag::scene)
             .writes(map.layers(faces * light, faces), Use::depth, kFarthest)
             .layers(faces)
-            .record([&scene, light, faces](Commands& commands) {
+            .record([&scene, light](Commands& commands) {
                 scene.bind(commands);
-                draw_objects(commands, scene, {"scene.vert", "", {}}, scene.shadow_view(light),
-                             faces, 0,
-                             [&](std::size_t i) { return scene.ranges()[i].casts_shadow; });
+                for (const bool masked : {false, true})
+                    draw_objects(commands, scene, {"scene.vert", masked ? "masked.frag" : "", {}},
+                                 scene.shadow_view(light), scene.drawn_shadow_faces(light), 0,
+                                 [&](std::size_t i) {
+                                     const DrawRange& range = scene.ranges()[i];
+                                     return range.casts_shadow && range.masked == masked;
+                                 });
             });
     }
     return map;
@@ -150,6 +156,7 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
         .record([&scene = inputs.scene, drawing = std::move(drawing)](Commands& commands) {
             draw_scene(commands, scene, drawing,
                        [&](std::size_t object) { return scene.ranges()[object].seen_by_camera; });
+            draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
     return view;
 }

@@ -1,5 +1,6 @@
 #include "render/tracing.hpp"
 
+#include "bvh/words.hpp"
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
 
@@ -11,10 +12,12 @@ namespace {
 
 std::uint32_t flags_of(const DrawRange& range) {
     return (range.seen_by_camera ? 0 : bvh::kHidden) | (range.casts_shadow ? 0 : bvh::kShadowless) |
-           (range.exact_sphere ? bvh::kSphere : 0) | (range.one_sided ? bvh::kOneSided : 0);
+           (range.exact_sphere ? bvh::kSphere : 0) | (range.one_sided ? bvh::kOneSided : 0) |
+           (range.masked ? bvh::kMasked : 0);
 }
 
-/// What rays see of an object's triangles, and the normals at their corners.
+/// What rays see of an object's triangles, and the normals at their corners with the number of the
+/// attribute there.
 void read_object(const Geometry& geometry, std::size_t object,
                  std::vector<bvh::Triangle>& triangles, std::vector<vec4>& normals) {
     const DrawRange& range = geometry.ranges[object];
@@ -24,7 +27,12 @@ void read_object(const Geometry& geometry, std::size_t object,
         };
         triangles[k / 3] = {vertex(0).position, vertex(1).position, vertex(2).position,
                             static_cast<std::uint32_t>(object), flags_of(range)};
-        for (std::uint32_t j = 0; j < 3; ++j) normals[k + j] = vec4(vertex(j).normal, 0.0f);
+        for (std::uint32_t j = 0; j < 3; ++j) {
+            const std::uint32_t local = geometry.indices[k + j] - range.first_vertex;
+            normals[k + j] = vec4(vertex(j).normal,
+                                  bvh::id_word(range.first_attribute.value_or(0) +
+                                               (range.first_attribute ? local : 0)));
+        }
     }
 }
 

@@ -13,6 +13,7 @@ Vertices::Vertices(const std::vector<bool>& moves, std::size_t slots)
 }
 
 void Vertices::lay_out(const Geometry& geometry) {
+    ++layouts_;
     places_.resize(geometry.ranges.size());
     std::vector<shared::Vertex> still, moving;
     std::vector<std::uint32_t> indices(geometry.indices.size());

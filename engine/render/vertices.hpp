@@ -20,6 +20,10 @@ public:
     bool move(std::size_t object);
     /// Takes over what has moved, where nothing else changed.
     void follow(const Geometry& geometry);
+    /// How often they were laid out.
+    std::size_t layouts() const { return layouts_; }
+    /// Place of the object's first vertex among those that are drawn with it.
+    std::uint32_t first_of(std::size_t object) const { return places_[object].first; }
     /// As Resident::write.
     std::size_t write(gpu::Device& device, std::size_t slot);
     /// Binds those of what stands still, and all indices.
@@ -32,6 +36,7 @@ private:
         bool moves = false;
         std::uint32_t first = 0;
     };
+    std::size_t layouts_ = 0;
     std::vector<Place> places_; ///< by object
     bool anything_moves_ = false;
     Resident still_, moving_, indices_;

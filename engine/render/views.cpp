@@ -5,6 +5,7 @@
 #include "core/shader_math.hpp"
 #include "scene/core.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -16,9 +17,56 @@ namespace {
 // so near only has to be above 0 and below everything. 2^-24: the rounding of a coordinate about 1.
 constexpr float kSmallestNear = 0x1p-24f;
 
+/// Room around what a parallel view holds, as a part of it: far more than roundings.
+constexpr double kRoom = 1e-3;
+/// A window over everything, so many times as large as one over the core, does for both.
+constexpr double kHardlyLarger = 1.5;
+
+/// The axes of a cube whose face +Z looks along `forward`, as columns.
+glm::mat3 turned_cube(vec3 forward) {
+    const vec3 size = abs(forward);
+    const vec3 other = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0)
+                       : size.y <= size.z                   ? vec3(0, 1, 0)
+                                                            : vec3(0, 0, 1);
+    const vec3 x = normalize(cross(other, forward));
+    return glm::mat3(x, cross(forward, x), forward);
+}
+
+/// Products of an axis with the places of a box: the least and the largest.
+struct Extent {
+    double low = 0, high = 0;
+};
+Extent along(const dvec3& axis, const Bounds<float>& box) {
+    if (box.empty()) return {};
+    const dvec3 middle(box.centre()), half(dvec3(box.extent()) / 2.0);
+    const double at = dot(axis, middle), reach = dot(abs(axis), half);
+    return {at - reach, at + reach};
+}
+
+/// Where everything begins along an axis and where it ends, with some room.
+Extent depth_of(const dvec3& forward, const Bounds<float>& everything) {
+    const auto [low, high] = along(forward, everything);
+    const double room = kRoom * std::max(high - low, 1.0);
+    return {low - room, high + room};
+}
+
+/// Makes the view parallel: from a plane through the eye, which is moved there, to another.
+void look_along(shared::View& view, dvec3& eye, const dvec3& forward, const Extent& depth) {
+    eye += forward * (depth.low - dot(forward, eye));
+    view.near = static_cast<float>(1 / std::max(depth.high - depth.low, kRoom));
+    view.parallel = 1;
+}
+
 } // namespace
 
-shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 size, float gap) {
+Bounds<float> bounds_of(const Geometry& geometry) {
+    Bounds<float> everything;
+    for (const DrawRange& range : geometry.ranges) everything.add(range.bounds);
+    return everything;
+}
+
+shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 size, float gap,
+                         const Bounds<float>& everything) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
     const dvec3 right = glm::normalize(glm::cross(forward, camera.up));
     const dvec3 down = glm::cross(forward, right);
@@ -27,13 +75,20 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
     // A thing at distance `gap` in the corner of the picture lies this far along the axis.
     const double along = 1 / std::sqrt(1 + tangent * tangent * (1 + aspect * aspect));
     shared::View view{};
-    const dvec3 eye = space.place(camera.eye);
-    view.eye = vec3(eye);
-    view.eye_low = bvh::low_part(eye);
+    dvec3 eye = space.place(camera.eye);
     view.right = vec3(right / (tangent * aspect));
     view.down = vec3(down / tangent);
     view.forward = vec3(forward);
     view.near = std::max(kSmallestNear, 0.5f * gap * static_cast<float>(along));
+    if (camera.orthographic_height > 0) {
+        const double half = camera.orthographic_height * space.scale / 2;
+        view.right = vec3(right / (half * aspect));
+        view.down = vec3(down / half);
+        const Extent depth = depth_of(forward, everything);
+        look_along(view, eye, forward, {std::max(depth.low, dot(forward, eye)), depth.high});
+    }
+    view.eye = vec3(eye);
+    view.eye_low = bvh::low_part(eye);
     // Written so that a NaN is refused too.
     check(length(view.eye) <= scene::kFarthestReach && length(view.forward) > .5f &&
               length(view.right) > 0 && length(view.down) > 0,
@@ -49,15 +104,10 @@ std::vector<shared::View> cube_views(vec3 eye, float gap) {
 }
 
 std::vector<shared::View> turned_cube_views(vec3 eye, vec3 forward, float gap) {
-    glm::mat3 world_from_cube(1);
-    if (forward != vec3(0)) {
-        const vec3 size = abs(forward);
-        const vec3 other = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0)
-                           : size.y <= size.z                   ? vec3(0, 1, 0)
-                                                                : vec3(0, 0, 1);
-        const vec3 x = normalize(cross(other, forward));
-        world_from_cube = glm::mat3(x, cross(forward, x), forward);
-    }
+    return turned_cube_views(eye, forward == vec3(0) ? glm::mat3(1) : turned_cube(forward), gap);
+}
+
+std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_from_cube, float gap) {
     std::vector<shared::View> views;
     for (int face = 0; face < 6; ++face) {
         shared::View view{};
@@ -72,7 +122,47 @@ std::vector<shared::View> turned_cube_views(vec3 eye, vec3 forward, float gap) {
     return views;
 }
 
+std::array<shared::View, 2> sun_views(vec3 forward, const Bounds<float>& core,
+                                      const Bounds<float>& everything) {
+    const glm::mat3 axes = turned_cube(forward);
+    const dvec3 right(axes[0]), down(-axes[1]); // as face +Z has them
+    const Bounds<float>& middle = core.empty() ? everything : core;
+    dvec3 eye = middle.empty() ? dvec3(0) : dvec3(middle.centre());
+    const auto half_of = [&](const dvec3& axis, const Bounds<float>& box) {
+        const auto [low, high] = along(axis, box);
+        const double at = dot(axis, eye);
+        return std::max({high - at, at - low, 1e-6}) * (1 + kRoom);
+    };
+    const double core_width = half_of(right, middle), core_height = half_of(down, middle),
+                 width = half_of(right, everything), height = half_of(down, everything);
+    shared::View view{};
+    view.forward = forward;
+    look_along(view, eye, dvec3(forward), depth_of(dvec3(forward), everything));
+    view.eye = vec3(eye);
+    view.right = vec3(right / width), view.down = vec3(down / height);
+    std::array<shared::View, 2> views{view, view};
+    if (std::max(width, height) > kHardlyLarger * std::max(core_width, core_height))
+        views[0].right = vec3(right / core_width), views[0].down = vec3(down / core_height);
+    return views;
+}
+
+namespace {
+
+/// The inside of a parallel view: between its sides and in front of its eye.
+bool may_meet_parallel(const shared::View& view, const Bounds<float>& box) {
+    const auto furthest = [&](const vec3& plane) {
+        const vec3 corner(plane.x > 0 ? box.hi.x : box.lo.x, plane.y > 0 ? box.hi.y : box.lo.y,
+                          plane.z > 0 ? box.hi.z : box.lo.z);
+        return dot(plane, corner - view.eye);
+    };
+    return furthest(view.forward) >= 0 && furthest(view.right) >= -1 &&
+           furthest(-view.right) >= -1 && furthest(view.down) >= -1 && furthest(-view.down) >= -1;
+}
+
+} // namespace
+
 bool may_meet(const shared::View& view, const Bounds<float>& box) {
+    if (view.parallel != 0) return may_meet_parallel(view, box);
     const std::array<vec3, 5> inward{view.forward, view.forward + view.right,
                                      view.forward - view.right, view.forward + view.down,
                                      view.forward - view.down};

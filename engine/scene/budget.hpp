@@ -24,9 +24,11 @@ struct Budget {
     std::uint64_t triangles = 2'000'000;
     /// Nodes, meshes, primitives, materials, cameras, animation channels, objects: each of these.
     std::uint64_t objects = 125'000;
-    std::uint64_t keys = 1'000'000;      ///< of animations, each sampler once
-    std::uint64_t name_bytes = 64 << 20; ///< of the names of meshes and objects
-    std::uint64_t cuts = 100'000'000;    ///< comparisons that cut concave polygons of an .obj
+    std::uint64_t keys = 1'000'000;       ///< of animations, each sampler once
+    std::uint64_t name_bytes = 64 << 20;  ///< of the names of meshes and objects
+    std::uint64_t texels = 64 << 20;      ///< of pictures that materials show, each once
+    std::uint64_t made_bytes = 128 << 20; ///< of sparse accessors, and of those without a view
+    std::uint64_t cuts = 100'000'000;     ///< comparisons that cut concave polygons of an .obj
 };
 
 /// One of the totals while a file is loaded.
@@ -60,6 +62,7 @@ struct Account {
     Total json_memory{"bytes of memory for its JSON", budget.json_memory};
     Total positions{"positions", budget.vertices};
     Total normals{"normals", budget.vertices};
+    Total attributes{"texture coordinates, colours and weights", 4 * budget.vertices};
     Total mesh_vertices{"vertices in meshes", budget.vertices};
     Total shown_vertices{"vertices shown by objects", budget.vertices};
     Total mesh_triangles{"triangles in meshes", budget.triangles};
@@ -76,6 +79,8 @@ struct Account {
     Total key_times{"times of keys", budget.keys};
     Total key_values{"values of keys", 3 * budget.keys};
     Total name_bytes{"bytes of names", budget.name_bytes};
+    Total texels{"texels in pictures", budget.texels};
+    Total made_bytes{"bytes of sparse accessors", budget.made_bytes};
     Total cuts{"comparisons to cut concave polygons", budget.cuts};
 };
 

@@ -14,53 +14,21 @@ namespace catoptric::scene {
 
 namespace {
 
-/// Where a node stands, and how it moves in world space.
-struct Placed {
-    dmat4 world_from_node{1};
-    Motion motion;
-    bool reached = false;
-};
-
-using KeysOf = std::vector<std::shared_ptr<const Keys>>;
-
-/// The node's own translation relative to its rest, carried into the world; else its parent's.
-Motion motion_of(const std::shared_ptr<const Keys>& keys, const dmat4& parent_from_node,
-                 const Placed& parent) {
-    if (!keys) return parent.motion;
-    return Keyframes{.keys = keys,
-                     .world_from_keys = dmat3(parent.world_from_node),
-                     .rest = dvec3(parent_from_node[3])};
-}
-
-/// World transforms from the roots down, without recursion. The nodes are a forest; but a scene may
-/// name a node twice, or beside its parent.
-std::vector<Placed> place(const gltf::Document& document, const KeysOf& motions, Notes& notes) {
-    std::vector<Placed> placed(document.model.nodes.size());
-    std::vector<dmat4> parent_from_node; // of those that nothing reaches too: they may be wrong
-    for (std::size_t i = 0; i < placed.size(); ++i)
-        parent_from_node.push_back(gltf::parent_from_node(document, i));
-    std::vector<std::pair<std::size_t, Placed>> waiting; // node and its parent's place
-    for (const int root : gltf::roots_of(document.model))
-        waiting.push_back({std::size_t(root), {}});
-    while (!waiting.empty()) {
-        const auto [index, parent] = std::move(waiting.back());
-        waiting.pop_back();
-        check(!placed[index].reached, Failure::bad_data, document.file, ": ", document.label(index),
-              ": wanted one parent at most, found a second way to it");
-        if (motions[index] && !std::holds_alternative<std::monostate>(parent.motion))
-            notes.add("nodes that move within a moving parent, whose motion is left out",
-                      document.label(index));
-        placed[index] = {parent.world_from_node * parent_from_node[index],
-                         motion_of(motions[index], parent_from_node[index], parent), true};
-        for (const int child : document.model.nodes[index].children)
-            waiting.push_back({std::size_t(child), placed[index]});
-    }
-    return placed;
-}
-
 /// A mirrored node turns triangles inside out; glTF wants them turned back.
 bool turns_inside_out(const dmat4& world_from_node) {
     return glm::determinant(dmat3(world_from_node)) < 0;
+}
+
+/// How a camera follows one track: carried by what a node has moved that does nothing else.
+Follows sliding(const Keyframes& frames) {
+    Rig rig{.nodes = {{.translations = frames.keys}}, .repeats = frames.repeats};
+    rig.nodes[0].parent_from_space = dmat4(frames.world_from_keys);
+    Follows follows{.rig = std::make_shared<const Rig>(std::move(rig))};
+    // world_from_keys * place at rest
+    dmat4 rest = dmat4(frames.world_from_keys);
+    rest[3] = dvec4(frames.world_from_keys * frames.rest, 1);
+    follows.node_from_object = glm::inverse(rest);
+    return follows;
 }
 
 /// The exact sphere in world space, if the mesh lies on it and the node scales it uniformly.
@@ -86,10 +54,12 @@ std::optional<Sphere> world_sphere(const Sphere& sphere, const Mesh& mesh,
 struct Builder {
     gltf::Context context;
     Scene scene;
+    std::vector<dmat4> at_rest;                 ///< world from each node
     std::vector<std::vector<gltf::Part>> parts; ///< of each mesh
-    std::vector<std::optional<Camera>> cameras;
+    std::vector<Camera> cameras;
     struct Key {
         std::size_t mesh, part;
+        int skin; ///< -1: none
         bool inside_out;
         auto operator<=>(const Key&) const = default;
     };
@@ -99,9 +69,10 @@ struct Builder {
     Mesh repaired(const Key& key);
     std::size_t mesh_for(const Key& key);
     std::string object_name(std::size_t node, std::size_t mesh, std::size_t part);
-    void add_node(std::size_t node, const Placed& placed);
-    void add_object(std::size_t node, const Placed& placed, std::size_t part);
-    void add_camera(std::size_t node, const Placed& placed);
+    void add_node(std::size_t node, const gltf::Placed& placed);
+    void add_object(std::size_t node, const gltf::Placed& placed, std::size_t part);
+    void add_camera(std::size_t node, const gltf::Placed& placed);
+    void add_light(std::size_t node, const gltf::Placed& placed);
     void check_unshown();
 };
 
@@ -110,7 +81,10 @@ std::string Builder::node_place(std::size_t node) const {
 }
 
 Mesh Builder::repaired(const Key& key) {
-    Mesh mesh = mesh_of(key.mesh, parts[key.mesh][key.part], context);
+    std::vector<dmat4> joints;
+    if (key.skin >= 0) joints = joints_of(key.skin, at_rest, context);
+    Mesh mesh = mesh_of(key.mesh, parts[key.mesh][key.part], context,
+                        key.skin >= 0 ? &joints : nullptr);
     context.account.mesh_vertices.add(corners_without_normal(mesh),
                                       mesh_place(context.document, key.mesh));
     const std::size_t dropped = repair(mesh);
@@ -138,21 +112,22 @@ std::string Builder::object_name(std::size_t node, std::size_t mesh, std::size_t
     return is_one ? own : own + "/" + material;
 }
 
-void Builder::add_object(std::size_t node, const Placed& placed, std::size_t part) {
+void Builder::add_object(std::size_t node, const gltf::Placed& placed, std::size_t part) {
     const std::string place = node_place(node);
     const gltf::Marks& marks = context.document.marks[node];
     const auto its_mesh = std::size_t(context.document.model.nodes[node].mesh);
     context.account.objects.add(1, place);
     Object object{.name = object_name(node, its_mesh, part),
                   .material = parts[its_mesh][part].material,
-                  .world_from_object = placed.world_from_node,
-                  .motion = placed.motion,
                   .seen_by_camera = marks.seen_by_camera};
-    object.mesh = mesh_for({its_mesh, part, turns_inside_out(placed.world_from_node)});
+    const int skin = context.document.model.nodes[node].skin;
+    if (skin < 0) // what has one stands where its joints are
+        object.world_from_object = placed.world_from_node, object.motion = placed.motion;
+    object.mesh = mesh_for({its_mesh, part, skin, turns_inside_out(object.world_from_object)});
     const Mesh& mesh = scene.meshes[object.mesh];
     context.account.shown_vertices.add(mesh.positions.size(), place);
     context.account.shown_triangles.add(mesh.triangles.size(), place);
-    if (marks.sphere) {
+    if (marks.sphere && !std::holds_alternative<Follows>(object.motion)) {
         object.sphere = world_sphere(*marks.sphere, mesh, placed.world_from_node);
         if (!object.sphere)
             context.notes.add("nodes marked as a sphere whose mesh or scale is not one",
@@ -162,13 +137,10 @@ void Builder::add_object(std::size_t node, const Placed& placed, std::size_t par
 }
 
 /// A glTF camera looks along -z with +y up.
-void Builder::add_camera(std::size_t node, const Placed& placed) {
+void Builder::add_camera(std::size_t node, const gltf::Placed& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     const std::string place = node_place(node);
-    if (!cameras[std::size_t(from.camera)]) return;
-    if (!std::holds_alternative<std::monostate>(placed.motion))
-        context.notes.add("cameras that move, standing still", context.document.label(node));
-    Camera camera = *cameras[std::size_t(from.camera)];
+    Camera camera = cameras[std::size_t(from.camera)];
     if (!from.name.empty()) camera.name = from.name;
     context.account.name_bytes.add(camera.name.size(), place);
     const dmat4& world = placed.world_from_node;
@@ -181,14 +153,39 @@ void Builder::add_camera(std::size_t node, const Placed& placed) {
     check(is_finite(camera.eye) && is_finite(camera.target), Failure::bad_data, place,
           ": wanted a camera at finite coordinates, found an overflow");
     camera.up = up;
+    if (const auto* follows = std::get_if<Follows>(&placed.motion)) {
+        camera.follows = *follows;
+        camera.follows.node_from_object *= glm::inverse(world);
+    } else if (const auto* frames = std::get_if<Keyframes>(&placed.motion)) {
+        camera.follows = sliding(*frames);
+    }
     scene.cameras.push_back(std::move(camera));
 }
 
-void Builder::add_node(std::size_t node, const Placed& placed) {
+void Builder::add_light(std::size_t node, const gltf::Placed& placed) {
+    const tinygltf::Node& from = context.document.model.nodes[node];
+    Punctual light = context.document.lights.lights[*context.document.lights.of_node[node]];
+    if (!from.name.empty()) light.name = from.name;
+    context.account.name_bytes.add(light.name.size(), node_place(node));
+    light.world_from_light = placed.world_from_node;
+    light.motion = placed.motion;
+    for (int column = 0; column < 4; ++column)
+        check(is_finite(dvec3(light.world_from_light[column])), Failure::bad_data, node_place(node),
+              ": wanted a light at finite coordinates, found an overflow");
+    scene.punctual.push_back(std::move(light));
+}
+
+void Builder::add_node(std::size_t node, const gltf::Placed& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     const std::size_t count = from.mesh < 0 ? 0 : parts[std::size_t(from.mesh)].size();
     for (std::size_t part = 0; part < count; ++part) add_object(node, placed, part);
     if (from.camera >= 0) add_camera(node, placed);
+    if (context.document.lights.of_node[node]) add_light(node, placed);
+    if (from.skin >= 0 && from.mesh >= 0) {
+        context.notes.add("nodes with a skin, posed by its joints at rest",
+                          context.document.label(node));
+        add_gap(context.gaps, "skin", context.document.label(node));
+    }
 }
 
 /// What no node shows is read all the same: a file is right or it is not.
@@ -207,15 +204,21 @@ Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
     Account account(options.budget);
     Files files(path, options.root, account);
     Notes notes;
-    const gltf::Document document = gltf::read(file, files, account, notes);
+    std::vector<Gap> gaps;
+    const gltf::Document document = gltf::read(file, files, account, notes, gaps);
     gltf::check_forest(document);
-    Builder builder{.context = {.document = document, .account = account, .notes = notes}};
+    Builder builder{.context = {.document = document,
+                                .options = options,
+                                .account = account,
+                                .notes = notes,
+                                .gaps = gaps}};
     builder.scene = {.name = path.stem().string(),
-                     .materials = read_materials(builder.context),
+                     .materials = document.materials,
                      .exposure = document.exposure};
     builder.cameras = read_cameras(document);
     builder.parts = read_parts(builder.scene.materials, builder.context);
-    const std::vector<Placed> placed = place(document, read_motions(builder.context), notes);
+    builder.at_rest = rest_of(document);
+    const std::vector<gltf::Placed> placed = place(document, read_animation(builder.context));
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const tinygltf::Node& node = document.model.nodes[i];
         if (placed[i].reached)
@@ -224,7 +227,7 @@ Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
             notes.add("nodes outside the scene that is shown, left out", document.label(i));
     }
     builder.check_unshown();
-    finish(builder.scene, file, notes);
+    finish(builder.scene, file, notes, std::move(gaps));
     builder.scene.files = files.found();
     return std::move(builder.scene);
 }

@@ -1,7 +1,6 @@
 #include "scene/gltf_model.hpp"
-#include "scene/transform.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -18,19 +17,38 @@ std::string name_of(int type) {
 
 /// glTF and every machine that we run on are little-endian.
 template <typename Stored>
-Stored stored_at(const Elements& elements, std::size_t index) {
+Stored stored_at(const Elements& elements, std::size_t index, int component) {
     Stored value;
-    std::memcpy(&value, elements.first + index * elements.stride, sizeof value);
+    std::memcpy(&value,
+                elements.first + index * elements.stride + std::size_t(component) * sizeof value,
+                sizeof value);
     return value;
 }
 
-Elements dense(const tinygltf::Model& model, int index, int type, const std::string& place) {
+/// As glTF wants it: of signed numbers the lowest two are both -1.
+template <typename Stored>
+double whole_number_at(const Elements& elements, std::size_t index, int component) {
+    const double value = stored_at<Stored>(elements, index, component);
+    return elements.normalised ? std::max(value / std::numeric_limits<Stored>::max(), -1.0) : value;
+}
+
+Elements typed(const tinygltf::Model& model, int index, int type, const std::string& place) {
     const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
-    check(accessor.bufferView >= 0 && !accessor.sparse.isSparse, Failure::bad_data, place,
-          ": wanted an accessor with a buffer view and without sparse, found another");
     check(accessor.type == type, Failure::bad_data, place, ": wanted an accessor of ",
           name_of(type), ", found ", name_of(accessor.type));
     return elements_of(model, index);
+}
+
+/// Of 8 or 16 bits.
+bool is_short(const Elements& elements) {
+    return elements.component >= TINYGLTF_COMPONENT_TYPE_BYTE &&
+           elements.component <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+}
+
+bool is_finite(const Elements& elements, std::size_t index) {
+    for (int i = 0; i < elements.width; ++i)
+        if (!std::isfinite(number_at(elements, index, i))) return false;
+    return true;
 }
 
 } // namespace
@@ -44,25 +62,28 @@ Elements elements_of(const tinygltf::Model& model, int index) {
     return {.first = bytes.data() + view.byteOffset + accessor.byteOffset,
             .stride = view.byteStride != 0 ? view.byteStride : std::size_t(packed),
             .count = accessor.count,
-            .component = accessor.componentType};
+            .component = accessor.componentType,
+            .width = tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type)),
+            .normalised = accessor.normalized};
 }
 
-Elements Context::floats(int index, int type, Total& total, const std::string& place) {
-    const Elements elements = dense(document.model, index, type, place);
-    check(elements.component == TINYGLTF_COMPONENT_TYPE_FLOAT, Failure::bad_data, place,
+Elements Context::floats(int index, int type, Total& total, const std::string& place, Also also) {
+    const Elements elements = typed(document.model, index, type, place);
+    const bool is_whole = is_short(elements) &&
+                          ((also != Also::nothing && elements.normalised) ||
+                           (also == Also::quantised && document.is_quantised));
+    check(elements.component == TINYGLTF_COMPONENT_TYPE_FLOAT || is_whole, Failure::bad_data, place,
           ": wanted floats, found component type ", elements.component);
     if (!finite.insert(index).second) return elements;
     total.add(elements.count, place);
-    for (std::size_t i = 0; i < elements.count; ++i)
-        check(type == TINYGLTF_TYPE_VEC3 ? is_finite(vector_at(elements, i))
-                                         : std::isfinite(scalar_at(elements, i)),
-              Failure::bad_data, place, ": element ", i,
+    for (std::size_t i = 0; i < elements.count && !is_whole; ++i)
+        check(is_finite(elements, i), Failure::bad_data, place, ": element ", i,
               ": wanted finite numbers, found NaN or infinity");
     return elements;
 }
 
-Elements Context::whole(int index, const std::string& place) const {
-    const Elements elements = dense(document.model, index, TINYGLTF_TYPE_SCALAR, place);
+Elements Context::whole(int index, const std::string& place, int type) const {
+    const Elements elements = typed(document.model, index, type, place);
     const bool is_unsigned = elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                              elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                              elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
@@ -71,20 +92,32 @@ Elements Context::whole(int index, const std::string& place) const {
     return elements;
 }
 
-double scalar_at(const Elements& elements, std::size_t index) {
-    return stored_at<float>(elements, index);
+double number_at(const Elements& elements, std::size_t index, int component) {
+    switch (elements.component) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return whole_number_at<std::int8_t>(elements, index, component);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return whole_number_at<std::uint8_t>(elements, index, component);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return whole_number_at<std::int16_t>(elements, index, component);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return whole_number_at<std::uint16_t>(elements, index, component);
+    default: return stored_at<float>(elements, index, component);
+    }
 }
 
 dvec3 vector_at(const Elements& elements, std::size_t index) {
-    const auto [x, y, z] = stored_at<std::array<float, 3>>(elements, index);
-    return {x, y, z};
+    return {number_at(elements, index, 0), number_at(elements, index, 1),
+            number_at(elements, index, 2)};
 }
 
-std::uint32_t whole_at(const Elements& elements, std::size_t index) {
+std::uint32_t whole_at(const Elements& elements, std::size_t index, int component) {
     switch (elements.component) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return stored_at<std::uint8_t>(elements, index);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return stored_at<std::uint16_t>(elements, index);
-    default: return stored_at<std::uint32_t>(elements, index);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return stored_at<std::uint8_t>(elements, index, component);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return stored_at<std::uint16_t>(elements, index, component);
+    default: return stored_at<std::uint32_t>(elements, index, component);
     }
 }
 

@@ -1,25 +1,26 @@
+#include "core/knob.hpp"
 #include "core/text.hpp"
 #include "scene/gltf_model.hpp"
+
+#include <cmath>
 
 namespace catoptric::scene::gltf {
 
 namespace {
 
-using KeysOf = std::vector<std::shared_ptr<const Keys>>;
-
 std::vector<double> times_of(const Elements& input, const std::string& place) {
     std::vector<double> times(input.count);
     for (std::size_t i = 0; i < times.size(); ++i) {
-        times[i] = scalar_at(input, i);
+        times[i] = number_at(input, i, 0);
         check(times[i] >= 0 && (i == 0 || times[i] > times[i - 1]), Failure::bad_data, place,
               ": input: wanted increasing times from 0 on, found ", times[i]);
     }
     return times;
 }
 
-Keys::Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler,
-                                     const std::string& place) {
-    using enum Keys::Interpolation;
+Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler,
+                               const std::string& place) {
+    using enum Interpolation;
     const std::string& kind = sampler.interpolation; // of tinygltf's own accord "LINEAR"
     if (kind == "LINEAR") return linear;
     if (kind == "STEP") return step;
@@ -28,61 +29,140 @@ Keys::Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler,
     return cubic;
 }
 
+dvec3 value_of(const Elements& output, std::size_t index, const dvec3&) {
+    return vector_at(output, index);
+}
+dvec4 value_of(const Elements& output, std::size_t index, const dvec4&) {
+    return dvec4(vector_at(output, index), number_at(output, index, 3));
+}
+
 /// Cubic ones come as in-tangent, value, out-tangent.
-Keys keys_of(const tinygltf::AnimationSampler& sampler, const std::string& place,
-             Context& context) {
-    Keys keys{.interpolation = interpolation_of(sampler, place)};
-    const bool is_cubic = keys.interpolation == Keys::Interpolation::cubic;
+template <typename Value>
+Track<Value> track_of(const tinygltf::AnimationSampler& sampler, const std::string& place,
+                      Context& context) {
+    Track<Value> track{.interpolation = interpolation_of(sampler, place)};
+    const bool is_cubic = track.interpolation == Interpolation::cubic;
     const std::size_t each = is_cubic ? 3 : 1;
     check(sampler.input >= 0, Failure::bad_data, place, ": input: wanted an index, found none");
     check(sampler.output >= 0, Failure::bad_data, place, ": output: wanted an index, found none");
     Account& account = context.account;
+    constexpr bool kTurns = std::is_same_v<Value, dvec4>;
     const Elements input = context.floats(sampler.input, TINYGLTF_TYPE_SCALAR, account.key_times,
                                           place + ": input");
-    const Elements output = context.floats(sampler.output, TINYGLTF_TYPE_VEC3, account.key_values,
-                                           place + ": output");
+    const Elements output = context.floats(
+        sampler.output, kTurns ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, account.key_values,
+        place + ": output", kTurns ? Context::Also::normalised : Context::Also::nothing);
     check(output.count == each * input.count, Failure::bad_data, place, ": output: wanted ", each,
           " values for each of ", input.count, " keys, found ", output.count);
     account.keys.add(input.count, place);
-    keys.times = times_of(input, place);
+    track.times = times_of(input, place);
+    const auto value = [&](std::size_t index) { return value_of(output, index, Value()); };
     for (std::size_t i = 0; i < input.count; ++i) {
-        keys.values.push_back(vector_at(output, each * i + each / 2));
+        track.values.push_back(value(each * i + each / 2));
         if (!is_cubic) continue;
-        keys.in_tangents.push_back(vector_at(output, 3 * i));
-        keys.out_tangents.push_back(vector_at(output, 3 * i + 2));
+        track.in_tangents.push_back(value(3 * i));
+        track.out_tangents.push_back(value(3 * i + 2));
     }
-    return keys;
+    return track;
 }
 
-void read_animation(const tinygltf::Animation& animation, const std::string& place, KeysOf& motions,
-                    Context& context) {
-    KeysOf samplers(animation.samplers.size());
-    for (const tinygltf::AnimationChannel& channel : animation.channels) {
-        if (channel.target_path != "translation") continue; // named by the checks
-        const auto index = std::size_t(channel.sampler);
-        if (!samplers[index])
-            samplers[index] = std::make_shared<const Keys>(keys_of(
-                animation.samplers[index], place + ": " + label_of("samplers", index), context));
-        // As viewers that play one animation do, the first one counts.
-        auto& motion = motions[std::size_t(channel.target_node)];
-        if (motion)
-            context.notes.add("translations of nodes that move already, left out", place);
-        else
-            motion = samplers[index];
+/// Unit ones, each with its length: a quaternion may be a little off, but not nothing.
+Turns turns_of(const tinygltf::AnimationSampler& sampler, const std::string& place,
+               Context& context) {
+    Turns turns = track_of<dvec4>(sampler, place, context);
+    for (dvec4& turn : turns.values) {
+        const double length = glm::length(turn);
+        check(length > 0 && std::isfinite(length), Failure::bad_data, place,
+              ": output: wanted quaternions with a length, found ", length);
+        if (turns.interpolation != Turns::Interpolation::cubic) turn /= length;
     }
+    return turns;
+}
+
+/// The tracks of one animation, each sampler read once for each kind of value.
+class Reader {
+public:
+    Reader(const tinygltf::Animation& from, std::string place, Context& context)
+        : from_(from), place_(std::move(place)), context_(context), keys_(from.samplers.size()),
+          turns_(from.samplers.size()) {}
+
+    void add(const tinygltf::AnimationChannel& channel, std::vector<Tracks>& nodes) {
+        Tracks none;
+        Tracks& to = channel.target_node < 0 ? none : nodes[std::size_t(channel.target_node)];
+        const auto index = std::size_t(channel.sampler);
+        if (channel.target_path == "translation") set(to.translations, keys(index));
+        if (channel.target_path == "scale") set(to.scales, keys(index));
+        if (channel.target_path == "rotation") set(to.rotations, turns(index));
+    }
+
+private:
+    std::string place(std::size_t index) const {
+        return place_ + ": " + label_of("samplers", index);
+    }
+    std::shared_ptr<const Keys> keys(std::size_t index) {
+        if (!keys_[index])
+            keys_[index] = std::make_shared<const Keys>(
+                track_of<dvec3>(from_.samplers[index], place(index), context_));
+        return keys_[index];
+    }
+    std::shared_ptr<const Turns> turns(std::size_t index) {
+        if (!turns_[index])
+            turns_[index] = std::make_shared<const Turns>(
+                turns_of(from_.samplers[index], place(index), context_));
+        return turns_[index];
+    }
+    template <typename Kept>
+    void set(std::shared_ptr<const Kept>& kept, std::shared_ptr<const Kept> track) {
+        if (kept)
+            context_.notes.add("channels of nodes that move so already, left out", place_);
+        else
+            kept = std::move(track);
+    }
+
+    const tinygltf::Animation& from_;
+    std::string place_;
+    Context& context_;
+    std::vector<std::shared_ptr<const Keys>> keys_;
+    std::vector<std::shared_ptr<const Turns>> turns_;
+};
+
+/// Which one moves the nodes; none of none.
+std::optional<std::size_t> chosen(const Context& context) {
+    const std::vector<tinygltf::Animation>& all = context.document.model.animations;
+    const std::string& name = context.options.animation;
+    if (name == "none") return std::nullopt;
+    if (name.empty()) return all.empty() ? std::nullopt : std::optional<std::size_t>(0);
+    std::vector<std::string> names;
+    std::string list;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].name == name) return i;
+        names.push_back(all[i].name);
+        list += ", " + in_quotes(all[i].name);
+    }
+    fail(Failure::usage, "--animation: ", context.document.file, " has no animation ",
+         in_quotes(name), ": wanted one of none", list, did_you_mean(name, names));
 }
 
 } // namespace
 
-KeysOf read_motions(Context& context) {
-    const tinygltf::Model& model = context.document.model;
-    KeysOf motions(model.nodes.size());
-    for (std::size_t i = 0; i < model.animations.size(); ++i)
-        read_animation(model.animations[i],
-                       context.document.file + ": " +
-                           label_of("animations", i, model.animations[i].name),
-                       motions, context);
-    return motions;
+Animation read_animation(Context& context) {
+    const Document& document = context.document;
+    const std::vector<tinygltf::Animation>& all = document.model.animations;
+    Animation animation{.nodes = std::vector<Tracks>(document.model.nodes.size())};
+    const std::optional<std::size_t> shown = chosen(context);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::string label = label_of("animations", i, all[i].name);
+        Reader reader(all[i], document.file + ": " + label, context);
+        std::vector<Tracks> elsewhere(i == shown ? 0 : document.model.nodes.size());
+        // those that are not shown are read all the same: a file is right or it is not
+        for (const tinygltf::AnimationChannel& channel : all[i].channels)
+            reader.add(channel, i == shown ? animation.nodes : elsewhere);
+        if (i == shown)
+            animation.repeats = document.repeats[i];
+        else
+            add_gap(context.gaps, "other-animations", label);
+    }
+    return animation;
 }
 
 } // namespace catoptric::scene::gltf

@@ -75,6 +75,11 @@ void check_accessor(const Item& item, const std::vector<View>& views) {
 
 } // namespace
 
+std::size_t element_bytes(const Item& accessor) {
+    const auto* const type = std::ranges::find(kTypes, accessor.text("type"));
+    return kWidths[type - kTypes] * component_bytes(accessor);
+}
+
 void check_bounds(const Item& root, const std::vector<Buffer>& buffers) {
     std::vector<View> views;
     root.each("bufferViews", [&](const Item& item) { views.push_back(view_of(item, buffers)); });

@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 #include "scene/gltf_check.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -16,6 +17,21 @@ namespace {
 
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
+/// What a file may require without its being refused: it is read, or says how surfaces look.
+constexpr std::string_view kWithout[] = {
+    "KHR_mesh_quantization", "KHR_lights_punctual", "KHR_texture_transform", "KHR_texture_basisu",
+    "EXT_texture_webp",      "EXT_texture_avif",    "MSFT_texture_dds",      "KHR_xmp_json_ld",
+    "KHR_techniques_webgl",  "KHR_technique_webgl"};
+/// Geometry that is written so that only its own library can read it.
+struct Squeezed {
+    std::string_view extension, sentence;
+};
+constexpr Squeezed kSqueezed[] = {
+    {"KHR_draco_mesh_compression", ": meshes compressed by Draco are not read: wanted a file "
+                                   "without it (gltf-transform copy, or export without Draco)"},
+    {"EXT_meshopt_compression", ": buffers compressed by meshopt are not read: wanted a file "
+                                "without it (gltf-transform copy, or export without meshopt)"}};
+
 struct Chunks {
     std::string_view json;
     std::string_view binary; ///< empty: none
@@ -28,14 +44,18 @@ std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
 }
 
 /// The JSON and the first binary chunk of a GLB; of a .gltf the whole text.
-Chunks chunks_of(const std::string& file, std::string_view bytes) {
+Chunks chunks_of(const std::string& file, std::string_view bytes, Notes& notes) {
     if (!bytes.starts_with("glTF")) return {bytes, {}};
     check(bytes.size() >= 20, Failure::bad_data, file, ": header: wanted 20 bytes, found ",
           bytes.size());
     check(word_at(bytes, 4) == 2, Failure::bad_data, file, ": header: wanted GLB version 2, found ",
           word_at(bytes, 4));
-    check(word_at(bytes, 8) == bytes.size(), Failure::bad_data, file, ": header: wanted ",
-          word_at(bytes, 8), " bytes, found ", bytes.size());
+    const std::uint32_t said = word_at(bytes, 8);
+    check(said >= 20 && said <= bytes.size(), Failure::bad_data, file, ": header: wanted ", said,
+          " bytes, found ", bytes.size());
+    notes.add("bytes after the end that the header gives, left out", std::to_string(said),
+              bytes.size() - said);
+    bytes = bytes.substr(0, said);
     const std::uint32_t length = word_at(bytes, 12);
     check(word_at(bytes, 16) == kJsonChunk && length <= bytes.size() - 20, Failure::bad_data, file,
           ": first chunk: wanted JSON of at most ", bytes.size() - 20, " bytes, found ", length);
@@ -60,9 +80,18 @@ void check_extensions(const Item& root) {
     if (required == nullptr) return;
     root.require(required->is_array(), "extensionsRequired: wanted an array, found ",
                  shown(*required));
-    for (const Json& extension : *required)
-        root.require(extension == kEmissiveStrength, "extensionsRequired: wanted none but ",
-                     kEmissiveStrength, ", found ", shown(extension));
+    for (const Json& extension : *required) {
+        const std::string name = extension.is_string() ? extension.get<std::string>() : "";
+        const auto* const squeezed = std::ranges::find(kSqueezed, name, &Squeezed::extension);
+        root.require(squeezed == std::end(kSqueezed), "extensionsRequired: ", shown(extension),
+                     squeezed == std::end(kSqueezed) ? "" : squeezed->sentence);
+        const bool is_drawn = name.starts_with("KHR_materials_") ||
+                              std::ranges::find(kWithout, name) != std::end(kWithout);
+        root.require(is_drawn,
+                     "extensionsRequired: wanted KHR_materials_*, KHR_texture_*, "
+                     "KHR_mesh_quantization or KHR_lights_punctual, found ",
+                     shown(extension));
+    }
 }
 
 class Buffers {
@@ -110,10 +139,10 @@ private:
 
 } // namespace
 
-Container read_container(const std::string& file, Files& files, Account& account) {
+Container read_container(const std::string& file, Files& files, Account& account, Notes& notes) {
     Container container;
     const std::string bytes = files.read_scene();
-    const Chunks chunks = chunks_of(file, bytes);
+    const Chunks chunks = chunks_of(file, bytes, notes);
     container.document = parse_json(file, chunks.json, account);
     const Item root(container.document, file);
     check(container.document.is_object(), Failure::bad_data, file,

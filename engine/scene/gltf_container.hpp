@@ -2,6 +2,7 @@
 
 #include "scene/files.hpp"
 #include "scene/json.hpp"
+#include "scene/notes.hpp"
 
 #include <cstdint>
 #include <string>
@@ -27,7 +28,14 @@ struct Container {
 };
 
 /// Throws `bad_data`, or `missing_input` for a buffer that is not there.
-Container read_container(const std::string& file, Files& files, Account& account);
+Container read_container(const std::string& file, Files& files, Account& account, Notes& notes);
+
+/// gltf_sparse.cpp: gives each accessor that is sparse, or has no view, a view of what it stands
+/// for, of a checked document; what was around it stays. Throws `bad_data` for a place beyond it,
+/// or for more bytes than the budget.
+void expand_sparse(Container& container, const std::string& file, Account& account);
+/// Bytes of one element of an accessor that has been checked.
+std::size_t element_bytes(const Item& accessor);
 
 /// The name of a file that a URI stands for, percent-decoded once. Throws `bad_data` beginning with
 /// `place` for a scheme, an absolute path, a backslash or a NUL.

@@ -34,16 +34,49 @@ std::string text_of(Container& container) {
     return document.dump();
 }
 
+bool uses(const Item& root, std::string_view extension) {
+    for (const char* key : {"extensionsUsed", "extensionsRequired"})
+        if (const Json* list = root.find(key); list && list->is_array())
+            for (const Json& name : *list)
+                if (name == extension) return true;
+    return false;
+}
+
+/// Of each mesh the weights of its morph targets, as they stand when nothing moves them.
+std::vector<std::vector<double>> read_weights(const Item& root) {
+    std::vector<std::vector<double>> weights;
+    root.each("meshes", [&](const Item& mesh) {
+        const Json* list = mesh.find("weights");
+        weights.push_back(mesh.numbers("weights", list && list->is_array() ? list->size() : 0));
+    });
+    return weights;
+}
+
+/// `{"catoptric": {...}}` of an object's `extras`, which may be of any kind.
+std::optional<Item> ours_of(const Item& item) {
+    const Json* extras = item.find("extras");
+    if (extras == nullptr || !extras->is_object()) return std::nullopt;
+    return item.object("extras")->object("catoptric");
+}
+
 /// Of the scene that is shown: {"exposure": stops}.
 std::optional<double> read_exposure(const Item& root) {
     const std::size_t count = root.size("scenes");
     if (count == 0) return std::nullopt;
-    const Item scene = root.at("scenes", root.index("scene", count).value_or(0));
-    const Json* extras = scene.find("extras"); // of any kind; ours is an object
-    if (extras == nullptr || !extras->is_object()) return std::nullopt;
-    const std::optional<Item> ours = scene.object("extras")->object("catoptric");
+    const std::optional<Item> ours = ours_of(
+        root.at("scenes", root.index("scene", count).value_or(0)));
     if (!ours || !ours->has("exposure")) return std::nullopt;
     return ours->number("exposure", 0);
+}
+
+/// Of each animation {"repeats": true}.
+std::vector<bool> read_repeats(const Item& root) {
+    std::vector<bool> repeats;
+    root.each("animations", [&](const Item& animation) {
+        const std::optional<Item> ours = ours_of(animation);
+        repeats.push_back(ours && ours->flag("repeats", false));
+    });
+    return repeats;
 }
 
 tinygltf::Model parse(const std::string& file, Container& container) {
@@ -64,22 +97,27 @@ std::string Document::label(std::size_t node) const {
     return label_of("nodes", node, model.nodes[node].name);
 }
 
-Document read(const std::string& file, Files& files, Account& account, Notes& notes) {
-    Container container = read_container(file, files, account);
-    std::vector<Marks> marks;
-    std::optional<double> exposure;
+Document read(const std::string& file, Files& files, Account& account, Notes& notes,
+              std::vector<Gap>& gaps) {
+    Container container = read_container(file, files, account, notes);
+    Document document{.file = file};
     {
         const Item root(container.document, file);
         check_members(root, account, notes);
         check_bounds(root, container.buffers);
         check_uses(root, files, notes);
-        marks = read_marks(root);
-        exposure = read_exposure(root);
+        document.marks = read_marks(root);
+        document.exposure = read_exposure(root);
+        document.weights = read_weights(root);
+        document.is_quantised = uses(root, "KHR_mesh_quantization");
+        const Source source{root, container, files, account, notes, gaps};
+        document.materials = read_materials(source);
+        document.lights = read_lights(source);
+        document.repeats = read_repeats(root);
     }
-    return {.file = file,
-            .model = parse(file, container),
-            .marks = std::move(marks),
-            .exposure = exposure};
+    expand_sparse(container, file, account);
+    document.model = parse(file, container);
+    return document;
 }
 
 } // namespace catoptric::scene::gltf

@@ -1,60 +1,217 @@
-#include "scene/gltf_model.hpp"
+#include "scene/gltf_check.hpp"
+#include "scene/gltf_texture.hpp"
 #include "scene/repair.hpp"
 
-#include <numbers>
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace catoptric::scene::gltf {
 
 namespace {
 
-dvec3 colour(const std::vector<double>& factor) { return {factor[0], factor[1], factor[2]}; }
+/// What a material may have that is not drawn, and the gap that says so.
+struct Unread {
+    std::string_view extension, factor; ///< without the factor, or with 0 of it, it says nothing
+    std::string_view gap;
+};
+constexpr Unread kUnread[] = {
+    {"KHR_materials_clearcoat", "clearcoatFactor", "clearcoat"},
+    {"KHR_materials_sheen", "", "sheen"},
+    {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
+    {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"},
+    {"KHR_materials_transmission", "transmissionFactor", "glass-as-diffuse"},
+    {"KHR_materials_transmission", "transmissionFactor", "glass-shadow"}};
+constexpr std::string_view kRead[] = {kEmissiveStrength,
+                                      "KHR_materials_ior",
+                                      "KHR_materials_specular",
+                                      "KHR_materials_unlit",
+                                      "KHR_materials_pbrSpecularGlossiness",
+                                      "KHR_materials_volume"}; // says nothing without transmission
 
-double emissive_strength(const tinygltf::Material& material) {
-    const auto at = material.extensions.find(std::string(kEmissiveStrength));
-    const bool is_given = at != material.extensions.end() && at->second.Has("emissiveStrength");
-    return is_given ? at->second.Get("emissiveStrength").GetNumberAsDouble() : 1;
+dvec3 vector_of(const Item& item, std::string_view key, double otherwise) {
+    const std::vector<double> list = item.numbers(key, 3);
+    return list.empty() ? dvec3(otherwise) : dvec3(list[0], list[1], list[2]);
 }
 
-Material material_of(const tinygltf::Material& from, const std::string& label,
-                     const Context& context) {
-    Material material{.name = from.name};
-    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    material.mirror = pbr.metallicFactor == 1 && pbr.roughnessFactor == 0;
-    if (!material.mirror && !(pbr.metallicFactor == 0 && pbr.roughnessFactor == 1))
-        context.notes.add("materials neither a perfect mirror (metallic 1, roughness 0) nor "
-                          "diffuse (metallic 0, roughness 1), drawn as diffuse",
-                          label);
-    const dvec3 base = glm::clamp(colour(pbr.baseColorFactor), 0.0, 1.0);
-    (material.mirror ? material.reflectance : material.albedo) = vec3(base);
-    material.emission = vec3(emissive_strength(from) * colour(from.emissiveFactor));
-    material.two_sided = from.doubleSided && material.emission != vec3(0);
-    check(is_radiance(material.emission), Failure::bad_data, context.document.file, ": ", label,
-          ": wanted an emission of at least 0 that fits a float, found another");
-    return material;
+float fraction(const Item& item, std::string_view key, double otherwise) {
+    return static_cast<float>(std::clamp(item.number(key, otherwise), 0.0, 1.0));
+}
+
+/// One material on its way.
+class Reader {
+public:
+    Reader(const Item& from, std::size_t index, const Source& source, Textures& textures)
+        : from_(from), index_(index), source_(source), textures_(textures),
+          extensions_(from.object("extensions")) {}
+
+    Material read();
+
+private:
+    std::optional<Item> extension(std::string_view name) const {
+        return extensions_ ? extensions_->object(name) : std::nullopt;
+    }
+    std::optional<Texture> texture(const Item& item, std::string_view key, bool srgb) {
+        const std::optional<Item> use = item.object(key);
+        return use ? textures_.of(*use, srgb) : std::nullopt;
+    }
+    void gap(std::string_view id) {
+        add_material_gap(source_.gaps, std::string(id), from_.label(), index_);
+    }
+    void base_colour(const Item& item, std::string_view factor, std::string_view texture);
+    void metal(const Item& pbr);
+    void glossy(const Item& glossiness);
+    void dielectric();
+    void emission();
+    void alpha();
+    void left_out();
+    void marks();
+
+    const Item& from_;
+    std::size_t index_;
+    const Source& source_;
+    Textures& textures_;
+    std::optional<Item> extensions_;
+    Material material_;
+};
+
+void Reader::base_colour(const Item& item, std::string_view factor, std::string_view map) {
+    const std::vector<double> base = item.numbers(factor, 4);
+    const auto at = [&](std::size_t i) {
+        return base.empty() ? 1.0f : static_cast<float>(std::clamp(base[i], 0.0, 1.0));
+    };
+    material_.albedo = {at(0), at(1), at(2)}, material_.alpha = at(3);
+    material_.albedo_texture = texture(item, map, true);
+}
+
+void Reader::metal(const Item& pbr) {
+    base_colour(pbr, "baseColorFactor", "baseColorTexture");
+    material_.metallic = fraction(pbr, "metallicFactor", 1);
+    material_.roughness = fraction(pbr, "roughnessFactor", 1);
+    material_.roughness_texture = texture(pbr, "metallicRoughnessTexture", false);
+}
+
+/// KHR_materials_pbrSpecularGlossiness, its factors.
+void Reader::glossy(const Item& glossiness) {
+    base_colour(glossiness, "diffuseFactor", "diffuseTexture");
+    material_.metallic = 0;
+    material_.roughness = 1 - fraction(glossiness, "glossinessFactor", 1);
+    material_.dielectric_f0 = vec3(
+        glm::clamp(vector_of(glossiness, "specularFactor", 1), 0.0, 1.0));
+    if (glossiness.has("specularGlossinessTexture")) gap("material-extension");
+}
+
+void Reader::dielectric() {
+    const std::optional<Item> ior = extension("KHR_materials_ior"),
+                              specular = extension("KHR_materials_specular");
+    const double n = ior ? ior->number("ior", 1.5) : 1.5;
+    from_.require(n == 0 || n >= 1, "KHR_materials_ior: wanted an ior of 0 or from 1 on, found ",
+                  n);
+    const double f = n == 0 ? 1 : std::pow((n - 1) / (n + 1), 2);
+    if (ior) material_.dielectric_f0 = vec3(static_cast<float>(f));
+    if (!specular) return;
+    const float strength = fraction(*specular, "specularFactor", 1);
+    const dvec3 colour = glm::max(vector_of(*specular, "specularColorFactor", 1), dvec3(0));
+    material_.dielectric_f0 = vec3(glm::min(f * colour, dvec3(1))) * strength;
+    material_.dielectric_f90 = vec3(strength);
+    if (specular->has("specularTexture") || specular->has("specularColorTexture"))
+        gap("material-extension");
+}
+
+void Reader::emission() {
+    const std::optional<Item> strength = extension(kEmissiveStrength);
+    material_.emission = vec3((strength ? strength->number("emissiveStrength", 1) : 1) *
+                              vector_of(from_, "emissiveFactor", 0));
+    from_.require(is_radiance(material_.emission),
+                  "wanted an emission of at least 0 that fits a float, found another");
+    if (material_.emission != vec3(0))
+        material_.emission_texture = texture(from_, "emissiveTexture", true);
+}
+
+void Reader::alpha() {
+    const std::string mode = from_.text("alphaMode", "OPAQUE");
+    const double cutoff = from_.number("alphaCutoff", .5);
+    from_.require(cutoff >= 0, "alphaCutoff: wanted at least 0, found ", cutoff);
+    if (mode == "MASK") material_.alpha_cutoff = static_cast<float>(cutoff);
+    if (mode != "BLEND") return;
+    material_.alpha_cutoff = .5f;
+    source_.notes.add("materials with alphaMode BLEND, cut where half is left", from_.label());
+    gap("blend-as-mask");
+}
+
+void Reader::left_out() {
+    for (const auto& [key, note, id] :
+         {std::array<std::string_view, 3>{"normalTexture",
+                                          "materials with a normalTexture, drawn without it",
+                                          "normal-texture"},
+          {"occlusionTexture", "materials with an occlusionTexture, drawn without it",
+           "occlusion-texture"}})
+        if (from_.has(key)) source_.notes.add(note, from_.label()), gap(id);
+    if (!extensions_) return;
+    for (const auto& [name, value] : extensions_->json().items()) {
+        bool is_known = std::ranges::find(kRead, name) != std::end(kRead);
+        for (const auto& [extension, factor, id] : kUnread) {
+            if (name != extension) continue;
+            is_known = true;
+            if (factor.empty() || extensions_->object(name)->number(factor, 0) != 0) gap(id);
+        }
+        if (!is_known) gap("material-extension");
+    }
+}
+
+/// What glTF has no word for, from `extras`: {"catoptric": {"reflectance": [r, g, b],
+/// "diffuse": [r, g, b], "fixed_normals": true}}: a mirror at any angle, over what is diffuse; a
+/// surface of two sides with one normal.
+void Reader::marks() {
+    const Json* extras = from_.find("extras"); // of any kind; ours is an object
+    const std::optional<Item> ours = extras && extras->is_object()
+                                         ? from_.object("extras")->object("catoptric")
+                                         : std::nullopt;
+    if (ours && ours->has("reflectance")) {
+        material_.mirror = true;
+        material_.reflectance = vec3(glm::clamp(vector_of(*ours, "reflectance", 1), 0.0, 1.0));
+        material_.albedo = vec3(glm::clamp(vector_of(*ours, "diffuse", 0), 0.0, 1.0));
+    }
+    if (ours && ours->flag("fixed_normals", false)) material_.two_sided = false;
+}
+
+Material Reader::read() {
+    material_.name = from_.name();
+    const std::optional<Item> glossiness = extension("KHR_materials_pbrSpecularGlossiness"),
+                              pbr = from_.object("pbrMetallicRoughness");
+    material_.metallic = 1, material_.albedo = vec3(1);
+    if (glossiness)
+        glossy(*glossiness);
+    else if (pbr)
+        metal(*pbr);
+    if (!glossiness) dielectric();
+    emission();
+    alpha();
+    const bool doubled = from_.flag("doubleSided", false);
+    material_.two_sided = doubled, material_.front_only = !doubled;
+    left_out();
+    // What reflects everything at every angle needs no angle.
+    const bool is_perfect = material_.metallic == 1 && material_.roughness == 0 &&
+                            material_.albedo == vec3(1) && !material_.albedo_texture &&
+                            !material_.roughness_texture;
+    if (is_perfect) material_.mirror = true, material_.albedo = vec3(0);
+    marks();
+    if (extension("KHR_materials_unlit")) {
+        material_.unlit = true, material_.metallic = 0, material_.roughness = 1;
+        material_.emission = vec3(0), material_.emission_texture.reset();
+    }
+    return material_;
 }
 
 } // namespace
 
-std::vector<Material> read_materials(const Context& context) {
+std::vector<Material> read_materials(const Source& source) {
     std::vector<Material> materials;
-    for (const tinygltf::Material& from : context.document.model.materials)
-        materials.push_back(
-            material_of(from, label_of("materials", materials.size(), from.name), context));
+    Textures textures(source);
+    source.root.each("materials", [&](const Item& item) {
+        materials.push_back(Reader(item, materials.size(), source, textures).read());
+    });
     return materials;
-}
-
-std::vector<std::optional<Camera>> read_cameras(const Document& document) {
-    std::vector<std::optional<Camera>> cameras;
-    for (const tinygltf::Camera& from : document.model.cameras) {
-        cameras.emplace_back();
-        if (from.type == "orthographic") continue;
-        const double fov = from.perspective.yfov;
-        check(fov > 0 && fov < std::numbers::pi, Failure::bad_data, document.file, ": ",
-              label_of("cameras", cameras.size() - 1, from.name),
-              ": perspective: yfov: wanted an angle between 0 and pi, found ", fov);
-        cameras.back() = Camera{.name = from.name, .vertical_fov_degrees = glm::degrees(fov)};
-    }
-    return cameras;
 }
 
 } // namespace catoptric::scene::gltf

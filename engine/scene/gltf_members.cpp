@@ -1,4 +1,5 @@
 #include "scene/gltf_check.hpp"
+#include "scene/material.hpp"
 
 #include <tiny_gltf.h>
 
@@ -9,9 +10,9 @@ namespace {
 /// The objects of a glTF file that have something to say to us.
 // clang-format off
 enum class In {
-    nothing, file, asset, view, accessor, sparse, sparse_part, material, pbr, extensions, strength,
-    texture_use, camera, perspective, orthographic, mesh, primitive, attributes, node, scene,
-    animation, channel, target, sampler, skin, texture, image
+    nothing, file, asset, view, accessor, sparse, sparse_part, material, texture_use, camera,
+    perspective, orthographic, mesh, primitive, attributes, morph, node, scene, animation, channel,
+    target, sampler, skin, texture, image
 };
 // clang-format on
 
@@ -69,6 +70,7 @@ constexpr Member kMembers[] = {
     {accessor, "byteOffset", whole},
     {accessor, "componentType", whole},
     {accessor, "count", whole},
+    {accessor, "normalized", flag},
     {accessor, "type", text},
     {accessor, "sparse", object, sparse},
     {sparse, "count", whole},
@@ -78,32 +80,15 @@ constexpr Member kMembers[] = {
     {sparse_part, "byteOffset", whole},
     {sparse_part, "componentType", whole},
 
-    list_of<tinygltf::Material>(file, "materials", material, &Account::materials),
+    unread(list_of<Material>(file, "materials", material, &Account::materials)),
     {material, "name", text},
-    {material, "pbrMetallicRoughness", object, pbr},
-    vector(pbr, "baseColorFactor", 4),
-    {pbr, "metallicFactor", number},
-    {pbr, "roughnessFactor", number},
-    vector(material, "emissiveFactor", 3),
-    {material, "doubleSided", flag},
-    {material, "extensions", object, extensions},
-    {extensions, kEmissiveStrength, object, strength},
-    {strength, "emissiveStrength", number},
-    unread({pbr, "baseColorTexture", object, texture_use},
-           "materials with a baseColorTexture, drawn without it"),
-    unread({pbr, "metallicRoughnessTexture", object, texture_use},
-           "materials with a metallicRoughnessTexture, drawn without it"),
-    unread({material, "normalTexture", object, texture_use},
-           "materials with a normalTexture, drawn without it"),
-    unread({material, "occlusionTexture", object, texture_use},
-           "materials with an occlusionTexture, drawn without it"),
-    unread({material, "emissiveTexture", object, texture_use},
-           "materials with an emissiveTexture, drawn without it"),
+    {material, "normalTexture", object, texture_use},
+    {material, "occlusionTexture", object, texture_use},
     one_of(texture_use, "index", "textures", needed_index),
-    unread(list_of(file, "textures", texture)),
+    unread(list_of<tinygltf::Texture>(file, "textures", texture)),
     one_of(texture, "source", "images"),
     one_of(texture, "sampler", "samplers"),
-    unread(list_of(file, "images", image), "images, not read"),
+    unread(list_of<tinygltf::Image>(file, "images", image)),
     one_of(image, "bufferView", "bufferViews"),
     {image, "uri", text},
 
@@ -127,10 +112,15 @@ constexpr Member kMembers[] = {
     made_up({primitive, "attributes", object, attributes}),
     one_of(attributes, "POSITION", "accessors"),
     one_of(attributes, "NORMAL", "accessors"),
-    unread(one_of(attributes, "COLOR_0", "accessors"),
-           "primitives with colours at vertices, not read"),
+    one_of(attributes, "TEXCOORD_0", "accessors"),
+    one_of(attributes, "TEXCOORD_1", "accessors"),
+    one_of(attributes, "COLOR_0", "accessors"),
+    one_of(attributes, "JOINTS_0", "accessors"),
+    one_of(attributes, "WEIGHTS_0", "accessors"),
     one_of(primitive, "indices", "accessors"),
-    unread(list_of(primitive, "targets", nothing), "morph targets, not read"),
+    list_of(primitive, "targets", morph),
+    one_of(morph, "POSITION", "accessors"),
+    one_of(morph, "NORMAL", "accessors"),
 
     list_of<tinygltf::Node>(file, "nodes", node, &Account::nodes),
     {node, "name", text},
@@ -141,8 +131,8 @@ constexpr Member kMembers[] = {
     vector(node, "rotation", 4),
     vector(node, "scale", 3),
     vector(node, "translation", 3),
-    unread(one_of(node, "skin", "skins"), "nodes with a skin, not posed"),
-    unread(list_of(file, "skins", skin)),
+    one_of(node, "skin", "skins"),
+    list_of<tinygltf::Skin>(file, "skins", skin),
     one_of(skin, "joints", "nodes", indices),
     one_of(skin, "skeleton", "nodes"),
     one_of(skin, "inverseBindMatrices", "accessors"),

@@ -1,4 +1,5 @@
 #include "scene/gltf_model.hpp"
+#include "scene/gltf_primitive.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -11,65 +12,6 @@ namespace {
 
 std::string mesh_label(const Document& document, std::size_t mesh) {
     return label_of("meshes", mesh, document.model.meshes[mesh].name);
-}
-
-int attribute(const tinygltf::Primitive& primitive, const char* name) {
-    const auto at = primitive.attributes.find(name);
-    return at == primitive.attributes.end() ? -1 : at->second;
-}
-
-/// The elements that a primitive is made of.
-struct Primitive {
-    Primitive(const tinygltf::Model& model, const tinygltf::Primitive& from)
-        : positions(elements_of(model, attribute(from, "POSITION"))) {
-        if (const int of = attribute(from, "NORMAL"); of >= 0) normals = elements_of(model, of);
-        if (from.indices >= 0) indices = elements_of(model, from.indices);
-    }
-    std::size_t corners() const { return indices ? indices->count : positions.count; }
-
-    Elements positions;
-    std::optional<Elements> normals, indices;
-};
-
-void check_primitive(const tinygltf::Primitive& primitive, const std::string& place,
-                     Context& context) {
-    const std::string attributes = place + ": attributes";
-    const int position = attribute(primitive, "POSITION"), normal = attribute(primitive, "NORMAL");
-    check(position >= 0, Failure::bad_data, attributes, ": wanted POSITION, found none");
-    Account& account = context.account;
-    const std::size_t count = context
-                                  .floats(position, TINYGLTF_TYPE_VEC3, account.positions,
-                                          attributes + ": POSITION")
-                                  .count;
-    if (normal >= 0) {
-        const std::size_t normals = context
-                                        .floats(normal, TINYGLTF_TYPE_VEC3, account.normals,
-                                                attributes + ": NORMAL")
-                                        .count;
-        check(normals == count, Failure::bad_data, attributes, ": wanted ", count,
-              " normals, one for each position, found ", normals);
-    }
-    const std::size_t corners = primitive.indices < 0
-                                    ? count
-                                    : context.whole(primitive.indices, place + ": indices").count;
-    check(corners % 3 == 0, Failure::bad_data, place,
-          ": wanted three corners for each triangle, found ", corners, " corners");
-}
-
-/// Its triangles, as numbers of its positions.
-std::vector<std::uint32_t> corners_of(const Primitive& primitive, const std::string& place) {
-    std::vector<std::uint32_t> corners(primitive.corners());
-    std::iota(corners.begin(), corners.end(), 0u);
-    if (!primitive.indices) return corners;
-    const std::size_t count = primitive.positions.count;
-    for (std::uint32_t& corner : corners) {
-        corner = whole_at(*primitive.indices, corner);
-        check(corner < count, Failure::bad_data, place, ": indices: wanted indices below ", count,
-              ", found ", corner);
-        check(corner != restart_of(*primitive.indices), Failure::bad_data, place,
-              ": indices: wanted a vertex, found ", corner, ", which begins a new primitive");
-    }
-    return corners;
 }
 
 /// The positions that corners name, ascending: all of them, unless there are more than corners,
@@ -87,17 +29,42 @@ std::vector<std::uint32_t> vertices_of(const std::vector<std::uint32_t>& corners
     return vertices;
 }
 
-/// Adds the triangles and their vertices.
-void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Primitive& primitive) {
-    const Elements& positions = primitive.positions;
-    const std::optional<Elements>& normals = primitive.normals;
-    const std::vector<std::uint32_t> used = vertices_of(corners, positions.count);
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+/// A list of the mesh that has an element for each vertex, or none so far: then `otherwise` for
+/// those that are there already.
+template <typename Value>
+void extend(std::vector<Value>& list, std::size_t before, const Value& otherwise) {
+    if (list.size() < before) list.resize(before, otherwise);
+}
+
+void append_vertices(Mesh& mesh, const std::vector<std::uint32_t>& used, const Primitive& primitive,
+                     const std::vector<dmat4>* joints) {
+    const std::size_t before = mesh.positions.size();
     for (const std::uint32_t vertex : used) {
-        mesh.positions.push_back(vector_at(positions, vertex));
-        mesh.normals.push_back(normals ? vec3(vector_at(*normals, vertex)) : vec3(0));
+        auto [position, normal] = primitive.vertex(vertex);
+        if (joints && primitive.joints) primitive.pose(vertex, *joints, position, normal);
+        mesh.positions.push_back(position), mesh.normals.push_back(vec3(normal));
     }
-    const bool is_all = used.size() == positions.count;
+    for (std::size_t set = 0; set < mesh.uv.size(); ++set) {
+        if (!primitive.uv[set] && mesh.uv[set].empty()) continue;
+        extend(mesh.uv[set], before, vec2(0));
+        for (const std::uint32_t vertex : used)
+            mesh.uv[set].push_back(primitive.uv[set]
+                                       ? vec2(number_at(*primitive.uv[set], vertex, 0),
+                                              number_at(*primitive.uv[set], vertex, 1))
+                                       : vec2(0));
+    }
+    if (!primitive.colours && mesh.colours.empty()) return;
+    extend(mesh.colours, before, vec4(1));
+    for (const std::uint32_t vertex : used) mesh.colours.push_back(primitive.colour(vertex));
+}
+
+/// Adds the triangles and their vertices.
+void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Primitive& primitive,
+            const std::vector<dmat4>* joints) {
+    const std::vector<std::uint32_t> used = vertices_of(corners, primitive.positions.count);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    append_vertices(mesh, used, primitive, joints);
+    const bool is_all = used.size() == primitive.positions.count;
     for (std::uint32_t& corner : corners)
         corner = first + (is_all ? corner
                                  : static_cast<std::uint32_t>(
@@ -106,24 +73,35 @@ void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Primitive& pri
         mesh.triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
 }
 
+/// Whether it is one that is drawn; what is not is named.
+bool is_drawn(const tinygltf::Primitive& primitive, const std::string& label, Context& context) {
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+        context.notes.add("primitives of points or lines, left out", label);
+        add_gap(context.gaps, "points-lines", label);
+        return false;
+    }
+    const bool has_place = primitive.attributes.contains("POSITION");
+    context.notes.add("primitives without positions, left out", label, has_place ? 0 : 1);
+    return has_place;
+}
+
 std::vector<Part> parts_of(std::size_t mesh, std::vector<Material>& materials, Context& context) {
-    const std::string& file = context.document.file;
-    const tinygltf::Model& model = context.document.model;
+    const Document& document = context.document;
     std::vector<Part> parts;
     std::unordered_map<std::size_t, std::size_t> part_of; // by material
-    const std::vector<tinygltf::Primitive>& primitives = model.meshes[mesh].primitives;
+    const std::vector<tinygltf::Primitive>& primitives = document.model.meshes[mesh].primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        const std::string label = mesh_label(context.document, mesh) + ": " +
-                                  label_of("primitives", i);
-        if (primitives[i].mode != TINYGLTF_MODE_TRIANGLES) {
-            context.notes.add("primitives that are not made of triangles, left out", label);
-            continue;
+        const std::string label = mesh_label(document, mesh) + ": " + label_of("primitives", i);
+        if (!is_drawn(primitives[i], label, context)) continue;
+        check_primitive(primitives[i], document.file + ": " + label, context);
+        if (!primitives[i].targets.empty()) {
+            context.notes.add("primitives with morph targets, in their default shape", label);
+            add_gap(context.gaps, "morph", label);
         }
-        check_primitive(primitives[i], file + ": " + label, context);
         const bool has_none = primitives[i].material < 0;
-        if (has_none && materials.size() == model.materials.size())
-            materials.push_back({.name = "default", .albedo = vec3(1)});
-        const std::size_t material = has_none ? model.materials.size()
+        if (has_none && materials.size() == document.materials.size())
+            materials.push_back({.name = "default", .albedo = vec3(1), .front_only = true});
+        const std::size_t material = has_none ? document.materials.size()
                                               : std::size_t(primitives[i].material);
         const auto [entry, is_new] = part_of.try_emplace(material, parts.size());
         if (is_new) parts.push_back({.material = material});
@@ -141,25 +119,27 @@ std::vector<std::vector<Part>> read_parts(std::vector<Material>& materials, Cont
     return parts;
 }
 
-Mesh mesh_of(std::size_t index, const Part& part, const Context& context) {
+Mesh mesh_of(std::size_t index, const Part& part, const Context& context,
+             const std::vector<dmat4>* joints) {
     const tinygltf::Model& model = context.document.model;
     const std::string place = mesh_place(context.document, index);
     Account& account = context.account;
     std::vector<Primitive> primitives;
     std::size_t vertices = 0, triangles = 0;
     for (const std::size_t i : part.primitives) { // before anything is made of it
-        const Primitive& its = primitives.emplace_back(model, model.meshes[index].primitives[i]);
-        const std::size_t count = std::min(its.positions.count, its.corners());
-        account.mesh_triangles.add(its.corners() / 3, place);
+        const Primitive& its = primitives.emplace_back(model, model.meshes[index].primitives[i],
+                                                       context.document.weights[index]);
+        const std::size_t count = std::min(its.positions.count, 3 * its.triangle_count());
+        account.mesh_triangles.add(its.triangle_count(), place);
         account.mesh_vertices.add(count, place);
-        vertices += count, triangles += its.corners() / 3;
+        vertices += count, triangles += its.triangle_count();
     }
     Mesh mesh{.name = model.meshes[index].name};
     account.name_bytes.add(mesh.name.size(), place);
     mesh.positions.reserve(vertices), mesh.normals.reserve(vertices);
     mesh.triangles.reserve(triangles);
     for (const Primitive& primitive : primitives)
-        append(mesh, corners_of(primitive, place), primitive);
+        append(mesh, corners_of(primitive, place), primitive, joints);
     return mesh;
 }
 

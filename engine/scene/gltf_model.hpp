@@ -1,7 +1,8 @@
 #pragma once
 
 #include "scene/gltf_check.hpp"
-#include "scene/scene.hpp"
+#include "scene/gltf_texture.hpp"
+#include "scene/load.hpp"
 
 #include <memory>
 #include <optional>
@@ -28,16 +29,22 @@ struct Marks {
 struct Document {
     std::string file; ///< begins every message
     tinygltf::Model model;
-    std::vector<Marks> marks; ///< of each node; tinygltf would cut their numbers to 32 bits
-    std::optional<double>
-        exposure; ///< of the scene that is shown: {"catoptric": {"exposure": stops}}
+    // Read before tinygltf, which has no word for some and would cut others to 32 bits.
+    std::vector<Marks> marks; ///< of each node
+    std::vector<Material> materials;
+    Lights lights;
+    std::vector<std::vector<double>> weights; ///< of each mesh, of its morph targets
+    std::vector<bool> repeats; ///< of each animation: {"catoptric": {"repeats": true}}
+    std::optional<double> exposure;
+    bool is_quantised = false; ///< KHR_mesh_quantization
 
     /// "nodes[3] 'lamp'".
     std::string label(std::size_t node) const;
 };
 
 /// Reads a .gltf or .glb. Throws as `load_gltf`.
-Document read(const std::string& file, Files& files, Account& account, Notes& notes);
+Document read(const std::string& file, Files& files, Account& account, Notes& notes,
+              std::vector<Gap>& gaps);
 
 // ---- gltf_accessor.cpp
 
@@ -46,26 +53,36 @@ struct Elements {
     const unsigned char* first;
     std::size_t stride, count;
     int component; ///< TINYGLTF_COMPONENT_TYPE_
+    int width;     ///< components of an element
+    bool normalised;
 };
 Elements elements_of(const tinygltf::Model& model, int accessor);
-double scalar_at(const Elements& elements, std::size_t index);
+/// One component; of whole numbers that are normalised within [-1,1].
+double number_at(const Elements& elements, std::size_t index, int component);
 dvec3 vector_at(const Elements& elements, std::size_t index);
-std::uint32_t whole_at(const Elements& elements, std::size_t index);
+std::uint32_t whole_at(const Elements& elements, std::size_t index, int component = 0);
 /// The whole number that means "begin anew" among indices.
 std::uint32_t restart_of(const Elements& elements);
 
 /// What reading needs beside the document.
 struct Context {
-    /// The dense accessor of floats of TINYGLTF_TYPE_ `type`. Throws `bad_data` beginning with
+    /// Which numbers an accessor may hold beside floats: none; whole ones that are normalised; with
+    /// KHR_mesh_quantization any of 8 or 16 bits.
+    enum class Also { nothing, normalised, quantised };
+
+    /// The elements of an accessor of TINYGLTF_TYPE_ `type`. Throws `bad_data` beginning with
     /// `place` for another. When it is first asked for, its elements are added to `total` and must
     /// be finite.
-    Elements floats(int accessor, int type, Total& total, const std::string& place);
-    /// The dense accessor of whole numbers, scalar and unsigned.
-    Elements whole(int accessor, const std::string& place) const;
+    Elements floats(int accessor, int type, Total& total, const std::string& place,
+                    Also also = Also::nothing);
+    /// The accessor of whole numbers, scalar and unsigned, or of another type.
+    Elements whole(int accessor, const std::string& place, int type = TINYGLTF_TYPE_SCALAR) const;
 
     const Document& document;
+    const LoadOptions& options;
     Account& account;
     Notes& notes;
+    std::vector<Gap>& gaps;
     std::set<int> finite; ///< accessors known to be
 };
 
@@ -80,11 +97,8 @@ std::vector<int> roots_of(const tinygltf::Model& model);
 /// are at most 4096 above one another.
 void check_forest(const Document& document);
 
-// ---- gltf_material.cpp
-
-std::vector<Material> read_materials(const Context& context);
-/// Name and field of view; none of an unread kind.
-std::vector<std::optional<Camera>> read_cameras(const Document& document);
+/// Name and field of view, or height.
+std::vector<Camera> read_cameras(const Document& document);
 
 // ---- gltf_mesh.cpp
 
@@ -100,12 +114,43 @@ struct Part {
 std::vector<std::vector<Part>> read_parts(std::vector<Material>& materials, Context& context);
 /// "FILE: meshes[0] 'm'".
 std::string mesh_place(const Document& document, std::size_t mesh);
-/// One part's triangles, unused vertices left out; normals may be missing or have no length.
-Mesh mesh_of(std::size_t mesh, const Part& part, const Context& context);
+/// One part's triangles, unused vertices left out; normals may be missing or have no length. With
+/// `joints`, the world from the space in which each was bound, as a skin of them stands.
+Mesh mesh_of(std::size_t mesh, const Part& part, const Context& context,
+             const std::vector<dmat4>* joints = nullptr);
 
 // ---- gltf_animation.cpp
 
-/// For each node its translation in its parent's space, not relative. Each sampler is read once.
-std::vector<std::shared_ptr<const Keys>> read_motions(Context& context);
+/// How a node moves in its parent's space, not relative; where a track is null it does not.
+struct Tracks {
+    std::shared_ptr<const Keys> translations, scales;
+    std::shared_ptr<const Turns> rotations;
+    bool is_any() const { return translations || scales || rotations; }
+};
+struct Animation {
+    std::vector<Tracks> nodes;
+    bool repeats = false;
+};
+/// The one of the options. Each sampler is read once. Throws `usage` for a name that no animation
+/// has.
+Animation read_animation(Context& context);
+
+// ---- gltf_rig.cpp
+
+/// Where a node stands, and how it moves in world space.
+struct Placed {
+    dmat4 world_from_node{1};
+    Motion motion;
+    bool reached = false;
+};
+
+/// World transforms of the nodes that the scene shows: at rest, or where they move by more than
+/// one translation at the first instant. Throws `bad_data` for a node with a second way to it.
+std::vector<Placed> place(const Document& document, const Animation& animation);
+
+/// For a skin's joints, the world from the space in which they were bound, as `at_rest` they stand.
+std::vector<dmat4> joints_of(int skin, const std::vector<dmat4>& at_rest, Context& context);
+/// World from each node, nothing moving.
+std::vector<dmat4> rest_of(const Document& document);
 
 } // namespace catoptric::scene::gltf

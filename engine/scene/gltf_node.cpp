@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -48,6 +49,31 @@ std::vector<Marks> read_marks(const Item& root) {
     std::vector<Marks> marks;
     root.each("nodes", [&](const Item& node) { marks.push_back(marks_of(node)); });
     return marks;
+}
+
+std::vector<Camera> read_cameras(const Document& document) {
+    std::vector<Camera> cameras;
+    for (const tinygltf::Camera& from : document.model.cameras) {
+        const auto require = [&](bool ok, const auto&... parts) {
+            check(ok, Failure::bad_data, document.file, ": ",
+                  label_of("cameras", cameras.size(), from.name), parts...);
+        };
+        Camera camera{.name = from.name};
+        if (from.type == "orthographic") {
+            // a negative one turns the picture around in some exporters' words
+            camera.orthographic_height = 2 * std::abs(from.orthographic.ymag);
+            require(camera.orthographic_height > 0 && std::isfinite(camera.orthographic_height),
+                    ": orthographic: ymag: wanted a number above 0, found ",
+                    from.orthographic.ymag);
+        } else {
+            const double fov = from.perspective.yfov;
+            require(fov > 0 && fov < std::numbers::pi,
+                    ": perspective: yfov: wanted an angle between 0 and pi, found ", fov);
+            camera.vertical_fov_degrees = glm::degrees(fov);
+        }
+        cameras.push_back(std::move(camera));
+    }
+    return cameras;
 }
 
 dmat4 parent_from_node(const Document& document, std::size_t index) {

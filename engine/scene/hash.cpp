@@ -66,14 +66,26 @@ struct Hasher {
     }
     void add(const std::monostate&) {}
     void add(const Harmonic& motion) { add(motion.amplitude), add(motion.period); }
-    void add(const Keys& keys) {
+    template <typename Value>
+    void add(const Track<Value>& keys) {
         add(static_cast<int>(keys.interpolation));
         add(keys.times), add(keys.values), add(keys.in_tangents), add(keys.out_tangents);
     }
     void add(const Keyframes& motion) {
         add(state_of(motion.keys.get()));
         for (int column = 0; column < 3; ++column) add(motion.world_from_keys[column]);
-        add(motion.rest);
+        add(motion.rest), add(motion.repeats);
+    }
+    void add(const Rig::Node& node) {
+        add(node.parent), add(node.parent_from_space);
+        add(node.translation), add(node.rotation), add(node.scale);
+        add(state_of(node.translations.get())), add(state_of(node.rotations.get()));
+        add(state_of(node.scales.get()));
+    }
+    void add(const Rig& rig) { add(rig.nodes), add(rig.repeats); }
+    void add(const Follows& motion) {
+        add(state_of(motion.rig.get())), add(std::uint64_t(motion.node));
+        add(motion.node_from_object);
     }
     /// A hash of their own: many objects may follow the same keys, many materials show an image.
     template <typename Shared>
@@ -105,6 +117,7 @@ struct Hasher {
     void add(const Camera& camera) {
         add(camera.name), add(camera.eye), add(camera.target), add(camera.up);
         add(camera.vertical_fov_degrees), add(camera.orthographic_height);
+        if (camera.follows.rig) add(camera.follows);
     }
 };
 

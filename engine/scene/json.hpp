@@ -79,7 +79,7 @@ private:
         std::optional<std::size_t> index;
         const Json* json = nullptr; ///< what is there
     };
-    static constexpr std::size_t kMostSteps = 4; // glTF's own objects lie no deeper
+    static constexpr std::size_t kMostSteps = 8; // extensions within extensions lie no deeper
 
     Item to(const Step& step) const;
     std::string label(std::string_view before, std::size_t steps) const;

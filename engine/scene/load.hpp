@@ -44,6 +44,14 @@ Scene load(const std::string& name_or_path, const LoadOptions& options = {});
 Scene cornell_mirrors();
 /// The same with a white front wall that camera rays ignore.
 Scene cornell_mirrors_closed();
+/// A closed room with one flat mirror.
+Scene flat();
+/// A furnished room: textures, shared meshes, a wall mirror, a smooth floor, two lamps, a spot.
+Scene furnished_room();
+/// A hall with sixteen mirrors through which the camera walks.
+Scene gallery();
+/// An open court under a sky, with a hollow dish.
+Scene courtyard();
 
 /// Each reads one file; errors as `load`.
 Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options = {});

@@ -6,6 +6,7 @@
 #include "scene/transform.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <sstream>
 #include <unordered_map>
@@ -16,36 +17,56 @@ namespace catoptric::scene {
 
 namespace {
 
-/// One vertex for each pair of position and normal that is used, ascending, those without a normal
-/// first; the corners come three to a triangle.
+/// Position, normal and texture coordinates of a vertex; -1: none.
+struct Triple {
+    int position, normal, uv;
+    auto operator<=>(const Triple&) const = default;
+};
+
+Triple triple_of(const tinyobj::index_t& corner) {
+    return {corner.vertex_index, corner.normal_index, corner.texcoord_index};
+}
+
+void add_vertex(Mesh& mesh, const Triple& vertex, const obj::Text& text, bool has_uv) {
+    const auto& [position, normal, uv] = vertex;
+    mesh.positions.push_back(text.positions[std::size_t(position)]);
+    mesh.normals.push_back(
+        normal < 0 ? vec3(0) : vec3(normalized_or_zero(text.normals[std::size_t(normal)])));
+    if (!text.colours.empty()) mesh.colours.emplace_back(text.colours[std::size_t(position)], 1);
+    if (!has_uv) return;
+    const vec2 upwards = uv < 0 ? vec2(0, 1) : text.uv[std::size_t(uv)];
+    mesh.uv[0].emplace_back(upwards.x, 1 - upwards.y);
+}
+
+/// One vertex for each triple that is used, ascending, those without a normal first; the corners
+/// come three to a triangle.
 Mesh mesh_of(const obj::Text& text, const std::vector<tinyobj::index_t>& corners, std::string name,
              Total& vertices, const std::string& place) {
     struct Use {
-        std::uint64_t pair;
+        Triple triple;
         std::uint32_t corner;
         auto operator<=>(const Use&) const = default;
     };
     std::vector<Use> uses;
     uses.reserve(corners.size());
-    for (const auto& [position, normal, texture] : corners) // normal -1: none
-        uses.push_back({std::uint64_t(position) << 32 | std::uint32_t(normal + 1),
-                        static_cast<std::uint32_t>(uses.size())});
+    for (const tinyobj::index_t& corner : corners)
+        uses.push_back({triple_of(corner), static_cast<std::uint32_t>(uses.size())});
     std::ranges::sort(uses);
-    const auto is_first = [&](std::size_t i) { return i == 0 || uses[i].pair != uses[i - 1].pair; };
+    const auto is_first = [&](std::size_t i) {
+        return i == 0 || uses[i].triple != uses[i - 1].triple;
+    };
     std::size_t count = 0;
     for (std::size_t i = 0; i < uses.size(); ++i) count += is_first(i);
     vertices.add(count, place);
     Mesh mesh{.name = std::move(name)};
+    const bool has_uv = std::ranges::any_of(
+        corners, [](const tinyobj::index_t& corner) { return corner.texcoord_index >= 0; });
     mesh.positions.reserve(count), mesh.normals.reserve(count);
+    if (has_uv) mesh.uv[0].reserve(count);
     mesh.triangles.resize(corners.size() / 3);
     for (std::size_t i = 0; i < uses.size(); ++i) {
         const std::uint32_t corner = uses[i].corner;
-        const auto& [position, normal, texture] = corners[corner];
-        if (is_first(i)) {
-            mesh.positions.push_back(text.positions[std::size_t(position)]);
-            mesh.normals.push_back(
-                normal < 0 ? vec3(0) : vec3(normalized_or_zero(text.normals[std::size_t(normal)])));
-        }
+        if (is_first(i)) add_vertex(mesh, uses[i].triple, text, has_uv);
         mesh.triangles[corner / 3][static_cast<int>(corner % 3)] = static_cast<std::uint32_t>(
             mesh.positions.size() - 1);
     }
@@ -91,7 +112,7 @@ std::size_t Builder::material_index(int material) {
     const auto found = std::ranges::find(scene.materials, "default", &Material::name);
     without_material = static_cast<std::size_t>(found - scene.materials.begin());
     if (found == scene.materials.end())
-        scene.materials.push_back({.name = "default", .albedo = vec3(0.8f)});
+        scene.materials.push_back({.name = "default", .albedo = vec3(0.8f), .two_sided = true});
     return *without_material;
 }
 
@@ -137,20 +158,27 @@ void check_names(const obj::Text& text) {
                  in_quotes(name), did_you_mean(name, text.names));
 }
 
+/// A library in which tinyobjloader finds each material by its number, and nothing else.
+std::string names_of(const obj::Library& library) {
+    std::string text;
+    for (std::size_t i = 0; i < library.drafts.size(); ++i)
+        text += "newmtl " + std::to_string(i) + "\n";
+    return text;
+}
+
 /// What tinyobjloader makes of the statements, which are used up: they may be long.
 struct Parsed {
     Parsed(obj::Text& text, const std::string& file) {
-        std::istringstream statements(std::move(text.statements)),
-            library(std::move(text.library.statements));
+        std::istringstream statements(std::move(text.statements)), library(names_of(text.library));
         tinyobj::MaterialStreamReader libraries(library);
         tinyobj::attrib_t attributes;
+        std::vector<tinyobj::material_t> materials;
         std::string error;
         const bool is_read = tinyobj::LoadObj(&attributes, &shapes, &materials, nullptr, &error,
                                               &statements, &libraries, false, false);
         check(is_read, Failure::bad_data, file, ": cannot be read: ", printable(error));
     }
     std::vector<tinyobj::shape_t> shapes;
-    std::vector<tinyobj::material_t> materials;
 };
 
 } // namespace
@@ -160,18 +188,19 @@ Scene load_obj(const std::filesystem::path& path, const LoadOptions& options) {
     Account account(options.budget);
     Files files(path, options.root, account);
     Notes notes;
-    obj::Context context{files, account, notes};
+    std::vector<Gap> gaps;
+    obj::Context context{files, account, notes, gaps};
     obj::Text text = obj::read_text(file, context);
     check_names(text);
     const Parsed parsed(text, file);
     Builder builder{.file = file, .text = text, .context = context};
     builder.scene = {.name = path.stem().string(),
-                     .materials = materials_of(text.library, parsed.materials),
+                     .materials = materials_of(text.library, context),
                      .cameras = text.remarks.cameras,
                      .exposure = text.remarks.exposure,
                      .files = files.found()};
     for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_shape(shape);
-    finish(builder.scene, file, notes);
+    finish(builder.scene, file, notes, std::move(gaps));
     return std::move(builder.scene);
 }
 

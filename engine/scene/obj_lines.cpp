@@ -46,6 +46,8 @@ std::string_view take_word(std::string_view& text) {
 
 void for_each_line(const std::string& file, std::string_view text,
                    const std::function<void(const Line&)>& body) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     std::string joined, remark;
     for (std::size_t number = 0; !text.empty();) {
         const std::size_t first = number + 1;

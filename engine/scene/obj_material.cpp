@@ -1,33 +1,18 @@
 #include "core/text.hpp"
+#include "scene/image_file.hpp"
 #include "scene/number.hpp"
 #include "scene/obj_text.hpp"
 #include "scene/repair.hpp"
 
 #include <algorithm>
-
-#include <glm/gtc/type_ptr.hpp>
+#include <array>
+#include <cmath>
 
 namespace catoptric::scene::obj {
 
+namespace fs = std::filesystem;
+
 namespace {
-
-void check_radiance(const Line& line) {
-    check(is_radiance(vec3(vector_of(line))), Failure::bad_data, line.where(),
-          ": 'Ke' wants radiance of at least 0 that fits a float, found ", in_quotes(line.rest));
-}
-
-/// 0 and 1 are diffuse, 3 is a mirror; others have something that this engine has not.
-std::string illum_text(const Line& line, Notes& notes) {
-    const double kind = numbers(line, words(line), 0, 1)[0];
-    if (kind != 0 && kind != 1 && kind != 3)
-        notes.add("materials with illum " + number_text(kind) + ", drawn as diffuse", line.where());
-    return kind == 3 ? " 3" : " 0";
-}
-
-std::string vector_text(const Line& line) {
-    const dvec3 v = vector_of(line);
-    return " " + number_text(v.x) + " " + number_text(v.y) + " " + number_text(v.z);
-}
 
 /// "map_Kd", "bump", "norm", "refl" and the like.
 bool is_map(std::string_view keyword) {
@@ -35,54 +20,256 @@ bool is_map(std::string_view keyword) {
     return keyword.starts_with("map_") || std::ranges::find(kMaps, keyword) != std::end(kMaps);
 }
 
-/// Maps are not read, but they lie where a scene's files may.
-void find_map(const Line& line, Files& files) {
-    const std::string name = map_file(line);
-    if (!name.empty()) files.find(name, line.where());
+bool is_bump(std::string_view keyword) {
+    return keyword == "norm" || keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump";
 }
 
-void add_statement(Library& library, const Line& line, Unread& unread, Context& context,
-                   bool& is_in_material) {
-    const auto say = [&](const std::string& rest) {
-        (library.statements += line.keyword).append(rest) += '\n';
-    };
-    if (line.keyword == "newmtl") {
-        context.account.materials.add(1, line.where());
-        say(" " + std::to_string(library.names.size()));
-        library.names.emplace_back(line.rest);
-        library.two_sided.push_back(false);
-        is_in_material = true;
-    } else if (!is_in_material) {
-        context.notes.add("statements before the first newmtl, left out", line.where());
-    } else if (line.keyword == "#two_sided") {
-        library.two_sided.back() = true;
-    } else if (line.keyword == "Kd" || line.keyword == "Ks" || line.keyword == "Ke") {
-        if (line.keyword == "Ke") check_radiance(line);
-        say(vector_text(line));
-    } else if (line.keyword == "illum") {
-        say(illum_text(line, context.notes));
-    } else {
-        unread.add(line);
-        if (is_map(line.keyword)) find_map(line, context.files);
-    }
-}
-
-} // namespace
-
-std::string map_file(const Line& line) {
+/// Three numbers, or one that stands for all; none of "Kd spectral FILE" and the like.
+std::optional<dvec3> colour_of(const Line& line) {
     std::string_view rest = line.rest;
-    while (rest.starts_with('-')) { // an option, and its numbers or its one word
+    const std::string_view first = take_word(rest);
+    if (first == "spectral" || first == "xyz") return std::nullopt;
+    if (rest.empty() || rest.front() == '#') return dvec3(number_of(line, first));
+    return vector_of(line);
+}
+
+double number_in(const Line& line) { return numbers(line, words(line), 0, 1)[0]; }
+
+/// A map's options: `-s`, `-o` and `-clamp` change where it is read, others are passed over.
+MapUse map_of(const Line& line) {
+    MapUse map;
+    std::string_view rest = line.rest;
+    while (rest.starts_with('-')) {
         const std::string_view option = take_word(rest);
         const bool takes_word = option == "-type" || option == "-imfchan" || option == "-clamp" ||
                                 option == "-blendu" || option == "-blendv" || option == "-cc";
         std::string_view after = rest;
-        if (takes_word) take_word(rest), after = rest;
-        while (!takes_word && parse_number(take_word(after))) rest = after;
+        if (takes_word) {
+            const bool is_on = take_word(rest) == "on";
+            if (option == "-clamp") map.is_clamped = is_on;
+            continue;
+        }
+        std::array<double, 3> values{};
+        std::size_t count = 0;
+        while (const auto value = parse_number(take_word(after))) {
+            if (count < values.size()) values[count] = *value;
+            ++count, rest = after;
+        }
+        for (int i = 0; i < 2 && i < int(count); ++i) {
+            if (option == "-s") map.scale[i] = values[std::size_t(i)];
+            if (option == "-o") map.offset[i] = values[std::size_t(i)];
+        }
     }
-    return std::string(rest);
+    map.file = rest;
+    return map;
 }
 
-void read_materials(const std::filesystem::path& real, const std::string& place, Context& context,
+/// Where a map lies: as it is called, or as a path of another system would be here, or, where that
+/// leads nowhere or begins at the root of somebody's machine, beside the scene.
+fs::path find_map(const std::string& name, const std::string& place, Files& files) {
+    std::string slashed = name;
+    std::ranges::replace(slashed, '\\', '/');
+    const bool is_absolute = slashed.starts_with('/') ||
+                             (slashed.size() > 2 && slashed.substr(1, 2) == ":/");
+    fs::path real = is_absolute ? fs::path() : files.find(slashed, place);
+    const std::size_t last = slashed.rfind('/');
+    if (real.empty() && last != slashed.npos && last + 1 < slashed.size())
+        real = files.find(slashed.substr(last + 1), place);
+    return real;
+}
+
+void add_map(const Line& line, Context& context, Library& library) {
+    MapUse map = map_of(line);
+    if (map.file.empty()) return;
+    map.real = find_map(map.file, line.where(), context.files);
+    map.place = line.where();
+    Draft& draft = library.drafts.back();
+    if (line.keyword == "map_Kd")
+        draft.colour = std::move(map);
+    else if (line.keyword == "map_d")
+        draft.cut = std::move(map);
+    else if (line.keyword != "map_Ka") // which no light here would show
+        add_material_gap(context.gaps,
+                         is_bump(line.keyword) ? "normal-texture" : "material-extension",
+                         line.where(), library.drafts.size() - 1);
+}
+
+/// The members of a material that one number each is for.
+struct Number {
+    std::string_view keyword;
+    std::optional<double> Draft::*member;
+};
+constexpr Number kNumbers[] = {{"Ns", &Draft::shininess}, {"Ni", &Draft::ior},
+                               {"Pr", &Draft::roughness}, {"Pm", &Draft::metallic},
+                               {"illum", &Draft::kind},   {"d", &Draft::alpha}};
+
+void add_radiance(const Line& line, const dvec3& radiance, Draft& draft) {
+    draft.emission = vec3(radiance);
+    check(is_radiance(draft.emission), Failure::bad_data, line.where(),
+          ": 'Ke' wants radiance of at least 0 that fits a float, found ", in_quotes(line.rest));
+}
+
+/// Whether it is one of those that say how a surface looks.
+bool add_member(const Line& line, Draft& draft) {
+    const auto* const number = std::ranges::find(kNumbers, line.keyword, &Number::keyword);
+    if (number != std::end(kNumbers)) {
+        // "d -halo .5"
+        std::string_view rest = line.rest;
+        const Line of{line.file, line.number, line.keyword,
+                      take_word(rest) == "-halo" ? rest : line.rest};
+        draft.*(number->member) = number_in(of);
+        return true;
+    }
+    if (line.keyword == "Tr") return draft.alpha = 1 - number_in(line), true;
+    if (line.keyword == "#two_sided") return draft.two_sided = true;
+    if (line.keyword == "#fixed_normals") return draft.fixed_normals = true;
+    if (line.keyword != "Kd" && line.keyword != "Ks" && line.keyword != "Ke") return false;
+    const std::optional<dvec3> colour = colour_of(line);
+    if (!colour) return false;
+    if (line.keyword == "Kd") draft.diffuse = colour;
+    if (line.keyword == "Ks") draft.specular = colour;
+    if (line.keyword == "Ke") add_radiance(line, *colour, draft);
+    return true;
+}
+
+void add_statement(Library& library, const Line& line, Unread& unread, Context& context,
+                   bool& is_in_material) {
+    if (line.keyword == "newmtl") {
+        context.account.materials.add(1, line.where());
+        library.drafts.push_back({.name = std::string(line.rest), .place = line.where()});
+        is_in_material = true;
+    } else if (!is_in_material) {
+        context.notes.add("statements before the first newmtl, left out", line.where());
+    } else if (!add_member(line, library.drafts.back())) {
+        if (line.keyword != "map_Kd" && line.keyword != "Ka") unread.add(line);
+        if (is_map(line.keyword)) add_map(line, context, library);
+    }
+}
+
+/// The pictures that materials show, each decoded once.
+class Maps {
+public:
+    explicit Maps(Context& context) : context_(context) {}
+
+    std::optional<Texture> of(const MapUse& map) {
+        const std::shared_ptr<const Image> image = image_of(map);
+        if (!image) {
+            context_.notes.add("images that are not there or of a kind that is not read, drawn "
+                               "without",
+                               map.place + ": " + in_quotes(map.file));
+            add_gap(context_.gaps, "missing-image", map.place + ": " + in_quotes(map.file));
+            return std::nullopt;
+        }
+        const Texture::Wrap wrap = map.is_clamped ? Texture::Wrap::clamp : Texture::Wrap::repeat;
+        // a mesh's v goes down: 1 - ((1 - v) scale + offset)
+        const auto& [x, y] = map.scale;
+        return Texture{.image = image,
+                       .wrap_u = wrap,
+                       .wrap_v = wrap,
+                       .srgb = true,
+                       .u_row = vec3(x, 0, map.offset[0]),
+                       .v_row = vec3(0, y, 1 - y - map.offset[1])};
+    }
+
+private:
+    std::shared_ptr<const Image> image_of(const MapUse& map) {
+        if (map.real.empty()) return nullptr;
+        const auto [entry, is_new] = images_.try_emplace(map.real.string());
+        if (is_new)
+            entry->second = decode_image(context_.files.read(map.real, map.place), map.file,
+                                         map.place + ": " + in_quotes(map.file), context_.account);
+        return entry->second;
+    }
+
+    Context& context_;
+    std::map<std::string, std::shared_ptr<const Image>> images_;
+};
+
+vec3 fraction(const dvec3& colour) { return vec3(glm::clamp(colour, 0.0, 1.0)); }
+
+/// One material as the engine has it (scene.md, "Surface").
+class Maker {
+public:
+    Maker(const Draft& draft, std::size_t index, Maps& maps, Context& context)
+        : draft_(draft), index_(index), maps_(maps), context_(context) {}
+
+    Material make() {
+        kind_ = static_cast<int>(draft_.kind.value_or(0));
+        material_ = {.name = draft_.name, .emission = draft_.emission};
+        // what is not said is grey, but of what shines or mirrors black
+        const bool shines = draft_.emission != vec3(0) || kind_ == 3;
+        material_.albedo = fraction(draft_.diffuse.value_or(draft_.colour ? dvec3(1)
+                                                            : shines      ? dvec3(0)
+                                                                          : dvec3(0.8)));
+        if (draft_.colour) material_.albedo_texture = maps_.of(*draft_.colour);
+        sides();
+        transparency();
+        if (draft_.roughness || draft_.metallic)
+            physical();
+        else
+            reflection();
+        return material_;
+    }
+
+private:
+    void gap(const char* id) { add_material_gap(context_.gaps, id, draft_.place, index_); }
+
+    void sides() {
+        const bool is_lamp = draft_.emission != vec3(0);
+        material_.two_sided = is_lamp ? draft_.two_sided : !draft_.fixed_normals;
+    }
+
+    void transparency() {
+        const double alpha = std::clamp(draft_.alpha.value_or(1), 0.0, 1.0);
+        const bool is_glass = kind_ == 4 || kind_ == 6 || kind_ == 7 || kind_ == 9 ||
+                              (alpha < 1 && draft_.ior.value_or(1) > 1.01);
+        if (is_glass) {
+            context_.notes.add("glass, drawn as what it is without being clear", draft_.place);
+            return gap("glass-as-diffuse"), gap("glass-shadow");
+        }
+        const bool is_cut = draft_.cut && draft_.colour && draft_.cut->real == draft_.colour->real;
+        if (alpha == 1 && !draft_.cut) return;
+        context_.notes.add("materials that let light through, cut where half is left",
+                           draft_.place);
+        gap("blend-as-mask");
+        material_.alpha = static_cast<float>(alpha);
+        if (alpha < 1 || is_cut) material_.alpha_cutoff = .5f;
+    }
+
+    void physical() {
+        material_.metallic = static_cast<float>(std::clamp(draft_.metallic.value_or(0), 0.0, 1.0));
+        material_.roughness = static_cast<float>(
+            std::clamp(draft_.roughness.value_or(1), 0.0, 1.0));
+    }
+
+    /// illum 3 and 8 reflect Ks at any angle, 5 as Schlick has it; others are diffuse.
+    void reflection() {
+        if (kind_ != 3 && kind_ != 5 && kind_ != 8) return;
+        const vec3 f0 = fraction(draft_.specular.value_or(dvec3(0)));
+        const double shininess = draft_.shininess.value_or(100);
+        const bool is_sharp = shininess >= 100;
+        material_.roughness = is_sharp ? 0
+                                       : static_cast<float>(
+                                             std::sqrt(2 / (std::max(shininess, 0.0) + 2)));
+        material_.dielectric_f0 = f0;
+        if (kind_ == 5) return;
+        material_.dielectric_f90 = f0;
+        constexpr float kLeast = .2f; // of a mirror, which is numbered
+        if (!is_sharp || std::max({f0.x, f0.y, f0.z}) < kLeast) return;
+        material_.mirror = true, material_.reflectance = f0;
+    }
+
+    const Draft& draft_;
+    std::size_t index_;
+    Maps& maps_;
+    Context& context_;
+    Material material_;
+    int kind_ = 0;
+};
+
+} // namespace
+
+void read_materials(const fs::path& real, const std::string& place, Context& context,
                     Library& library) {
     Unread unread;
     bool is_in_material = false;
@@ -93,23 +280,11 @@ void read_materials(const std::filesystem::path& real, const std::string& place,
     unread.tell(file, context.notes);
 }
 
-std::vector<Material> materials_of(const Library& library,
-                                   const std::vector<tinyobj::material_t>& read) {
+std::vector<Material> materials_of(const Library& library, Context& context) {
     std::vector<Material> materials;
-    const auto reflectance = [](const tinyobj::real_t(&c)[3]) {
-        return glm::clamp(vec3(c[0], c[1], c[2]), 0.0f, 1.0f);
-    };
-    for (const std::string& name : library.names) {
-        const tinyobj::material_t& from = read[materials.size()];
-        const bool is_mirror = from.illum == 3;
-        // Ks of anything but a perfect mirror is a highlight, which this engine has not
-        materials.push_back({.name = name,
-                             .albedo = reflectance(from.diffuse),
-                             .emission = glm::make_vec3(from.emission),
-                             .mirror = is_mirror,
-                             .reflectance = is_mirror ? reflectance(from.specular) : vec3(1),
-                             .two_sided = library.two_sided[materials.size()]});
-    }
+    Maps maps(context);
+    for (const Draft& draft : library.drafts)
+        materials.push_back(Maker(draft, materials.size(), maps, context).make());
     return materials;
 }
 

@@ -39,6 +39,9 @@ std::vector<std::string> unique_words(const std::vector<Item>& items, const std:
 
 std::string motion_text(const std::monostate&) { return {}; }
 
+/// .obj has no nodes: what follows one stays where it is at the first instant.
+std::string motion_text(const Follows&) { return {}; }
+
 std::string motion_text(const Harmonic& motion) {
     return "harmonic " + text_of(motion.amplitude) + " " + number_text(motion.period);
 }
@@ -104,7 +107,9 @@ std::string materials_text(const std::vector<Material>& materials,
         if (material.mirror) text += "Ks " + text_of(material.reflectance) + "\n";
         if (material.emission != vec3(0)) text += "Ke " + text_of(material.emission) + "\n";
         text += material.mirror ? "illum 3\n" : "illum 1\n";
-        if (material.two_sided) text += "# catoptric two_sided\n";
+        const bool is_lamp = material.emission != vec3(0);
+        if (is_lamp && material.two_sided) text += "# catoptric two_sided\n";
+        if (!is_lamp && !material.two_sided) text += "# catoptric fixed_normals\n";
     }
     return text;
 }

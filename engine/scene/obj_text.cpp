@@ -1,6 +1,5 @@
 #include "scene/obj_text.hpp"
 
-#include "core/knob.hpp"
 #include "core/text.hpp"
 
 #include <charconv>
@@ -31,6 +30,8 @@ public:
 private:
     void library(const Line& line);
     void library_file(const Line& line, const std::string& name);
+    void position(const Line& line);
+    void texture_coordinates(const Line& line);
     void face(const Line& line);
     Corner corner(const Line& line, std::string_view word) const;
     void group(const Line& line);
@@ -42,16 +43,19 @@ private:
     Unread unread_;
     std::unordered_set<std::string> libraries_; ///< real paths of those that have been read
     std::unordered_map<std::string, std::size_t> material_of_;
-    std::optional<std::size_t> material_;     ///< of the faces that come
-    std::size_t positions_ = 0, normals_ = 0; ///< so far
-    bool has_faces_ = false;                  ///< the last shape
-    std::vector<Corner> polygon_, triangles_; ///< of one face
+    std::optional<std::size_t> material_;               ///< of the faces that come
+    std::size_t positions_ = 0, normals_ = 0, uvs_ = 0; ///< so far
+    bool has_faces_ = false;                            ///< the last shape
+    std::vector<Corner> polygon_, triangles_;           ///< of one face
 };
 
 void Reader::library_file(const Line& line, const std::string& name) {
     const std::string place = line.where() + ": mtllib";
-    const fs::path real = context_.files.get(name, place);
-    if (libraries_.insert(real.string()).second)
+    const fs::path real = context_.files.find(name, place);
+    if (real.empty()) {
+        context_.notes.add("material libraries that are not there", place + ": " + in_quotes(name));
+        add_gap(context_.gaps, "missing-material", line.where() + ": " + in_quotes(name));
+    } else if (libraries_.insert(real.string()).second)
         read_materials(real, place, context_, text_.library);
 }
 
@@ -69,16 +73,22 @@ void Reader::library(const Line& line) {
 
 /// Of materials with the same name the first is meant.
 void Reader::name_materials() {
-    for (std::size_t i = 0; i < text_.library.names.size(); ++i)
-        material_of_.try_emplace(text_.library.names[i], i);
+    for (std::size_t i = 0; i < text_.library.drafts.size(); ++i)
+        material_of_.try_emplace(text_.library.drafts[i].name, i);
 }
 
 void Reader::use_material(const Line& line) {
     const std::string name(line.rest);
     const auto found = material_of_.find(name);
-    if (found == material_of_.end())
-        fail(Failure::bad_data, line.where(), ": usemtl wants a material of the libraries, found ",
-             in_quotes(name), did_you_mean(name, text_.library.names));
+    if (found == material_of_.end()) {
+        const bool has_any = !text_.library.drafts.empty(); // else the library has been named
+        context_.notes.add("uses of materials that no library has, drawn grey",
+                           line.where() + ": " + in_quotes(name), has_any ? 1 : 0);
+        add_gap(context_.gaps, "missing-material", line.where() + ": " + in_quotes(name));
+        if (material_) text_.statements += "usemtl none\n";
+        material_.reset();
+        return;
+    }
     if (material_ == found->second) return;
     material_ = found->second;
     text_.statements += "usemtl " + std::to_string(*material_) + "\n";
@@ -117,40 +127,69 @@ std::uint32_t index_of(const Line& line, std::string_view digits, std::size_t so
     return static_cast<std::uint32_t>(value > 0 ? value - 1 : std::int64_t(so_far) + value);
 }
 
-/// "v", "v/vt", "v//vn" or "v/vt/vn" without the vt.
+/// "v", "v/vt", "v//vn" or "v/vt/vn".
 Corner Reader::corner(const Line& line, std::string_view word) const {
     const std::size_t slash = word.find('/'), last = word.rfind('/');
     Corner corner{
         index_of(line, word.substr(0, slash), positions_, text_.positions.size(), "positions"),
-        kNoNormal};
+        kNone, kNone};
     if (last != slash && last + 1 != word.size())
         corner.normal = index_of(line, word.substr(last + 1), normals_, text_.normals.size(),
                                  "normals");
+    if (slash == word.npos) return corner;
+    const std::string_view uv = word.substr(slash + 1,
+                                            last == slash ? word.npos : last - slash - 1);
+    if (!uv.empty()) corner.uv = index_of(line, uv, uvs_, text_.uv.size(), "texture coordinates");
     return corner;
 }
 
 void Reader::face(const Line& line) {
     const std::size_t count = count_words(line.rest);
-    if (count < 3)
-        fail(Failure::bad_data, line.where(), ": face wants at least 3 corners, found ", count);
+    if (count < 3) {
+        context_.notes.add("faces of one or two corners, left out", line.where());
+        return add_gap(context_.gaps, "points-lines", line.where());
+    }
     context_.account.mesh_triangles.add(count - 2, *line.file, ":", line.number);
     polygon_.clear(), triangles_.clear();
     std::string_view rest = line.rest;
     for (std::size_t i = 0; i < count; ++i) polygon_.push_back(corner(line, take_word(rest)));
     cut(polygon_, text_.positions, context_.account.cuts, line, triangles_);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-        const auto [position, normal] = triangles_[i];
+        const auto [position, normal, uv] = triangles_[i];
         (text_.statements += i % 3 == 0 ? "f " : " ") += std::to_string(position + 1);
-        if (normal != kNoNormal) text_.statements += "//" + std::to_string(normal + 1);
+        if (uv != kNone || normal != kNone) text_.statements += '/';
+        if (uv != kNone) text_.statements += std::to_string(uv + 1);
+        if (normal != kNone) (text_.statements += '/') += std::to_string(normal + 1);
         if (i % 3 == 2) text_.statements += '\n';
     }
     has_faces_ = true;
 }
 
+/// x y z, then nothing, w, r g b, or w r g b.
+void Reader::position(const Line& line) {
+    context_.account.positions.add(1, *line.file, ":", line.number);
+    text_.positions.push_back(vector_of(line));
+    const std::size_t count = count_words(line.rest);
+    if (count < 6 && text_.colours.empty()) return;
+    text_.colours.resize(text_.positions.size(), vec3(1));
+    if (count < 6) return;
+    const std::vector<double> rgb = numbers(line, words(line), count > 6 ? 4 : 3, 3);
+    text_.colours.back() = vec3(glm::clamp(dvec3(rgb[0], rgb[1], rgb[2]), 0.0, 1.0));
+}
+
+void Reader::texture_coordinates(const Line& line) {
+    context_.account.attributes.add(1, *line.file, ":", line.number);
+    std::string_view rest = line.rest;
+    const double u = number_of(line, take_word(rest));
+    const bool has_v = !rest.empty() && rest.front() != '#';
+    text_.uv.emplace_back(u, has_v ? number_of(line, take_word(rest)) : 0);
+}
+
 void Reader::definition(const Line& line) {
     if (line.keyword == "v") {
-        context_.account.positions.add(1, *line.file, ":", line.number);
-        text_.positions.push_back(vector_of(line));
+        position(line);
+    } else if (line.keyword == "vt") {
+        texture_coordinates(line);
     } else if (line.keyword == "vn") {
         context_.account.normals.add(1, *line.file, ":", line.number);
         text_.normals.push_back(vector_of(line));
@@ -160,6 +199,8 @@ void Reader::definition(const Line& line) {
         add_remark(text_.remarks, line, context_.account);
     } else if (line.keyword != "f" && line.keyword != "o" && line.keyword != "g" &&
                line.keyword != "usemtl") {
+        if (line.keyword == "p" || line.keyword == "l")
+            add_gap(context_.gaps, "points-lines", line.where());
         unread_.add(line);
     }
 }
@@ -167,6 +208,7 @@ void Reader::definition(const Line& line) {
 void Reader::use(const Line& line) {
     if (line.keyword == "v") ++positions_;
     if (line.keyword == "vn") ++normals_;
+    if (line.keyword == "vt") ++uvs_;
     if (line.keyword == "f") face(line);
     if (line.keyword == "o" || line.keyword == "g") group(line);
     if (line.keyword == "usemtl") use_material(line);
@@ -183,6 +225,8 @@ Text Reader::finish() {
 Text read_text(const std::string& file, Context& context) {
     Reader reader(file, context);
     const std::string bytes = context.files.read_scene();
+    check(!bytes.starts_with("\xff\xfe") && !bytes.starts_with("\xfe\xff"), Failure::bad_data, file,
+          ": wanted text in UTF-8, found UTF-16");
     for_each_line(file, bytes, [&](const Line& line) { reader.definition(line); });
     reader.name_materials();
     for_each_line(file, bytes, [&](const Line& line) { reader.use(line); });

@@ -4,6 +4,7 @@
 #include "scene/notes.hpp"
 #include "scene/scene.hpp"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -66,12 +67,27 @@ private:
     std::map<std::string, Count, std::less<>> counts_;
 };
 
-/// Material libraries as tinyobjloader is given them, all in one: nothing but `newmtl NUMBER`, Kd,
-/// Ks, Ke and `illum 3`, checked.
+/// A map of a material: `file` as it is called, and where it lies; empty: it is not there.
+struct MapUse {
+    std::string file, place;
+    std::filesystem::path real;
+    std::array<double, 2> scale{1, 1}, offset{0, 0}; ///< v upwards
+    bool is_clamped = false;
+};
+
+/// What a library says of a material.
+struct Draft {
+    std::string name, place;
+    std::optional<dvec3> diffuse, specular;
+    vec3 emission{0};
+    std::optional<double> shininess, ior, roughness, metallic, kind, alpha;
+    std::optional<MapUse> colour, cut;
+    bool two_sided = false, fixed_normals = false; ///< `# catoptric` comments
+};
+
+/// Material libraries, all in one.
 struct Library {
-    std::string statements;
-    std::vector<bool> two_sided;    ///< by number
-    std::vector<std::string> names; ///< by number: tinyobjloader would end a line at a '\r' in one
+    std::vector<Draft> drafts;
 };
 
 /// What reading needs beside the text.
@@ -79,14 +95,15 @@ struct Context {
     Files& files;
     Account& account;
     Notes& notes;
+    std::vector<Gap>& gaps;
 };
 
 /// Adds what one .mtl file says of materials.
 void read_materials(const std::filesystem::path& real, const std::string& place, Context& context,
                     Library& library);
-/// In file order (mirror = illum 3 with Ks, light = Ke).
-std::vector<Material> materials_of(const Library& library,
-                                   const std::vector<tinyobj::material_t>& read);
+/// In file order, as scene.md has them; their pictures are read. Throws `bad_data` for one that
+/// cannot be decoded.
+std::vector<Material> materials_of(const Library& library, Context& context);
 
 /// What the `# catoptric` comments say about objects, by name:
 ///   # catoptric camera NAME ex ey ez tx ty tz ux uy uz fov
@@ -95,28 +112,26 @@ std::vector<Material> materials_of(const Library& library,
 ///       (cubic: t, in-tangent, value, out-tangent)
 ///   # catoptric sphere OBJECT cx cy cz r
 ///   # catoptric hidden OBJECT            (camera rays pass through it)
-///   # catoptric exposure STOPS           (of the scene)
+///   # catoptric exposure STOPS
 struct Remarks {
+    std::optional<double> exposure;
     std::vector<Camera> cameras;
     std::map<std::string, Motion> motions;
     std::map<std::string, Sphere> spheres;
     std::map<std::string, bool> hidden;
-    std::optional<double> exposure;
     std::map<std::string, std::string> named_at; ///< each object named, and the line that does
 };
 
 /// Adds one comment line. Throws `bad_data` naming it for one that cannot be understood.
 void add_remark(Remarks& remarks, const Line& line, Account& account);
 
-/// The file that a map statement of a material names, after its options.
-std::string map_file(const Line& line);
-
 /// A corner of a face: numbers from 0.
 struct Corner {
     std::uint32_t position;
-    std::uint32_t normal; ///< `kNoNormal`: none
+    std::uint32_t normal; ///< `kNone`: none
+    std::uint32_t uv;     ///< `kNone`: none
 };
-inline constexpr std::uint32_t kNoNormal = ~0u;
+inline constexpr std::uint32_t kNone = ~0u;
 
 /// An .obj file for tinyobjloader.
 struct Text {
@@ -124,11 +139,13 @@ struct Text {
     std::string statements = "mtllib all\no 0\n";
     std::vector<std::string> names{1};     ///< of shapes; the first has none
     std::vector<dvec3> positions, normals; ///< exact; tinyobjloader's are floats
+    std::vector<vec3> colours;             ///< of positions, or none
+    std::vector<vec2> uv;                  ///< v upwards
     Library library;
     Remarks remarks;
 };
 
-/// Throws `missing_input` for a material library, `bad_data` with file and line.
+/// Throws `bad_data` with file and line.
 Text read_text(const std::string& file, Context& context);
 
 /// Cuts a polygon into triangles and appends their corners: a convex quad along its shorter

@@ -40,6 +40,22 @@ std::size_t drop_flat_triangles(Mesh& mesh) {
                          [&](const uvec3& t) { return normal_of(mesh, t) == dvec3(0); });
 }
 
+/// One element for each vertex, or none at all.
+template <typename Value>
+void repeat(std::vector<Value>& list, std::uint32_t vertex) {
+    if (!list.empty()) list.push_back(Value(list[vertex]));
+}
+
+template <typename Value>
+void keep(std::vector<Value>& list, std::size_t to, std::size_t from) {
+    if (!list.empty()) list[to] = list[from];
+}
+
+template <typename Value>
+void shorten(std::vector<Value>& list, std::size_t count) {
+    if (!list.empty()) list.resize(count);
+}
+
 /// Gives every corner without a normal a vertex of its own.
 void complete_normals(Mesh& mesh) {
     mesh.normals.resize(mesh.positions.size(), vec3(0));
@@ -56,6 +72,7 @@ void complete_normals(Mesh& mesh) {
             const dvec3 position = mesh.positions[vertex];
             mesh.positions.push_back(position);
             mesh.normals.push_back(geometric);
+            repeat(mesh.uv[0], vertex), repeat(mesh.uv[1], vertex), repeat(mesh.colours, vertex);
         }
     }
 }
@@ -68,10 +85,12 @@ void drop_unused_vertices(Mesh& mesh) {
         if (renamed[i] == 0) continue;
         mesh.positions[kept] = mesh.positions[i];
         mesh.normals[kept] = mesh.normals[i];
+        keep(mesh.uv[0], kept, i), keep(mesh.uv[1], kept, i), keep(mesh.colours, kept, i);
         renamed[i] = kept++;
     }
     mesh.positions.resize(kept);
     mesh.normals.resize(kept);
+    shorten(mesh.uv[0], kept), shorten(mesh.uv[1], kept), shorten(mesh.colours, kept);
     for (uvec3& t : mesh.triangles) t = {renamed[t.x], renamed[t.y], renamed[t.z]};
 }
 
@@ -106,7 +125,7 @@ bool is_radiance(const vec3& emission) {
     return is_finite(emission) && glm::all(glm::greaterThanEqual(emission, vec3(0)));
 }
 
-void finish(Scene& scene, const std::string& file, Notes& notes) {
+void finish(Scene& scene, const std::string& file, Notes& notes, std::vector<Gap> gaps) {
     for (const Object& object : scene.objects)
         for (const dvec3& position : scene.meshes[object.mesh].positions)
             check(is_in_range(transform_point(object.world_from_object, position)),
@@ -119,12 +138,16 @@ void finish(Scene& scene, const std::string& file, Notes& notes) {
     });
     for (const std::string& name : leave_out_unreachable(scene))
         notes.add("objects farther away than floats reach, left out", in_quotes(name));
+    const auto lines = std::ranges::find(gaps, "points-lines", &Gap::id);
     check(!scene.objects.empty(), Failure::bad_data, file,
-          ": wanted at least one triangle with an area, found none");
+          ": wanted at least one triangle with an area, found none",
+          lines == gaps.end() ? "" : ", only points or lines, which are not drawn");
+    scene.gaps = std::move(gaps);
     scene.warnings = notes.lines(file);
-    const bool is_lit = std::ranges::any_of(scene.objects, [&](const Object& object) {
-        return light_of(scene.materials[object.material]) != vec3(0);
-    });
+    const bool is_lit = !scene.punctual.empty() ||
+                        std::ranges::any_of(scene.objects, [&](const Object& object) {
+                            return light_of(scene.materials[object.material]) != vec3(0);
+                        });
     if (!is_lit) scene.warnings.push_back(file + ": no light: ambient only");
 }
 

@@ -22,9 +22,9 @@ std::size_t corners_without_normal(const Mesh& mesh);
 /// True for an emission that can be: each component finite and at least 0.
 bool is_radiance(const vec3& emission);
 
-/// Drops objects that have no triangle with an area; turns notes into the scene's warnings, and
-/// adds one where nothing gives light. Throws `bad_data` naming `file` when no object is left, or
-/// when one reaches beyond what double precision holds.
-void finish(Scene& scene, const std::string& file, Notes& notes);
+/// Drops objects that have no triangle with an area; turns notes into the scene's warnings,
+/// gaps into its gaps, and adds one where nothing gives light. Throws `bad_data` naming `file` when
+/// no object is left, or when one reaches beyond what double precision holds.
+void finish(Scene& scene, const std::string& file, Notes& notes, std::vector<Gap> gaps = {});
 
 } // namespace catoptric::scene

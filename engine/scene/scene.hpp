@@ -4,6 +4,7 @@
 #include "scene/environment.hpp"
 #include "scene/gap.hpp"
 #include "scene/material.hpp"
+#include "scene/motion.hpp"
 
 #include <array>
 #include <filesystem>
@@ -11,7 +12,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 /// A scene is plain data in world units, in double precision until it is rebased for the device.
@@ -28,30 +28,6 @@ struct Mesh {
     std::array<std::vector<vec2>, 2> uv;
     std::vector<vec4> colours; ///< one per position, linear with alpha, or none, which is 1
 };
-
-/// translation(t) = amplitude * (1 - cos(2 pi t / period)), world units; 0 at t = 0.
-struct Harmonic {
-    dvec3 amplitude{0};
-    double period = 1; ///< seconds, > 0
-};
-
-/// Places in time, cubic Hermite as glTF's CUBICSPLINE (or linear or step).
-struct Keys {
-    enum class Interpolation { step, linear, cubic } interpolation = Interpolation::linear;
-    std::vector<double> times; ///< seconds, increasing
-    std::vector<dvec3> values;
-    std::vector<dvec3> in_tangents, out_tangents; ///< only with `cubic`
-};
-
-/// World-space translation through keys, world_from_keys * (place - rest), relative to the object's
-/// place at rest; repeats after the last key. Objects share the keys that they follow.
-struct Keyframes {
-    std::shared_ptr<const Keys> keys; ///< none, or without a time: stands still
-    dmat3 world_from_keys{1};
-    dvec3 rest{0};
-};
-
-using Motion = std::variant<std::monostate, Harmonic, Keyframes>;
 
 /// An exact sphere in world space, where the object's mesh approximates one.
 struct Sphere {
@@ -80,6 +56,7 @@ struct Camera {
     dvec3 up{0, 1, 0};
     double vertical_fov_degrees = 45;
     double orthographic_height = 0; ///< of the picture, world units; 0: in perspective
+    Follows follows;                ///< the node that it rides on
     bool operator==(const Camera&) const = default;
 };
 
@@ -125,14 +102,14 @@ struct Scene {
     std::vector<std::filesystem::path> files;
 };
 
-/// The keys with their places and tangents as the world has them, relative to the object's rest.
-Keys in_the_world(const Keyframes& motion);
-
 /// The scene as it stands `seconds` after its start: every motion applied to the transforms (and
-/// to the exact spheres), none left. Pure. A time that is not finite is `Failure::usage`.
+/// to the exact spheres), cameras and lights without a surface too, none left. Pure. A time that is
+/// not finite is `Failure::usage`.
 Scene at(const Scene& scene, double seconds);
+/// The same of one camera.
+Camera camera_at(const Camera& camera, double seconds);
 
-/// True when some object moves.
+/// True when some object or light moves.
 bool is_animated(const Scene& scene);
 /// The longest period of all motions, seconds; 0 when nothing moves.
 double period(const Scene& scene);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace catoptric::scene {
@@ -43,6 +44,69 @@ Mesh quad(std::string name, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
             .positions = {a, b, c, d},
             .normals = std::vector<vec3>(4, normal),
             .triangles = {{0, 1, 2}, {0, 2, 3}}};
+}
+
+Mesh box(std::string name, dvec3 lo, dvec3 hi) {
+    Mesh box{.name = std::move(name)};
+    for (int face = 0; face < 6; ++face) {
+        const Mesh side = wall(face, hi, lo); // turned outwards: low and high exchanged
+        const auto first = static_cast<Vertex>(box.positions.size());
+        box.positions.insert(box.positions.end(), side.positions.begin(), side.positions.end());
+        box.normals.insert(box.normals.end(), side.normals.begin(), side.normals.end());
+        box.uv[0].insert(box.uv[0].end(), {{0, 1}, {1, 1}, {1, 0}, {0, 0}});
+        for (const uvec3& triangle : side.triangles) box.triangles.push_back(triangle + first);
+    }
+    return box;
+}
+
+Mesh lathe(std::string name, const std::vector<dvec2>& profile, int around) {
+    Mesh mesh{.name = std::move(name)};
+    const auto along = [&](std::size_t i) { // zero where the point is given twice
+        return i + 1 < profile.size() ? profile[i + 1] - profile[i] : dvec2(0);
+    };
+    const auto turned = [](const dvec2& way) { // the outside of a way
+        const double length = glm::length(way);
+        return length > 0 ? dvec2(way.y, -way.x) / length : dvec2(0);
+    };
+    double length = 0, far = 0;
+    for (std::size_t i = 0; i < profile.size(); ++i) length += glm::length(along(i));
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+        const dvec2 before = i > 0 ? turned(along(i - 1)) : dvec2(0), after = turned(along(i));
+        const dvec2 sum = before + after;
+        const dvec2 normal = sum / std::max(glm::length(sum), 1e-9);
+        for (int k = 0; k <= around; ++k) {
+            const double angle = 2 * std::numbers::pi * k / around;
+            const dvec3 out(std::cos(angle), 0, -std::sin(angle));
+            mesh.positions.push_back(profile[i].x * out + dvec3(0, profile[i].y, 0));
+            mesh.normals.push_back(vec3(normal.x * out + dvec3(0, normal.y, 0)));
+            mesh.uv[0].push_back(vec2(dvec2(double(k) / around, 1 - far / length)));
+        }
+        far += glm::length(along(i));
+    }
+    const auto row = static_cast<Vertex>(around + 1);
+    for (Vertex i = 0; i + 1 < profile.size(); ++i) {
+        if (along(i) == dvec2(0)) continue;
+        for (Vertex k = 0; k + 1 < row; ++k) {
+            const Vertex a = i * row + k, b = a + 1, c = b + row, d = a + row;
+            if (profile[i].x > 0) mesh.triangles.emplace_back(a, b, c);
+            if (profile[i + 1].x > 0) mesh.triangles.emplace_back(a, c, d);
+        }
+    }
+    return mesh;
+}
+
+Mesh torus(std::string name, double radius, double thickness, int around) {
+    std::vector<dvec2> ring;
+    for (int k = 0; k <= around / 2; ++k) {
+        const double angle = 4 * std::numbers::pi * k / around;
+        ring.push_back({radius + thickness * std::cos(angle), thickness * std::sin(angle)});
+    }
+    Mesh mesh = lathe(std::move(name), ring, around);
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i) { // also where the ring closes
+        const dvec3 out = mesh.positions[i] * dvec3(1, 0, 1);
+        mesh.normals[i] = vec3(glm::normalize(mesh.positions[i] - radius * glm::normalize(out)));
+    }
+    return mesh;
 }
 
 Mesh wall(int face, dvec3 lo, dvec3 hi) {

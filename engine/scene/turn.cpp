@@ -1,7 +1,9 @@
 // Which way is up.
 #include "scene/wishes.hpp"
 
-#include <type_traits>
+#include <map>
+#include <memory>
+#include <utility>
 #include <variant>
 
 namespace catoptric::scene {
@@ -18,24 +20,45 @@ void turn(dmat4& world_from) {
         world_from[column] = dvec4(turned(dvec3(world_from[column])), world_from[column].w);
 }
 
-void turn(std::monostate&) {}
-void turn(Harmonic& motion) { motion.amplitude = turned(motion.amplitude); }
-void turn(Keyframes& motion) { motion.world_from_keys = kTurn * motion.world_from_keys; }
+/// Turns motions; objects that share a rig share the turned one.
+class Turner {
+public:
+    void operator()(std::monostate&) {}
+    void operator()(Harmonic& motion) { motion.amplitude = turned(motion.amplitude); }
+    void operator()(Keyframes& motion) { motion.world_from_keys = kTurn * motion.world_from_keys; }
+    void operator()(Follows& motion) {
+        if (!motion.rig) return;
+        std::shared_ptr<const Rig>& known = rigs_[motion.rig];
+        if (!known) {
+            Rig rig = *motion.rig;
+            for (Rig::Node& node : rig.nodes)
+                if (!node.parent) turn(node.parent_from_space);
+            known = std::make_shared<const Rig>(std::move(rig));
+        }
+        motion.rig = known;
+    }
+
+private:
+    std::map<std::shared_ptr<const Rig>, std::shared_ptr<const Rig>> rigs_;
+};
 
 } // namespace
 
 void turn_z_up(Scene& scene) {
-    const auto turn_motion = [](Motion& motion) {
-        std::visit([](auto& its) { turn(its); }, motion);
+    Turner turner;
+    const auto turn_motion = [&](Motion& motion) {
+        std::visit([&](auto& its) { turner(its); }, motion);
     };
     for (Object& object : scene.objects) {
         turn(object.world_from_object);
         turn_motion(object.motion);
         if (object.sphere) object.sphere->centre = turned(object.sphere->centre);
     }
-    for (Camera& camera : scene.cameras)
-        camera.eye = turned(camera.eye), camera.target = turned(camera.target),
+    for (Camera& camera : scene.cameras) {
+        camera.eye = turned(camera.eye), camera.target = turned(camera.target);
         camera.up = turned(camera.up);
+        turner(camera.follows);
+    }
     for (Punctual& light : scene.punctual) {
         turn(light.world_from_light);
         turn_motion(light.motion);

@@ -5,6 +5,18 @@
 #define CATOPTRIC_LIGHTING_GLSL
 
 #include "lib/bindings.glsl"
+#include "lib/environment.glsl"
+#include "lib/lights.glsl"
+
+// As light_term, for lights of every kind.
+bool arrives(uint light, vec3 position, vec3 normal, out vec3 direction, out float distance, out float factor) {
+    if (is_directional(light)) return parallel_term(normal, lights[light].forward, direction, distance, factor);
+    if (!light_term(position, normal, lights[light].position, lights[light].normal, direction, distance, factor)) return false;
+    if (light_kinds == 0u) return true;
+    float cosine = -dot(direction, lights[light].forward);
+    factor *= range_share(distance, lights[light].reach) * cone_share(cosine, lights[light].cos_outer, lights[light].sharpness);
+    return factor > 0.0;
+}
 
 vec3 shade(Surface surface, vec3 position, vec3 normal) {
     vec3 direct = vec3(0);
@@ -12,11 +24,12 @@ vec3 shade(Surface surface, vec3 position, vec3 normal) {
         vec3 direction;
         float distance, factor;
         if (surface.albedo == vec3(0) ||
-            !light_term(position, normal, lights[light].position, lights[light].normal, direction, distance, factor))
+            !arrives(light, position, normal, direction, distance, factor))
             continue;
         float visible = light_visible(light, position, normal, direction, distance);
         direct += lights[light].intensity * (factor * visible);
     }
+    if (environment_kind != kNoEnvironment) direct += sky_light(normal);
     return lambert(surface.emission, surface.albedo, direct, frame.value.ambient);
 }
 

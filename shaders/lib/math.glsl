@@ -33,6 +33,8 @@ INLINE real largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 // The rest by what it is about; each may use those above it.
 #include "lib/math/light.glsl"
+#include "lib/math/environment.glsl"
+#include "lib/math/surface.glsl"
 #include "lib/math/ray.glsl"
 #include "lib/math/leaving.glsl"
 #include "lib/math/own_space.glsl"

@@ -70,10 +70,12 @@ End captured_end(uint mirror, Lookup lookup) {
     return end;
 }
 
-vec3 shaded(Point at, uint by) {
+// Its own light, seen from where `direction` comes from.
+vec3 shaded(Point at, vec3 direction, uint by) {
     shadow_by = by;
+    Surface surface = surface_at(at, direction);
     point = at; // whose shadow rays start there
-    return shade(surfaces[at.object], at.position, at.normal);
+    return shade(surface, at.position, at.normal);
 }
 
 // Of what the search looked up, with texels or shadows mended.
@@ -84,11 +86,11 @@ vec3 looked_up(Path path, Lookup lookup, End target, bool is_target) {
     End captured = target;
     if (!is_target) captured = captured_end(path.mirror, lookup);
     if (captured.mirror != 0u) return colour; // its picture in the capture stays as it is
-    if (!captured.meets) return mends(kMendTexels) ? vec3(0) : colour;
+    if (!captured.meets) return mends(kMendTexels) ? environment(lookup.direction) : colour;
     uint by = mends(kMendShadows) ? kShadowRay : shadow;
-    vec3 truth = shaded(captured.point, by);
+    vec3 truth = shaded(captured.point, lookup.direction, by);
     // The texels were lit through the map: what a ray would have changed.
-    return mends(kMendTexels) ? truth : colour + truth - shaded(captured.point, shadow);
+    return mends(kMendTexels) ? truth : colour + truth - shaded(captured.point, lookup.direction, shadow);
 }
 
 vec3 mended_radiance(Path path, Lookup lookup) {
@@ -115,20 +117,20 @@ vec3 mended_radiance(Path path, Lookup lookup) {
     bool asks_hidden = in_capture && (mends(kMendHidden) || mends(kMendDirection));
     bool is_hidden = asks_hidden && exact_distance(path.mirror, to_target) < distance * (1.0 - kInTheWay);
     bool along_search = is_hidden && mends(kMendHidden);
-    vec3 result;
+    vec3 result = details != 0u ? shaded(first.point, camera.direction, mends(kMendShadows) ? kShadowRay : shadow) : vec3(0);
     // What is hidden or left out has no direction that shows it.
     bool is_shown = in_capture && !is_hidden;
     if (from_camera || along_search) {
         bool whole = from_camera || path.hops == 0u;
         if (!whole) camera = search_ray;
         uint met;
-        result = (whole ? vec3(1) : path.weight) * radiance(camera, whole ? 0u : 1u + path.hops, met);
+        result = (whole ? vec3(0) : result) + (whole ? vec3(1) : path.weight) * radiance(camera, whole ? 0u : 1u + path.hops, met);
     } else {
         if (mends(kMendDirection) && is_shown) {
             lookup = Lookup(normalize(to_target), kHit, 0.0, 0.0);
             look_at(target.meets ? distance : 0.0);
         }
-        result = path.weight * looked_up(path, lookup, target, mends(kMendDirection) && is_shown);
+        result += path.weight * looked_up(path, lookup, target, mends(kMendDirection) && is_shown);
     }
     return trace_exhausted ? vec3(uintBitsToFloat(0x7fc00000u)) : result;
 }

@@ -9,6 +9,9 @@
 #include "lib/constants.glsl"
 #include "lib/probe.glsl"
 #include "lib/surface.glsl"
+#ifdef LIT
+#include "lib/lit.glsl"
+#endif
 
 // Other mirrors that the reflected ray is followed through. Exact spheres are met before the search, where a
 // test of the ray costs no fetch; those of any other shape where a search ends on them.
@@ -57,8 +60,13 @@ bool next_mirror(Path path, out uint next, out float t) {
     return found;
 }
 
-// A mirror without a capture is black where others show it.
-vec3 reflectance_of(uint mirror) { return is_captured(mirror) ? probes[mirror].reflectance : vec3(0); }
+// Of a ray that meets the mirror. A mirror without a capture is black where others show it.
+vec3 reflectance_of(uint mirror, vec3 direction, vec3 n) {
+    if (!is_captured(mirror)) return vec3(0);
+    vec3 reflectance = probes[mirror].reflectance;
+    bool is_metal = details != 0u && probes[mirror].kind == kProbeMetal;
+    return is_metal ? schlick(reflectance, vec3(1), abs(dot(n, direction))) : reflectance;
+}
 
 // On from the exact sphere that the ray meets next, if there is one in sight.
 bool follow_sphere(inout Path path) {
@@ -72,7 +80,7 @@ bool follow_sphere(inout Path path) {
     if (captured_distance(path.mirror, normalize(seen)) + probes[next].radius < length(seen)) return false;
     vec3 n = (met - probes[next].sphere) / probes[next].radius;
     path = Path(next, met, mirror_direction(path.direction, n, n), probes[next].centre,
-                path.weight * reflectance_of(next), path.hops + 1u);
+                path.weight * reflectance_of(next, path.direction, n), path.hops + 1u);
     return true;
 }
 
@@ -82,12 +90,13 @@ bool follow_captured(inout Path path, Lookup lookup) {
     if (lookup.state != kHit || lookup.layer != 0.0 || !is_mirror(surface)) return false;
     uint next = uint(surface.x) - 1u;
     if (probes[next].radius > 0.0) return false; // an exact sphere that the ray is known to miss
+    if (details != 0u && probes[next].kind == kProbeLit) return false; // only the capture knows its own light
     vec3 n = normalize(surface.yzw);
     vec3 seen = path.centre + lookup.direction * captured_distance(path.mirror, lookup.direction);
     float t = dot(seen - path.at, n) / dot(path.direction, n);
     if (!(is_finite(t) && t > 0.0)) return false;
     path = Path(next, path.at + path.direction * t, mirror_direction(path.direction, n, n), probes[next].centre,
-                path.weight * reflectance_of(next), path.hops + 1u);
+                path.weight * reflectance_of(next, path.direction, n), path.hops + 1u);
     return true;
 }
 
@@ -169,13 +178,19 @@ void main() {
 #ifdef PEEL
     if (is_peeled()) discard; // not before the derivatives
 #endif
-    Path path = Path(draw.surface.mirror - 1u, surface_position(), mirror_direction(normalize(from_eye), normalize(normal), facet),
-                     draw.probe_centre, draw.surface.reflectance, 0u);
+    leave_out_what_is_cut();
+    vec3 n = normalize(normal);
+    Surface surface = surface_here(n, facet);
+    Path path = Path(draw.surface.mirror - 1u, surface_position(), mirror_direction(normalize(seen_along()), n, facet),
+                     draw.probe_centre, surface.reflectance, 0u);
     Lookup lookup = follow(path);
 #ifdef MEND
     vec3 colour = mended_radiance(path, lookup);
 #else
     vec3 colour = path.weight * lookup_colour(path.mirror, lookup);
+#ifdef LIT
+    colour += shade(surface, surface_position(), n);
+#endif
 #endif
     write_surface(shown(colour, lookup));
     if (tracer != 0u && (trusts_none != 0u || lookup.state == kUnknown)) out_distance = float(tracer);

@@ -3,6 +3,7 @@
 #define CATOPTRIC_PROBE_GLSL
 
 #include "lib/captures.glsl"
+#include "lib/environment.glsl"
 
 // A hit: the search ended on a captured surface. Unknown: the ray went behind something that hides
 // the rest of it from the capture's centre. A miss: the ray leaves without meeting anything captured.
@@ -17,7 +18,7 @@ struct Lookup {
 };
 
 // Lookup::layer of an unknown whose best guess is that the ray leaves: it went behind a silhouette beside
-// which nothing was captured. Its direction is the ray's own, and it sees nothing.
+// which nothing was captured. Its direction is the ray's own, and it sees the environment.
 const float kLeaves = 1.0;
 
 // 1: colours are mixed only from texels of one object.
@@ -77,9 +78,10 @@ vec3 captured_colour(uint mirror, vec3 direction) {
     return by_object != 0u ? colour_of_object(mirror, direction) : bilinear_colour(mirror, direction);
 }
 
-// What a search that captures one layer found: nothing where it takes the ray to leave.
+// What a search that captures one layer found: the environment where it takes the ray to leave.
 vec3 found_colour(uint mirror, Lookup lookup) {
-    if (lookup.state == kUnknown && lookup.layer == kLeaves) return vec3(0);
+    bool leaves = lookup.state == kUnknown && lookup.layer == kLeaves;
+    if (leaves || (environment_kind != kNoEnvironment && lookup.state == kMiss)) return environment(lookup.direction);
     return captured_colour(mirror, lookup.direction);
 }
 

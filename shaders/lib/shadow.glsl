@@ -4,6 +4,7 @@
 #define CATOPTRIC_SHADOW_GLSL
 
 #include "lib/bindings.glsl"
+#include "lib/lights.glsl"
 
 // Four taps lie within one texel of the looked-up point along each axis. A plane tilted by theta
 // against the face then shades itself unless the point is lifted off it by sqrt(2) texels * sin(theta);
@@ -17,9 +18,28 @@ vec3 in_light_frame(uint light, vec3 v) {
     return vec3(dot(lights[light].right, v), -dot(lights[light].down, v), dot(lights[light].forward, v));
 }
 
+// The same of a directional light: two windows of its map around one axis, the second over all that casts a shadow.
+float parallel_map_visible(uint light, vec3 position, vec3 normal, float error) {
+    float edge = float(textureSize(shadow_map, 0).x);
+    for (uint window = 0u; window < 2u; ++window) {
+        View view = views[1u + 6u * frame.value.mirror_count + frame.value.shadow_faces * light + window];
+        float texel = 2.0 / (edge * min(length(view.right), length(view.down)));
+        float cosine = dot(normal, view.forward), sine = sqrt(max(0.0, 1.0 - cosine * cosine));
+        vec3 v = position - view.eye + normal * (kLiftTexels * texel * sine + error);
+        vec2 place = vec2(dot(view.right, v), dot(view.down, v));
+        if (max(abs(place.x), abs(place.y)) > 1.0 - 2.0 / edge) continue;
+        // By as much depth as the receiver's plane has in the window: that is interpolated.
+        float slack = kDepthError * (1.0 + view.near * edge * texel * sine / max(abs(cosine), kDepthError));
+        float depth = 1.0 - view.near * dot(view.forward, v) + slack;
+        return texture(shadow_map, vec4(place * 0.5 + 0.5, float(light * frame.value.shadow_faces + window), depth));
+    }
+    return 1.0;
+}
+
 // Share of the light that reaches the point, 0 to 1 (2x2 percentage-closer filtering). `normal` faces the light;
 // `error`: how far the point may be off along it.
 float shadow_map_visible(uint light, vec3 position, vec3 normal, float error) {
+    if (is_directional(light)) return parallel_map_visible(light, position, normal, error);
     vec3 v = in_light_frame(light, position - lights[light].position);
     vec3 n = in_light_frame(light, normal);
     int face = cube_face(v);

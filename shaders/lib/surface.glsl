@@ -2,13 +2,16 @@
 #ifndef CATOPTRIC_SURFACE_GLSL
 #define CATOPTRIC_SURFACE_GLSL
 
-#include "lib/bindings.glsl"
 #include "lib/constants.glsl"
+#include "lib/eye.glsl"
+#include "lib/material.glsl"
 
 layout(push_constant, scalar) uniform Push { Draw draw; };
 layout(location = 0) flat in vec3 eye;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 from_eye; // position - eye
+layout(location = 4) in vec4 in_uv; // see Attribute
+layout(location = 5) in vec4 in_colour;
 
 layout(location = 0) out vec4 out_colour;
 // Captures that hold distances keep them. A view that leaves pixels to tracing keeps which tracer takes each, from 1;
@@ -21,6 +24,9 @@ layout(location = 2) out vec4 out_more;
 // Where the surface is. A perspective interpolation errs along the ray from the eye, by a part of its length: the floor
 // that a low eye sees stays a floor. Interpolated itself, the position would err towards the origin instead.
 vec3 surface_position() { return eye + from_eye; }
+
+// The way that who looks looks here, of any length.
+vec3 seen_along() { return orthographic != 0u ? views[draw.first_view].forward : from_eye; }
 
 // How far that may be off along a unit normal. No specification bounds what a rasteriser's interpolation may do:
 // 2^-16 of the way along the ray and 2^-20 across it are some ten times what was seen (docs/extremes.md).
@@ -46,6 +52,22 @@ bool is_peeled() {
     return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + half_step) || !(dot(normal, from_eye) < 0.0);
 }
 #endif
+
+// Before anything is written, after the derivatives.
+void leave_out_what_is_cut() {
+    if (masks != 0u && is_cut_out(draw.object, Attribute(in_uv, in_colour))) discard;
+}
+
+// The object's surface here. `facet`: along its triangle's normal.
+Surface surface_here(inout vec3 n, vec3 facet) {
+    Surface surface = draw.surface;
+    if (details != 0u) {
+        vec3 direction = normalize(seen_along());
+        n = turned_normal(draw.object, n, facet, direction);
+        evaluate(surface, draw.object, Attribute(in_uv, in_colour), -dot(n, direction));
+    }
+    return surface;
+}
 
 // Exact as a half; objects that far apart in the scene's list may share one.
 float surface_number() {

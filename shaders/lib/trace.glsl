@@ -2,7 +2,8 @@
 // The including shader defines BVH_NODES_BINDING and BVH_TRIANGLES_BINDING (set 0), and
 // TRACE_LOCAL_SIZE where its work group has not 64 invocations.
 // TRACE_PRIVATE_STACK: for stages that have no shared memory. TRACE_SEES(object): false for objects that
-// rays pass through.
+// rays pass through. TRACE_IS_THERE(stored triangle, object, barycentric): false where one of
+// kBvhMasked is cut out.
 // What makes it fast on a processor: uniform texel buffers, the stack in shared memory, lanes that
 // diverge. NAIVE is what one would write first, kept for the benchmark that shows it: storage
 // buffers, the stack in a private array.
@@ -115,6 +116,10 @@ void trace_triangle(uint place, Walked walked, uint skipped_flags, inout Hit bes
     bool seen = (skips == 0u || (skips == kBvhOneSided && !is_from_behind(a.xyz, b.xyz, c.xyz, ray.direction))) &&
                 triangle + 1u != ray.leaves && TRACE_SEES(object);
     bool nearer = t < best.t || (found && t == best.t && triangle < best.triangle);
+#ifdef TRACE_IS_THERE
+    if (masks != 0u && hit && seen && nearer && (flags & kBvhMasked) != 0u)
+        seen = TRACE_IS_THERE(triangle - walked.shift, object, barycentric(weights));
+#endif
     if (hit && seen && nearer) {
         best = Hit(t, weights, triangle, object, place, walked.record);
         found = true;

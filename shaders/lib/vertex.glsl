@@ -3,7 +3,8 @@
 #ifndef CATOPTRIC_VERTEX_GLSL
 #define CATOPTRIC_VERTEX_GLSL
 
-#include "lib/bindings.glsl"
+#include "lib/eye.glsl"
+#include "lib/material.glsl"
 
 layout(push_constant, scalar) uniform Push {
     Draw draw;
@@ -17,6 +18,8 @@ layout(location = 0) flat out vec3 out_eye;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_from_eye;
 layout(location = 3) flat out uint out_layer;
+layout(location = 4) out vec4 out_uv;
+layout(location = 5) out vec4 out_colour;
 
 invariant gl_Position;
 
@@ -37,7 +40,9 @@ void main() {
 #else
     vec3 v = position - view.eye;
 #endif
-    gl_Position = vec4(dot(view.right, v), dot(view.down, v), view.near, dot(view.forward, v));
+    float along = dot(view.forward, v);
+    gl_Position = vec4(dot(view.right, v), dot(view.down, v), view.near, along);
+    if (orthographic != 0u) gl_Position.zw = vec2(1.0 - view.near * along, 1.0);
 #ifdef LAYERED
     gl_Layer = gl_InstanceIndex;
 #endif
@@ -49,6 +54,11 @@ void main() {
 #endif
     out_from_eye = v;
     out_layer = uint(gl_InstanceIndex);
+    Attribute at = kNoAttribute;
+    if (details != 0u && (detail_of[draw.object].flags & kDetailAttributes) != 0u)
+        at = attributes[uint(gl_VertexIndex) + detail_of[draw.object].first_attribute];
+    out_uv = at.uv;
+    out_colour = at.colour;
 }
 
 #endif

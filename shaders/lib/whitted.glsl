@@ -5,22 +5,42 @@
 #ifndef CATOPTRIC_WHITTED_GLSL
 #define CATOPTRIC_WHITTED_GLSL
 
-#include "lib/bindings.glsl"
 #include "lib/constants.glsl"
+#include "lib/environment.glsl"
+#include "lib/eye.glsl"
+#include "lib/lights.glsl"
+#include "lib/material.glsl"
+
+// A texel a corner: its normal, and the number of its attribute as a word of engine/bvh/words.hpp.
+#ifdef NAIVE
+layout(set = 0, binding = NORMALS_BINDING, std430) readonly buffer Normals { vec4 normals[]; };
+#define CORNER(i) normals[i]
+#else
+layout(set = 0, binding = NORMALS_BINDING) uniform samplerBuffer normals;
+#define CORNER(i) texelFetch(normals, int(i))
+#endif
+#define NORMAL(i) CORNER(i).xyz
+
+Attribute attribute_of(uint corner) { return attributes[floatBitsToUint(CORNER(corner).w) & kBvhIdMask]; }
+
+// At a place of the triangle whose corners are stored from `corner` on.
+Attribute attribute_at(uint corner, vec3 barycentric) {
+    Attribute a = attribute_of(corner), b = attribute_of(corner + 1u), c = attribute_of(corner + 2u);
+    return Attribute(barycentric.x * a.uv + barycentric.y * b.uv + barycentric.z * c.uv,
+                     barycentric.x * a.colour + barycentric.y * b.colour + barycentric.z * c.colour);
+}
+bool has_attributes(uint object) { return (detail_of[object].flags & kDetailAttributes) != 0u; }
+bool is_there(uint triangle, uint object, vec3 barycentric) {
+    return !is_cut_out(object, has_attributes(object) ? attribute_at(3u * triangle, barycentric) : kNoAttribute);
+}
+#define TRACE_IS_THERE(triangle, object, barycentric) is_there(triangle, object, barycentric)
+
 #include "lib/trace.glsl"
 #ifdef SHADOW_MAP
 #include "lib/shadow.glsl"
 #endif
 #ifdef DOUBLES
 #include "lib/double_hit.glsl"
-#endif
-
-#ifdef NAIVE
-layout(set = 0, binding = NORMALS_BINDING, std430) readonly buffer Normals { vec4 normals[]; };
-#define NORMAL(i) normals[i].xyz
-#else
-layout(set = 0, binding = NORMALS_BINDING) uniform samplerBuffer normals;
-#define NORMAL(i) texelFetch(normals, int(i)).xyz
 #endif
 
 layout(constant_id = MAX_DEPTH_CONSTANT) const uint max_depth = 8u;
@@ -42,6 +62,7 @@ struct Point {
     uint object;
     uint leaves; // for the rays that start here (see Ray)
     uint inside; // the record of the thing in whose own space it lies; 0: none
+    Attribute at;
     vec3 arm;    // from that thing's centre, scene units, and the bound of its error
     vec3 arm_error;
 };
@@ -89,6 +110,8 @@ Point on_triangle(Hit hit) {
     uint corner = 3u * hit.triangle;
     if (own_spaces != 0u && hit.inside != 0u) corner -= 3u * number_shift(hit.inside);
     p.normal = normalize(w.x * NORMAL(corner) + w.y * NORMAL(corner + 1u) + w.z * NORMAL(corner + 2u));
+    p.at = kNoAttribute;
+    if (details != 0u && has_attributes(hit.object)) p.at = attribute_at(corner, w);
     p.inside = 0u;
     p.arm = p.arm_error = vec3(0);
     if (own_spaces != 0u && hit.inside != 0u) {
@@ -123,6 +146,7 @@ Point on_sphere(Ray ray, float t, uint object) {
     p.position = vec3(exact_point);
 #endif
     p.normal = p.facet = (p.position - surfaces[object].centre) / surfaces[object].radius;
+    p.at = kNoAttribute;
     p.object = object;
     p.leaves = 0u;
     p.inside = 0u;
@@ -137,6 +161,7 @@ Point on_own_sphere(Ray ray, vec3 low, Hit hit) {
     float radius = own_radius(hit.inside);
     p.position = sphere_point(vec3(0), radius, own_ray(place, ray, low), hit.t, p.error);
     p.normal = p.position / radius;
+    p.at = kNoAttribute;
     p.object = hit.object;
     p.leaves = 0u;
     put_into_scene(p, hit.inside);
@@ -166,6 +191,16 @@ bool trace_ray(Ray ray, uint skipped, out Point p) {
     return found;
 }
 
+// What the surface is at the point, whose normal turns to where `direction` comes from if it has two sides.
+Surface surface_at(inout Point p, vec3 direction) {
+    Surface surface = surfaces[p.object];
+    if (details != 0u) {
+        p.normal = turned_normal(p.object, p.normal, p.facet, direction);
+        evaluate(surface, p.object, p.at, -dot(p.normal, direction));
+    }
+    return surface;
+}
+
 // A ray that leaves the point along `direction`.
 vec3 leaving(Point p, vec3 direction) {
     if (own_spaces != 0u && p.inside != 0u)
@@ -182,6 +217,10 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
     vec3 origin = leaving(point, direction);
     Ray ray = Ray(origin, lights[light].position - origin, point.leaves);
     float t = keeps(kShadowEnd) ? kShadowRayEnd : 1.0;
+    if (is_directional(light)) {
+        ray.direction = direction;
+        t = kLargest;
+    }
     if (any_hit(ray, t, kBvhShadowless | passed_by())) return 0.0;
     uint object;
     return exact_spheres != 0u && nearest_sphere(ray, t, object) ? 0.0 : 1.0;
@@ -193,6 +232,9 @@ Ray camera_ray(vec2 place, uvec2 size) {
     View view = views[0];
     vec2 ndc = place / vec2(size) * 2.0 - 1.0;
     if (own_spaces != 0u) trace_low = view.eye_low;
+    if (orthographic != 0u)
+        return Ray(view.eye + (ndc.x * view.right / dot(view.right, view.right) + ndc.y * view.down / dot(view.down, view.down)),
+                   view.forward, 0u);
     return Ray(view.eye, normalize(view.forward + ndc.x * view.right / dot(view.right, view.right) +
                                    ndc.y * view.down / dot(view.down, view.down)), 0u);
 }
@@ -210,13 +252,19 @@ vec3 radiance(Ray ray, uint first, out uint met) {
     bool done = false;
     for (uint bounce = first; !done; ++bounce) {
         if (!trace_ray(ray, skipped, point)) {
+            if (environment_kind != kNoEnvironment) result += weight * environment(ray.direction);
             done = true;
             continue;
         }
-        Surface surface = surfaces[point.object];
+        Surface surface = surface_at(point, ray.direction);
         if (bounce < first + 2u) met |= surface.mirror << (16u * (bounce - first));
-        if (surface.mirror == 0u) {
-            result = weight * shade(surface, point.position, point.normal);
+        bool reflects = surface.mirror != 0u;
+        if (details != 0u) {
+            reflects = surface.reflectance != vec3(0);
+            if (reflects) result += weight * shade(surface, point.position, point.normal);
+        }
+        if (!reflects) {
+            result += weight * shade(surface, point.position, point.normal);
             done = true;
         } else if (bounce == max_depth) {
             done = true;

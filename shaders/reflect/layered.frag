@@ -157,7 +157,7 @@ float looked_at() { return found_distance; }
 void look_at(float distance) { found_distance = distance; }
 
 vec3 lookup_colour(uint mirror, Lookup lookup) {
-    if (!(found_distance > 0.0)) return vec3(0);
+    if (!(found_distance > 0.0)) return environment(lookup.direction);
     Taps taps = taps_at(mirror, lookup.direction);
     if (is_whole(on_surface(taps.first, found_distance))) return captured_colour(mirror, lookup.direction);
     vec4 second, in_first, in_second;

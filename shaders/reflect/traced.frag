@@ -6,6 +6,7 @@
 layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
 
 void main() {
+    leave_out_what_is_cut();
     write_surface(vec3(0));
     out_distance = float(tracer);
 }

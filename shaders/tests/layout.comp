@@ -14,6 +14,7 @@ layout(set = 0, binding = 5, scalar) readonly buffer Frames { Frame frames[2]; }
 layout(set = 0, binding = 6, scalar) readonly buffer Draws { Draw draws[2]; };
 layout(set = 0, binding = 7, scalar) readonly buffer Traces { Trace traces[2]; };
 layout(set = 0, binding = 8, scalar) readonly buffer AllCounters { Counters counters[2]; };
+layout(set = 0, binding = 10, scalar) readonly buffer Skies { Sky skies[2]; };
 layout(set = 0, binding = 9, scalar) writeonly buffer Words { uint words[]; };
 
 uint next = 0u;
@@ -31,10 +32,14 @@ void main() {
     put(surfaces[1]);
     Light l = lights[1];
     put(l.position), put(l.normal), put(l.intensity), put(l.right), put(l.down), put(l.forward), put(l.near);
+    put(l.reach), put(l.cos_outer), put(l.sharpness), put(l.directional);
     put(probes[1].centre), put(probes[1].sphere), put(probes[1].radius), put(probes[1].reflectance);
     put(probes[1].lowest), put(probes[1].highest);
     View v = views[1];
-    put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near), put(v.eye_low);
+    put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near), put(v.eye_low), put(v.parallel);
+    Sky s = skies[1];
+    put(s.size), put(s.scale), put(s.turn);
+    for (int i = 0; i < 9; ++i) put(s.irradiance[i]);
     Frame f = frames[1];
     put(f.ambient), put(f.light_count), put(f.mirror_count), put(f.object_count), put(f.shadow_faces);
     put(draws[1].first_view);

@@ -35,6 +35,10 @@ const std::vector<Member> kMembers{MEMBER(Vertex, position),
                                    MEMBER(Light, down),
                                    MEMBER(Light, forward),
                                    MEMBER(Light, near),
+                                   MEMBER(Light, reach),
+                                   MEMBER(Light, cos_outer),
+                                   MEMBER(Light, sharpness),
+                                   MEMBER(Light, directional),
                                    MEMBER(Probe, centre),
                                    MEMBER(Probe, sphere),
                                    MEMBER(Probe, radius),
@@ -47,6 +51,11 @@ const std::vector<Member> kMembers{MEMBER(Vertex, position),
                                    MEMBER(View, forward),
                                    MEMBER(View, near),
                                    MEMBER(View, eye_low),
+                                   MEMBER(View, parallel),
+                                   MEMBER(Sky, size),
+                                   MEMBER(Sky, scale),
+                                   MEMBER(Sky, turn),
+                                   MEMBER(Sky, irradiance),
                                    MEMBER(Frame, ambient),
                                    MEMBER(Frame, light_count),
                                    MEMBER(Frame, mirror_count),
@@ -74,7 +83,7 @@ constexpr std::uint32_t word(std::size_t i) { return 0x3f800000u + static_cast<s
 
 TEST(Layout, EveryMemberOfEveryStructureArrives) {
     auto& [device, pipelines] = test::bench();
-    constexpr std::size_t kWords = 64;
+    constexpr std::size_t kWords = 128;
     std::vector<std::uint32_t> words;
     for (std::size_t i = 0; i < kWords; ++i) words.push_back(word(i));
     gpu::Buffer input(device, "input", 4 * kWords, gpu::BufferUse::plain);
@@ -93,8 +102,8 @@ TEST(Layout, EveryMemberOfEveryStructureArrives) {
     graph.pass("layout")
         .writes(output, graph::Use::storage_write)
         .record([&](graph::Commands& commands) {
-            for (const char* name : {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Frames",
-                                     "Draws", "Traces", "AllCounters"})
+            for (const char* name : {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Skies",
+                                     "Frames", "Draws", "Traces", "AllCounters"})
                 commands.bind(name, input);
             commands.bind("Words", output);
             commands.use(gpu::ComputeState{"tests/layout.comp", {}});
@@ -115,7 +124,7 @@ TEST(Layout, TheMembersAboveAreAllMembers) {
         size[structure] = member.size_of_struct;
     }
     EXPECT_EQ(sum, size); // scalar layout: no padding, so nothing is left over
-    EXPECT_EQ(sum.size(), 9u);
+    EXPECT_EQ(sum.size(), 10u);
 }
 
 TEST(Layout, PushConstantsHaveTheSizeOfTheirStructure) {

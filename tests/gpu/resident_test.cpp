@@ -52,7 +52,7 @@ struct Live {
 
 TEST(Resident, WritesWhatDiffersAndNothingElse) {
     Live live;
-    EXPECT_EQ(live.update(), 7u) << "all lists but the empty one of what moves";
+    EXPECT_EQ(live.update(), 8u) << "all lists but the empty ones of what moves and of the sky";
     EXPECT_EQ(live.update(), 0u);
     live.camera.eye.x += .1;
     EXPECT_EQ(live.update(), 1u) << "views";
@@ -99,12 +99,25 @@ TEST(Resident, HierarchiesAreMadeForThoseWhoTrace) {
 void change(Live& live, test::Numbers& numbers) {
     const std::size_t object = numbers.below(live.now.objects.size());
     const dvec3 by = .2 * dvec3(numbers.in_cube());
-    switch (numbers.below(6)) {
+    switch (numbers.below(8)) {
     case 0: live.camera.eye += by; break;
     case 1: live.move_ball(by); break;
     case 2: live.place(object) += dvec4(by, 0); break; // lamps too
     case 3: live.now.objects[object].material = numbers.below(live.now.materials.size()); break;
     case 4: live.now.materials[numbers.below(3)].albedo.y = numbers.unit(); break;
+    case 5: // one more light without a surface, or the last one moves
+        if (live.now.punctual.empty() || numbers.below(2) == 0)
+            live.now.punctual.push_back(
+                {.kind = static_cast<scene::Punctual::Kind>(numbers.below(3)),
+                 .intensity = vec3(1)});
+        live.now.punctual.back().world_from_light[3] += dvec4(by, 0);
+        break;
+    case 6: {
+        scene::Environment studio{.studio = true};
+        studio.scale = numbers.unit();
+        live.now.environment = std::make_shared<const scene::Environment>(studio);
+        break;
+    }
     default: live.now.materials[3].emission *= .5f + numbers.unit(); break;
     }
 }

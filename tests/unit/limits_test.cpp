@@ -25,6 +25,24 @@ TEST(Limits, CountWhatASceneShows) {
     EXPECT_NO_THROW(render::check_limits("s", amounts, kRoomy));
 }
 
+TEST(Limits, CountTheEnvironment) {
+    scene::Scene room = test::room(0, 1);
+    scene::Environment map;
+    map.size = {8, 4};
+    map.texels.resize(32);
+    room.environment = std::make_shared<const scene::Environment>(map);
+    render::Limits limits = kRoomy;
+    const render::Amounts amounts = render::amounts_of(room);
+    EXPECT_EQ(amounts.environment_texels, 32u);
+    limits.texels = 63;
+    EXPECT_NO_THROW(render::check_limits("s", amounts, limits));
+    limits.texels = 31;
+    render::Amounts few = amounts;
+    few.triangles = 2;
+    EXPECT_EQ(refusal(few, limits),
+              "scene 's' wants 32 texels of the environment, the device allows 31");
+}
+
 /// Balls of 4096 triangles that are all one mesh, on top of a room.
 scene::Scene copies(int count) {
     scene::Scene scene = test::room(0, 1);

@@ -73,7 +73,8 @@ struct Gltf {
     template <typename Value>
     std::size_t add(const std::vector<Value>& values, const char* type, int component) {
         const std::size_t size = values.size() * sizeof(Value);
-        const std::size_t width = type == std::string("VEC3") ? 3 : 1;
+        const std::string kind = type;
+        const std::size_t width = kind == "SCALAR" ? 1 : kind == "MAT4" ? 16 : kind[3] - '0';
         root["bufferViews"].push_back(
             {{"buffer", 0}, {"byteOffset", data.size()}, {"byteLength", size}});
         data.append(reinterpret_cast<const char*>(values.data()), size);

@@ -1,5 +1,5 @@
 // Part of lib/math.glsl, which alone includes it.
-// Light and what becomes of it: lamps, Lambertian surfaces, mirrors, screens.
+// Light and what becomes of it: lamps and other lights, Lambertian surfaces, mirrors, screens.
 
 // The part of a light's contribution that is geometry: max(0, -w.n_l) / t^2 * max(0, n.w), with w
 // the direction and t the distance to the light. light_normal zero: no cosine at the light.
@@ -18,6 +18,28 @@ INLINE bool light_term(vec3 position, vec3 normal, vec3 light_position, vec3 lig
     if (!(at_light > real(0) && at_surface > real(0))) return false;
     factor = (at_light / distance) * (at_surface / distance);
     return true;
+}
+
+// What is left of a light without a surface at a distance, as KHR_lights_punctual has it: 1 near by, 0 from its
+// range on. `reach`: one over the range; 0 without one.
+INLINE real range_share(real distance, real reach) {
+    real part = distance * reach;
+    real square = part * part;
+    return clamp(real(1) - square * square, real(0), real(1));
+}
+
+// What a spot sends in a direction at this cosine to its axis. `sharpness`: 1 / max(.001, cos inner - cos outer).
+INLINE real cone_share(real cosine, real cos_outer, real sharpness) {
+    real t = clamp((cosine - cos_outer) * sharpness, real(0), real(1));
+    return t * t;
+}
+
+// light_term of a directional light that shines along the unit `axis`: the cosine at the surface.
+INLINE bool parallel_term(vec3 normal, vec3 axis, OUT(vec3) direction, OUT(real) distance, OUT(real) factor) {
+    direction = -axis;
+    distance = kLargest;
+    factor = max(real(0), dot(normal, direction));
+    return factor > real(0);
 }
 
 // Radiance of a Lambertian surface; `direct` = sum over lights of intensity * factor * visible.

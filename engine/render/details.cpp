@@ -1,0 +1,125 @@
+#include "render/details.hpp"
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace catoptric::render {
+
+namespace {
+
+constexpr std::size_t kTableTexels = 256; // before all others: sRGB bytes in linear light
+
+/// IEC 61966-2-1.
+float linear_of(std::size_t byte) {
+    const double value = static_cast<double>(byte) / 255;
+    return static_cast<float>(value <= .04045 ? value / 12.92
+                                              : std::pow((value + .055) / 1.055, 2.4));
+}
+
+std::uint32_t bit(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
+
+shared::Detail detail_of(const scene::Material& material, const DrawRange& range) {
+    shared::Detail detail{};
+    detail.flags = bit(range.varies, shared::kDetailVaries) |
+                   bit(range.first_attribute.has_value(), shared::kDetailAttributes) |
+                   bit(material.mirror, shared::kDetailConstant) |
+                   bit(material.unlit, shared::kDetailUnlit) |
+                   bit(range.turns, shared::kDetailTurns);
+    detail.metallic = material.metallic, detail.roughness = material.roughness;
+    detail.alpha = material.alpha, detail.alpha_cutoff = material.alpha_cutoff;
+    detail.f0 = material.dielectric_f0, detail.f90 = material.dielectric_f90;
+    return detail;
+}
+
+} // namespace
+
+Details::Details(std::size_t slots)
+    : details_("details", gpu::BufferUse::plain, slots),
+      attributes_("attributes", gpu::BufferUse::plain, slots),
+      texels_("texels", gpu::BufferUse::plain, slots) {}
+
+shared::TextureUse Details::use_of(const std::optional<scene::Texture>& texture) const {
+    shared::TextureUse use{};
+    if (!texture) return use;
+    const auto at = std::ranges::find(images_, texture->image) - images_.begin();
+    use.first = first_texels_[static_cast<std::size_t>(at)];
+    use.size = texture->image->size.x | texture->image->size.y << 16;
+    use.how = static_cast<std::uint32_t>(texture->wrap_u) |
+              static_cast<std::uint32_t>(texture->wrap_v) << 2 |
+              bit(texture->nearest, shared::kTextureNearest) |
+              bit(texture->srgb, shared::kTextureSrgb) |
+              bit(texture->uv_set == 1, shared::kTextureSecondUv);
+    use.u_row = texture->u_row, use.v_row = texture->v_row;
+    return use;
+}
+
+void Details::fill_texels(const scene::Scene& now, std::uint64_t most_bytes) {
+    std::vector<std::shared_ptr<const scene::Image>> images;
+    std::uint64_t count = kTableTexels;
+    for (const scene::Object& object : now.objects) {
+        const scene::Material& material = now.materials[object.material];
+        for (const auto* texture :
+             {&material.albedo_texture, &material.emission_texture, &material.roughness_texture}) {
+            if (!*texture || std::ranges::find(images, (*texture)->image) != images.end()) continue;
+            images.push_back((*texture)->image);
+            count += images.back()->texels.size();
+            check(count * sizeof(std::uint32_t) <= most_bytes, Failure::exhausted, "scene '",
+                  now.name, "': its images up to ", in_quotes(images.back()->name), " take ",
+                  count * sizeof(std::uint32_t), " bytes, the device allows ", most_bytes);
+        }
+    }
+    if (images == images_ && !first_texels_.empty()) return;
+    std::vector<std::uint32_t> texels;
+    texels.reserve(count);
+    for (std::size_t byte = 0; byte < kTableTexels; ++byte)
+        texels.push_back(std::bit_cast<std::uint32_t>(linear_of(byte)));
+    first_texels_ = {};
+    for (const auto& image : images) {
+        first_texels_.push_back(static_cast<std::uint32_t>(texels.size()));
+        texels.insert(texels.end(), image->texels.begin(), image->texels.end());
+    }
+    images_ = std::move(images);
+    texels_.set(texels);
+}
+
+void Details::fill(const scene::Scene& now, const Geometry& geometry, const Vertices& vertices,
+                   std::uint64_t most_bytes) {
+    fill_texels(now, most_bytes);
+    std::vector<shared::Detail> details;
+    any_ = masks_ = false;
+    for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
+        const DrawRange& range = geometry.ranges[i];
+        const scene::Material& material = now.materials[now.objects[i].material];
+        shared::Detail& detail = details.emplace_back(detail_of(material, range));
+        detail.sharp_below = now.mirror_max_roughness;
+        // Wraps around: what is drawn counts from the first vertex of its buffer.
+        if (range.first_attribute)
+            detail.first_attribute = *range.first_attribute - vertices.first_of(range.storage);
+        detail.albedo = use_of(material.albedo_texture);
+        detail.emission = use_of(material.emission_texture);
+        detail.rough = use_of(material.roughness_texture);
+        any_ = any_ || range.varies || range.turns;
+        masks_ = masks_ || range.masked;
+    }
+    if (details.empty()) details.emplace_back(); // a buffer is never empty
+    details_.set(details);
+    attributes_.set(geometry.attributes.empty() ? std::vector<shared::Attribute>(1)
+                                                : geometry.attributes);
+}
+
+std::size_t Details::write(gpu::Device& device, std::size_t slot) {
+    return details_.write(device, slot) + attributes_.write(device, slot) +
+           texels_.write(device, slot);
+}
+
+void Details::bind(graph::Commands& commands, std::size_t slot) const {
+    commands.bind("Details", details_.at(slot));
+    commands.bind("Attributes", attributes_.at(slot));
+    commands.bind("Texels", texels_.at(slot));
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,52 @@
+// A closed room with one flat mirror: the commonest mirror there is.
+#include "scene/build.hpp"
+#include "scene/load.hpp"
+#include "scene/shapes.hpp"
+
+namespace catoptric::scene {
+
+Scene flat() {
+    Scene scene{.name = "flat"};
+    const auto paint = [&](const char* name, vec3 albedo) {
+        return add_material(scene, {.name = name, .albedo = albedo});
+    };
+    const dvec3 lo(-2, 0, -3), hi(2, 2.6, 3);
+    const std::size_t white = paint("white", {.72f, .71f, .68f}),
+                      red = paint("red", {.6f, .12f, .08f}), blue = paint("blue", {.12f, .2f, .5f}),
+                      wood = paint("wood", {.42f, .27f, .14f});
+    for (int face = 0; face < 6; ++face)
+        add_mesh(scene, wall(face, lo, hi),
+                 face == 0   ? red
+                 : face == 1 ? blue
+                 : face == 3 ? wood
+                             : white);
+    add_quad(scene, "mirror", add_material(scene, {.name = "mirror", .mirror = true}),
+             {1.3, .5, 2.98}, {-1.3, .5, 2.98}, {-1.3, 2.1, 2.98}, {1.3, 2.1, 2.98});
+    add_mesh(scene, box("cupboard", {-1.95, 0, -1.5}, {-1.4, 1.6, .2}), wood);
+    add_mesh(scene, box("stool", {.5, 0, .9}, {1, .5, 1.4}), red);
+    const std::size_t clay = paint("clay", {.65f, .4f, .25f});
+    scene.materials[clay].two_sided = true;
+    add_mesh(scene,
+             lathe("vase", {{0, .5}, {.09, .5}, {.14, .6}, {.12, .74}, {.05, .84}, {.07, .9}}, 32),
+             clay);
+    scene.objects.back().world_from_object[3] = dvec4(.75, 0, 1.15, 1);
+    add_quad(scene, "lamp", add_material(scene, {.name = "lamp", .emission = {14, 12.5f, 10}}),
+             {-.4, 2.59, -.4}, {.4, 2.59, -.4}, {.4, 2.59, .4}, {-.4, 2.59, .4});
+    scene.cameras.push_back({.name = "standing",
+                             .eye = {-.7, 1.5, -2.6},
+                             .target = {.1, 1.1, 2},
+                             .vertical_fov_degrees = 55});
+    scene.cameras.push_back({.name = "low",
+                             .eye = {1.6, .25, -1.2},
+                             .target = {-.2, 1.2, 3},
+                             .vertical_fov_degrees = 60});
+    return scene;
+}
+
+namespace {
+
+const RegisteredScene kFlat{{"flat", "closed room with one flat wall mirror", flat, 2}};
+
+} // namespace
+
+} // namespace catoptric::scene

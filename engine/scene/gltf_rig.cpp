@@ -1,0 +1,162 @@
+#include "scene/gltf_model.hpp"
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace catoptric::scene::gltf {
+
+namespace {
+
+/// How a node goes with what is above it.
+enum class Going {
+    still,
+    slides, ///< it or one above it goes along one track of translations, and nothing else moves
+    turns   ///< any other way
+};
+
+struct Way {
+    Placed placed;
+    Going going = Going::still;
+    std::optional<std::size_t> rig_node; ///< of the last one that moves, or is below one that does
+    dmat4 below{1};                      ///< from that node's space
+};
+
+/// Goes over the nodes from the roots down, without recursion. They are a forest; but a scene may
+/// name a node twice, or beside its parent.
+class Placer {
+public:
+    Placer(const Document& document, const Animation& animation)
+        : document_(document), animation_(animation), placed_(document.model.nodes.size()) {
+        for (std::size_t i = 0; i < placed_.size(); ++i) // of those that nothing reaches, too
+            rest_.push_back(parent_from_node(document, i));
+    }
+
+    std::vector<Placed> run() {
+        std::vector<std::pair<std::size_t, Way>> waiting; // node and its parent's way
+        for (const int root : roots_of(document_.model)) waiting.push_back({std::size_t(root), {}});
+        while (!waiting.empty()) {
+            const auto [index, parent] = std::move(waiting.back());
+            waiting.pop_back();
+            check(!placed_[index].reached, Failure::bad_data, document_.file, ": ",
+                  document_.label(index), ": wanted one parent at most, found a second way to it");
+            const Way way = way_of(index, parent);
+            placed_[index] = way.placed;
+            for (const int child : document_.model.nodes[index].children)
+                waiting.push_back({std::size_t(child), way});
+        }
+        finish();
+        return std::move(placed_);
+    }
+
+private:
+    Way way_of(std::size_t index, const Way& parent);
+    std::size_t add_to_rig(std::size_t index, const Way& parent);
+    void finish();
+
+    const Document& document_;
+    const Animation& animation_;
+    std::vector<Placed> placed_;
+    std::vector<dmat4> rest_;
+    Rig rig_;
+};
+
+/// A node that moves; what has no track of its own is as it is at rest.
+std::size_t Placer::add_to_rig(std::size_t index, const Way& parent) {
+    const tinygltf::Node& node = document_.model.nodes[index];
+    const Tracks& tracks = animation_.nodes[index];
+    Rig::Node to{.parent = parent.rig_node,
+                 .parent_from_space = parent.rig_node ? parent.below
+                                                      : parent.placed.world_from_node};
+    to.translations = tracks.translations, to.scales = tracks.scales;
+    to.rotations = tracks.rotations;
+    if (!node.translation.empty()) to.translation = glm::make_vec3(node.translation.data());
+    if (!node.scale.empty()) to.scale = glm::make_vec3(node.scale.data());
+    if (!node.rotation.empty())
+        to.rotation = glm::normalize(dvec4(glm::make_vec4(node.rotation.data())));
+    rig_.nodes.push_back(std::move(to));
+    return rig_.nodes.size() - 1;
+}
+
+Way Placer::way_of(std::size_t index, const Way& parent) {
+    Way way = parent;
+    way.placed.reached = true;
+    way.placed.world_from_node = parent.placed.world_from_node * rest_[index];
+    const Tracks& tracks = animation_.nodes[index];
+    if (!tracks.is_any()) {
+        way.below = parent.below * rest_[index];
+        if (auto* follows = std::get_if<Follows>(&way.placed.motion))
+            follows->node_from_object = way.below;
+        return way;
+    }
+    const bool slides = tracks.translations && !tracks.rotations && !tracks.scales;
+    way.rig_node = add_to_rig(index, parent);
+    way.below = dmat4(1);
+    if (slides && parent.going == Going::still) {
+        way.going = Going::slides;
+        way.placed.motion = Keyframes{.keys = tracks.translations,
+                                      .world_from_keys = dmat3(parent.placed.world_from_node),
+                                      .rest = dvec3(rest_[index][3]),
+                                      .repeats = animation_.repeats};
+        return way;
+    }
+    way.going = Going::turns;
+    way.placed.motion = Follows{.node = *way.rig_node};
+    return way;
+}
+
+/// Gives those that follow it the rig, and the place of the first instant.
+void Placer::finish() {
+    const bool is_used = std::ranges::any_of(placed_, [](const Placed& placed) {
+        return std::holds_alternative<Follows>(placed.motion);
+    });
+    if (!is_used) return;
+    rig_.repeats = animation_.repeats;
+    const auto rig = std::make_shared<const Rig>(std::move(rig_));
+    const std::vector<dmat4> first = world_from_nodes(*rig, 0);
+    for (Placed& placed : placed_)
+        if (auto* follows = std::get_if<Follows>(&placed.motion)) {
+            follows->rig = rig;
+            placed.world_from_node = first[follows->node] * follows->node_from_object;
+        }
+}
+
+} // namespace
+
+std::vector<Placed> place(const Document& document, const Animation& animation) {
+    return Placer(document, animation).run();
+}
+
+std::vector<dmat4> rest_of(const Document& document) {
+    const Animation still{.nodes = std::vector<Tracks>(document.model.nodes.size())};
+    std::vector<dmat4> rest;
+    for (const Placed& placed : place(document, still)) rest.push_back(placed.world_from_node);
+    return rest;
+}
+
+std::vector<dmat4> joints_of(int index, const std::vector<dmat4>& at_rest, Context& context) {
+    const Document& document = context.document;
+    const tinygltf::Skin& skin = document.model.skins[std::size_t(index)];
+    const std::string place = document.file + ": " +
+                              label_of("skins", std::size_t(index), skin.name);
+    std::vector<dmat4> joints;
+    for (const int joint : skin.joints) joints.push_back(at_rest[std::size_t(joint)]);
+    if (skin.inverseBindMatrices < 0) return joints;
+    const Elements inverse = context.floats(skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4,
+                                            context.account.attributes,
+                                            place + ": inverseBindMatrices");
+    check(inverse.count >= joints.size(), Failure::bad_data, place,
+          ": inverseBindMatrices: wanted one for each of ", joints.size(), " joints, found ",
+          inverse.count);
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        dmat4 bound;
+        for (int j = 0; j < 16; ++j) bound[j / 4][j % 4] = number_at(inverse, i, j);
+        joints[i] = joints[i] * bound;
+    }
+    return joints;
+}
+
+} // namespace catoptric::scene::gltf

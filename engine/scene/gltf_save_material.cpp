@@ -1,0 +1,134 @@
+#include "scene/gltf_check.hpp"
+#include "scene/gltf_writer.hpp"
+#include "scene/image_file.hpp"
+#include "scene/number.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::scene::gltf {
+
+namespace {
+
+using tinygltf::Value;
+
+int filter_of(const Texture& texture) {
+    return texture.nearest ? TINYGLTF_TEXTURE_FILTER_NEAREST : TINYGLTF_TEXTURE_FILTER_LINEAR;
+}
+
+int wrap_of(Texture::Wrap wrap) {
+    if (wrap == Texture::Wrap::clamp) return TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    return wrap == Texture::Wrap::mirrored ? TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT
+                                           : TINYGLTF_TEXTURE_WRAP_REPEAT;
+}
+
+/// KHR_texture_transform, whose axes stay at right angles.
+Value transform_of(const Texture& texture) {
+    const dvec3 u(texture.u_row), v(texture.v_row);
+    const double angle = std::atan2(-v.x, u.x), c = std::cos(angle), s = std::sin(angle);
+    const double scale_u = c * u.x - s * v.x, scale_v = s * u.y + c * v.y;
+    return Value(Value::Object{{"offset", listed({u.z, v.z})},
+                               {"rotation", Value(angle)},
+                               {"scale", listed({scale_u, scale_v})}});
+}
+
+/// Radiance above 1 needs the extension: the largest component is the strength; and so does what
+/// tinygltf takes for black.
+void write_emission(Writer& writer, const Material& material, tinygltf::Material& to) {
+    const dvec3 emission(material.emission);
+    const double largest = std::max({emission.x, emission.y, emission.z});
+    if (largest == 0) return;
+    const bool is_common = largest <= 1 && largest > 1e-6;
+    to.emissiveFactor = numbers(is_common ? emission : emission / largest);
+    if (material.emission_texture) to.emissiveTexture = writer.texture(*material.emission_texture);
+    if (is_common) return;
+    const std::string extension(kEmissiveStrength);
+    to.extensions[extension] = Value(Value::Object{{"emissiveStrength", Value(largest)}});
+    writer.use(extension);
+}
+
+/// What is no default as KHR_materials_specular says it, with the ior that nobody gave.
+void write_dielectric(Writer& writer, const Material& material, tinygltf::Material& to) {
+    const Material usual;
+    if (material.dielectric_f0 == usual.dielectric_f0 &&
+        material.dielectric_f90 == usual.dielectric_f90)
+        return;
+    constexpr double kUsual = .04; // of ior 1.5
+    const double strength = material.dielectric_f90.x;
+    const dvec3 colour = strength > 0 ? dvec3(material.dielectric_f0) / (kUsual * strength)
+                                      : dvec3(0);
+    to.extensions["KHR_materials_specular"] = Value(Value::Object{
+        {"specularFactor", Value(strength)}, {"specularColorFactor", listed(numbers(colour))}});
+    writer.use("KHR_materials_specular");
+}
+
+Value marks_of(const Material& material) {
+    Value::Object ours;
+    if (material.mirror && material.reflectance != vec3(1))
+        ours["reflectance"] = listed(numbers(dvec3(material.reflectance)));
+    if (material.mirror && material.albedo != vec3(0))
+        ours["diffuse"] = listed(numbers(dvec3(material.albedo)));
+    if (!is_one_sided(material) && !material.two_sided) ours["fixed_normals"] = Value(true);
+    return ours.empty() ? Value() : marked(std::move(ours));
+}
+
+} // namespace
+
+int Writer::image(const Image& image) {
+    const auto [entry, is_new] = images.try_emplace(&image, size_of(model.images));
+    if (!is_new) return entry->second;
+    const std::string png = png_of(image);
+    view(png.data(), png.size());
+    tinygltf::Image& to = model.images.emplace_back();
+    to.name = image.name, to.mimeType = "image/png";
+    to.bufferView = size_of(model.bufferViews) - 1;
+    return entry->second;
+}
+
+int Writer::sampler(const Texture& texture) {
+    const std::tuple key{filter_of(texture), wrap_of(texture.wrap_u), wrap_of(texture.wrap_v)};
+    const auto [entry, is_new] = samplers.try_emplace(key, size_of(model.samplers));
+    if (!is_new) return entry->second;
+    tinygltf::Sampler& to = model.samplers.emplace_back();
+    std::tie(to.magFilter, to.wrapS, to.wrapT) = key;
+    return entry->second;
+}
+
+tinygltf::TextureInfo Writer::texture(const Texture& texture) {
+    tinygltf::Texture to;
+    to.source = image(*texture.image), to.sampler = sampler(texture);
+    tinygltf::TextureInfo info;
+    info.index = size_of(model.textures), info.texCoord = static_cast<int>(texture.uv_set);
+    model.textures.push_back(std::move(to));
+    if (texture.u_row == vec3(1, 0, 0) && texture.v_row == vec3(0, 1, 0)) return info;
+    info.extensions["KHR_texture_transform"] = transform_of(texture);
+    use("KHR_texture_transform");
+    return info;
+}
+
+void Writer::add_material(const Material& material) {
+    const vec3& base = material.mirror ? material.reflectance : material.albedo;
+    tinygltf::Material to;
+    to.name = material.name;
+    tinygltf::PbrMetallicRoughness& pbr = to.pbrMetallicRoughness;
+    pbr.baseColorFactor = {as_typed(base.x), as_typed(base.y), as_typed(base.z),
+                           as_typed(material.alpha)};
+    pbr.metallicFactor = material.mirror ? 1 : as_typed(material.metallic);
+    pbr.roughnessFactor = material.mirror ? 0 : as_typed(material.roughness);
+    if (material.albedo_texture) pbr.baseColorTexture = texture(*material.albedo_texture);
+    if (material.roughness_texture)
+        pbr.metallicRoughnessTexture = texture(*material.roughness_texture);
+    to.doubleSided = !is_one_sided(material);
+    if (is_masked(material))
+        to.alphaMode = "MASK", to.alphaCutoff = as_typed(material.alpha_cutoff);
+    write_emission(*this, material, to);
+    write_dielectric(*this, material, to);
+    if (material.unlit) {
+        to.extensions["KHR_materials_unlit"] = Value(Value::Object());
+        use("KHR_materials_unlit");
+    }
+    to.extras = marks_of(material);
+    model.materials.push_back(std::move(to));
+}
+
+} // namespace catoptric::scene::gltf

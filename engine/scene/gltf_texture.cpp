@@ -1,0 +1,128 @@
+#include "scene/gltf_texture.hpp"
+
+#include "core/text.hpp"
+#include "scene/image_file.hpp"
+
+#include <cmath>
+#include <string_view>
+
+namespace catoptric::scene::gltf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint64_t kNearest = 9728, kRepeat = 10497, kClamp = 33071, kMirrored = 33648;
+
+Texture::Wrap wrap_of(const Item& sampler, std::string_view key) {
+    const std::uint64_t mode = sampler.whole(key, kRepeat);
+    sampler.require(mode == kRepeat || mode == kClamp || mode == kMirrored, key,
+                    ": wanted 10497, 33071 or 33648, found ", mode);
+    if (mode == kClamp) return Texture::Wrap::clamp;
+    return mode == kMirrored ? Texture::Wrap::mirrored : Texture::Wrap::repeat;
+}
+
+void read_sampler(const Item& sampler, Texture& texture) {
+    texture.wrap_u = wrap_of(sampler, "wrapS"), texture.wrap_v = wrap_of(sampler, "wrapT");
+    texture.nearest = sampler.whole("magFilter", 0) == kNearest;
+}
+
+/// KHR_texture_transform: scaled, turned, moved (as Khronos' TextureTransformTest shows it).
+void read_transform(const Item& transform, Texture& texture) {
+    const auto pair = [&](std::string_view key, double otherwise) {
+        std::vector<double> list = transform.numbers(key, 2);
+        return list.empty() ? std::vector<double>(2, otherwise) : list;
+    };
+    const std::vector<double> offset = pair("offset", 0), scale = pair("scale", 1);
+    const double angle = transform.number("rotation", 0);
+    const double c = std::cos(angle), s = std::sin(angle);
+    texture.u_row = vec3(c * scale[0], s * scale[1], offset[0]);
+    texture.v_row = vec3(-s * scale[0], c * scale[1], offset[1]);
+    const auto is_finite = [](const vec3& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
+    transform.require(is_finite(texture.u_row) && is_finite(texture.v_row),
+                      "wanted numbers that fit a float, found another");
+}
+
+/// The picture of a texture, by an extension that names another kind of file where there is one.
+std::optional<std::size_t> source_of(const Item& texture, std::size_t count) {
+    if (const auto extensions = texture.object("extensions"))
+        if (const auto webp = extensions->object("EXT_texture_webp"))
+            return webp->index("source", count);
+    return texture.index("source", count);
+}
+
+} // namespace
+
+std::shared_ptr<const Image> Textures::missing(const Item& image, const std::string& why,
+                                               const Item& use) {
+    source_.notes.add("images that are not there or of a kind that is not read, drawn without",
+                      image.label() + why);
+    add_gap(source_.gaps, "missing-image", use.entry());
+    return nullptr;
+}
+
+std::shared_ptr<const Image> Textures::from_file(const Item& image, const Item& use) {
+    const std::string name = file_name_of(image.text("uri"), image.place());
+    const fs::path real = source_.files.find(name, image.place());
+    if (real.empty()) return missing(image, ": " + in_quotes(name) + " is not there", use);
+    const auto [entry, is_new] = files_.try_emplace(real.string());
+    if (is_new)
+        entry->second = decode_image(source_.files.read(real, image.place()), name,
+                                     image.place() + ": " + in_quotes(name), source_.account);
+    return entry->second ? entry->second : missing(image, ": " + in_quotes(name), use);
+}
+
+std::shared_ptr<const Image> Textures::decoded(const Item& image, const Item& use) {
+    const std::string kind = image.text("mimeType") == "image/x-tga" ? ".tga" : "";
+    const auto decode = [&](const unsigned char* bytes, std::size_t size) {
+        auto result = decode_image({reinterpret_cast<const char*>(bytes), size},
+                                   image.name() + kind, image.place(), source_.account);
+        return result ? result : missing(image, "", use);
+    };
+    if (image.has("uri")) {
+        const std::string uri = image.text("uri");
+        if (!is_data_uri(uri)) return from_file(image, use);
+        const Bytes bytes = data_of(uri, image.place());
+        return decode(bytes.data(), bytes.size());
+    }
+    const auto number = image.index("bufferView", source_.root.size("bufferViews"));
+    if (!number) return missing(image, "", use);
+    const Item view = source_.root.at("bufferViews", *number);
+    const Buffer& buffer =
+        source_.container.buffers[view.needed_index("buffer", source_.container.buffers.size())];
+    return decode(source_.container.files[buffer.file].data() + view.whole("byteOffset", 0),
+                  view.whole("byteLength", 0));
+}
+
+std::shared_ptr<const Image> Textures::image(std::size_t index, const Item& use) {
+    const auto [entry, is_new] = images_.try_emplace(index);
+    if (is_new) entry->second = decoded(source_.root.at("images", index), use);
+    return entry->second;
+}
+
+std::optional<Texture> Textures::of(const Item& use, bool srgb) {
+    const Item& root = source_.root;
+    const Item from = root.at("textures", use.needed_index("index", root.size("textures")));
+    Texture texture{.srgb = srgb};
+    std::uint64_t set = use.whole("texCoord", 0);
+    if (const auto extensions = use.object("extensions"))
+        if (const auto transform = extensions->object("KHR_texture_transform")) {
+            read_transform(*transform, texture);
+            set = transform->whole("texCoord", set);
+        }
+    if (set > 1) {
+        source_.notes.add("textures of a third set of coordinates, drawn without", use.label());
+        add_gap(source_.gaps, "material-extension", use.entry());
+        return std::nullopt;
+    }
+    texture.uv_set = static_cast<std::uint32_t>(set);
+    if (const auto sampler = from.index("sampler", root.size("samplers")))
+        read_sampler(root.at("samplers", *sampler), texture);
+    const auto source = source_of(from, root.size("images"));
+    texture.image = source ? image(*source, use) : missing(from, "", use);
+    return texture.image ? std::optional(texture) : std::nullopt;
+}
+
+} // namespace catoptric::scene::gltf

@@ -1,0 +1,76 @@
+#include "scene/image_file.hpp"
+
+#include "core/image_codec.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <vector>
+
+namespace catoptric::scene {
+
+namespace {
+
+bool is_targa(const std::string& file) {
+    std::string end = file.substr(file.size() - std::min<std::size_t>(file.size(), 4));
+    std::ranges::transform(end, end.begin(), [](unsigned char c) { return std::tolower(c); });
+    return end == ".tga";
+}
+
+/// Which of a pixel's values are red, green, blue and alpha; alpha of none is 255.
+struct Layout {
+    std::array<std::size_t, 3> rgb;
+    std::size_t alpha; ///< == channel_count: none
+};
+
+Layout layout_of(const ImageShape& shape) {
+    const auto find = [&](const char* name) {
+        return static_cast<std::size_t>(std::ranges::find(shape.channels, name) -
+                                        shape.channels.begin());
+    };
+    const std::size_t r = find("R"), g = find("G"), b = find("B"), count = shape.channel_count;
+    const bool is_coloured = r < count && g < count && b < count;
+    return {is_coloured ? std::array{r, g, b} : std::array<std::size_t, 3>{0, 0, 0},
+            std::min(find("A"), count)};
+}
+
+std::vector<std::uint32_t> texels_of(const ImageShape& shape,
+                                     const std::vector<std::uint8_t>& values) {
+    const Layout layout = layout_of(shape);
+    std::vector<std::uint32_t> texels(std::size_t(shape.size.x) * shape.size.y);
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const std::uint8_t* const pixel = values.data() + i * shape.channel_count;
+        const auto [r, g, b] = layout.rgb;
+        const std::uint32_t alpha = layout.alpha < shape.channel_count ? pixel[layout.alpha] : 255;
+        texels[i] = pixel[r] | pixel[g] << 8 | pixel[b] << 16 | alpha << 24;
+    }
+    return texels;
+}
+
+} // namespace
+
+std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::string& file,
+                                          const std::string& place, Account& account) {
+    std::string format = image_format(bytes);
+    if (format.empty() && is_targa(file)) format = "targa";
+    if (format.empty()) return nullptr;
+    ImageReader reader(bytes, format, place);
+    const ImageShape& shape = reader.shape();
+    // four values take the room of a texel
+    account.texels.add(std::uint64_t(shape.size.x) * shape.size.y * ((shape.channel_count + 3) / 4),
+                       place);
+    return std::make_shared<const Image>(
+        Image{.name = file, .size = shape.size, .texels = texels_of(shape, reader.bytes())});
+}
+
+std::string png_of(const Image& image) {
+    std::vector<std::uint8_t> values;
+    values.reserve(4 * image.texels.size());
+    for (const std::uint32_t texel : image.texels)
+        for (int shift = 0; shift < 32; shift += 8)
+            values.push_back(static_cast<std::uint8_t>(texel >> shift));
+    return png_bytes({image.size, 4, {"R", "G", "B", "A"}}, values);
+}
+
+} // namespace catoptric::scene

@@ -1,0 +1,81 @@
+#include "scene/surroundings.hpp"
+
+#include "core/shader_math.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace catoptric::scene {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr uvec2 kStudioSize{512, 256};
+
+double angle_of(const Environment& environment) {
+    return glm::radians(environment.rotation_degrees);
+}
+
+/// In the environment's own axes, not scaled.
+dvec3 shown(const Environment& environment, const dvec3& own) {
+    if (environment.studio) return dvec3(f64::studio(own));
+    const f64::MapPlace at = f64::map_place(own, environment.size.x, environment.size.y);
+    const auto texel = [&](std::uint32_t column, std::uint32_t row) {
+        return dvec3(environment.texels[std::size_t{row} * environment.size.x + column]);
+    };
+    return glm::mix(glm::mix(texel(at.left, at.above), texel(at.right, at.above), at.across),
+                    glm::mix(texel(at.left, at.below), texel(at.right, at.below), at.across),
+                    at.down);
+}
+
+/// The polynomials of the nine harmonics.
+std::array<double, 9> harmonics(const dvec3& d) {
+    return {1,
+            d.y,
+            d.z,
+            d.x,
+            d.x * d.y,
+            d.y * d.z,
+            3 * d.z * d.z - 1,
+            d.x * d.z,
+            d.x * d.x - d.y * d.y};
+}
+
+/// Each harmonic's factor, squared, times what a cosine lobe keeps of its band: pi, 2 pi / 3, pi /
+/// 4.
+constexpr std::array<double, 9> kFactors{1. / 4,   1. / 2,  1. / 2,   1. / 2,  15. / 16,
+                                         15. / 16, 5. / 64, 15. / 16, 15. / 64};
+
+} // namespace
+
+dvec3 radiance(const Environment& environment, const dvec3& direction) {
+    const double angle = angle_of(environment);
+    return environment.scale * shown(environment, f64::environment_direction(
+                                                      direction, std::cos(angle), std::sin(angle)));
+}
+
+std::array<dvec3, 9> irradiance_coefficients(const Environment& environment) {
+    const uvec2 size = environment.studio ? kStudioSize : environment.size;
+    const double width = 2 * kPi / size.x, height = kPi / size.y;
+    std::array<dvec3, 9> sums{};
+    for (std::uint32_t row = 0; row < size.y; ++row) {
+        const double polar = height * (row + .5);
+        const double solid_angle = width * (std::cos(height * row) - std::cos(height * (row + 1)));
+        for (std::uint32_t column = 0; column < size.x; ++column) {
+            const double azimuth = width * (column + .5) - kPi;
+            const auto at = [&](double turned) {
+                return dvec3(std::sin(polar) * std::sin(turned), std::cos(polar),
+                             -std::sin(polar) * std::cos(turned));
+            };
+            const dvec3 light = environment.studio
+                                    ? dvec3(f64::studio(at(azimuth)))
+                                    : dvec3(environment.texels[std::size_t{row} * size.x + column]);
+            const std::array<double, 9> of = harmonics(at(azimuth + angle_of(environment)));
+            for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += solid_angle * of[i] * light;
+        }
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] *= environment.scale * kFactors[i];
+    return sums;
+}
+
+} // namespace catoptric::scene

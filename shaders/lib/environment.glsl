@@ -1,0 +1,30 @@
+// What is seen where the scene ends, and what it lights.
+#ifndef CATOPTRIC_ENVIRONMENT_GLSL
+#define CATOPTRIC_ENVIRONMENT_GLSL
+
+#include "lib/bindings.glsl"
+#include "lib/constants.glsl"
+
+const uint kNoEnvironment = 0u, kMapEnvironment = 1u, kStudioEnvironment = 2u;
+layout(constant_id = ENVIRONMENT_CONSTANT) const uint environment_kind = kNoEnvironment;
+layout(set = 0, binding = 28, scalar) uniform SkyBuffer { Sky value; } sky;
+layout(set = 0, binding = 29) uniform samplerBuffer sky_texels; // row by row
+
+vec3 sky_texel(uint column, uint row) { return texelFetch(sky_texels, int(row * sky.value.size.x + column)).rgb; }
+
+// Radiance from a direction, unit.
+vec3 environment(vec3 direction) {
+    if (environment_kind == kNoEnvironment) return vec3(0);
+    vec3 d = environment_direction(direction, sky.value.turn.x, sky.value.turn.y);
+    if (environment_kind == kStudioEnvironment) return vec3(sky.value.scale * studio(d));
+    MapPlace at = map_place(d, sky.value.size.x, sky.value.size.y);
+    return sky.value.scale * mix(mix(sky_texel(at.left, at.above), sky_texel(at.right, at.above), at.across),
+                                 mix(sky_texel(at.left, at.below), sky_texel(at.right, at.below), at.across), at.down);
+}
+
+// What falls on a surface from all around, whatever hides it.
+vec3 sky_light(vec3 normal) {
+    return environment_kind == kNoEnvironment ? vec3(0) : irradiance(sky.value.irradiance, normal);
+}
+
+#endif

@@ -1,0 +1,13 @@
+// Which kinds of lights a scene has.
+#ifndef CATOPTRIC_LIGHTS_GLSL
+#define CATOPTRIC_LIGHTS_GLSL
+
+#include "lib/bindings.glsl"
+#include "lib/constants.glsl"
+
+// 1: some light has no surface.
+layout(constant_id = LIGHT_KINDS_CONSTANT) const uint light_kinds = 0u;
+
+bool is_directional(uint light) { return light_kinds != 0u && lights[light].directional != 0u; }
+
+#endif

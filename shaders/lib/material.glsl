@@ -1,0 +1,80 @@
+// What surfaces are where they are more than one colour: textures, colours at vertices, parts that are cut out, and
+// how much of it a sharp one reflects. The same for raster and rays; a scene without such surfaces pays nothing.
+#ifndef CATOPTRIC_MATERIAL_GLSL
+#define CATOPTRIC_MATERIAL_GLSL
+
+#include "lib/bindings.glsl"
+#include "lib/constants.glsl"
+
+layout(constant_id = DETAILS_CONSTANT) const uint details = 0u; // 1: some surface is more than one colour, or has two sides
+layout(constant_id = MASKS_CONSTANT) const uint masks = 0u;     // 1: something is cut out
+layout(set = 0, binding = DETAILS_BINDING, scalar) readonly buffer Details { Detail detail_of[]; };
+layout(set = 0, binding = ATTRIBUTES_BINDING, scalar) readonly buffer Attributes { Attribute attributes[]; };
+// First what 256 bytes of sRGB are in linear light, as floats; then texels, red in the low byte.
+layout(set = 0, binding = TEXELS_BINDING, scalar) readonly buffer Texels { uint texels[]; };
+
+const Attribute kNoAttribute = Attribute(vec4(0), vec4(1));
+
+vec4 texel_colour(TextureUse use, int x, int y) {
+    uint texel = texels[use.first + uint(y) * (use.size & 0xffffu) + uint(x)];
+    if ((use.how & kTextureSrgb) == 0u) return unpackUnorm4x8(texel);
+    return vec4(uintBitsToFloat(texels[texel & 0xffu]), uintBitsToFloat(texels[texel >> 8u & 0xffu]),
+                uintBitsToFloat(texels[texel >> 16u & 0xffu]), float(texel >> 24u) / 255.0);
+}
+
+// `uv`: both texture spaces. White where there is no texture.
+vec4 texture_colour(TextureUse use, vec4 uv) {
+    if (use.size == 0u) return vec4(1);
+    vec3 place = vec3((use.how & kTextureSecondUv) != 0u ? uv.zw : uv.xy, 1);
+    float u = dot(use.u_row, place), v = dot(use.v_row, place);
+    int width = int(use.size & 0xffffu), height = int(use.size >> 16u);
+    uint wrap_u = use.how & 3u, wrap_v = use.how >> 2u & 3u;
+    if ((use.how & kTextureNearest) != 0u)
+        return texel_colour(use, nearest_texel(u, width, wrap_u), nearest_texel(v, height, wrap_v));
+    int left, right, top, bottom;
+    float across, down;
+    texels_around(u, width, wrap_u, left, right, across);
+    texels_around(v, height, wrap_v, top, bottom, down);
+    return mix(mix(texel_colour(use, left, top), texel_colour(use, right, top), across),
+               mix(texel_colour(use, left, bottom), texel_colour(use, right, bottom), across), down);
+}
+
+// Whether the surface is not there.
+bool is_cut_out(uint object, Attribute at) {
+    Detail detail = detail_of[object];
+    float alpha = detail.alpha * at.colour.a;
+    if (detail.alpha_cutoff <= 0.0) return false;
+    return !(alpha * texture_colour(detail.albedo, at.uv).a >= detail.alpha_cutoff);
+}
+
+// The normal on the side of the facet that `direction` comes from, where the surface has two sides.
+vec3 turned_normal(uint object, vec3 normal, vec3 facet, vec3 direction) {
+    if ((detail_of[object].flags & kDetailTurns) == 0u) return normal;
+    return dot(normal, facet) * dot(direction, facet) > 0.0 ? -normal : normal;
+}
+
+// What the surface is here: albedo becomes what is left for diffuse light, reflectance what a ray that is mirrored
+// counts. `cosine`: between the normal and the direction to who looks.
+void evaluate(inout Surface surface, uint object, Attribute at, float cosine) {
+    Detail detail = detail_of[object];
+    bool is_constant = (detail.flags & kDetailConstant) != 0u;
+    if (!is_constant) surface.reflectance = vec3(0);
+    if ((detail.flags & kDetailVaries) == 0u) return;
+    vec3 colour = surface.albedo * at.colour.rgb * texture_colour(detail.albedo, at.uv).rgb;
+    if ((detail.flags & kDetailUnlit) != 0u) {
+        surface.emission = colour;
+        surface.albedo = surface.reflectance = vec3(0);
+        return;
+    }
+    surface.emission *= texture_colour(detail.emission, at.uv).rgb;
+    vec4 rough = texture_colour(detail.rough, at.uv);
+    float metallic = detail.metallic * rough.b;
+    bool is_sharp = detail.roughness * rough.g <= detail.sharp_below;
+    if (!is_constant && is_sharp)
+        surface.reflectance = schlick(mix(detail.f0, colour, metallic), mix(detail.f90, vec3(1), metallic), cosine);
+    // The metal part of what is rough is drawn as diffuse.
+    if (is_constant || is_sharp) colour *= (1.0 - metallic) * (1.0 - surface.reflectance);
+    surface.albedo = colour;
+}
+
+#endif

@@ -1,0 +1,55 @@
+// Part of lib/math.glsl, which alone includes it.
+// What is seen where the scene ends.
+
+// The direction as the environment's own axes have it: what is seen at an azimuth (from -z towards +x) moves to that
+// plus the angle of this cosine and sine.
+INLINE vec3 environment_direction(vec3 d, real cosine, real sine) {
+    return vec3(cosine * d.x + sine * d.z, d.y, cosine * d.z - sine * d.x);
+}
+
+// The four texels around a direction of any length in an equirectangular map, and how far on they are mixed. Row 0 is
+// at +y, the middle along -z, +x to its right; wraps across, clamps at the poles.
+struct MapPlace {
+    uint left, right, above, below;
+    real across, down;
+};
+INLINE MapPlace map_place(vec3 d, uint width, uint height) {
+    real level = sqrt(d.x * d.x + d.z * d.z);
+    real azimuth = level > real(0) ? atan(d.x, -d.z) : real(0);
+    real x = (real(0.5) + azimuth / (real(2) * kPi)) * real(width) - real(0.5);
+    real y = clamp(atan(level, d.y) / kPi * real(height) - real(0.5), real(0), real(height) - real(1));
+    real first = floor(x);
+    real top = min(floor(y), max(real(height) - real(2), real(0)));
+    MapPlace place;
+    place.left = uint(first + real(width)) % width;
+    place.right = (place.left + 1u) % width;
+    place.above = uint(top);
+    place.below = min(place.above + 1u, height - 1u);
+    place.across = x - first;
+    place.down = y - top;
+    return place;
+}
+
+// A photographer's studio, grey: a bright ceiling that darkens to the floor, and a soft box to the left behind a
+// camera that looks along -z. `d`: unit.
+INLINE real studio(vec3 d) {
+    real grey = d.y < real(0) ? mix(real(0.6), real(0.25), -d.y) : mix(real(0.6), real(0.9), d.y);
+    // Azimuth -150 degrees, elevation 50.
+    vec3 box = vec3(real(-0.32139380484326967), real(0.76604444311897804), real(0.55667039922641936));
+    vec3 right = normalize(cross(box, vec3(real(0), real(1), real(0))));
+    vec3 up = cross(right, box);
+    real ahead = dot(d, box);
+    if (!(ahead > real(0))) return grey;
+    real degree = kPi / real(180);
+    real x = abs(atan(dot(d, right) / ahead)) / degree;
+    real y = abs(atan(dot(d, up) / ahead)) / degree;
+    return grey + real(6) * (real(1) - smoothstep(real(18), real(22), x)) * (real(1) - smoothstep(real(10.5), real(14.5), y));
+}
+
+// What falls on a surface with this unit normal, from the nine coefficients of scene::irradiance (Ramamoorthi and
+// Hanrahan 2001), which hold the factors of the harmonics.
+INLINE vec3 irradiance(vec3 of[9], vec3 n) {
+    vec3 sum = of[0] + n.y * of[1] + n.z * of[2] + n.x * of[3] + n.x * n.y * of[4] + n.y * n.z * of[5] +
+               (real(3) * n.z * n.z - real(1)) * of[6] + n.x * n.z * of[7] + (n.x * n.x - n.y * n.y) * of[8];
+    return max(sum, vec3(real(0)));
+}

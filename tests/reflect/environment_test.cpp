@@ -1,0 +1,307 @@
+// The environment: what is seen of it where, what it lights, and that captures and searches have
+// it.
+#include "core/shader_math.hpp"
+#include "scene/surroundings.hpp"
+#include "shared.h"
+#include "support/lit.hpp"
+
+#include <iostream>
+#include <numbers>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr double kPi = std::numbers::pi;
+
+/// A map whose texels are the values of a function of the direction of their centres.
+template <typename Radiance>
+std::shared_ptr<scene::Environment> map_of(uvec2 size, Radiance&& radiance) {
+    auto map = std::make_shared<scene::Environment>();
+    map->size = size;
+    for (std::uint32_t row = 0; row < size.y; ++row)
+        for (std::uint32_t column = 0; column < size.x; ++column) {
+            const double polar = kPi * (row + .5) / size.y,
+                         azimuth = 2 * kPi * ((column + .5) / size.x - .5);
+            map->texels.push_back(
+                vec3(radiance(dvec3(std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                                    -std::sin(polar) * std::cos(azimuth)))));
+        }
+    return map;
+}
+
+/// A small map of which no two texels are alike.
+std::shared_ptr<scene::Environment> patches() {
+    auto map = std::make_shared<scene::Environment>();
+    map->size = {8, 4};
+    for (int i = 0; i < 32; ++i)
+        map->texels.push_back(
+            {.02f * float(i), .9f - .1f * float(i % 8), .2f + .2f * float(i / 8)});
+    return map;
+}
+
+/// A speck below, that no camera of these tests sees, and an eye at the origin.
+scene::Scene void_scene(std::shared_ptr<const scene::Environment> environment,
+                        const dvec3& direction) {
+    scene::Scene scene{.name = "void"};
+    const std::size_t black = test::add_material(scene, {.name = "black"});
+    test::add_quad(scene, "speck", black, {-.1, -3, .1}, {.1, -3, .1}, {.1, -3, -.1},
+                   {-.1, -3, -.1});
+    scene.environment = std::move(environment);
+    scene.cameras.push_back({.eye = {0, 0, 0},
+                             .target = direction,
+                             .up = std::abs(direction.y) < .9 ? dvec3(0, 1, 0) : dvec3(0, 0, 1),
+                             .vertical_fov_degrees = 60});
+    return scene;
+}
+
+dvec3 pixel_direction(const scene::Camera& camera, int x, int y, int edge) {
+    const dvec3 forward = glm::normalize(camera.target - camera.eye),
+                right = glm::normalize(glm::cross(forward, camera.up)),
+                down = glm::cross(forward, right);
+    const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees / 2));
+    return glm::normalize(forward + tangent * (2 * (x + .5) / edge - 1) * right +
+                          tangent * (2 * (y + .5) / edge - 1) * down);
+}
+
+TEST(Environment, IsSeenWhereItsMapSays) {
+    scene::Environment map = *patches();
+    const auto texel = [&](int column, int row) {
+        return dvec3(map.texels[static_cast<std::size_t>(8 * row + column)]);
+    };
+    const auto expect = [&](const dvec3& direction, const dvec3& wanted) {
+        EXPECT_LE(glm::length(scene::radiance(map, direction) - wanted), 1e-6)
+            << direction.x << ' ' << direction.y << ' ' << direction.z;
+    };
+    const auto level = [&](int left, int right) { // on the horizon, between two columns
+        return (texel(left, 1) + texel(right, 1) + texel(left, 2) + texel(right, 2)) / 4.0;
+    };
+    expect({0, 0, -1}, level(3, 4));
+    expect({1, 0, 0}, level(5, 6));
+    expect({-1, 0, 0}, level(1, 2));
+    expect({0, 0, 1}, level(7, 0)); // across the seam
+    expect({0, 1, 0}, (texel(3, 0) + texel(4, 0)) / 2.0);
+    expect({0, -1, 0}, (texel(3, 3) + texel(4, 3)) / 2.0);
+    // The centre of texel (6, 1): azimuth 112.5 degrees, elevation 22.5.
+    const double turn = glm::radians(112.5), up = glm::radians(22.5);
+    expect({std::cos(up) * std::sin(turn), std::sin(up), -std::cos(up) * std::cos(turn)},
+           texel(6, 1));
+    map.rotation_degrees = 90, map.scale = 2;
+    expect({1, 0, 0}, 2.0 * level(3, 4)); // what was ahead is to the right
+    expect({0, 0, -1}, 2.0 * level(1, 2));
+}
+
+TEST(Environment, IsThePicturesBackgroundInBothWorlds) {
+    constexpr int kEdge = 24;
+    for (const bool studio : {false, true})
+        for (const double rotation : {0.0, 70.0}) {
+            const auto environment = patches();
+            environment->studio = studio;
+            environment->scale = 1.5, environment->rotation_degrees = rotation;
+            for (const dvec3& ahead :
+                 {dvec3(0, 0, -1), dvec3(1, .2, 0), dvec3(0, 1, 0), dvec3(-.5, .9, .8)}) {
+                const scene::Scene scene = void_scene(environment, ahead);
+                for (const std::string technique : {"raytrace", "naive"}) {
+                    const measure::Picture picture =
+                        test::render(scene, technique, {kEdge, kEdge}).hdr;
+                    double worst = 0;
+                    for (int y = 0; y < kEdge; ++y)
+                        for (int x = 0; x < kEdge; ++x)
+                            worst = std::max(
+                                worst, glm::length(dvec3(picture.at(x, y)) -
+                                                   scene::radiance(*environment,
+                                                                   pixel_direction(scene.cameras[0],
+                                                                                   x, y, kEdge))));
+                    EXPECT_LE(worst, 1e-3)
+                        << technique << (studio ? ", studio, " : ", map, ") << rotation
+                        << " degrees, ahead " << ahead.x << ' ' << ahead.y << ' ' << ahead.z;
+                }
+            }
+        }
+}
+
+TEST(Studio, IsAsDescribed) {
+    const scene::Environment studio{.studio = true};
+    const auto grey = [&](const dvec3& direction) {
+        const dvec3 light = scene::radiance(studio, glm::normalize(direction));
+        EXPECT_EQ(light.x, light.y);
+        EXPECT_EQ(light.x, light.z);
+        return light.x;
+    };
+    EXPECT_NEAR(grey({0, 1, 0}), .9, 1e-9);
+    EXPECT_NEAR(grey({1, 0, 0}), .6, 1e-9);
+    EXPECT_NEAR(grey({0, -1, 0}), .25, 1e-9);
+    EXPECT_NEAR(grey({0, -.6, .8}), .6 - .35 * .6, 1e-9);
+    // Azimuth -150 degrees: to the left behind who looks along -z.
+    const double turn = glm::radians(-150.0), up = glm::radians(50.0);
+    const dvec3 box(std::cos(up) * std::sin(turn), std::sin(up), -std::cos(up) * std::cos(turn));
+    EXPECT_LT(box.x, 0);
+    EXPECT_GT(box.z, 0);
+    const dvec3 right = glm::normalize(glm::cross(box, dvec3(0, 1, 0))),
+                above = glm::cross(right, box);
+    const auto beside = [&](double x, double y) {
+        return glm::normalize(box + std::tan(glm::radians(x)) * right +
+                              std::tan(glm::radians(y)) * above);
+    };
+    const auto wall = [](const dvec3& d) { return .6 + .3 * d.y; };
+    for (const auto& [x, y, light] : {std::tuple{0., 0., 6.},
+                                      {17.9, 10.4, 6.},
+                                      {20., 0., 3.},
+                                      {-20., 0., 3.},
+                                      {0., 12.5, 3.},
+                                      {0., -12.5, 3.},
+                                      {22.1, 0., 0.},
+                                      {0., -14.6, 0.},
+                                      {19., 11.5, 6 * .84375 * .84375}}) {
+        const dvec3 d = beside(x, y);
+        EXPECT_NEAR(grey(d), wall(d) + light, 1e-6) << x << ' ' << y;
+    }
+    EXPECT_NEAR(grey(-box), .6 - .35 * box.y, 1e-9) << "not on the other side";
+}
+
+dvec3 falls_on(const scene::Environment& environment, const dvec3& n) {
+    std::array<dvec3, 9> of = scene::irradiance_coefficients(environment);
+    return f64::irradiance(of.data(), n);
+}
+
+TEST(Irradiance, OfKnownEnvironments) {
+    const dvec3 b = glm::normalize(dvec3(.3, .5, -.8));
+    const uvec2 size{256, 128};
+    const auto uniform = map_of(size, [](const dvec3&) { return dvec3(.5, 1, 2); });
+    const auto linear = map_of(size, [&](const dvec3& d) { return dvec3(1 + dot(d, b)); });
+    const auto square = map_of(size, [&](const dvec3& d) { return dvec3(dot(d, b) * dot(d, b)); });
+    const auto lobe = map_of(size, [&](const dvec3& d) { return dvec3(std::max(0., dot(d, b))); });
+    for (const dvec3& n :
+         {dvec3(0, 1, 0), dvec3(1, 0, 0), dvec3(0, 0, 1), dvec3(0, -.6, -.8), b, -b}) {
+        const double c = dot(n, b), p2 = (3 * c * c - 1) / 2;
+        EXPECT_NEAR(falls_on(*uniform, n).x, kPi * .5, 5e-4);
+        EXPECT_NEAR(falls_on(*uniform, n).z, kPi * 2, 1e-3);
+        EXPECT_NEAR(falls_on(*linear, n).x, kPi + 2 * kPi / 3 * c, 1e-3);
+        EXPECT_NEAR(falls_on(*square, n).x, kPi / 3 + kPi / 6 * p2, 1e-3);
+        // Of a cosine lobe what nine coefficients keep: 1/4, 1/2 and 5/16 of its bands.
+        EXPECT_NEAR(falls_on(*lobe, n).x, std::max(0., kPi / 4 + kPi / 3 * c + 5 * kPi / 64 * p2),
+                    1e-3);
+    }
+    scene::Environment turned = *linear;
+    turned.rotation_degrees = 90, turned.scale = 3;
+    const dvec3 moved(-b.z, b.y, b.x); // -z to +x
+    const dvec3 n = glm::normalize(dvec3(.2, .4, .6));
+    EXPECT_NEAR(falls_on(turned, n).x, 3 * (kPi + 2 * kPi / 3 * dot(n, moved)), 3e-3);
+}
+
+TEST(Irradiance, LightsDiffuseSurfacesInBothWorlds) {
+    const auto environment = map_of({64, 32}, [](const dvec3& d) {
+        return dvec3(1 + .8 * d.x, .7 + .5 * d.y * d.z, std::max(0., d.z));
+    });
+    environment->rotation_degrees = 35, environment->scale = .7;
+    for (const dvec3& n : {dvec3(0, 1, 0), dvec3(1, 0, 0), glm::normalize(dvec3(-1, -.5, .7))}) {
+        const dvec3 across = glm::normalize(glm::cross(dvec3(.1, .2, 1), n)),
+                    up = glm::cross(n, across);
+        scene::Scene scene{.name = "board"};
+        const std::size_t grey = test::add_material(scene,
+                                                    {.name = "grey", .albedo = {.6f, .5f, .4f}});
+        test::add_quad(scene, "board", grey, -across - up, across - up, across + up, -across + up);
+        scene.environment = environment;
+        scene.cameras.push_back(
+            {.eye = 2.0 * n, .target = {0, 0, 0}, .up = up, .vertical_fov_degrees = 40});
+        const dvec3 wanted = dvec3(.6, .5, .4) / kPi * falls_on(*environment, n);
+        for (const std::string technique : {"raytrace", "naive"}) {
+            const measure::Picture picture = test::render_dark(scene, technique, {8, 8}).hdr;
+            for (const vec3& pixel : picture.pixels)
+                EXPECT_LE(glm::length(dvec3(pixel) - wanted), 1e-3 * glm::length(wanted))
+                    << technique;
+        }
+    }
+}
+
+/// Share of the mirrors' pixels that are off the traced picture.
+double off_in_mirrors(const scene::Scene& scene, const std::string& technique) {
+    constexpr uvec2 kSize{96, 96};
+    const app::Part truth = test::render(scene, "raytrace", kSize),
+                    part = test::render(scene, technique, kSize, 3);
+    std::size_t off = 0, all = 0;
+    for (std::size_t i = 0; i < truth.hits.size(); ++i) {
+        if (!measure::first_mirror(truth.hits[i])) continue;
+        ++all;
+        off += test::apart(part.hdr.pixels[i], truth.hdr.pixels[i]) > float(measure::kOff);
+    }
+    EXPECT_GT(all, 300u);
+    return double(off) / double(all);
+}
+
+std::shared_ptr<scene::Environment> dusk() {
+    return map_of({64, 32}, [](const dvec3& d) {
+        return dvec3(.4 + .3 * d.x, .5 + .4 * d.y, .5 - .3 * d.z * d.x);
+    });
+}
+
+/// Where nothing but the environment is, every technique shows it as rays see it.
+TEST(Environment, IsSeenInMirrorsByEveryTechnique) {
+    scene::Scene scene{.name = "alone"};
+    test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}),
+                   {0, 0, 0}, 1);
+    scene.environment = dusk();
+    scene.cameras.push_back({.eye = {0, .5, 3}, .target = {0, 0, 0}, .vertical_fov_degrees = 45});
+    for (const app::TechniqueInfo& technique : app::techniques())
+        EXPECT_LE(off_in_mirrors(scene, technique.name), .002) << technique.name;
+}
+
+/// A yard at dusk, with a lamp and the sun.
+scene::Scene yard_at_dusk() {
+    scene::Scene scene = test::yard();
+    scene.environment = dusk();
+    scene.punctual.push_back(
+        {.intensity = vec3(4), .world_from_light = test::shining({1, 2, 2}, {0, 0, -1})});
+    scene.punctual.push_back({.kind = scene::Punctual::Kind::directional,
+                              .intensity = vec3(1),
+                              .world_from_light = test::shining({0, 0, 0}, {-.5, -1, -.4})});
+    return scene;
+}
+
+TEST(Environment, IsOnePictureInRasterAndRays) {
+    const double off = test::share_off_of_raster(yard_at_dusk(), {128, 128});
+    std::cout << "[ MEASURED ] share off " << off << "\n";
+    EXPECT_LE(off, .005);
+}
+
+/// Searches that leave what was captured look it up themselves; what has no search mixes texels.
+TEST(Environment, SurroundsWhatIsMirrored) {
+    scene::Scene scene = yard_at_dusk();
+    scene.objects[2].material = test::add_material(scene, {.name = "mirror", .mirror = true});
+    for (const auto& [technique, most] : {std::pair{"hybrid", .01},
+                                          {"layered", .01},
+                                          {"secant", .01},
+                                          {"march", .01},
+                                          {"pyramid", .01},
+                                          {"parallax", .2},
+                                          {"reuse", .4},
+                                          {"proxy", .05}}) {
+        const double off = off_in_mirrors(scene, technique);
+        std::cout << "[ MEASURED ] " << technique << ": off " << off << "\n";
+        EXPECT_LE(off, most) << technique;
+    }
+}
+
+/// With every cause of error taken away a mirror shows what rays show, the environment too.
+TEST(Environment, IsThereWithoutCausesOfError) {
+    scene::Scene scene = yard_at_dusk();
+    scene.objects[2].material = test::add_material(scene, {.name = "mirror", .mirror = true});
+    app::Request asked = test::request(scene, {"parallax"}, {64, 64});
+    const app::Part truth = test::render(scene, "raytrace", {64, 64});
+    app::Session session(test::engine(), scene);
+    app::FrameSpec spec = asked;
+    session.frame(spec);
+    spec.mended = shared::kMendDistance | shared::kMendDirection | shared::kMendHidden |
+                  shared::kMendTexels | shared::kMendMirrors | shared::kMendOwn |
+                  shared::kMendShadows;
+    const measure::Picture mended = session.frame(spec).read_all().front().hdr;
+    std::size_t off = 0, all = 0;
+    for (std::size_t i = 0; i < truth.hits.size(); ++i) {
+        if (!measure::first_mirror(truth.hits[i])) continue;
+        ++all, off += test::apart(mended.pixels[i], truth.hdr.pixels[i]) > float(measure::kOff);
+    }
+    std::cout << "[ MEASURED ] off " << off << " of " << all << "\n";
+    EXPECT_LE(double(off), .01 * double(all));
+}
+
+} // namespace

@@ -1,0 +1,82 @@
+// Orthographic cameras: what lies where in the picture, in both worlds.
+#include "support/lit.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+scene::Camera along(const dvec3& eye, const dvec3& target, double height) {
+    return {.eye = eye, .target = target, .orthographic_height = height};
+}
+
+TEST(Orthographic, PlacesCornersWhateverTheirDepth) {
+    scene::Scene scene{.name = "boards"};
+    const auto board = [&](vec3 colour, dvec3 lo, dvec3 hi) {
+        test::add_quad(
+            scene, "board",
+            test::add_material(scene, {.name = "lit", .emission = colour, .two_sided = true}), lo,
+            {hi.x, lo.y, lo.z}, hi, {lo.x, hi.y, hi.z});
+    };
+    board({1, 0, 0}, {-1, -.5, 0}, {1, .5, 0});
+    board({0, 1, 0}, {-1.5, .5, -40}, {-1, .75, -40}); // far behind, as large as it is
+    board({0, 0, 1}, {.5, -.25, 3}, {.75, 0, 3});      // in front of the first
+    board({1, 1, 1}, {-2, -1, 6}, {2, 1, 6});          // behind the camera
+    // Four wide and two high: 16 pixels a unit.
+    for (const double z : {4.0, 5.0})
+        for (const std::string technique : {"raytrace", "naive"}) {
+            scene.cameras = {along({0, 0, z}, {0, 0, 0}, 2)};
+            const measure::Picture picture = test::render(scene, technique, {64, 32}).hdr;
+            const auto is_in = [](int x, int y, int left, int top, int right, int bottom) {
+                return x >= left && x < right && y >= top && y < bottom;
+            };
+            for (int y = 0; y < 32; ++y)
+                for (int x = 0; x < 64; ++x) {
+                    const vec3 wanted = is_in(x, y, 40, 16, 44, 20)  ? vec3(0, 0, 1)
+                                        : is_in(x, y, 16, 8, 48, 24) ? vec3(1, 0, 0)
+                                        : is_in(x, y, 8, 4, 16, 8)   ? vec3(0, 1, 0)
+                                                                     : vec3(0);
+                    ASSERT_EQ(picture.at(x, y), wanted) << technique << ": " << x << ", " << y;
+                }
+        }
+}
+
+/// However far away the eye is: what is in front of it is there.
+TEST(Orthographic, RasterShowsWhatRaysSee) {
+    scene::Scene scene = test::yard();
+    scene.punctual.push_back({.kind = scene::Punctual::Kind::directional,
+                              .intensity = vec3(2),
+                              .world_from_light = test::shining({0, 0, 0}, {-.4, -1, -.6})});
+    for (const double far : {1.0, 200.0}) {
+        scene.cameras = {along(far * dvec3(1.2, 2, 3), {0, .3, 0}, 4)};
+        const double off = test::share_off_of_raster(scene, {128, 96});
+        std::cout << "[ MEASURED ] " << far << ": share off " << off << "\n";
+        EXPECT_LE(off, .005) << far;
+    }
+}
+
+/// Mirrors turn parallel rays into what the ray tracer sees, and a footprint is found.
+TEST(Orthographic, MirrorsAreLookedAtAlongTheView) {
+    scene::Scene scene = test::room(2, 1);
+    scene.cameras = {along({.1, .2, -2.9}, {0, -.2, 0}, 3)};
+    constexpr uvec2 kSize{96, 96};
+    const app::Part truth = test::render(scene, "raytrace", kSize);
+    const measure::Mask mirrors = measure::mirrors(truth.hits);
+    for (const auto& [technique, most] :
+         {std::pair{"hybrid", .02}, {"secant:face=auto", .1}, {"layered", .05}}) {
+        const app::Part part = test::render(scene, technique, kSize, 4);
+        std::size_t off = 0, all = 0;
+        for (std::size_t i = 0; i < mirrors.size(); ++i) {
+            if (mirrors[i] == 0) continue;
+            ++all;
+            off += test::apart(part.hdr.pixels[i], truth.hdr.pixels[i]) > float(measure::kOff);
+        }
+        ASSERT_GT(all, 500u);
+        const double share = double(off) / double(all);
+        std::cout << "[ MEASURED ] " << technique << ": off " << share << "\n";
+        EXPECT_LE(share, most) << technique;
+    }
+}
+
+} // namespace

@@ -1,0 +1,148 @@
+// Lights without a surface, as KHR_lights_punctual has them: known answers, and one picture by
+// raster and rays.
+#include "support/lit.hpp"
+
+#include <iostream>
+#include <numbers>
+
+namespace {
+
+using namespace catoptric;
+using Kind = scene::Punctual::Kind;
+
+constexpr double kPi = std::numbers::pi;
+constexpr uvec2 kSize{32, 32};
+
+double degrees(double angle) { return std::cos(glm::radians(angle)); }
+
+/// One light over the floor, looked at from straight above; the world `scale` times as large.
+struct Case {
+    const char* name;
+    scene::Punctual light;
+    dvec3 from, axis;
+    friend void PrintTo(const Case& test_case, std::ostream* out) { *out << test_case.name; }
+};
+
+/// What falls on the floor at a place, as the specification of the extension has it.
+double illuminance(const Case& lit, const dvec3& place) {
+    if (lit.light.kind == Kind::directional) return -glm::normalize(lit.axis).y;
+    const dvec3 to_light = lit.from - place;
+    const double distance = glm::length(to_light), part = distance / lit.light.range;
+    const double cosine = -dot(to_light / distance, glm::normalize(lit.axis));
+    const double t = std::clamp((cosine - lit.light.cos_outer) /
+                                    std::max(.001, lit.light.cos_inner - lit.light.cos_outer),
+                                0.0, 1.0);
+    const double cone = lit.light.kind == Kind::spot ? t * t : 1;
+    return std::clamp(1 - std::pow(part, 4), 0.0, 1.0) * cone * to_light.y / std::pow(distance, 3);
+}
+
+/// The scene, moved and `scale` times as large; intensities of candela grow with its square.
+scene::Scene under(const Case& lit, double scale) {
+    const dvec3 origin(300, -20, 70);
+    scene::Scene scene = test::floor_alone();
+    scene.objects.front().world_from_object = dmat4(scale);
+    scene.objects.front().world_from_object[3] = dvec4(origin, 1);
+    scene::Punctual light = lit.light;
+    light.world_from_light = test::shining(origin + scale * lit.from, lit.axis);
+    light.range *= scale;
+    if (light.kind != Kind::directional) light.intensity *= float(scale * scale);
+    scene.punctual.push_back(light);
+    scene.cameras.push_back({.eye = origin + dvec3(0, 4 * scale, 0),
+                             .target = origin,
+                             .up = {0, 0, -1},
+                             .vertical_fov_degrees = 2 * glm::degrees(std::atan(.49))});
+    return scene;
+}
+
+class Punctual : public testing::TestWithParam<Case> {};
+const vec3 kIntensity{9, 7, 5};
+INSTANTIATE_TEST_SUITE_P(
+    Lights, Punctual,
+    testing::Values(Case{"point", {.intensity = kIntensity}, {.5, 2, .3}, {0, 0, -1}},
+                    Case{"point_with_range",
+                         {.intensity = kIntensity, .range = 2.4},
+                         {-.5, 1.2, .3},
+                         {0, 0, -1}},
+                    Case{"spot",
+                         {.kind = Kind::spot,
+                          .intensity = kIntensity,
+                          .range = 9,
+                          .cos_inner = degrees(12),
+                          .cos_outer = degrees(30)},
+                         {.4, 2.5, -.3},
+                         {-.3, -1, .2}},
+                    Case{"spot_without_penumbra",
+                         {.kind = Kind::spot,
+                          .intensity = kIntensity,
+                          .cos_inner = degrees(25),
+                          .cos_outer = degrees(25)},
+                         {.4, 2.5, -.3},
+                         {0, -1, 0}},
+                    Case{"directional",
+                         {.kind = Kind::directional, .intensity = {.9f, .7f, .5f}},
+                         {0, 1, 0},
+                         {.5, -1, .2}}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST_P(Punctual, LightsTheFloorAsSpecified) {
+    const Case& lit = GetParam();
+    for (const double scale : {1.0, 37.0}) {
+        const scene::Scene scene = under(lit, scale);
+        for (const std::string technique : {"raytrace", "naive:bounces=0", "raytrace:shadow=map"}) {
+            const measure::Picture picture = test::render_dark(scene, technique, kSize).hdr;
+            double worst = 0, brightest = 0, darkest = 1e9;
+            for (int y = 0; y < picture.height; ++y)
+                for (int x = 0; x < picture.width; ++x) {
+                    const dvec3 place(1.96 * ((x + .5) / 16 - 1), 0, 1.96 * ((y + .5) / 16 - 1));
+                    const double arrives = illuminance(lit, place);
+                    const dvec3 wanted = dvec3(.6, .5, .4) / kPi * dvec3(lit.light.intensity) *
+                                         arrives;
+                    worst = std::max(worst, glm::length(dvec3(picture.at(x, y)) - wanted));
+                    brightest = std::max(brightest, wanted.x),
+                    darkest = std::min(darkest, wanted.x);
+                }
+            std::cout << "[ MEASURED ] " << technique << ", " << scale << ": worst " << worst
+                      << " of " << darkest << " to " << brightest << "\n";
+            EXPECT_LE(worst, 1e-3 * brightest) << technique << ", scale " << scale;
+        }
+    }
+}
+
+TEST_P(Punctual, CastsTheSameShadowsInRasterAndRays) {
+    scene::Scene scene = test::yard();
+    const Case& lit = GetParam();
+    scene::Punctual light = lit.light;
+    light.world_from_light = test::shining(lit.from + dvec3(0, .5, 0), lit.axis);
+    scene.punctual.push_back(light);
+    const double off = test::share_off_of_raster(scene, {128, 128});
+    std::cout << "[ MEASURED ] share off " << off << "\n";
+    EXPECT_LE(off, .005);
+    // There are shadows.
+    const measure::Picture shadowed = test::render_dark(scene, "raytrace", {64, 64}).hdr,
+                           lit_up = test::render_dark(scene, "raytrace:shadow=none", {64, 64}).hdr;
+    EXPECT_GT(test::share_off(shadowed, lit_up, measure::Mask(64 * 64, 0)), .01);
+}
+
+// What is far outside of the scene's core casts and receives shadows, too.
+TEST(Directional, ReachesAllThereIs) {
+    scene::Scene scene = test::yard();
+    const std::size_t grey = scene.objects.front().material;
+    for (const double x : {-60.0, 50.0}) {
+        test::add_quad(scene, "far", grey, {x - 2, 0, 2}, {x + 2, 0, 2}, {x + 2, 0, -2},
+                       {x - 2, 0, -2});
+        test::add_quad(scene, "roof", grey, {x - 1, 1, 1}, {x + 1, 1, 1}, {x + 1, 1, -1},
+                       {x - 1, 1, -1});
+    }
+    scene.punctual.push_back({.kind = Kind::directional,
+                              .intensity = vec3(1.5f),
+                              .world_from_light = test::shining({0, 0, 0}, {.4, -1, -.3})});
+    for (const double x : {-60.0, 0.0, 50.0}) {
+        scene.cameras.front() = {
+            .eye = {x + 1, 2.5, 4}, .target = {x, .3, 0}, .vertical_fov_degrees = 50};
+        const double off = test::share_off_of_raster(scene, {96, 96});
+        std::cout << "[ MEASURED ] at " << x << ": share off " << off << "\n";
+        EXPECT_LE(off, .005) << "at " << x;
+    }
+}
+
+} // namespace

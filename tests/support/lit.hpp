@@ -1,0 +1,88 @@
+#pragma once
+
+#include "measure/lines.hpp"
+#include "support/rendering.hpp"
+
+/// Scenes under open sky, and how near a raster picture of them is to a traced one.
+namespace test {
+
+/// A light's place and the way it shines, along -z of its node.
+inline dmat4 shining(const dvec3& from, const dvec3& axis) {
+    const dvec3 back = -glm::normalize(axis);
+    const dvec3 other = std::abs(back.y) < .9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
+    const dvec3 right = glm::normalize(glm::cross(other, back));
+    return {dvec4(right, 0), dvec4(glm::cross(back, right), 0), dvec4(back, 0), dvec4(from, 1)};
+}
+
+/// A grey floor of 4x4 around the origin, y = 0.
+inline scene::Scene floor_alone() {
+    scene::Scene scene{.name = "floor"};
+    const std::size_t grey = add_material(scene, {.name = "grey", .albedo = {.6f, .5f, .4f}});
+    add_quad(scene, "floor", grey, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2});
+    return scene;
+}
+
+/// The floor with a wall, a ball and a block on it, seen from the side.
+inline scene::Scene yard() {
+    scene::Scene scene = floor_alone();
+    scene.name = "yard";
+    const std::size_t red = add_material(scene, {.name = "red", .albedo = {.7f, .3f, .2f}});
+    add_quad(scene, "wall", red, {-2, 0, -2}, {2, 0, -2}, {2, 1, -2}, {-2, 1, -2});
+    add_ball(scene, "ball", red, {-.6, .5, .2}, .5);
+    for (int face = 0; face < 6; ++face)
+        add_mesh(scene, scene::wall(face, {1.1, .8, -.3}, {.5, 0, -.9}), red);
+    scene.cameras.push_back(
+        {.name = "side", .eye = {1, 2.5, 4}, .target = {0, .3, 0}, .vertical_fov_degrees = 50});
+    return scene;
+}
+
+/// Largest channel of the difference, as pictures are shown.
+inline float apart(const vec3& a, const vec3& b) {
+    const vec3 size = abs(clamp(a, 0.0f, 1.0f) - clamp(b, 0.0f, 1.0f));
+    return std::max({size.x, size.y, size.z});
+}
+
+/// Pixels within two of which light and shadow meet: where a picture without shadows is another.
+inline measure::Mask shadow_edges(const measure::Picture& lit, const measure::Picture& shadowed) {
+    measure::Mask edges(lit.pixels.size(), 0);
+    const auto is_dark = [&](int x, int y) {
+        return apart(lit.at(x, y), shadowed.at(x, y)) > .002f;
+    };
+    for (int y = 0; y < lit.height; ++y)
+        for (int x = 0; x < lit.width; ++x)
+            for (int i = 0; i < 25; ++i) {
+                const int beside_x = std::clamp(x + i % 5 - 2, 0, lit.width - 1),
+                          beside_y = std::clamp(y + i / 5 - 2, 0, lit.height - 1);
+                if (is_dark(x, y) != is_dark(beside_x, beside_y))
+                    edges[static_cast<std::size_t>(y) * lit.width + x] = 255;
+            }
+    return edges;
+}
+
+/// Share of the pixels of the picture that are off and in no mask.
+inline double share_off(const measure::Picture& a, const measure::Picture& b,
+                        const measure::Mask& left_out) {
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        off += left_out[i] == 0 && !(apart(a.pixels[i], b.pixels[i]) <= float(measure::kOff));
+    return double(off) / double(a.pixels.size());
+}
+
+/// The picture at its first camera without ambient light.
+inline app::Part render_dark(const scene::Scene& scene, const std::string& technique, uvec2 size,
+                             int frames = 1) {
+    app::Request asked = request(scene, {technique}, size);
+    asked.ambient = 0;
+    asked.warmup = frames - 1;
+    return std::move(app::run(engine(), asked).parts.front());
+}
+
+/// Share off of the raster picture beside shadow edges.
+inline double share_off_of_raster(const scene::Scene& scene, uvec2 size) {
+    const app::Part traced = render_dark(scene, "raytrace", size),
+                    lit = render_dark(scene, "raytrace:shadow=none", size),
+                    raster = render_dark(scene, "naive:bounces=0", size);
+    return share_off(raster.hdr, traced.hdr, shadow_edges(lit.hdr, traced.hdr));
+}
+
+} // namespace test

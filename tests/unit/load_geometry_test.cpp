@@ -1,0 +1,271 @@
+// Geometry of glTF in every way in which it may be written.
+#include "scene/transform.hpp"
+#include "unit/load_fixture.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace test::loading;
+using testing::ElementsAre;
+
+class LoadGeometry : public Load {
+protected:
+    Scene scene_of(const Gltf& gltf) const { return load(write("x.glb", gltf.glb())); }
+    /// Each triangle as its three corners in the world, in order.
+    static std::vector<std::array<dvec3, 3>> triangles(const Scene& scene) {
+        std::vector<std::array<dvec3, 3>> list;
+        for (const Object& object : scene.objects)
+            for (const uvec3& t : scene.meshes[object.mesh].triangles) {
+                std::array<dvec3, 3> corners;
+                for (int i = 0; i < 3; ++i)
+                    corners[std::size_t(i)] = transform_point(
+                        object.world_from_object, scene.meshes[object.mesh].positions[t[i]]);
+                list.push_back(corners);
+            }
+        return list;
+    }
+    static Json& primitive(Gltf& gltf) { return gltf.root["meshes"][0]["primitives"][0]; }
+};
+
+const dvec3 kA(0, 0, 0), kB(1, 0, 0), kC(0, 1, 0), kD(1, 1, 0), kE(0, 2, 0);
+/// Five corners of a strip.
+Gltf strip_like() {
+    Gltf gltf = small();
+    gltf.root["meshes"][0]["primitives"][0] = {
+        {"attributes",
+         {{"POSITION",
+           gltf.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0}, "VEC3", 5126)}}}};
+    return gltf;
+}
+
+TEST_F(LoadGeometry, StripsTurnEverySecondTriangle) {
+    Gltf gltf = strip_like();
+    primitive(gltf)["mode"] = 5;
+    EXPECT_THAT(
+        triangles(scene_of(gltf)),
+        ElementsAre(std::array{kA, kB, kC}, std::array{kB, kD, kC}, std::array{kC, kD, kE}));
+    primitive(gltf)["indices"] = gltf.add<std::uint8_t>({1, 3, 0, 2}, "SCALAR", 5121);
+    EXPECT_THAT(triangles(scene_of(gltf)),
+                ElementsAre(std::array{kB, kD, kA}, std::array{kD, kC, kA}));
+}
+
+TEST_F(LoadGeometry, FansBeginWithTheSecondAndThirdCorner) {
+    Gltf gltf = strip_like();
+    primitive(gltf)["mode"] = 6;
+    primitive(gltf)["indices"] = gltf.add<std::uint32_t>({0, 1, 3, 4}, "SCALAR", 5125);
+    EXPECT_THAT(triangles(scene_of(gltf)),
+                ElementsAre(std::array{kB, kD, kA}, std::array{kD, kE, kA}));
+}
+
+TEST_F(LoadGeometry, PointsAndLinesAreCountedAndTwoCornersAreNoStrip) {
+    Gltf gltf = strip_like();
+    for (const int mode : {0, 1, 2, 3}) {
+        gltf.root["meshes"][0]["primitives"].push_back(gltf.root["meshes"][0]["primitives"][0]);
+        gltf.root["meshes"][0]["primitives"].back()["mode"] = mode;
+    }
+    primitive(gltf)["mode"] = 5;
+    gltf.root["meshes"][0]["primitives"].push_back(primitive(gltf));
+    gltf.root["meshes"][0]["primitives"].back()["indices"] = gltf.add<std::uint8_t>({1, 3},
+                                                                                    "SCALAR", 5121);
+    const Scene scene = scene_of(gltf);
+    EXPECT_EQ(triangle_count(scene), 3u);
+    ASSERT_EQ(scene.gaps.size(), 1u);
+    EXPECT_EQ(scene.gaps[0].id, "points-lines");
+    EXPECT_EQ(scene.gaps[0].count, 4u);
+    EXPECT_EQ(scene.gaps[0].first, "meshes[0] 'm': primitives[1]");
+}
+
+TEST_F(LoadGeometry, SparsePlacesStandInPlaceOfOthersOrOfZeros) {
+    Gltf gltf = small();
+    const auto view_of = [&](std::size_t accessor) {
+        return gltf.root["accessors"][accessor]["bufferView"];
+    };
+    const std::size_t places = gltf.add<std::uint16_t>({1, 2}, "SCALAR", 5123);
+    const std::size_t values = gltf.add<float>({5, 0, 0, 0, 7, 0}, "VEC3", 5126);
+    const Json sparse = {{"count", 2},
+                         {"indices", {{"bufferView", view_of(places)}, {"componentType", 5123}}},
+                         {"values", {{"bufferView", view_of(values)}}}};
+    gltf.root["accessors"][0]["sparse"] = sparse;
+    EXPECT_THAT(triangles(scene_of(gltf)),
+                ElementsAre(std::array{kA, dvec3(5, 0, 0), dvec3(0, 7, 0)}));
+    gltf.root["accessors"][0].erase("bufferView");
+    EXPECT_THAT(triangles(scene_of(gltf)),
+                ElementsAre(std::array{kA, dvec3(5, 0, 0), dvec3(0, 7, 0)}));
+    EXPECT_THAT(
+        refused("y.glb", gltf.glb(), Failure::bad_data, {.budget = {.made_bytes = 47}}),
+        HasSubstr("accessors[0]: wanted at most 47 bytes of sparse accessors, the budget of "
+                  "a scene, found 48"));
+}
+
+TEST_F(LoadGeometry, StridedAndQuantised) {
+    Gltf gltf = small();
+    // x y z of 16 bits and two bytes of padding for each corner, then normals of bytes
+    std::vector<std::int16_t> corners = {0, 0, 0, 99, 100, 0, 0, 99, 0, -200, 0, 99};
+    const std::size_t positions = gltf.add(corners, "SCALAR", 5122);
+    gltf.root["bufferViews"].back()["byteStride"] = 8;
+    gltf.root["accessors"][positions].update(Json{{"type", "VEC3"}, {"count", 3}});
+    const std::size_t normals = gltf.add<std::int8_t>({0, 0, -127, 0, 0, 0, -128, 0, 0, 127, 0, 0},
+                                                      "SCALAR", 5120);
+    gltf.root["bufferViews"].back()["byteStride"] = 4;
+    gltf.root["accessors"][normals].update(
+        Json{{"type", "VEC3"}, {"count", 3}, {"normalized", true}});
+    const std::size_t uv = gltf.add<std::uint16_t>({0, 65535, 13107, 0, 0, 0}, "VEC2", 5123);
+    gltf.root["accessors"][uv]["normalized"] = true;
+    primitive(gltf)["attributes"] = {
+        {"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uv}};
+    EXPECT_THAT(refused("y.glb", gltf.glb()),
+                HasSubstr("POSITION: wanted floats, found component type 5122"));
+    gltf.root["extensionsUsed"] = {"KHR_mesh_quantization"};
+    const Scene scene = scene_of(gltf);
+    EXPECT_THAT(triangles(scene), ElementsAre(std::array{kA, dvec3(100, 0, 0), dvec3(0, -200, 0)}));
+    const Mesh& mesh = scene.meshes[0];
+    const uvec3 t = mesh.triangles[0];
+    EXPECT_EQ(mesh.normals[t.x], vec3(0, 0, -1));
+    EXPECT_EQ(mesh.normals[t.y], vec3(0, 0, -1)) << "-128 is -1, too";
+    EXPECT_EQ(mesh.normals[t.z], vec3(0, 1, 0));
+    EXPECT_EQ(mesh.uv[0][t.x], vec2(0, 1));
+    EXPECT_EQ(mesh.uv[0][t.y], vec2(.2f, 0));
+}
+
+TEST_F(LoadGeometry, TextureCoordinatesAndColours) {
+    Gltf gltf = small();
+    primitive(gltf)["attributes"]["TEXCOORD_0"] = gltf.add<float>({0, 1, 2, 3, 4, 5, 6, 7}, "VEC2",
+                                                                  5126);
+    const std::size_t bytes = gltf.add<std::uint8_t>({0, 51, 255, 127, 1, 2}, "VEC2", 5121);
+    gltf.root["accessors"][bytes]["normalized"] = true;
+    (void)bytes;
+    primitive(gltf)["attributes"]["COLOR_0"] = gltf.add<float>(
+        {1, 0, 0, .5, 0, 1, 0, 1, 0, 0, 1, 1, 1, 1, 1, 1}, "VEC4", 5126);
+    // a second primitive of the same material without either
+    gltf.root["meshes"][0]["primitives"].push_back(
+        {{"attributes", {{"POSITION", 0}}}, {"indices", 1}});
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    const Mesh& mesh = scene.meshes[0];
+    ASSERT_EQ(mesh.triangles.size(), 2u);
+    ASSERT_EQ(mesh.uv[0].size(), mesh.positions.size());
+    ASSERT_EQ(mesh.colours.size(), mesh.positions.size());
+    EXPECT_TRUE(mesh.uv[1].empty());
+    const uvec3 own = mesh.triangles[0], other = mesh.triangles[1];
+    EXPECT_EQ(mesh.uv[0][own.y], vec2(2, 3));
+    EXPECT_EQ(mesh.colours[own.x], vec4(1, 0, 0, .5f));
+    EXPECT_EQ(mesh.uv[0][other.y], vec2(0));
+    EXPECT_EQ(mesh.colours[other.y], vec4(1));
+}
+
+TEST_F(LoadGeometry, ColoursOfThreeNormalisedBytes) {
+    Gltf gltf = small();
+    const std::size_t colours = gltf.add<std::uint8_t>(
+        {0, 51, 255, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "SCALAR", 5121);
+    gltf.root["bufferViews"].back()["byteStride"] = 4;
+    gltf.root["accessors"][colours].update(
+        Json{{"type", "VEC3"}, {"count", 4}, {"normalized", true}});
+    primitive(gltf)["attributes"]["COLOR_0"] = colours;
+    const Scene scene = scene_of(gltf);
+    const Mesh& mesh = scene.meshes[0];
+    EXPECT_EQ(mesh.colours[mesh.triangles[0].x], vec4(0, .2f, 1, 1));
+}
+
+TEST_F(LoadGeometry, NodesShareTheirMesh) {
+    Gltf gltf = small();
+    gltf.root["nodes"] = Json::array();
+    gltf.root["scenes"][0]["nodes"] = Json::array();
+    for (int i = 0; i < 1000; ++i) {
+        gltf.root["nodes"].push_back({{"mesh", 0}, {"translation", {i, 0, 0}}});
+        gltf.root["scenes"][0]["nodes"].push_back(i);
+    }
+    const Scene scene = scene_of(gltf);
+    EXPECT_EQ(scene.objects.size(), 1000u);
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    EXPECT_EQ(triangles(scene)[999][1], dvec3(1000, 0, 0));
+}
+
+TEST_F(LoadGeometry, MorphTargetsAtTheirDefaultWeights) {
+    Gltf gltf = small();
+    const std::size_t by = gltf.add<float>({0, 0, 4, 0, 0, 4, 0, 0, 4, 0, 0, 4}, "VEC3", 5126);
+    primitive(gltf)["targets"] = {{{"POSITION", by}}, {{"POSITION", by}}};
+    EXPECT_THAT(triangles(scene_of(gltf)), ElementsAre(std::array{kA, kB, kC}));
+    gltf.root["meshes"][0]["weights"] = {.25, .5};
+    const Scene scene = scene_of(gltf);
+    const dvec3 up(0, 0, 3);
+    EXPECT_THAT(triangles(scene), ElementsAre(std::array{kA + up, kB + up, kC + up}));
+    EXPECT_EQ(scene.gaps.at(0).id, "morph");
+}
+
+TEST_F(LoadGeometry, SkinsStandAsTheirJointsDo) {
+    Gltf gltf = small();
+    // a joint 2 above and turned by nothing, bound 1 above: carries by 1; another at the origin
+    std::vector<float> bound(32);
+    for (const std::size_t i : {0, 5, 10, 15, 16, 21, 26, 31}) bound[i] = 1;
+    bound[13] = -1;
+    const std::size_t inverse = gltf.add(bound, "MAT4", 5126);
+    const std::size_t joints = gltf.add<std::uint8_t>(
+        {0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, "VEC4", 5121);
+    const std::size_t weights = gltf.add<float>({1, 0, 0, 0, 1, 0, 0, 0, .5, .5, 0, 0, 1, 0, 0, 0},
+                                                "VEC4", 5126);
+    primitive(gltf)["attributes"]["JOINTS_0"] = joints;
+    primitive(gltf)["attributes"]["WEIGHTS_0"] = weights;
+    gltf.root["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {50, 0, 0}}},
+                          {{"translation", {0, 2, 0}}},
+                          {{"name", "root"}}};
+    gltf.root["scenes"][0]["nodes"] = {0, 1, 2};
+    gltf.root["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", inverse}}};
+    const Scene scene = scene_of(gltf);
+    EXPECT_THAT(triangles(scene), ElementsAre(std::array{dvec3(0, 1, 0), kB, dvec3(0, 1.5, 0)}))
+        << "where the node is does not matter";
+    EXPECT_EQ(scene.gaps.at(0).id, "skin");
+}
+
+TEST_F(LoadGeometry, OrthographicCameras) {
+    Gltf gltf = small();
+    gltf.root["cameras"] = {
+        {{"type", "orthographic"},
+         {"name", "plan"},
+         {"orthographic", {{"xmag", 9}, {"ymag", 1.5}, {"znear", 0}, {"zfar", 1}}}}};
+    gltf.root["nodes"].push_back({{"camera", 0}, {"translation", {1, 2, 3}}});
+    gltf.root["scenes"][0]["nodes"] = {0, 1};
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].orthographic_height, 3);
+    EXPECT_EQ(scene.cameras[0].eye, dvec3(1, 2, 3));
+    EXPECT_EQ(scene.cameras[0].target, dvec3(1, 2, 2));
+    gltf.root["cameras"][0]["orthographic"]["ymag"] = 0;
+    EXPECT_THAT(refused("y.glb", gltf.glb()),
+                HasSubstr("cameras[0] 'plan': orthographic: ymag: wanted a number above 0"));
+}
+
+TEST_F(LoadGeometry, LightsWithoutALamp) {
+    Gltf gltf = small();
+    gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 8}, {"color", {1, .5, .25}}, {"range", 7}},
+        {{"type", "spot"},
+         {"name", "cone"},
+         {"spot", {{"innerConeAngle", .25}, {"outerConeAngle", .5}}}},
+        {{"type", "directional"}, {"intensity", 3}}};
+    for (int i = 0; i < 3; ++i) {
+        gltf.root["nodes"].push_back({{"translation", {0, i, 0}},
+                                      {"rotation", {0, std::sqrt(.5), 0, std::sqrt(.5)}},
+                                      {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+        gltf.root["scenes"][0]["nodes"].push_back(i + 1);
+    }
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.punctual.size(), 3u);
+    const Punctual &point = scene.punctual[0], &spot = scene.punctual[1], &sun = scene.punctual[2];
+    EXPECT_EQ(point.kind, Punctual::Kind::point);
+    EXPECT_EQ(point.intensity, vec3(8, 4, 2));
+    EXPECT_EQ(point.range, 7);
+    EXPECT_EQ(spot.kind, Punctual::Kind::spot);
+    EXPECT_EQ(spot.name, "cone");
+    EXPECT_EQ(spot.intensity, vec3(1));
+    EXPECT_NEAR(spot.cos_inner, std::cos(.25), 1e-12);
+    EXPECT_NEAR(spot.cos_outer, std::cos(.5), 1e-12);
+    EXPECT_TRUE(std::isinf(spot.range));
+    EXPECT_EQ(sun.kind, Punctual::Kind::directional);
+    EXPECT_EQ(dvec3(sun.world_from_light[3]), dvec3(0, 2, 0));
+    const dvec3 along = -dvec3(sun.world_from_light[2]); // -z, turned by 90 degrees about y
+    EXPECT_NEAR(along.x, -1, 1e-12);
+    EXPECT_THAT(scene.warnings, testing::IsEmpty()) << "it is lit";
+}
+
+} // namespace

@@ -1,0 +1,178 @@
+// Surfaces and texture coordinates of .obj and .mtl (scene.md, "Files").
+#include "scene/image_file.hpp"
+#include "unit/load_fixture.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace test::loading;
+using testing::ElementsAre;
+
+const Image kPicture{.name = "p", .size = {2, 1}, .texels = {0xff0000ff, 0xff00ff00}};
+
+class LoadObj : public Load {
+protected:
+    /// The first material of a library, which a triangle uses.
+    Material material_of(const std::string& statements) const {
+        return scene_of(statements).materials.at(0);
+    }
+    Scene scene_of(const std::string& statements) const {
+        write("m.mtl", "newmtl a\n" + statements);
+        return load(write("x.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"));
+    }
+    static std::vector<std::string> ids(const Scene& scene) {
+        std::vector<std::string> list;
+        for (const Gap& gap : scene.gaps) list.push_back(gap.id);
+        return list;
+    }
+    void expect_near(const vec3& found, const vec3& wanted) const {
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], wanted[i], 1e-6f);
+    }
+};
+
+TEST_F(LoadObj, TextureCoordinatesGoDownHereAndUpThere) {
+    const Scene scene = load(write("x.obj", kTriangle + "vt 0 0\nvt 1 .25 9\nvt .5\nvn 0 0 1\n"
+                                                        "f 1/1/1 2/2/1 3/-1/1\nf 1/3 2/2 3/1\n"
+                                                        "f 1 2 3\n"));
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(mesh.uv[0].size(), mesh.positions.size());
+    const uvec3 t = mesh.triangles[0], other = mesh.triangles[1], without = mesh.triangles[2];
+    EXPECT_EQ(mesh.uv[0][t.x], vec2(0, 1));
+    EXPECT_EQ(mesh.uv[0][t.y], vec2(1, .75f));
+    EXPECT_EQ(mesh.uv[0][t.z], vec2(.5f, 1));
+    EXPECT_EQ(mesh.uv[0][other.z], vec2(0, 1)) << "each corner its own";
+    EXPECT_EQ(mesh.uv[0][without.y], vec2(0));
+    EXPECT_TRUE(load(write("y.obj", kTriangle + "vt 0 0\nf 1 2 3\n")).meshes[0].uv[0].empty());
+}
+
+TEST_F(LoadObj, ColoursAfterPositions) {
+    const Scene scene = load(
+        write("x.obj", "v 0 0 0\nv 1 0 0 1 .5 .25\nv 0 1 0 1 0 2 0\nv 0 0 1 9\nf 1 2 3\n"));
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(mesh.colours.size(), 3u);
+    EXPECT_EQ(mesh.colours[mesh.triangles[0].x], vec4(1));
+    EXPECT_EQ(mesh.colours[mesh.triangles[0].y], vec4(1, .5f, .25f, 1));
+    EXPECT_EQ(mesh.colours[mesh.triangles[0].z], vec4(0, 1, 0, 1)) << "after a weight, within 0..1";
+}
+
+TEST_F(LoadObj, TexturesAndTheirOptions) {
+    write("wood and stone.png", png_of(kPicture));
+    const Scene plain = scene_of("map_Kd wood and stone.png\n");
+    const Material& material = plain.materials[0];
+    ASSERT_TRUE(material.albedo_texture);
+    EXPECT_EQ(material.albedo, vec3(1)) << "without a Kd the map is all of it";
+    EXPECT_EQ(material.albedo_texture->image->texels, kPicture.texels);
+    EXPECT_TRUE(material.albedo_texture->srgb);
+    EXPECT_EQ(material.albedo_texture->wrap_u, Texture::Wrap::repeat);
+    EXPECT_EQ(material.albedo_texture->v_row, vec3(0, 1, 0));
+    EXPECT_THAT(plain.files, testing::SizeIs(3));
+    const Texture texture = *material_of("Kd .5 .5 .5\nmap_Kd -s 2 4 1 -o .5 .25 -clamp on -bm 1 "
+                                         "wood and stone.png\n")
+                                 .albedo_texture;
+    EXPECT_EQ(texture.wrap_v, Texture::Wrap::clamp);
+    // upwards (u, v) = (.25, .5) is (2 * .25 + .5, 4 * .5 + .25) there
+    const vec3 downwards(.25f, .5f, 1);
+    EXPECT_EQ(glm::dot(texture.u_row, downwards), 1);
+    EXPECT_EQ(glm::dot(texture.v_row, downwards), 1 - 2.25f);
+    // another system's path, and one that leads nowhere here
+    for (const char* name : {".\\wood and stone.png", "C:\\maps\\wood and stone.png"})
+        EXPECT_TRUE(material_of(std::string("map_Kd ") + name + "\n").albedo_texture) << name;
+    const Scene missing = scene_of("Kd .5 0 0\nmap_Kd gone.png\n");
+    EXPECT_EQ(missing.materials[0].albedo, vec3(.5f, 0, 0));
+    EXPECT_THAT(ids(missing), ElementsAre("missing-image"));
+}
+
+TEST_F(LoadObj, ColoursAndWhatIsNotSaid) {
+    expect_near(material_of("").albedo, vec3(.8f));
+    expect_near(material_of("Kd .25\n").albedo, vec3(.25f));
+    expect_near(material_of("Kd 2 .5 -1\n").albedo, vec3(1, .5f, 0));
+    EXPECT_EQ(material_of("Ke 3 2 1\n").emission, vec3(3, 2, 1));
+    EXPECT_EQ(material_of("Ke 3\n").albedo, vec3(0)) << "a lamp that says no more is black";
+    EXPECT_TRUE(material_of("Kd 1 1 1\n").two_sided);
+    EXPECT_FALSE(material_of("Ke 1\n").two_sided);
+    EXPECT_THAT(refused("x.obj", "mtllib m.mtl\n"), testing::Not(testing::IsEmpty()));
+}
+
+TEST_F(LoadObj, KindsOfReflection) {
+    const Material constant = material_of("Kd .5 .5 .5\nKs .25 .5 1\nillum 3\n");
+    EXPECT_TRUE(constant.mirror);
+    EXPECT_EQ(constant.reflectance, vec3(.25f, .5f, 1));
+    EXPECT_EQ(constant.albedo, vec3(.5f)) << "shows between";
+    EXPECT_TRUE(material_of("Ks 1 1 1\nNs 100\nillum 8\n").mirror);
+    const Material faint = material_of("Ks .1 .1 .1\nillum 3\n");
+    EXPECT_FALSE(faint.mirror);
+    EXPECT_EQ(faint.roughness, 0);
+    EXPECT_EQ(faint.dielectric_f0, vec3(.1f));
+    EXPECT_EQ(faint.dielectric_f90, vec3(.1f)) << "at any angle";
+    const Material rough = material_of("Ks 1 1 1\nNs 30\nillum 3\n");
+    EXPECT_FALSE(rough.mirror);
+    EXPECT_NEAR(rough.roughness, .25, 1e-6);
+    const Material schlick = material_of("Ks .5 .25 .125\nillum 5\n");
+    EXPECT_FALSE(schlick.mirror);
+    EXPECT_EQ(schlick.roughness, 0);
+    EXPECT_EQ(schlick.dielectric_f0, vec3(.5f, .25f, .125f));
+    EXPECT_EQ(schlick.dielectric_f90, vec3(1));
+    const Material metal = material_of("Kd 1 .5 0\nKs 1 1 1\nNs 5\nPr .05\nPm 1\nillum 3\n");
+    EXPECT_FALSE(metal.mirror);
+    EXPECT_EQ(metal.metallic, 1);
+    EXPECT_EQ(metal.roughness, .05f) << "wins over Ns";
+    for (const char* kind : {"0", "1", "2"}) {
+        const Material diffuse = material_of(std::string("Ks 1 1 1\nNs 900\nillum ") + kind + "\n");
+        EXPECT_FALSE(diffuse.mirror);
+        EXPECT_EQ(diffuse.roughness, 1);
+    }
+}
+
+TEST_F(LoadObj, GlassAndWhatIsCut) {
+    for (const char* glass : {"illum 4\n", "illum 6\n", "illum 7\n", "illum 9\n", "d .25\nNi 1.5\n",
+                              "Tr .75\nNi 1.5\n"}) {
+        const Scene scene = scene_of(glass);
+        EXPECT_FALSE(is_masked(scene.materials[0])) << glass;
+        EXPECT_THAT(ids(scene), ElementsAre("glass-as-diffuse", "glass-shadow")) << glass;
+    }
+    const Scene thin = scene_of("d .25\n");
+    EXPECT_EQ(thin.materials[0].alpha, .25f);
+    EXPECT_EQ(thin.materials[0].alpha_cutoff, .5f);
+    EXPECT_THAT(ids(thin), ElementsAre("blend-as-mask"));
+    EXPECT_EQ(material_of("Tr .25\nNi 1\n").alpha, .75f);
+    EXPECT_FALSE(is_masked(material_of("d 1\nNi 1.5\n")));
+}
+
+TEST_F(LoadObj, MissingMaterialsAreGrey) {
+    const Scene scene = load(
+        write("x.obj", "mtllib gone.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"));
+    expect_near(scene.materials.at(0).albedo, vec3(.8f));
+    EXPECT_THAT(scene.warnings,
+                testing::Contains(HasSubstr("material libraries that are not there: "
+                                            "1 (first: ")));
+    ASSERT_THAT(ids(scene), ElementsAre("missing-material"));
+    EXPECT_EQ(scene.gaps[0].count, 2u);
+    write("m.mtl", "newmtl a\nKd 1 0 0\n");
+    const Scene other = load(
+        write("x.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 2\n"));
+    ASSERT_EQ(other.objects.size(), 2u);
+    expect_near(other.materials[other.objects[0].material].albedo, vec3(1, 0, 0));
+    expect_near(other.materials[other.objects[1].material].albedo, vec3(.8f));
+    EXPECT_THAT(other.warnings, testing::Contains(HasSubstr(
+                                    "uses of materials that no library has, drawn grey: 1")));
+}
+
+TEST_F(LoadObj, FewCornersPointsAndLinesAreCounted) {
+    const Scene scene = load(write("x.obj", kTriangle + "f 1\nf 1 2\nf 1 2 3\np 1 2\nl 1 2 3\n"));
+    EXPECT_EQ(triangle_count(scene), 1u);
+    ASSERT_THAT(ids(scene), ElementsAre("points-lines"));
+    EXPECT_EQ(scene.gaps[0].count, 4u);
+}
+
+TEST_F(LoadObj, FilesOfOtherSystems) {
+    write("m n.mtl", "\xef\xbb\xbfnewmtl a b\r\nKd 1 0 0\r\n");
+    const Scene scene = load(write("x.obj",
+                                   "\xef\xbb\xbfmtllib m n.mtl\r\nv 0 0 0\r\nv 1 0 0\r\n"
+                                   "v 0 1 0\r\no an object\r\nusemtl a b\r\nf 1 2 \\\r\n3\r\n"));
+    EXPECT_EQ(scene.objects.at(0).name, "an object");
+    EXPECT_EQ(scene.materials.at(0).name, "a b");
+    expect_near(scene.materials[0].albedo, vec3(1, 0, 0));
+}
+
+} // namespace

@@ -1,0 +1,272 @@
+// Surfaces of glTF: what a material and its textures become, factor by factor.
+#include "core/image_codec.hpp"
+#include "scene/image_file.hpp"
+#include "unit/load_fixture.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace test::loading;
+using testing::ElementsAre;
+
+std::string base64(const std::string& bytes) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t three = 0;
+        for (std::size_t j = 0; j < 3; ++j)
+            three = three << 8 | (i + j < bytes.size() ? std::uint8_t(bytes[i + j]) : 0);
+        for (int j = 3; j >= 0; --j) text += digits[three >> (6 * j) & 63];
+    }
+    const std::size_t missing = (3 - bytes.size() % 3) % 3;
+    return text.substr(0, text.size() - missing) + std::string(missing, '=');
+}
+
+/// 3 by 2 texels, each another.
+const Image kPicture{
+    .name = "p",
+    .size = {3, 2},
+    .texels = {0xff0000ff, 0xff00ff00, 0xffff0000, 0x80402010, 0x00ffffff, 0xffffffff}};
+
+class LoadSurface : public Load {
+protected:
+    /// A triangle of this material, with a texture whose picture is `kPicture`.
+    static Gltf with(const Json& material) {
+        Gltf gltf = small();
+        gltf.root["materials"] = {material};
+        gltf.root["meshes"][0]["primitives"][0]["material"] = 0;
+        gltf.root["images"] = {{{"uri", "data:image/png;base64," + base64(png_of(kPicture))}}};
+        gltf.root["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}}};
+        gltf.root["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
+        return gltf;
+    }
+    Scene scene_of(const Gltf& gltf) const { return load(write("x.glb", gltf.glb())); }
+    Material material_of(const Json& material) const {
+        return scene_of(with(material)).materials.at(0);
+    }
+    static std::vector<std::string> ids(const Scene& scene) {
+        std::vector<std::string> list;
+        for (const Gap& gap : scene.gaps) list.push_back(gap.id);
+        return list;
+    }
+};
+
+TEST_F(LoadSurface, FactorsAndSides) {
+    const Material plain = material_of(Json::object());
+    EXPECT_EQ(plain.albedo, vec3(1));
+    EXPECT_EQ(plain.metallic, 1);
+    EXPECT_EQ(plain.roughness, 1);
+    EXPECT_TRUE(plain.front_only);
+    EXPECT_FALSE(plain.two_sided || plain.mirror || is_masked(plain));
+    const Material gold = material_of({{"doubleSided", true},
+                                       {"pbrMetallicRoughness",
+                                        {{"baseColorFactor", {1, .5, .25, .75}},
+                                         {"metallicFactor", 1},
+                                         {"roughnessFactor", 0}}}});
+    EXPECT_EQ(gold.albedo, vec3(1, .5f, .25f));
+    EXPECT_EQ(gold.alpha, .75f);
+    EXPECT_EQ(gold.metallic, 1);
+    EXPECT_EQ(gold.roughness, 0);
+    EXPECT_FALSE(gold.mirror) << "by its angle, as Schlick has it";
+    EXPECT_TRUE(gold.two_sided);
+    EXPECT_FALSE(gold.front_only);
+    const Material perfect = material_of({{"pbrMetallicRoughness", {{"roughnessFactor", 0}}}});
+    EXPECT_TRUE(perfect.mirror);
+    EXPECT_EQ(perfect.reflectance, vec3(1));
+    const Material out_of_range = material_of(
+        {{"pbrMetallicRoughness", {{"metallicFactor", 7}, {"baseColorFactor", {2, -1, 0, 9}}}}});
+    EXPECT_EQ(out_of_range.metallic, 1);
+    EXPECT_EQ(out_of_range.albedo, vec3(1, 0, 0));
+}
+
+TEST_F(LoadSurface, DielectricsByExtension) {
+    const auto with_extension = [&](const char* name, const Json& is) {
+        return material_of({{"extensions", {{name, is}}}});
+    };
+    EXPECT_EQ(material_of(Json::object()).dielectric_f0, vec3(.04f));
+    const Material diamond = with_extension("KHR_materials_ior", {{"ior", 2.4}});
+    EXPECT_NEAR(diamond.dielectric_f0.x, std::pow(1.4 / 3.4, 2), 1e-6);
+    EXPECT_EQ(with_extension("KHR_materials_ior", {{"ior", 0}}).dielectric_f0, vec3(1));
+    const Material tinted = with_extension(
+        "KHR_materials_specular", {{"specularFactor", .5}, {"specularColorFactor", {1, 2, 100}}});
+    EXPECT_NEAR(tinted.dielectric_f0.x, .02, 1e-6);
+    EXPECT_NEAR(tinted.dielectric_f0.y, .04, 1e-6);
+    EXPECT_NEAR(tinted.dielectric_f0.z, .5, 1e-6) << "no more than 1 before its strength";
+    EXPECT_EQ(tinted.dielectric_f90, vec3(.5f));
+    const Material glossy = with_extension("KHR_materials_pbrSpecularGlossiness",
+                                           {{"diffuseFactor", {.5, .25, 0, 1}},
+                                            {"specularFactor", {.25, .5, 1}},
+                                            {"glossinessFactor", .75},
+                                            {"diffuseTexture", {{"index", 0}}}});
+    EXPECT_EQ(glossy.albedo, vec3(.5f, .25f, 0));
+    EXPECT_EQ(glossy.dielectric_f0, vec3(.25f, .5f, 1));
+    EXPECT_EQ(glossy.roughness, .25f);
+    EXPECT_EQ(glossy.metallic, 0);
+    ASSERT_TRUE(glossy.albedo_texture);
+    const Material flat = with_extension("KHR_materials_unlit", Json::object());
+    EXPECT_TRUE(flat.unlit);
+    EXPECT_EQ(light_of(flat), vec3(0));
+}
+
+TEST_F(LoadSurface, EmissionAndWhatLights) {
+    const Json strong = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}};
+    const Material lamp = material_of({{"emissiveFactor", {1, .5, 0}}, {"extensions", strong}});
+    EXPECT_EQ(lamp.emission, vec3(4, 2, 0));
+    EXPECT_EQ(light_of(lamp), vec3(4, 2, 0));
+    const Material screen = material_of(
+        {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 1}}}});
+    ASSERT_TRUE(screen.emission_texture);
+    EXPECT_TRUE(screen.emission_texture->srgb);
+    EXPECT_EQ(light_of(screen), vec3(0)) << "what a texture varies lights nothing";
+}
+
+TEST_F(LoadSurface, AlphaModes) {
+    EXPECT_EQ(material_of({{"alphaMode", "MASK"}}).alpha_cutoff, .5f);
+    EXPECT_EQ(material_of({{"alphaMode", "MASK"}, {"alphaCutoff", .25}}).alpha_cutoff, .25f);
+    EXPECT_EQ(material_of({{"alphaMode", "OPAQUE"}, {"alphaCutoff", .25}}).alpha_cutoff, 0);
+    const Scene blended = scene_of(with({{"alphaMode", "BLEND"}}));
+    EXPECT_EQ(blended.materials[0].alpha_cutoff, .5f);
+    ASSERT_THAT(ids(blended), ElementsAre("blend-as-mask"));
+    EXPECT_EQ(blended.gaps[0].first, "materials[0]");
+    EXPECT_THAT(blended.gaps[0].materials, ElementsAre(0));
+}
+
+TEST_F(LoadSurface, TexturesAndTheirSamplers) {
+    const Scene scene = scene_of(with({{"pbrMetallicRoughness",
+                                        {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}},
+                                         {"metallicRoughnessTexture", {{"index", 1}}}}}}));
+    const Material& material = scene.materials[0];
+    ASSERT_TRUE(material.albedo_texture && material.roughness_texture);
+    const Texture &colour = *material.albedo_texture, &rough = *material.roughness_texture;
+    EXPECT_EQ(colour.image, rough.image) << "decoded once";
+    EXPECT_EQ(colour.image->size, uvec2(3, 2));
+    EXPECT_EQ(colour.image->texels, kPicture.texels) << "row by row from the top, alpha apart";
+    EXPECT_TRUE(colour.nearest && colour.srgb);
+    EXPECT_EQ(colour.wrap_u, Texture::Wrap::clamp);
+    EXPECT_EQ(colour.wrap_v, Texture::Wrap::mirrored);
+    EXPECT_EQ(colour.uv_set, 1u);
+    EXPECT_FALSE(rough.nearest || rough.srgb);
+    EXPECT_EQ(rough.wrap_u, Texture::Wrap::repeat);
+    EXPECT_EQ(rough.uv_set, 0u);
+    EXPECT_EQ(rough.u_row, vec3(1, 0, 0));
+    EXPECT_EQ(rough.v_row, vec3(0, 1, 0));
+}
+
+TEST_F(LoadSurface, TextureTransforms) {
+    const auto transformed = [&](const Json& transform) {
+        return *material_of({{"pbrMetallicRoughness",
+                              {{"baseColorTexture",
+                                {{"index", 0},
+                                 {"texCoord", 0},
+                                 {"extensions", {{"KHR_texture_transform", transform}}}}}}}})
+                    .albedo_texture;
+    };
+    const auto at = [](const Texture& texture, double u, double v) {
+        return std::pair(glm::dot(texture.u_row, vec3(u, v, 1)),
+                         glm::dot(texture.v_row, vec3(u, v, 1)));
+    };
+    const Texture moved = transformed({{"offset", {.5, .25}}, {"scale", {2, 3}}});
+    EXPECT_EQ(at(moved, 1, 1), std::pair(2.5f, 3.25f));
+    // u' = c u + s v, v' = -s u + c v: a quarter turn takes (1, 0) to (0, -1)
+    const Texture turned = transformed(
+        {{"rotation", M_PI / 2}, {"scale", {2, 1}}, {"offset", {0, 1}}, {"texCoord", 1}});
+    EXPECT_NEAR(at(turned, 1, 0).first, 0, 1e-6);
+    EXPECT_NEAR(at(turned, 1, 0).second, -1, 1e-6);
+    EXPECT_NEAR(at(turned, 0, 1).first, 1, 1e-6);
+    EXPECT_EQ(turned.uv_set, 1u) << "the transform's own set wins";
+}
+
+TEST_F(LoadSurface, PicturesOfEveryOrigin) {
+    const std::string png = png_of(kPicture);
+    Gltf gltf = with({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
+    const auto texels = [&] { return scene_of(gltf).materials[0].albedo_texture->image->texels; };
+    EXPECT_EQ(texels(), kPicture.texels) << "a data URI";
+    write("a b.png", png);
+    gltf.root["images"] = {{{"uri", "a%20b.png"}}};
+    EXPECT_EQ(texels(), kPicture.texels) << "a file";
+    EXPECT_EQ(scene_of(gltf).files.size(), 2u);
+    gltf.root["images"] = {
+        {{"bufferView", gltf.root["bufferViews"].size()}, {"mimeType", "image/png"}}};
+    gltf.root["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", gltf.data.size()}, {"byteLength", png.size()}});
+    gltf.data += png;
+    EXPECT_EQ(texels(), kPicture.texels) << "a buffer view";
+}
+
+TEST_F(LoadSurface, GreyPicturesAndSmallerOnes) {
+    const std::vector<std::uint8_t> grey = {0, 100, 255}, two = {10, 20, 30, 40};
+    Account account({});
+    const auto texels = [&](const ImageShape& shape, const std::vector<std::uint8_t>& values) {
+        return decode_image(png_bytes(shape, values), "", "x", account)->texels;
+    };
+    EXPECT_THAT(texels({{3, 1}, 1, {}}, grey), ElementsAre(0xff000000, 0xff646464, 0xffffffff));
+    EXPECT_THAT(texels({{2, 1}, 2, {}}, two), ElementsAre(0x140a0a0a, 0x281e1e1e));
+    EXPECT_EQ(decode_image("neither", "x.txt", "x", account), nullptr);
+}
+
+TEST_F(LoadSurface, MissingPicturesAreAGapAndTheFactorStays) {
+    Gltf gltf = with(
+        {{"pbrMetallicRoughness",
+          {{"baseColorFactor", {.5, .5, .5, 1}}, {"baseColorTexture", {{"index", 0}}}}},
+         {"emissiveTexture", {{"index", 0}}},
+         {"emissiveFactor", {1, 1, 1}}});
+    gltf.root["images"] = {{{"uri", "gone.png"}}};
+    const Scene scene = scene_of(gltf);
+    EXPECT_FALSE(scene.materials[0].albedo_texture);
+    EXPECT_EQ(scene.materials[0].albedo, vec3(.5f));
+    EXPECT_THAT(ids(scene), ElementsAre("missing-image"));
+    EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("'gone.png' is not there")));
+}
+
+TEST_F(LoadSurface, TexelsHaveABudgetThatIsAskedBeforeDecoding) {
+    // a header of 60000 x 60000 and nothing behind it
+    const std::string png = png_of(kPicture);
+    std::string huge = png;
+    for (const std::size_t at : {16u, 20u}) huge.replace(at, 4, std::string("\0\0\xea\x60", 4));
+    const auto crc = [](std::string_view bytes) {
+        std::uint32_t state = ~0u;
+        for (const char byte : bytes) {
+            state ^= std::uint8_t(byte);
+            for (int bit = 0; bit < 8; ++bit) state = state >> 1 ^ (state & 1 ? 0xedb88320u : 0);
+        }
+        return ~state;
+    };
+    const std::uint32_t sum = crc(std::string_view(huge).substr(12, 17));
+    for (int i = 0; i < 4; ++i) huge[29 + std::size_t(i)] = static_cast<char>(sum >> (24 - 8 * i));
+    Gltf gltf = with({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    gltf.root["images"] = {{{"uri", "data:image/png;base64," + base64(huge)}}};
+    EXPECT_THAT(refused("x.glb", gltf.glb()),
+                HasSubstr("images[0]: wanted at most 67108864 texels in pictures, the budget of a "
+                          "scene, found 3600000000"));
+    EXPECT_THAT(
+        refused("x.glb",
+                with({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}).glb(),
+                Failure::bad_data, {.budget = {.texels = 5}}),
+        HasSubstr("wanted at most 5 texels in pictures"));
+}
+
+TEST_F(LoadSurface, WhatIsLeftOutIsListed) {
+    const Scene scene = scene_of(
+        with({{"name", "all"},
+              {"normalTexture", {{"index", 0}}},
+              {"occlusionTexture", {{"index", 0}}},
+              {"extensions",
+               {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}},
+                {"KHR_materials_sheen", Json::object()},
+                {"KHR_materials_anisotropy", {{"anisotropyStrength", 1}}},
+                {"KHR_materials_iridescence", {{"iridescenceFactor", 0}}},
+                {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                {"KHR_materials_volume", Json::object()},
+                {"KHR_materials_dispersion", Json::object()}}}}));
+    EXPECT_THAT(ids(scene),
+                testing::UnorderedElementsAre("normal-texture", "occlusion-texture", "clearcoat",
+                                              "sheen", "anisotropy", "glass-as-diffuse",
+                                              "glass-shadow", "material-extension"));
+    for (const Gap& gap : scene.gaps) {
+        EXPECT_EQ(gap.first, "materials[0] 'all'");
+        EXPECT_EQ(gap.count, 1u) << gap.id;
+    }
+}
+
+} // namespace

@@ -1,0 +1,154 @@
+// What a .glb of ours holds comes back as it was: textures, colours, lights, rigs.
+#include "unit/load_fixture.hpp"
+
+#include "scene/shapes.hpp"
+
+#include <cmath>
+
+namespace {
+
+using namespace test::loading;
+
+class Save : public Load {
+protected:
+    Scene again(const Scene& scene) const {
+        save_glb(scene, folder / "x.glb");
+        return load((folder / "x.glb").string());
+    }
+    /// A square, lit by nothing.
+    static Scene square() {
+        Scene scene{.name = "x"};
+        scene.materials.push_back({.name = "m", .albedo = vec3(.5f), .front_only = true});
+        scene.meshes.push_back(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}));
+        scene.objects.push_back({.name = "o"});
+        return scene;
+    }
+};
+
+TEST_F(Save, SurfacesComeBack) {
+    Scene scene = square();
+    const auto image = std::make_shared<const Image>(
+        Image{.name = "p", .size = {2, 2}, .texels = {0xff0000ff, 0x8000ff00, 0, 0x12345678}});
+    Material& material = scene.materials[0];
+    material.albedo_texture = Texture{.image = image,
+                                      .wrap_u = Texture::Wrap::mirrored,
+                                      .wrap_v = Texture::Wrap::clamp,
+                                      .nearest = true,
+                                      .srgb = true,
+                                      .uv_set = 1};
+    material.roughness_texture = Texture{
+        .image = image, .u_row = {0, 2, .5f}, .v_row = {-3, 0, .25f}};
+    material.emission_texture = Texture{.image = image, .srgb = true};
+    material.emission = {4, 2, 1};
+    material.metallic = .25f, material.roughness = .5f;
+    material.dielectric_f0 = {.08f, .04f, .02f}, material.dielectric_f90 = vec3(.5f);
+    material.alpha = .75f, material.alpha_cutoff = .3f;
+    scene.materials.push_back(
+        {.name = "flat", .albedo = {1, 0, .5f}, .front_only = true, .unlit = true});
+    scene.materials.push_back({.name = "sides", .albedo = vec3(.25f), .two_sided = true});
+    scene.materials.push_back(
+        {.name = "constant", .albedo = vec3(.5f), .mirror = true, .reflectance = vec3(.25f)});
+    scene.materials.push_back({.name = "fixed", .albedo = vec3(1)});
+    const Scene found = again(scene);
+    ASSERT_EQ(found.materials.size(), scene.materials.size());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        Material wanted = scene.materials[i], its = found.materials[i];
+        for (auto texture : {&Material::albedo_texture, &Material::roughness_texture,
+                             &Material::emission_texture}) {
+            ASSERT_EQ((wanted.*texture).has_value(), (its.*texture).has_value());
+            if (!(wanted.*texture)) continue;
+            EXPECT_EQ((wanted.*texture)->image->texels, (its.*texture)->image->texels);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR((wanted.*texture)->u_row[c], (its.*texture)->u_row[c], 1e-6);
+                EXPECT_NEAR((wanted.*texture)->v_row[c], (its.*texture)->v_row[c], 1e-6);
+            }
+            (its.*texture)->image = (wanted.*texture)->image;
+            (its.*texture)->u_row = (wanted.*texture)->u_row;
+            (its.*texture)->v_row = (wanted.*texture)->v_row;
+        }
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(wanted.dielectric_f0[c], its.dielectric_f0[c], 1e-6);
+        its.dielectric_f0 = wanted.dielectric_f0;
+        if (wanted.mirror) // which has no other
+            its.metallic = wanted.metallic, its.roughness = wanted.roughness;
+        EXPECT_EQ(wanted, its) << wanted.name;
+    }
+    EXPECT_EQ(found.materials[0].albedo_texture->image, found.materials[0].roughness_texture->image)
+        << "written once";
+}
+
+TEST_F(Save, CoordinatesAndColoursComeBack) {
+    Scene scene = square();
+    Mesh& mesh = scene.meshes[0];
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        mesh.uv[0].emplace_back(i, .5f), mesh.uv[1].emplace_back(-1.f, i);
+        mesh.colours.emplace_back(1, 0, .25f * static_cast<float>(i), .5f);
+    }
+    const Scene found = again(scene);
+    EXPECT_EQ(found.meshes[0].uv, mesh.uv);
+    EXPECT_EQ(found.meshes[0].colours, mesh.colours);
+}
+
+TEST_F(Save, LightsAndCamerasComeBack) {
+    using enum Punctual::Kind;
+    Scene scene = square();
+    dmat4 turned(1);
+    turned[0] = dvec4(0, 1, 0, 0), turned[1] = dvec4(-1, 0, 0, 0), turned[3] = dvec4(1, 2, 3, 1);
+    scene.punctual = {{.name = "p", .kind = point, .intensity = {8, 4, 2}, .range = 5},
+                      {.name = "s",
+                       .kind = spot,
+                       .intensity = vec3(3),
+                       .cos_inner = std::cos(.25),
+                       .cos_outer = std::cos(.5),
+                       .world_from_light = turned},
+                      {.name = "d", .kind = directional, .intensity = vec3(2)}};
+    scene.punctual[2].motion = Harmonic{{0, 1, 0}, 4};
+    scene.cameras = {{.name = "plan",
+                      .eye = {0, 5, 0},
+                      .target = {0, 0, 0},
+                      .up = {0, 0, -1},
+                      .orthographic_height = 3}};
+    scene.exposure = -.5;
+    const Scene found = again(scene);
+    ASSERT_EQ(found.punctual.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Punctual &a = found.punctual[i], &b = scene.punctual[i];
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_EQ(a.kind, b.kind);
+        EXPECT_EQ(a.intensity, b.intensity);
+        EXPECT_EQ(a.range, b.range);
+        EXPECT_EQ(a.world_from_light, b.world_from_light);
+    }
+    EXPECT_NEAR(found.punctual[1].cos_inner, std::cos(.25), 1e-12);
+    EXPECT_NEAR(found.punctual[1].cos_outer, std::cos(.5), 1e-12);
+    EXPECT_NEAR(at(found, 6).punctual[2].world_from_light[3].y, 2, 1e-5) << "goes on and on";
+    EXPECT_EQ(found.cameras.at(0).orthographic_height, 3);
+    EXPECT_EQ(found.exposure, -.5);
+    EXPECT_FALSE(again(square()).exposure);
+}
+
+TEST_F(Save, RigsComeBack) {
+    Scene scene = square();
+    const auto turns = std::make_shared<const Turns>(
+        Turns{.times = {0, 1}, .values = {{0, 0, 0, 1}, {0, 0, 1, 0}}});
+    Rig rig;
+    rig.nodes.push_back({.translation = {1, 0, 0}, .rotations = turns});
+    rig.nodes.push_back({.parent = 0, .translation = {0, 2, 0}, .rotations = turns});
+    rig.nodes[1].parent_from_space[3] = dvec4(0, 0, 3, 1);
+    Follows follows{.rig = std::make_shared<const Rig>(rig), .node = 1};
+    follows.node_from_object[3] = dvec4(0, 0, 1, 1);
+    scene.objects[0].motion = follows;
+    scene.cameras = {{.name = "c", .eye = {0, 0, 5}, .target = {0, 0, 4}, .follows = follows}};
+    const Scene found = again(scene);
+    for (const double t : {0., .25, .75, 1., 2.}) {
+        const Scene now = at(found, t), wanted = at(scene, t);
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row)
+                EXPECT_NEAR(now.objects[0].world_from_object[column][row],
+                            wanted.objects[0].world_from_object[column][row], 1e-6);
+        EXPECT_LT(glm::distance(now.cameras[0].eye, wanted.cameras[0].eye), 1e-6);
+        EXPECT_LT(glm::distance(now.cameras[0].target, wanted.cameras[0].target), 1e-6);
+    }
+}
+
+} // namespace
