@@ -1,6 +1,6 @@
 #include "scene/classify.hpp"
 
-#include "core/text.hpp"
+#include "scene/json.hpp"
 #include "scene/texel.hpp"
 #include "scene/transform.hpp"
 
@@ -173,7 +173,8 @@ void classify(Scene& scene, bool dielectric_mirrors) {
     }
     const auto add = [&](const char* id, const std::set<std::size_t>& materials) {
         for (const std::size_t i : materials)
-            add_material_gap(scene.gaps, id, "material " + in_quotes(scene.materials[i].name), i);
+            add_material_gap(scene.gaps, id,
+                             gltf::label_of("materials", i, scene.materials[i].name), i);
     };
     add("smooth-dielectric", dielectrics);
     add("rough-metal", rough_metals);
