@@ -5,7 +5,9 @@
 #include "scene/wishes.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 namespace catoptric::app {
 
@@ -31,16 +33,18 @@ std::string shell_word(const std::string& text) {
 }
 
 std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t most) {
-    constexpr std::size_t kMostObjects = 20'000; // each is sampled
+    constexpr std::size_t kMostObjects = 20'000; // looked at
     std::vector<Candidate> candidates;
+    std::map<std::pair<std::size_t, std::size_t>, float> smoothest; // by mesh and material
     for (std::size_t i = 0; i < std::min(scene.objects.size(), kMostObjects); ++i) {
         const scene::Object& object = scene.objects[i];
         const scene::Material& material = scene.materials[object.material];
         const std::string& name = object.name.empty() ? material.name : object.name;
         if (material.mirror || object.mirror || !object.seen_by_camera || scene::glows(material))
             continue;
-        candidates.push_back({scene::surface_of(scene, object).smoothest,
-                              area_of(scene::bounds(scene, object)), name});
+        const auto [entry, is_new] = smoothest.try_emplace({object.mesh, object.material}, 1.f);
+        if (is_new) entry->second = scene::surface_of(scene, object).smoothest;
+        candidates.push_back({entry->second, area_of(scene::bounds(scene, object)), name});
     }
     std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
         return a.roughness != b.roughness ? a.roughness < b.roughness : a.area > b.area;

@@ -20,8 +20,8 @@ double exposure_for(const measure::Picture& picture) {
     const double bright = measure::percentile(std::move(luminances), kPercentile);
     if (!(bright > 0)) return 0;
     constexpr double kMostStops = 64; // as --exposure
-    return std::clamp(std::round(kSteps * std::log2(kWanted / bright)) / kSteps, -kMostStops,
-                      kMostStops);
+    const double stops = std::round(kSteps * std::log2(kWanted / bright)) / kSteps;
+    return std::clamp(stops, -kMostStops, kMostStops) + 0.0; // no -0
 }
 
 double auto_exposure(Session& session, const Request& request) {

@@ -53,6 +53,10 @@ std::shared_ptr<scene::Environment> environment_of(const std::string& word) {
     return studio;
 }
 
+void add_file(scene::Scene& scene, const std::filesystem::path& real) {
+    if (std::ranges::find(scene.files, real) == scene.files.end()) scene.files.push_back(real);
+}
+
 void surround(Wanted& wanted) {
     scene::Scene& scene = wanted.scene;
     const scene::Wishes& wishes = wanted.wishes;
@@ -60,14 +64,11 @@ void surround(Wanted& wanted) {
     if (scene.environment) environment = std::make_shared<scene::Environment>(*scene.environment);
     if (wishes.environment) {
         environment = environment_of(*wishes.environment);
-        if (environment && !environment->studio)
-            scene.files.push_back(real_path(*wishes.environment));
+        if (environment && !environment->studio) add_file(scene, real_path(*wishes.environment));
     } else if (wanted.is_file && !environment && scene::lights(scene).empty()) {
         environment = environment_of("studio");
         scene::add_gap(scene.gaps, "added-studio", "scene " + in_quotes(scene.name));
-        wanted.said.push_back(
-            "no light in the scene: lit by the environment 'studio'; --environment "
-            "FILE.exr|FILE.hdr|none says otherwise");
+        wanted.said.push_back("no light: lit by the environment studio (see --environment)");
     }
     const bool is_changed = wishes.environment_scale || wishes.environment_rotation;
     check(environment != nullptr || !is_changed, Failure::usage, "--environment-",
@@ -104,11 +105,14 @@ Wanted load_wanted(const std::string& name, const WantedOptions& options) {
     scene::LoadOptions load = options.load;
     if (wanted.wishes.animation) load.animation = *wanted.wishes.animation;
     wanted.scene = scene::load(name, load);
+    // What the loader cannot know: something else may light it.
+    std::erase_if(wanted.scene.warnings, [](const std::string& warning) {
+        return warning.ends_with(": no light: ambient only");
+    });
     scene::apply(wanted.scene, wanted.wishes);
     if (filed) {
         adopt(wanted, filed->wishes);
-        std::vector<std::filesystem::path>& files = wanted.scene.files;
-        files.insert(files.end(), filed->files.begin(), filed->files.end());
+        for (const std::filesystem::path& file : filed->files) add_file(wanted.scene, file);
     }
     if (wanted.is_file) scene::leave_out_lights(wanted.scene, kMostLights);
     surround(wanted);
@@ -132,7 +136,7 @@ scene::Camera camera_of(Wanted& wanted, double aspect) {
     const scene::Camera camera = scene::default_camera(scene, aspect);
     if (wanted.is_file)
         scene::add_gap(scene.gaps, "added-camera", "scene " + in_quotes(scene.name));
-    wanted.said.push_back("no camera in the scene: using --camera " + scene::camera_text(camera));
+    wanted.said.push_back("no camera: using --camera " + scene::camera_text(camera));
     return camera;
 }
 

@@ -19,7 +19,8 @@ void create_folder(const fs::path& folder) {
 }
 
 void Writer::write_pictures(const Comparison& comparison) {
-    const fs::path images = folder_ / "images" / comparison.images;
+    fs::path images = folder_ / "images";
+    if (!comparison.images.empty()) images /= comparison.images;
     create_folder(images);
     encode_new(pictures_, comparison);
     if (!has_reference_ && !pictures_.reference.empty()) {

@@ -1,6 +1,6 @@
 #include "scene/classify.hpp"
 
-#include "core/text.hpp"
+#include "scene/json.hpp"
 #include "scene/texel.hpp"
 #include "scene/transform.hpp"
 
@@ -50,8 +50,12 @@ struct Sums {
     }
 };
 
-bool varies(const Material& material, const Mesh& mesh) {
-    return material.albedo_texture || material.roughness_texture || !mesh.colours.empty();
+/// Whether what counts may differ from place to place: F0 of a dielectric has no colour.
+bool varies(const Scene& scene, const Material& material, const Mesh& mesh) {
+    if (material.roughness_texture) return true;
+    const bool has_colour = material.roughness <= scene.mirror_max_roughness &&
+                            material.metallic > 0;
+    return has_colour && (material.albedo_texture || !mesh.colours.empty());
 }
 
 template <typename Value>
@@ -101,7 +105,7 @@ Sums sampled(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
     const Mesh& mesh = scene.meshes[object.mesh];
     Sums sums;
-    if (!varies(material, mesh)) {
+    if (!varies(scene, material, mesh)) {
         sums.add(scene, material,
                  {vec4(material.albedo, material.alpha), material.metallic, material.roughness});
         return sums;
@@ -169,7 +173,8 @@ void classify(Scene& scene, bool dielectric_mirrors) {
     }
     const auto add = [&](const char* id, const std::set<std::size_t>& materials) {
         for (const std::size_t i : materials)
-            add_material_gap(scene.gaps, id, "material " + in_quotes(scene.materials[i].name), i);
+            add_material_gap(scene.gaps, id,
+                             gltf::label_of("materials", i, scene.materials[i].name), i);
     };
     add("smooth-dielectric", dielectrics);
     add("rough-metal", rough_metals);

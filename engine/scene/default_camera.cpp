@@ -5,6 +5,17 @@
 
 namespace catoptric::scene {
 
+namespace {
+
+/// Rounded to about a millionth of `distance`.
+dvec3 short_to_type(const dvec3& point, double distance) {
+    const double digits = 6 - std::floor(std::log10(distance)),
+                 unit = std::pow(10, std::abs(digits));
+    return digits > 0 ? glm::round(point * unit) / unit : glm::round(point / unit) * unit;
+}
+
+} // namespace
+
 Camera default_camera(const Scene& scene, double aspect) {
     constexpr double kShare = .9, kAcross = 30, kAbove = 20; // degrees
     Bounds<double> box = bounds(scene);
@@ -25,8 +36,9 @@ Camera default_camera(const Scene& scene, double aspect) {
                                       std::abs(glm::dot(upward, corner)));
         distance = std::max(distance, aside / slope + glm::dot(to_eye, corner));
     }
-    camera.target = box.centre();
-    camera.eye = camera.target + (distance > 0 ? distance : 1) * to_eye;
+    if (!(distance > 0)) distance = 1;
+    camera.target = short_to_type(box.centre(), distance);
+    camera.eye = short_to_type(box.centre() + distance * to_eye, distance);
     return camera;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace catoptric::scene {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kFlat = 1e-4;  // of the extent
 constexpr double kRound = 1e-3; // of the radius: vertices
+constexpr double kMostly = .95; // of all that bends
 constexpr double kFacets = .1;  // the same: facets
 
 using Triangle = std::array<std::size_t, 3>;
@@ -98,33 +100,65 @@ double farthest_from(const Sphere& sphere, const Soup& soup) {
 
 /// How the triangles meet.
 struct Edges {
-    bool closed = true, convex = true, concave = true;
+    bool closed = true;
+    double outwards = 0, inwards = 0; ///< angles by which they bend, times the edges' lengths
+
+    bool is_mostly(double bends) const { return bends >= kMostly * (outwards + inwards); }
 };
+
+/// A triangle's edge, and its corner beside it.
+struct Side {
+    std::size_t low, high; ///< the edge's ends
+    std::size_t triangle, tip;
+};
+
+std::vector<Side> sides_of(const Soup& soup) {
+    std::vector<Side> sides;
+    sides.reserve(3 * soup.triangles.size());
+    for (std::size_t i = 0; i < soup.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(soup.triangles[i][k],
+                                                 soup.triangles[i][(k + 1) % 3]);
+            sides.push_back({low, high, i, soup.triangles[i][(k + 2) % 3]});
+        }
+    std::ranges::sort(
+        sides, {}, [](const Side& side) { return std::tuple(side.low, side.high, side.triangle); });
+    return sides;
+}
 
 /// The tip of a triangle over the plane of its neighbour says which way their edge bends.
 Edges edges_of(const Soup& soup) {
-    struct Side {
-        std::size_t triangle, tip;
-    };
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<Side>> sides;
-    for (std::size_t i = 0; i < soup.triangles.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t a = soup.triangles[i][k], b = soup.triangles[i][(k + 1) % 3];
-            sides[std::minmax(a, b)].push_back({i, soup.triangles[i][(k + 2) % 3]});
-        }
+    const std::vector<Side> sides = sides_of(soup);
     Edges edges;
-    for (const auto& [ends, its] : sides) {
-        edges.closed &= its.size() == 2;
-        if (its.size() != 2) continue;
-        for (int k = 0; k < 2; ++k) {
-            const Side &here = its[std::size_t(k)], &there = its[std::size_t(1 - k)];
-            const dvec3 normal = normalized_or_zero(soup.cross_of(soup.triangles[here.triangle]));
-            const double above = glm::dot(normal, soup.places[there.tip] - soup.places[ends.first]);
-            edges.convex &= above <= kFlat * soup.extent;
-            edges.concave &= above >= -kFlat * soup.extent;
-        }
+    const auto add = [&](const Side& here, const Side& there) {
+        const dvec3 normal = normalized_or_zero(soup.cross_of(soup.triangles[here.triangle]));
+        const dvec3 other = normalized_or_zero(soup.cross_of(soup.triangles[there.triangle]));
+        const double above = glm::dot(normal, soup.places[there.tip] - soup.places[here.low]);
+        const double angle = std::atan2(glm::length(glm::cross(normal, other)),
+                                        glm::dot(normal, other));
+        (above < 0 ? edges.outwards : edges.inwards) += angle *
+                                                        glm::distance(soup.places[here.low],
+                                                                      soup.places[here.high]);
+    };
+    for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
+        for (end = first; end < sides.size() && sides[end].low == sides[first].low &&
+                          sides[end].high == sides[first].high;)
+            ++end;
+        edges.closed &= end - first == 2;
+        if (end - first == 2) add(sides[first], sides[first + 1]);
     }
     return edges;
+}
+
+/// Whether most of its area faces away from a point.
+bool faces_out(const Soup& soup, const dvec3& point) {
+    double area = 0;
+    for (const Triangle& t : soup.triangles) {
+        const dvec3 cross = soup.cross_of(t);
+        area += glm::dot(cross, soup.places[t[0]] - point) > 0 ? glm::length(cross)
+                                                               : -glm::length(cross);
+    }
+    return area > 0;
 }
 
 } // namespace
@@ -146,10 +180,14 @@ Shape shape_of(const Scene& scene, const Object& object) {
         if (off <= kRound) shape.fit = fit, shape.tolerance = off;
     }
     if (object.sphere) shape.fit = object.sphere, shape.tolerance = 0;
-    shape.kind = shape.fit && edges.closed ? sphere
-                 : edges.convex            ? convex
-                 : edges.concave           ? concave
-                                           : other;
+    if (shape.fit && edges.closed)
+        shape.kind = sphere;
+    else if (shape.fit) // subdivided balls bend inwards at some edges
+        shape.kind = faces_out(soup, shape.fit->centre - soup.centre) ? convex : concave;
+    else
+        shape.kind = edges.is_mostly(edges.outwards)  ? convex
+                     : edges.is_mostly(edges.inwards) ? concave
+                                                      : other;
     return shape;
 }
 

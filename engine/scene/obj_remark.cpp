@@ -96,10 +96,6 @@ void add_remark(Remarks& remarks, const Line& line, Account& account) {
         remarks.cameras.push_back(camera(line, list));
         return;
     }
-    if (line.keyword == "#exposure") {
-        remarks.exposure = numbers(line, list, 0, 1)[0];
-        return;
-    }
     if (!remarks.named_at.contains(name)) {
         account.remarks.add(1, line.where());
         remarks.named_at[name] = line.where();

@@ -134,7 +134,7 @@ std::size_t triangle_count(const Scene& scene);
 /// Where a file has no camera: a three-quarter view of the centre of the bounds at rest, from the
 /// front right and above (30 degrees, 20 degrees), vertical field of view 40 degrees, as near as
 /// the bounds' eight corners lie within 90 % of the height and width of a picture `aspect` times as
-/// wide as it is high.
+/// wide as it is high. Rounded to about a millionth of its distance, so that it can be typed.
 Camera default_camera(const Scene& scene, double aspect = 1);
 
 /// 64-bit FNV-1a over names, geometry, materials, motion and cameras as 16 hex digits. The scene's

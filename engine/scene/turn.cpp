@@ -2,7 +2,8 @@
 #include "scene/wishes.hpp"
 
 #include <map>
-#include <type_traits>
+#include <memory>
+#include <utility>
 #include <variant>
 
 namespace catoptric::scene {
@@ -19,29 +20,25 @@ void turn(dmat4& world_from) {
         world_from[column] = dvec4(turned(dvec3(world_from[column])), world_from[column].w);
 }
 
-/// Rigs turn as wholes, and what follows one goes on sharing it.
+/// Turns motions; objects that share a rig share the turned one.
 class Turner {
 public:
-    void turn(Motion& motion) {
-        std::visit([this](auto& its) { turn(its); }, motion);
-    }
-    void turn(Follows& follows) {
-        if (!follows.rig) return;
-        std::shared_ptr<const Rig>& turned_rig = rigs_[follows.rig];
-        if (!turned_rig) {
-            Rig rig = *follows.rig;
+    void operator()(std::monostate&) {}
+    void operator()(Harmonic& motion) { motion.amplitude = turned(motion.amplitude); }
+    void operator()(Keyframes& motion) { motion.world_from_keys = kTurn * motion.world_from_keys; }
+    void operator()(Follows& motion) {
+        if (!motion.rig) return;
+        std::shared_ptr<const Rig>& known = rigs_[motion.rig];
+        if (!known) {
+            Rig rig = *motion.rig;
             for (Rig::Node& node : rig.nodes)
-                if (!node.parent) scene::turn(node.parent_from_space);
-            turned_rig = std::make_shared<const Rig>(std::move(rig));
+                if (!node.parent) turn(node.parent_from_space);
+            known = std::make_shared<const Rig>(std::move(rig));
         }
-        follows.rig = turned_rig;
+        motion.rig = known;
     }
 
 private:
-    void turn(std::monostate&) {}
-    void turn(Harmonic& motion) { motion.amplitude = turned(motion.amplitude); }
-    void turn(Keyframes& motion) { motion.world_from_keys = kTurn * motion.world_from_keys; }
-
     std::map<std::shared_ptr<const Rig>, std::shared_ptr<const Rig>> rigs_;
 };
 
@@ -49,21 +46,22 @@ private:
 
 void turn_z_up(Scene& scene) {
     Turner turner;
+    const auto turn_motion = [&](Motion& motion) {
+        std::visit([&](auto& its) { turner(its); }, motion);
+    };
     for (Object& object : scene.objects) {
         turn(object.world_from_object);
-        turner.turn(object.motion);
+        turn_motion(object.motion);
         if (object.sphere) object.sphere->centre = turned(object.sphere->centre);
     }
     for (Camera& camera : scene.cameras) {
-        camera.eye = turned(camera.eye), camera.target = turned(camera.target),
+        camera.eye = turned(camera.eye), camera.target = turned(camera.target);
         camera.up = turned(camera.up);
-        turner.turn(camera.follows);
-        // It is carried from where it stands, which has turned.
-        camera.follows.node_from_object *= dmat4(glm::transpose(kTurn));
+        turner(camera.follows);
     }
     for (Punctual& light : scene.punctual) {
         turn(light.world_from_light);
-        turner.turn(light.motion);
+        turn_motion(light.motion);
     }
 }
 

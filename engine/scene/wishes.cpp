@@ -152,9 +152,13 @@ MirrorWish read_mirror_wish(const std::string& option, const std::string& text) 
 }
 
 std::string pattern_of(const std::string& name) {
+    constexpr std::size_t kLongest = 60; // bytes; what is longer is named by its beginning
+    std::size_t size = std::min(name.size(), kLongest);
+    while (size > 0 && size < name.size() && (name[size] & 0xc0) == 0x80)
+        --size; // whole characters
     const bool is_plain = printable(name) == name;
     std::string pattern;
-    for (const char c : name) {
+    for (const char c : name.substr(0, size)) {
         const auto byte = static_cast<unsigned char>(c);
         if (!is_plain && (byte < 0x20 || byte >= 0x7f)) {
             pattern += '?';
@@ -163,7 +167,9 @@ std::string pattern_of(const std::string& name) {
         if (std::string_view("*?[\\").find(c) != std::string_view::npos) pattern += '\\';
         pattern += c;
     }
-    if (name.find('=') != name.npos) pattern += "=1"; // or its end might read as a reflectance
+    if (size < name.size()) pattern += '*';
+    if (pattern.find('=') != pattern.npos)
+        pattern += "=1"; // or its end might read as a reflectance
     return pattern;
 }
 

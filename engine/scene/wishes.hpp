@@ -51,8 +51,8 @@ bool matches(const std::string& pattern, const std::string& name);
 /// no number follows it. `option` begins the message. Throws `usage`.
 MirrorWish read_mirror_wish(const std::string& option, const std::string& text);
 
-/// The word that gives exactly this object's mirror: its name, with what a pattern would read as a
-/// sign escaped.
+/// The word of --mirror for what has this name: signs of patterns escaped, bytes that no terminal
+/// shows as '?', of a long one the first 60 bytes.
 std::string pattern_of(const std::string& name);
 
 /// Applies mirrors, lights, roughness and dielectrics, turns the scene, and finds its mirrors anew

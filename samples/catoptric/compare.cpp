@@ -131,14 +131,11 @@ std::string phase_of(const report::Comparison& comparison) {
     return in_views ? ", while their views were rendered" : "";
 }
 
-int exit_code(const Options& options, const report::Comparison& comparison) {
+/// Throws what ended the comparison early.
+void check_not_stopped(const Options& options, const report::Comparison& comparison) {
     if (comparison.stopped)
         fail_incomplete(*comparison.stopped, comparison.rows.size(), comparison.asked,
                         phase_of(comparison), options.folder);
-    const std::vector<std::string> broken = broken_rows(comparison);
-    check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
-          broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
-    return 0;
 }
 
 /// Where the reports of one or of several scenes go.
@@ -204,17 +201,20 @@ int run(const Options& options) {
 
     Progress progress(manners);
     Output output(options, requests.size());
-    int code = 0;
+    std::vector<std::string> broken;
     for (std::size_t i = 0; i < requests.size(); ++i) {
         const report::Comparison comparison = compare_one(engine, requests[i], i, progress, output);
         if (comparison.stopped || i + 1 == requests.size()) output.show_all();
         if (!comparison.stopped && i + 1 == requests.size())
             note(manners, "written: " + options.folder);
-        code = exit_code(options, comparison);
+        check_not_stopped(options, comparison);
+        for (const std::string& row : broken_rows(comparison)) broken.push_back(row);
         requests[i].base.scene = scene::Scene(); // its memory
     }
+    check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
+          broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
     if (options.common.validate) engine.check_validation();
-    return code;
+    return 0;
 }
 
 } // namespace

@@ -81,7 +81,7 @@ void warn_of_no_mirror(const scene::Scene& scene) {
     if (!scene::mirrors(scene).empty()) return;
     const std::vector<std::string> options = app::mirror_options(scene, 1);
     warn("scene " + in_quotes(scene.name) + " has no mirror" +
-         (options.empty() ? "" : "; one is made with, for example, " + options.front()));
+         (options.empty() ? "" : "; try " + options.front()));
 }
 
 } // namespace

@@ -38,8 +38,7 @@ TEST_F(Cli, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
                   .exit_code,
               0);
     const std::string warning =
-        "catoptric: warning: scene 'plain' has no mirror; one is made with, "
-        "for example, --mirror 'a b'\n";
+        "catoptric: warning: scene 'plain' has no mirror; try --mirror 'a b'\n";
     for (const Words& words :
          {quick({"render", "plain.obj", "--technique", "reuse", "-o", "x.png"}),
           {"graph", "plain.obj", "--technique", "reuse"},
@@ -77,7 +76,7 @@ TEST_F(Cli, NoCameraIsSaidAndReplaced) {
     const test::Ended ended = cli(
         quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.err, testing::HasSubstr("no camera in the scene: using --camera "));
+    EXPECT_THAT(ended.err, testing::HasSubstr("no camera: using --camera "));
     const test::Ended quiet = cli(
         quick({"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png", "--quiet"}));
     EXPECT_THAT(quiet.err, testing::Not(testing::HasSubstr("no camera")));

@@ -42,7 +42,7 @@ TEST(Classify, SharpMetalIsAMirrorAndRoughOneAGap) {
         ASSERT_EQ(scene.gaps.size(), is ? 0u : 1u);
         if (is) continue;
         EXPECT_EQ(scene.gaps[0].id, "rough-metal");
-        EXPECT_EQ(scene.gaps[0].first, "material 'm'");
+        EXPECT_EQ(scene.gaps[0].first, "materials[0] 'm'");
         EXPECT_THAT(scene.gaps[0].materials, ElementsAre(0u));
         scene.mirror_max_roughness = .2f;
         classify(scene); // again, with another limit

@@ -230,7 +230,8 @@ TEST(ReportFields, JsonHoldsTheCamera) {
     const json document = json::parse(to_json(distinct(Filler())));
     EXPECT_EQ(document["scene"]["camera"],
               json::parse(R"({"name": "eye level", "eye": [1, 2, 3], "target": [4, 5, 6],
-                              "up": [0, 0, 1], "vertical_fov_degrees": 37.5})"));
+                              "up": [0, 0, 1], "vertical_fov_degrees": 37.5,
+                              "orthographic_height": null})"));
 }
 
 TEST(ReportFields, JsonHoldsRoundsAndLoad) {

@@ -125,12 +125,13 @@ TEST(ReportJson, MarksRowsThatFailedAndKeepsItsManners) {
 }
 
 TEST(ReportJson, HoldsARunWithoutRows) {
-    const json document = json::parse(catoptric::report::to_json({}));
+    const Comparison nothing;
+    const json document = json::parse(catoptric::report::to_json(nothing));
     EXPECT_EQ(document["rows"], json::array());
     EXPECT_EQ(document["command"], json::array());
     EXPECT_EQ(document["reference"]["settings"], json::object());
-    EXPECT_THAT(said({}), HasSubstr("no front"));
-    EXPECT_THAT(catoptric::report::to_html({}), HasSubstr("</html>"));
+    EXPECT_THAT(said(nothing), HasSubstr("no front"));
+    EXPECT_THAT(catoptric::report::to_html(nothing), HasSubstr("</html>"));
 }
 
 TEST(ReportCsv, QuotesFieldsAndEndsLinesAsTheStandardSays) {

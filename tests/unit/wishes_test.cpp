@@ -101,6 +101,10 @@ TEST(MirrorOptions, CanBePastedAndMeanThatObject) {
     apply(scene, {.mirrors = {wish}});
     EXPECT_THAT(mirrors(scene), ElementsAre(1u));
     EXPECT_TRUE(matches(pattern_of("\x1b[2J\xff"), "\x1b[2J\xff"));
+    EXPECT_EQ(pattern_of("\x1b\xff"), "??");
+    const std::string longest(100, 'n'), wide = std::string(59, 'n') + "\xc3\xa4 and more";
+    EXPECT_EQ(pattern_of(longest), std::string(60, 'n') + "*");
+    EXPECT_EQ(pattern_of(wide), std::string(59, 'n') + "*");
 }
 
 TEST(LightWish, TakesFactorTimesMeanTexel) {
@@ -124,11 +128,12 @@ TEST(TurnZUp, MakesZYExactly) {
     scene.cameras.push_back({.name = "c", .eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 0, 1}});
     scene.punctual.push_back({.kind = Punctual::Kind::spot});
     scene.objects[3].motion = Harmonic{.amplitude = {1, 2, 3}};
+    const dvec3 centre = bounds(scene, scene.objects[1]).centre();
     const dvec3 before = at(scene, .25).objects[3].sphere->centre;
     apply(scene, {.up = Up::z});
     EXPECT_EQ(scene.cameras[0].eye, dvec3(1, 3, -2));
     EXPECT_EQ(scene.cameras[0].up, dvec3(0, 1, 0));
-    EXPECT_EQ(bounds(scene, scene.objects[1]).centre(), dvec3(0, -5, 0));
+    EXPECT_EQ(bounds(scene, scene.objects[1]).centre(), dvec3(centre.x, centre.z, -centre.y));
     EXPECT_EQ(scene.objects[1].sphere->centre, dvec3(0, -5, 0));
     EXPECT_EQ(at(scene, .25).objects[3].sphere->centre, dvec3(before.x, before.z, -before.y));
     EXPECT_EQ(lights(scene).back().axis, dvec3(0, -1, 0)) << "along -z of the file";
@@ -137,6 +142,7 @@ TEST(TurnZUp, MakesZYExactly) {
 
 TEST(LeaveOutLights, KeepsTheStrongestAtTheCentre) {
     Scene scene = room();
+    scene.materials[0].emission = vec3(0), scene.materials[2].emission = vec3(1e-6f);
     for (int i = 0; i < 6; ++i) { // the nearer, the stronger; its intensity is no measure
         Punctual light{.name = "p" + std::to_string(i), .intensity = vec3(100)};
         light.world_from_light[3] = dvec4(100.0 * (6 - i), 0, 0, 1);
@@ -146,7 +152,7 @@ TEST(LeaveOutLights, KeepsTheStrongestAtTheCentre) {
     away.cos_outer = .9; // shines along -z, not to the centre
     away.world_from_light[3] = dvec4(2, 4, -50, 1);
     scene.punctual.push_back(away);
-    leave_out_lights(scene, 8);
+    leave_out_lights(scene, 7);
     EXPECT_EQ(scene.gaps.size(), 1u);
     EXPECT_EQ(scene.gaps[0].id, "lights-left-out");
     EXPECT_EQ(scene.gaps[0].count, 1u);
@@ -158,7 +164,7 @@ TEST(LeaveOutLights, KeepsTheStrongestAtTheCentre) {
     EXPECT_EQ(lights(scene).size(), 3u);
     EXPECT_THAT(kept, ElementsAre("p3", "p4", "p5"));
     EXPECT_EQ(of(scene, 3).light, vec3(0)) << "the far small lamp glows, and lights nothing";
-    EXPECT_EQ(of(scene, 3).emission, vec3(3));
+    EXPECT_EQ(of(scene, 3).emission, vec3(1e-6f));
     EXPECT_EQ(scene.gaps[0].first, "object 'lamp'");
 }
 
