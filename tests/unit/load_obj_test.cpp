@@ -19,7 +19,7 @@ protected:
     }
     Scene scene_of(const std::string& statements) const {
         write("m.mtl", "newmtl a\n" + statements);
-        return load(write("x.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"));
+        return load_obj(write("x.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n"));
     }
     static std::vector<std::string> ids(const Scene& scene) {
         std::vector<std::string> list;

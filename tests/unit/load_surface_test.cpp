@@ -41,7 +41,7 @@ protected:
         gltf.root["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
         return gltf;
     }
-    Scene scene_of(const Gltf& gltf) const { return load(write("x.glb", gltf.glb())); }
+    Scene scene_of(const Gltf& gltf) const { return load_gltf(write("x.glb", gltf.glb())); }
     Material material_of(const Json& material) const {
         return scene_of(with(material)).materials.at(0);
     }
