@@ -105,10 +105,6 @@ Wanted load_wanted(const std::string& name, const WantedOptions& options) {
     scene::LoadOptions load = options.load;
     if (wanted.wishes.animation) load.animation = *wanted.wishes.animation;
     wanted.scene = scene::load(name, load);
-    // What the loader cannot know: something else may light it.
-    std::erase_if(wanted.scene.warnings, [](const std::string& warning) {
-        return warning.ends_with(": no light: ambient only");
-    });
     scene::apply(wanted.scene, wanted.wishes);
     if (filed) {
         adopt(wanted, filed->wishes);

@@ -90,6 +90,10 @@ void add_remark(Remarks& remarks, const Line& line, Account& account) {
     const Words list = words(line);
     check(!list.empty(), Failure::bad_data, line.where(), ": ", in_quotes(line.keyword),
           " wants a name, found none");
+    if (line.keyword == "#exposure") {
+        remarks.exposure = numbers(line, list, 0, 1)[0];
+        return;
+    }
     const std::string name(list[0]);
     if (line.keyword == "#camera") {
         account.cameras.add(1, line.where());

@@ -58,6 +58,8 @@ void turn_z_up(Scene& scene) {
         camera.eye = turned(camera.eye), camera.target = turned(camera.target);
         camera.up = turned(camera.up);
         turner(camera.follows);
+        // It is carried from where it stands, and that has turned.
+        camera.follows.node_from_object *= dmat4(glm::transpose(kTurn));
     }
     for (Punctual& light : scene.punctual) {
         turn(light.world_from_light);

@@ -124,8 +124,8 @@ TEST(Tables, ASceneThatNobodyListsIsFoundByName) {
     EXPECT_EQ(scene::load("test-only").name, "test-only");
     std::vector<std::string> names;
     for (const scene::BuiltIn& scene : scene::built_in_scenes()) names.push_back(scene.name);
-    EXPECT_THAT(names,
-                testing::ElementsAre("cornell-mirrors", "cornell-mirrors-closed", "test-only"));
+    EXPECT_THAT(names, testing::ElementsAre("cornell-mirrors", "cornell-mirrors-closed", "flat",
+                                            "room", "gallery", "courtyard", "test-only"));
 }
 
 TEST(Tables, ATechniqueThatNobodyListsIsFoundAndCompared) {

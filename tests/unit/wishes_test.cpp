@@ -140,6 +140,33 @@ TEST(TurnZUp, MakesZYExactly) {
     EXPECT_GT(glm::determinant(dmat3(scene.objects[0].world_from_object)), 0);
 }
 
+/// Everything that a rig carries turns with it, at every instant.
+TEST(TurnZUp, TurnsWhatRidesOnRigs) {
+    Rig rig;
+    rig.nodes.push_back({.translations = std::make_shared<const Keys>(
+                             Keys{.times = {0, 1}, .values = {{0, 0, 0}, {1, 2, 3}}})});
+    const Follows follows{.rig = std::make_shared<const Rig>(std::move(rig))};
+    Scene scene = room();
+    scene.objects[0].motion = follows;
+    scene.cameras = {{.eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 0, 1}, .follows = follows}};
+    const Scene turned = [&] {
+        Scene copy = scene;
+        apply(copy, {.up = Up::z});
+        return copy;
+    }();
+    for (const double seconds : {0.0, .5, 1.0}) {
+        const dvec3 eye = camera_at(scene.cameras[0], seconds).eye;
+        EXPECT_LT(
+            glm::length(camera_at(turned.cameras[0], seconds).eye - dvec3(eye.x, eye.z, -eye.y)),
+            1e-12);
+        const Scene before = at(scene, seconds), after = at(turned, seconds);
+        const dvec3 centre = bounds(before, before.objects[0]).centre();
+        EXPECT_LT(glm::length(bounds(after, after.objects[0]).centre() -
+                              dvec3(centre.x, centre.z, -centre.y)),
+                  1e-12);
+    }
+}
+
 TEST(LeaveOutLights, KeepsTheStrongestAtTheCentre) {
     Scene scene = room();
     scene.materials[0].emission = vec3(0), scene.materials[2].emission = vec3(1e-6f);
