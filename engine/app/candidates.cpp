@@ -37,8 +37,9 @@ std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t m
         const scene::Object& object = scene.objects[i];
         const scene::Material& material = scene.materials[object.material];
         const std::string& name = object.name.empty() ? material.name : object.name;
-        if (material.mirror || object.mirror || !object.seen_by_camera || scene::glows(material))
-            continue;
+        // What a texture lets glow here and there may well be one.
+        const bool lights = scene::light_of(material) != vec3(0);
+        if (material.mirror || object.mirror || !object.seen_by_camera || lights) continue;
         candidates.push_back({scene::surface_of(scene, object).smoothest,
                               area_of(scene::bounds(scene, object)), name});
     }
