@@ -40,8 +40,9 @@ std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t m
         const scene::Object& object = scene.objects[i];
         const scene::Material& material = scene.materials[object.material];
         const std::string& name = object.name.empty() ? material.name : object.name;
-        if (material.mirror || object.mirror || !object.seen_by_camera || scene::glows(material))
-            continue;
+        // What a texture lets glow here and there may well be one.
+        const bool lights = scene::light_of(material) != vec3(0);
+        if (material.mirror || object.mirror || !object.seen_by_camera || lights) continue;
         const auto [entry, is_new] = smoothest.try_emplace({object.mesh, object.material}, 1.f);
         if (is_new) entry->second = scene::surface_of(scene, object).smoothest;
         candidates.push_back({entry->second, area_of(scene::bounds(scene, object)), name});

@@ -155,7 +155,9 @@ std::string scene_text(const SceneWords& words) {
     text += table("Materials", materials(info)) + table("Mirrors", mirrors(info)) +
             table("Lights", lights(facts));
     if (info.mirrors.empty()) {
-        text += "\nNo mirror; the smoothest surfaces become one with\n";
+        text += info.mirror_options.empty()
+                    ? "\nNo mirror\n"
+                    : "\nNo mirror; the smoothest surfaces become one with\n";
         for (const std::string& option : info.mirror_options) text += "  " + option + "\n";
     }
     return text + table("Added, approximated, left out", gaps(facts));

@@ -93,7 +93,9 @@ TEST(MirrorOptions, CanBePastedAndMeanThatObject) {
     const std::vector<std::string> options = app::mirror_options(scene);
     EXPECT_THAT(options, ElementsAre("--mirror 'frame/glass'"))
         << "what emits light is no candidate";
-    scene.materials[0].emission = vec3(0);
+    scene.materials[0].emission_texture.emplace();
+    EXPECT_EQ(app::mirror_options(scene).size(), 3u) << "what glows here and there is one";
+    scene.materials[0].emission_texture.reset(), scene.materials[0].emission = vec3(0);
     EXPECT_THAT(app::mirror_options(scene),
                 ElementsAre("--mirror 'frame/glass'", "--mirror 'table top'",
                             "--mirror 'it'\\''s a \\* \\[1]=2=1'"));

@@ -1,0 +1,282 @@
+// What pictures of a scene show, and whether raster and rays show the same: one line of JSON for
+// each of its cameras.
+//   catoptric_scenes SCENE [DIR]     DIR: also pictures raster-N.png, rays-N.png, judged-N.png
+// Called by ./dev scenes, whose table is docs/scenes.md.
+#include "app/exposure.hpp"
+#include "app/wanted.hpp"
+#include "core/error.hpp"
+#include "measure/picture_file.hpp"
+#include "sight.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <map>
+#include <optional>
+
+namespace {
+
+using namespace catoptric;
+using nlohmann::json;
+
+constexpr uvec2 kSize{128, 128};
+constexpr float kOff = .02f;
+constexpr int kLeastPixels = 32; // of an object that is judged by itself
+
+app::Request request_of(app::Wanted& wanted, std::size_t camera) {
+    app::Request request;
+    request.size = kSize;
+    request.camera = camera < wanted.scene.cameras.size() ? wanted.scene.cameras[camera]
+                                                          : app::camera_of(wanted, 1);
+    request.ambient = app::ambient_of(wanted);
+    const std::optional<double> exposure = app::exposure_of(wanted);
+    request.exposure = exposure.value_or(0);
+    request.auto_exposure = !exposure;
+    request.scene = wanted.scene;
+    return request;
+}
+
+measure::Picture picture(app::Session& session, const app::Request& request,
+                         const std::string& technique) {
+    app::FrameSpec spec = request;
+    spec.techniques = {technique};
+    return measure::exposed(session.frame(spec).hdr(), request.exposure);
+}
+
+float apart(const vec3& a, const vec3& b) {
+    return f32::largest(abs(clamp(a, 0.0f, 1.0f) - clamp(b, 0.0f, 1.0f)));
+}
+
+/// What is seen around a pixel, at kFine x kFine places a pixel.
+struct Looked {
+    uvec2 size;
+    std::vector<scenes::Seen> seen;
+    const scenes::Seen& at(int x, int y) const {
+        const ivec2 fine(size * scenes::kFine);
+        return seen[std::size_t(std::clamp(y, 0, fine.y - 1)) * std::size_t(fine.x) +
+                    std::size_t(std::clamp(x, 0, fine.x - 1))];
+    }
+    const scenes::Seen& centre(std::size_t pixel) const {
+        return at(int(pixel % size.x * scenes::kFine + scenes::kFine / 2),
+                  int(pixel / size.x * scenes::kFine + scenes::kFine / 2));
+    }
+};
+
+/// Why a pixel is not judged.
+enum class Left { not_at_all, mirror, sharp, edge };
+
+bool differ(const scenes::Seen& a, const scenes::Seen& b, float pixel) {
+    if (a.object != b.object || a.cut != b.cut || a.shadowed != b.shadowed ||
+        a.texels != b.texels || a.sharp != b.sharp)
+        return true;
+    // Of one object, the nearer surface ends: no plane through either leads to the other.
+    return a.object >= 0 && std::min(std::abs(dot(a.facet, b.place - a.place)),
+                                     std::abs(dot(b.facet, a.place - b.place))) > 2 * pixel;
+}
+
+Left why_left(const Looked& looked, const scenes::Sight& sight, const scene::Scene& scene,
+              std::size_t pixel, bool leaves_sharp) {
+    const scenes::Seen& seen = looked.centre(pixel);
+    if (seen.object >= 0 && scene::is_mirror(scene, scene.objects[std::size_t(seen.object)]))
+        return Left::mirror;
+    if (leaves_sharp && seen.sharp) return Left::sharp;
+    const int fine = int(scenes::kFine), x = int(pixel % looked.size.x) * fine + fine / 2,
+              y = int(pixel / looked.size.x) * fine + fine / 2;
+    const float width = sight.pixel_at(seen.distance);
+    for (int down = -fine; down <= fine; ++down)
+        for (int right = -fine; right <= fine; ++right)
+            if (differ(seen, looked.at(x + right, y + down), width)) return Left::edge;
+    return Left::not_at_all;
+}
+
+/// Raster against rays: pixels that are off outside what is left out, and of how many that show
+/// something. `judged`, if given, becomes a picture: grey left out, red off, else black.
+json agreement(const app::Request& request, const Looked& looked, const scenes::Sight& sight,
+               const measure::Picture& raster, const measure::Picture& rays, bool leaves_sharp,
+               measure::Picture* judged) {
+    std::map<Left, int> counts;
+    int off = 0, shown = 0, background_off = 0;
+    for (std::size_t i = 0; i < rays.pixels.size(); ++i) {
+        const bool is_surface = looked.centre(i).object >= 0;
+        const Left why = why_left(looked, sight, request.scene, i, leaves_sharp);
+        shown += is_surface;
+        counts[why] += is_surface;
+        const bool is_off = why == Left::not_at_all &&
+                            !(apart(raster.pixels[i], rays.pixels[i]) <= kOff);
+        off += is_off && is_surface;
+        background_off += is_off && !is_surface;
+        if (judged)
+            judged->pixels[i] = is_off ? vec3(1, 0, 0) : vec3(why == Left::not_at_all ? 0 : .3f);
+    }
+    return {{"shown", shown},
+            {"judged", counts[Left::not_at_all]},
+            {"mirror", counts[Left::mirror]},
+            {"sharp", counts[Left::sharp]},
+            {"edge", counts[Left::edge]},
+            {"off", off},
+            {"background_off", background_off}};
+}
+
+/// Pixels by the object that they show.
+std::map<int, std::vector<std::size_t>> pixels_of(const Looked& looked) {
+    std::map<int, std::vector<std::size_t>> pixels;
+    for (std::size_t i = 0; i < std::size_t{looked.size.x} * looked.size.y; ++i)
+        if (looked.centre(i).object >= 0) pixels[looked.centre(i).object].push_back(i);
+    std::erase_if(pixels, [](const auto& entry) { return entry.second.size() < kLeastPixels; });
+    return pixels;
+}
+
+/// Standard deviation of the channel that varies most, over what is seen of a texture, 0..1.
+float deviation(const Looked& looked, const std::vector<std::size_t>& pixels) {
+    dvec3 sum(0), squares(0);
+    for (const std::size_t i : pixels) {
+        const dvec3 texel(looked.centre(i).texel);
+        sum += texel, squares += texel * texel;
+    }
+    const double n = double(pixels.size());
+    const dvec3 variance = squares / n - sum / n * (sum / n);
+    return float(std::sqrt(std::max({0.0, variance.x, variance.y, variance.z})));
+}
+
+/// The same scene without what varies on a surface: every base-colour texture is its mean, alpha
+/// stays, vertices are white.
+scene::Scene plain(scene::Scene scene) {
+    for (scene::Material& material : scene.materials) {
+        if (!material.albedo_texture) continue;
+        scene::Image image = *material.albedo_texture->image;
+        std::uint64_t sum[3] = {};
+        for (const std::uint32_t texel : image.texels)
+            for (int k = 0; k < 3; ++k) sum[k] += texel >> 8 * k & 255;
+        std::uint32_t mean = 0;
+        for (int k = 0; k < 3; ++k)
+            mean |= std::uint32_t((sum[k] + image.texels.size() / 2) / image.texels.size())
+                    << 8 * k;
+        for (std::uint32_t& texel : image.texels) texel = (texel & 0xff000000) | mean;
+        material.albedo_texture->image = std::make_shared<scene::Image>(std::move(image));
+    }
+    return scene;
+}
+
+float luminance(const vec3& colour) { return dot(colour, vec3(.2126f, .7152f, .0722f)); }
+
+/// How far luminance varies over an object's normals: of its means over normals of about one
+/// direction, (most - least) / most; none where no two directions are 30 degrees apart.
+std::optional<float> variation(const measure::Picture& picture, const Looked& looked,
+                               const std::vector<std::size_t>& pixels) {
+    struct Sum {
+        vec3 normal{0};
+        float luminance = 0, count = 0;
+    };
+    std::map<std::array<int, 3>, Sum> directions;
+    for (const std::size_t i : pixels) {
+        const vec3 n = looked.centre(i).normal, rounded = glm::round(n * 4.0f);
+        Sum& sum = directions[{int(rounded.x), int(rounded.y), int(rounded.z)}];
+        sum.normal += n, sum.luminance += luminance(picture.pixels[i]), sum.count += 1;
+    }
+    constexpr float kCosine = .866f;
+    std::erase_if(directions, [](const auto& entry) { return entry.second.count < 4; });
+    float least = std::numeric_limits<float>::infinity(), most = 0, nearest = 1;
+    for (const auto& entry : directions) {
+        const Sum& sum = entry.second;
+        least = std::min(least, sum.luminance / sum.count);
+        most = std::max(most, sum.luminance / sum.count);
+        for (const auto& other : directions)
+            nearest = std::min(nearest, dot(normalize(sum.normal), normalize(other.second.normal)));
+    }
+    if (nearest > kCosine) return {};
+    return most > 0 ? (most - least) / most : 0;
+}
+
+/// What textures change, object by object, and how far its light follows an object's normals.
+json surfaces(const app::Request& request, const Looked& looked, const measure::Picture& rays,
+              const measure::Picture& plain_rays) {
+    json textures = json::array(), lit = json::array();
+    for (const auto& [number, pixels] : pixels_of(looked)) {
+        const scene::Object& object = request.scene.objects[std::size_t(number)];
+        const scene::Material& material = request.scene.materials[object.material];
+        if (scene::is_mirror(request.scene, object)) continue;
+        const float varies = material.albedo_texture ? deviation(looked, pixels) : 0;
+        if (varies > 8.0f / 255) {
+            const auto changed = std::ranges::count_if(pixels, [&](std::size_t i) {
+                return apart(rays.pixels[i], plain_rays.pixels[i]) > 1.0f / 255;
+            });
+            textures.push_back({{"object", object.name},
+                                {"pixels", pixels.size()},
+                                {"deviation", varies * 255},
+                                {"changed", double(changed) / double(pixels.size())}});
+        }
+        const auto over_normals = variation(plain_rays, looked, pixels);
+        if (!material.unlit && !scene::glows(material) && over_normals)
+            lit.push_back(
+                {{"object", object.name}, {"pixels", pixels.size()}, {"variation", *over_normals}});
+    }
+    return {{"textures", textures}, {"lit", lit}};
+}
+
+/// Without colours at vertices, since `plain` means surfaces of one colour.
+scene::Scene without_colours(scene::Scene scene) {
+    for (scene::Mesh& mesh : scene.meshes) mesh.colours.clear();
+    return scene;
+}
+
+void write(const measure::Picture& picture, const std::string& folder, const char* name,
+           std::size_t camera) {
+    if (folder.empty()) return;
+    measure::write_png(measure::to_display(picture),
+                       folder + "/" + name + "-" + std::to_string(camera) + ".png");
+}
+
+constexpr const char* kRaster = "naive:bounces=0";
+constexpr const char* kRays = "raytrace";
+
+json measure_camera(app::Engine& engine, const std::string& name, std::size_t camera,
+                    const std::string& folder) {
+    app::Wanted wanted = app::load_wanted(name, {});
+    app::Request request = request_of(wanted, camera);
+    app::Session session(engine, request.scene);
+    app::settle_exposure(session, request);
+    const measure::Picture raster = picture(session, request, kRaster),
+                           rays = picture(session, request, kRays);
+    const scenes::Sight sight(request);
+    const Looked looked{request.size, sight.look()};
+    measure::Picture judged(int(kSize.x), int(kSize.y));
+    json line = {{"scene", name}, {"camera", request.camera.name}, {"exposure", request.exposure}};
+    line["agreement"] = agreement(request, looked, sight, raster, rays, true, &judged);
+    write(raster, folder, "raster", camera), write(rays, folder, "rays", camera);
+    write(judged, folder, "judged", camera);
+
+    app::Request flat = request;
+    flat.scene = without_colours(plain(request.scene));
+    app::Session flat_session(engine, flat.scene);
+    line.update(surfaces(request, looked, rays, picture(flat_session, flat, kRays)));
+
+    app::Wanted smooth = app::load_wanted(name, {.wishes = {.dielectric_mirrors = true}});
+    app::Request with = request_of(smooth, camera);
+    with.exposure = request.exposure;
+    app::Session with_session(engine, with.scene);
+    const scenes::Sight with_sight(with);
+    line["agreement_dielectric_mirrors"] = agreement(
+        with, {with.size, with_sight.look()}, with_sight, picture(with_session, with, kRaster),
+        picture(with_session, with, kRays), false, nullptr);
+    return line;
+}
+
+} // namespace
+
+int main(int argc, char** argv) try {
+    if (argc < 2) fail(Failure::usage, "catoptric_scenes SCENE [DIR]");
+    app::Engine engine({.cache = app::cache_folder()});
+    const std::string folder = argc > 2 ? argv[2] : "";
+    const std::size_t cameras = std::max<std::size_t>(
+        1, app::load_wanted(argv[1], {}).scene.cameras.size());
+    for (std::size_t i = 0; i < cameras; ++i)
+        std::puts(measure_camera(engine, argv[1], i, folder).dump().c_str());
+    return 0;
+} catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return int(error.failure);
+}
