@@ -111,7 +111,7 @@ TEST_F(Cli, DiffSaysWhatItsPicturesAndMaskSay) {
 TEST_F(Cli, DiffWithNothingToJudgeIsOverEveryThreshold) {
     write("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     ASSERT_EQ(cli(quick({"render", "scene.obj", "--technique", "raytrace", "--camera",
-                         "0,0,9:0,0,20:40", "-o", "black.png"}))
+                         "0,0,9:0,0,20:40", "--environment", "none", "-o", "black.png"}))
                   .exit_code,
               0);
     ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.exr"})).exit_code, 0);
