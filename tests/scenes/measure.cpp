@@ -164,7 +164,8 @@ scene::Scene plain(scene::Scene scene) {
 float luminance(const vec3& colour) { return dot(colour, vec3(.2126f, .7152f, .0722f)); }
 
 /// How far luminance varies over an object's normals: of its means over normals of about one
-/// direction, (most - least) / most; none where no two directions are 30 degrees apart.
+/// direction, (most - least) / most; none where no two directions are 30 degrees apart, and of what
+/// is black.
 std::optional<float> variation(const measure::Picture& picture, const Looked& looked,
                                const std::vector<std::size_t>& pixels) {
     struct Sum {
@@ -187,8 +188,9 @@ std::optional<float> variation(const measure::Picture& picture, const Looked& lo
         for (const auto& other : directions)
             nearest = std::min(nearest, dot(normalize(sum.normal), normalize(other.second.normal)));
     }
-    if (nearest > kCosine) return {};
-    return most > 0 ? (most - least) / most : 0;
+    constexpr float kBlack = 1.0f / 255;
+    if (nearest > kCosine || most < kBlack) return {};
+    return (most - least) / most;
 }
 
 /// What textures change, object by object, and how far its light follows an object's normals.

@@ -170,7 +170,10 @@ channel differs by more than .02 between `naive:bounces=0` and `raytrace`, both 
 
 Objects of at least 32 pixels are asked about textures and normals. A texture varies where the texels that are seen have a
 standard deviation above 8/255 in some channel; a pixel is changed by more than 1/255. Normals: those that differ by more
-than 30 degrees, without textures and colours of vertices, as means over normals of about one direction."""
+than 30 degrees, without textures and colours of vertices, as means over normals of about one direction; what is black is not lit.
+
+`female02` has each of its faces twice in one place, with normals whose axes are exchanged in the second: which of the two
+is in front is a matter of rounding, and raster and rays round differently."""
 
 
 def own_rows(rows):
