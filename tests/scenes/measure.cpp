@@ -99,14 +99,15 @@ json agreement(const app::Request& request, const Looked& looked, const scenes::
                const measure::Picture& raster, const measure::Picture& rays, bool leaves_sharp,
                measure::Picture* judged) {
     std::map<Left, int> counts;
-    int off = 0, shown = 0, background_off = 0;
+    int off = 0, shown = 0, background_off = 0, edge_off = 0;
     for (std::size_t i = 0; i < rays.pixels.size(); ++i) {
         const bool is_surface = looked.centre(i).object >= 0;
         const Left why = why_left(looked, sight, request.scene, i, leaves_sharp);
         shown += is_surface;
         counts[why] += is_surface;
-        const bool is_off = why == Left::not_at_all &&
-                            !(apart(raster.pixels[i], rays.pixels[i]) <= kOff);
+        const bool differs = !(apart(raster.pixels[i], rays.pixels[i]) <= kOff),
+                   is_off = differs && why == Left::not_at_all;
+        edge_off += differs && is_surface && why == Left::edge;
         off += is_off && is_surface;
         background_off += is_off && !is_surface;
         if (judged)
@@ -117,6 +118,7 @@ json agreement(const app::Request& request, const Looked& looked, const scenes::
             {"mirror", counts[Left::mirror]},
             {"sharp", counts[Left::sharp]},
             {"edge", counts[Left::edge]},
+            {"edge_off", edge_off},
             {"off", off},
             {"background_off", background_off}};
 }

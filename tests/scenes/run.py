@@ -95,6 +95,14 @@ def judged(row):
     return sum(one["judged"] for one in all_of) / shown if shown else None
 
 
+def edges(rows):
+    """What was left out as edges, and how much of it is off, over all files."""
+    all_of = [camera["agreement"] for row in rows for camera in row.get("cameras", [])]
+    total = {key: sum(one[key] for one in all_of) for key in ("shown", "judged", "edge", "edge_off")}
+    return (f"- Of the pixels that show a surface {percent(total['judged'] / total['shown'], 0)} % were judged and "
+            f"{percent(total['edge'] / total['shown'], 0)} % left out as edges, of which {percent(total['edge_off'] / total['edge'])} % are off.")
+
+
 def shown_name(name):
     package, rest = name.split("/", 1)
     return rest
@@ -149,6 +157,7 @@ def sums(valid, refused):
         f"- Comparisons of three techniques that ended with 0: {len(good_compares)} of {len(compared)}, in which the "
         "file's mirrors, or the first candidate that `info` names, is a mirror.",
         f"- Raster against rays at 128x128, off <= {percent(OFF, 1)} %: {outside}; more: {', '.join(others) or 'none'}.",
+        edges(valid),
         f"- The same with `--dielectric-mirrors`: {with_mirrors}; more: {', '.join(others_with) or 'none'}.",
         f"- Files with visible base-colour textures that vary, where the mean in their place changes at least "
         f"{percent(LEAST_CHANGED, 0)} % of every such object's pixels: {len(textured) - len(plain)} of {len(textured)}; "
