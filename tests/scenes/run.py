@@ -157,8 +157,8 @@ def sums(valid, refused):
         f"- Comparisons of three techniques that ended with 0: {len(good_compares)} of {len(compared)}, in which the "
         "file's mirrors, or the first candidate that `info` names, is a mirror.",
         f"- Raster against rays at 128x128, off <= {percent(OFF, 1)} %: {outside}; more: {', '.join(others) or 'none'}.",
-        edges(valid),
         f"- The same with `--dielectric-mirrors`: {with_mirrors}; more: {', '.join(others_with) or 'none'}.",
+        edges(valid),
         f"- Files with visible base-colour textures that vary, where the mean in their place changes at least "
         f"{percent(LEAST_CHANGED, 0)} % of every such object's pixels: {len(textured) - len(plain)} of {len(textured)}; "
         f"the others: {named(plain)}.",
