@@ -148,6 +148,8 @@ void Reader::left_out() {
           {"occlusionTexture", "materials with an occlusionTexture, drawn without it",
            "occlusion-texture"}})
         if (from_.has(key)) source_.notes.add(note, from_.label()), gap(id);
+    // A draft's, KHR_technique_webgl, which kept shaders beside the materials.
+    if (from_.has("technique")) gap("material-extension");
     if (!extensions_) return;
     for (const auto& [name, value] : extensions_->json().items()) {
         bool is_known = std::ranges::find(kRead, name) != std::end(kRead);

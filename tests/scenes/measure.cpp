@@ -99,14 +99,15 @@ json agreement(const app::Request& request, const Looked& looked, const scenes::
                const measure::Picture& raster, const measure::Picture& rays, bool leaves_sharp,
                measure::Picture* judged) {
     std::map<Left, int> counts;
-    int off = 0, shown = 0, background_off = 0;
+    int off = 0, shown = 0, background_off = 0, edge_off = 0;
     for (std::size_t i = 0; i < rays.pixels.size(); ++i) {
         const bool is_surface = looked.centre(i).object >= 0;
         const Left why = why_left(looked, sight, request.scene, i, leaves_sharp);
         shown += is_surface;
         counts[why] += is_surface;
-        const bool is_off = why == Left::not_at_all &&
-                            !(apart(raster.pixels[i], rays.pixels[i]) <= kOff);
+        const bool differs = !(apart(raster.pixels[i], rays.pixels[i]) <= kOff),
+                   is_off = differs && why == Left::not_at_all;
+        edge_off += differs && is_surface && why == Left::edge;
         off += is_off && is_surface;
         background_off += is_off && !is_surface;
         if (judged)
@@ -117,6 +118,7 @@ json agreement(const app::Request& request, const Looked& looked, const scenes::
             {"mirror", counts[Left::mirror]},
             {"sharp", counts[Left::sharp]},
             {"edge", counts[Left::edge]},
+            {"edge_off", edge_off},
             {"off", off},
             {"background_off", background_off}};
 }
@@ -164,7 +166,8 @@ scene::Scene plain(scene::Scene scene) {
 float luminance(const vec3& colour) { return dot(colour, vec3(.2126f, .7152f, .0722f)); }
 
 /// How far luminance varies over an object's normals: of its means over normals of about one
-/// direction, (most - least) / most; none where no two directions are 30 degrees apart.
+/// direction, (most - least) / most; none where no two directions are 30 degrees apart, and of what
+/// is black.
 std::optional<float> variation(const measure::Picture& picture, const Looked& looked,
                                const std::vector<std::size_t>& pixels) {
     struct Sum {
@@ -187,8 +190,9 @@ std::optional<float> variation(const measure::Picture& picture, const Looked& lo
         for (const auto& other : directions)
             nearest = std::min(nearest, dot(normalize(sum.normal), normalize(other.second.normal)));
     }
-    if (nearest > kCosine) return {};
-    return most > 0 ? (most - least) / most : 0;
+    constexpr float kBlack = 1.0f / 255;
+    if (nearest > kCosine || most < kBlack) return {};
+    return (most - least) / most;
 }
 
 /// What textures change, object by object, and how far its light follows an object's normals.

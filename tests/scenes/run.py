@@ -95,6 +95,14 @@ def judged(row):
     return sum(one["judged"] for one in all_of) / shown if shown else None
 
 
+def edges(rows):
+    """What was left out as edges, and how much of it is off, over all files."""
+    all_of = [camera["agreement"] for row in rows for camera in row.get("cameras", [])]
+    total = {key: sum(one[key] for one in all_of) for key in ("shown", "judged", "edge", "edge_off")}
+    return (f"- Of the pixels that show a surface {percent(total['judged'] / total['shown'], 0)} % were judged and "
+            f"{percent(total['edge'] / total['shown'], 0)} % left out as edges, of which {percent(total['edge_off'] / total['edge'])} % are off.")
+
+
 def shown_name(name):
     package, rest = name.split("/", 1)
     return rest
@@ -150,6 +158,7 @@ def sums(valid, refused):
         "file's mirrors, or the first candidate that `info` names, is a mirror.",
         f"- Raster against rays at 128x128, off <= {percent(OFF, 1)} %: {outside}; more: {', '.join(others) or 'none'}.",
         f"- The same with `--dielectric-mirrors`: {with_mirrors}; more: {', '.join(others_with) or 'none'}.",
+        edges(valid),
         f"- Files with visible base-colour textures that vary, where the mean in their place changes at least "
         f"{percent(LEAST_CHANGED, 0)} % of every such object's pixels: {len(textured) - len(plain)} of {len(textured)}; "
         f"the others: {named(plain)}.",
@@ -170,7 +179,10 @@ channel differs by more than .02 between `naive:bounces=0` and `raytrace`, both 
 
 Objects of at least 32 pixels are asked about textures and normals. A texture varies where the texels that are seen have a
 standard deviation above 8/255 in some channel; a pixel is changed by more than 1/255. Normals: those that differ by more
-than 30 degrees, without textures and colours of vertices, as means over normals of about one direction."""
+than 30 degrees, without textures and colours of vertices, as means over normals of about one direction; what is black is not lit.
+
+`female02` has each of its faces twice in one place, with normals whose axes are exchanged in the second: which of the two
+is in front is a matter of rounding, and raster and rays round differently."""
 
 
 def own_rows(rows):
