@@ -1,0 +1,55 @@
+// Many copies of a mesh take one mesh's memory, and transforms.
+#include "cli/triangle.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace test::loading;
+
+/// A ball of 2 * 70 * 70 triangles, its corners apart, in a file of its own.
+std::string ball() {
+    constexpr int kEdge = 70;
+    std::vector<float> floats;
+    const auto add = [&](int i, int j) {
+        const double a = 2 * std::numbers::pi * i / kEdge, b = std::numbers::pi * j / kEdge;
+        for (const double x : {std::sin(b) * std::cos(a), std::cos(b), -std::sin(b) * std::sin(a)})
+            floats.push_back(static_cast<float>(x));
+    };
+    for (int i = 0; i < kEdge; ++i)
+        for (int j = 0; j < kEdge; ++j) {
+            for (const auto& [di, dj] : {std::pair{0, 0}, {0, 1}, {1, 1}}) add(i + di, j + dj);
+            for (const auto& [di, dj] : {std::pair{0, 0}, {1, 1}, {1, 0}}) add(i + di, j + dj);
+        }
+    return {reinterpret_cast<const char*>(floats.data()), floats.size() * sizeof(float)};
+}
+
+/// `count` balls beside one another.
+Json balls(std::size_t bytes, int count) {
+    Json scene = triangle("ball.bin");
+    scene["accessors"][0]["count"] = bytes / 12;
+    scene["bufferViews"][0]["byteLength"] = scene["buffers"][0]["byteLength"] = bytes;
+    scene["nodes"] = Json::array();
+    for (int i = 0; i < count; ++i)
+        scene["nodes"].push_back(
+            {{"mesh", 0}, {"translation", {2.5 * (i % 40), 2.5 * (i / 40), 0}}});
+    return scene;
+}
+
+TEST_F(Cli, CopiesTakeTheMemoryOfOneAndTransforms) {
+    const std::string bytes = ball();
+    write("ball.bin", bytes);
+    std::uint64_t peaks[2];
+    for (const int k : {0, 1}) {
+        write("balls.gltf", balls(bytes.size(), k ? 2000 : 20).dump());
+        const test::Ended ended = test::run_process(
+            start(quick({"render", "balls.gltf", "--technique", "raytrace", "-o", "x.png"})));
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        peaks[k] = ended.peak_bytes;
+    }
+    // 20 million triangles would be 2 GB of what rays alone read.
+    EXPECT_LT(peaks[1], peaks[0] + (64u << 20));
+}
+
+} // namespace
