@@ -50,11 +50,9 @@ void add_surroundings(Verb& verb, scene::Wishes& wishes) {
                     wishes.environment_rotation = parse_real("--environment-rotate", text,
                                                              -kMostTurn, kMostTurn);
                 });
-    verb.option("--ambient", "A",
-                "light that every surface gets, at least 0 (0.05; 0 in an environment)",
-                [&](const std::string& text) {
-                    wishes.ambient = parse_real("--ambient", text, 0);
-                });
+    verb.option(
+        "--ambient", "A", "light that every surface gets, at least 0 (0.05; 0 in an environment)",
+        [&](const std::string& text) { wishes.ambient = parse_real("--ambient", text, 0); });
     verb.option("--exposure", "STOPS",
                 "pictures and errors are of light times 2^STOPS; auto: so that the brightest 5 % "
                 "are above .8 (what the scene says; auto for files)",
