@@ -36,10 +36,22 @@ Split split(const app::Request& request, const std::string& technique) {
     return {app::CauseFinder(session, request, truth.hdr, truth.hits).find(technique), truth.hits};
 }
 
+/// Settled: one sequence of frames for all pictures.
+app::Request settled(const scene::Scene& scene, const std::string& technique, uvec2 size) {
+    app::Request request = test::request(scene, {technique}, size);
+    request.warmup = 16;
+    return request;
+}
+
 Split split(const scene::Scene& scene, const std::string& technique, uvec2 size = kSize) {
-    app::Request request = test::request(scene, {}, size);
-    request.warmup = 16; // settled: one sequence of frames for all pictures
-    return split(request, technique);
+    return split(settled(scene, technique, size), technique);
+}
+
+/// Over all mirrors, as `split` has it, without the splitting.
+double squared_error(const scene::Scene& scene, const std::string& technique) {
+    const app::Part truth = test::render(scene, app::kReference, kSize);
+    const app::Result row = app::run(test::engine(), settled(scene, technique, kSize));
+    return std::pow(test::rmse(row.parts.front().hdr, truth.hdr, measure::mirrors(truth.hits)), 2);
 }
 
 /// All is shared out, over the pixels as over their classes and mirrors.
@@ -126,8 +138,8 @@ TEST(Causes, EightBitsOfDistanceAreStorageFormat) {
 // enters, is that thing's part in the worse one.
 void expect_part_is_difference(const std::string& cause, const scene::Scene& scene,
                                const std::string& with, const std::string& without) {
-    const Split worse = split(scene, with), better = split(scene, without);
-    const double gone = worse.causes.squared_error - better.causes.squared_error;
+    const Split worse = split(scene, with);
+    const double gone = worse.causes.squared_error - squared_error(scene, without);
     std::cout << "[ MEASURED ] " << cause << ": part in " << with << " " << worse.part(cause)
               << ", error less in " << without << " " << gone << ", whole "
               << worse.causes.squared_error << "\n";
