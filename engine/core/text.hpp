@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 // Text that came from outside (names in a file, a parser's words, a path) on its way to a terminal,
 // a message or a report.
@@ -16,5 +17,8 @@ std::string printable(std::string_view text, std::string_view kept = {});
 /// `printable` in single quotes, for messages: of more than 80 bytes only the first, and how many
 /// there are.
 std::string in_quotes(std::string_view text);
+
+/// Parts between any of `separators`; "a,,b" has three, "" has one.
+std::vector<std::string> split(std::string_view text, std::string_view separators);
 
 } // namespace catoptric

@@ -17,16 +17,6 @@ namespace {
 constexpr std::string_view kBlanks = " \t\n";
 constexpr std::size_t kLongestFileName = 80;
 
-std::vector<std::string> split(std::string_view text, std::string_view separators) {
-    std::vector<std::string> parts;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
-        parts.emplace_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return parts;
-}
-
 /// How closely a pattern's item says which mirror is meant.
 enum Rank { kNumber, kName, kRest, kNone };
 

@@ -31,24 +31,6 @@ shared::Surface surface_of(const scene::Object& object, const scene::Material& m
     return surface;
 }
 
-/// But for where it is and the frame of its shadows.
-shared::Light light_of(const scene::PointLight& light, const Space& space) {
-    constexpr double kNarrowest = .001; // a spot's edge, as a difference of cosines
-    shared::Light entry{};
-    entry.normal = vec3(light.normal);
-    entry.forward = light.axis == dvec3(0) ? entry.normal : vec3(light.axis);
-    const double area = light.directional ? 1 : light.area * space.scale * space.scale;
-    entry.intensity = light.emission * static_cast<float>(area);
-    entry.reach = 1 / space.length(light.range);
-    entry.directional = light.directional ? 1 : 0;
-    const bool is_spot = light.axis != dvec3(0) && !light.directional;
-    entry.cos_outer = is_spot ? static_cast<float>(light.cos_outer) : -3.0f; // whole everywhere
-    entry.sharpness = is_spot ? static_cast<float>(
-                                    1 / std::max(kNarrowest, light.cos_inner - light.cos_outer))
-                              : 1.0f;
-    return entry;
-}
-
 bool same(const scene::Camera& a, const scene::Camera& b) {
     return a.eye == b.eye && a.target == b.target && a.up == b.up &&
            a.vertical_fov_degrees == b.vertical_fov_degrees &&
@@ -156,37 +138,6 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
     surface_buffer_.set(listed);
 }
 
-void GpuScene::fill_lights(const scene::Scene& now, bool others) {
-    if (others) world_lights_ = scene::lights(now);
-    check(world_lights_.size() <= shared::kMaxLights, Failure::exhausted, "the scene has ",
-          world_lights_.size(), " lights, ", shared::kMaxLights, " are allowed");
-    lights_.clear(), light_places_.clear();
-    shadow_faces_ = 5;
-    has_punctual_ = !now.punctual.empty();
-    for (const scene::PointLight& light : world_lights_) {
-        shared::Light entry = light_of(light, space_);
-        if (light.directional)
-            light_places_.emplace_back(
-                sun_views(entry.forward, space_.core, bounds_of(geometry_))[0].eye);
-        else
-            light_places_.push_back(space_.place(light.position));
-        entry.position = vec3(light_places_.back());
-        if (!light.directional) {
-            const float gap = nearest_.distance(
-                geometry_, light_places_.back(),
-                [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
-            const shared::View main = turned_cube_views(entry.position, entry.forward, gap)[4];
-            entry.right = main.right, entry.down = main.down, entry.forward = main.forward,
-            entry.near = main.near;
-        }
-        lights_.push_back(entry);
-        if (light.normal == dvec3(0)) shadow_faces_ = 6;
-    }
-    std::vector<shared::Light> all = lights_;
-    all.resize(shared::kMaxLights);
-    light_buffer_.set(all);
-}
-
 bool GpuScene::has_other_mirrors() const {
     return std::ranges::any_of(geometry_.ranges, [](const DrawRange& range) {
         return range.mirror && (!range.exact_sphere || range.lit);
@@ -241,24 +192,6 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
     for (const shared::Light& light : lights_)
         std::ranges::copy(shadow_views(light), std::back_inserter(scene_views_));
     probe_buffer_.set(probes_);
-}
-
-std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) const {
-    std::vector<shared::View> views;
-    if (light.directional != 0) {
-        std::ranges::copy(sun_views(light.forward, space_.core, bounds_of(geometry_)),
-                          std::back_inserter(views));
-    } else {
-        views = turned_cube_views(light.position,
-                                  glm::mat3(light.right, -light.down, light.forward), 0);
-        for (shared::View& view : views) view.near = light.near;
-    }
-    views.resize(shadow_faces_); // the last one looks back, where a one-sided light is dark
-    return views;
-}
-
-std::uint32_t GpuScene::drawn_shadow_faces(std::uint32_t light) const {
-    return lights_[light].directional != 0 ? 2 : shadow_faces_;
 }
 
 /// The camera's, then those of mirrors and lights.

@@ -11,15 +11,6 @@ namespace catoptric::scene {
 
 namespace {
 
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    std::size_t begin = 0;
-    for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + 1)
-        parts.push_back(text.substr(begin, end - begin));
-    parts.push_back(text.substr(begin));
-    return parts;
-}
-
 double number(const std::string& text) {
     const std::optional<double> value = parse_number(text);
     check(value.has_value(), Failure::usage, "--camera: wanted a finite number, found ",
@@ -35,14 +26,14 @@ double number_within(const std::string& text, double low, double high) {
 }
 
 dvec3 point(const std::string& text) {
-    const std::vector<std::string> parts = split(text, ',');
+    const std::vector<std::string> parts = split(text, ",");
     check(parts.size() == 3, Failure::usage, "--camera: wanted a point X,Y,Z, found ",
           in_quotes(text));
     return {number(parts[0]), number(parts[1]), number(parts[2])};
 }
 
 Camera placed(const std::string& text) {
-    const std::vector<std::string> parts = split(text, ':');
+    const std::vector<std::string> parts = split(text, ":");
     check(parts.size() == 3, Failure::usage,
           "--camera: wanted EX,EY,EZ:TX,TY,TZ:FOV (eye, target, degrees) or "
           "EX,EY,EZ:TX,TY,TZ:h=HEIGHT (orthographic), found ",

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/knob.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -31,7 +32,7 @@ std::string range_text(double low, double high) {
 
 uvec2 parse_size(const std::string& option, const std::string& text) {
     constexpr std::uint32_t kMost = 1U << 20; // devices stop long before
-    const std::vector<std::string> parts = split(text, 'x');
+    const std::vector<std::string> parts = split(text, "x");
     uvec2 size{0, 0};
     const bool numbers = parts.size() == 2 && read(parts[0], size.x) && read(parts[1], size.y);
     const bool in_range = size.x >= 1 && size.y >= 1 && size.x <= kMost && size.y <= kMost;
@@ -69,15 +70,6 @@ std::size_t parse_choice(const std::string& option, const std::string& text,
     check(found != choices.end(), Failure::usage, option, ": wanted one of ", join(choices),
           ", found '", text, "'", did_you_mean(text, choices));
     return static_cast<std::size_t>(found - choices.begin());
-}
-
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    std::size_t begin = 0;
-    for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + 1)
-        parts.push_back(text.substr(begin, end - begin));
-    parts.push_back(text.substr(begin));
-    return parts;
 }
 
 std::string join(const std::vector<std::string>& parts) {

@@ -27,9 +27,6 @@ double parse_real(const std::string& option, const std::string& text,
 std::size_t parse_choice(const std::string& option, const std::string& text,
                          const std::vector<std::string>& choices);
 
-/// Parts between `separator`s; "a,,b" has three, "" has one.
-std::vector<std::string> split(const std::string& text, char separator);
-
 /// "a, b, c".
 std::string join(const std::vector<std::string>& parts);
 
