@@ -1,0 +1,63 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// What a picture of a scene requires: of each mirror and light what has to be rendered, and for
+/// each thing that is left out why, what that saves and what error it can cost. Pure: numbers about
+/// a scene, no device.
+namespace catoptric::require {
+
+/// What is asked: a picture of the scene at one instant.
+struct Question {
+    const scene::Scene& now; ///< as it stands at the instant (scene::at)
+    const scene::Camera& camera;
+    uvec2 size{512, 512};
+};
+
+/// Six bits, one a face of a capture, as render::cube_views has them.
+using Faces = std::uint8_t;
+inline constexpr Faces kAllFaces = 0x3f;
+
+struct MirrorNeeds {
+    bool is_seen = true;     ///< by the camera, or by a mirror that is
+    bool is_captured = true; ///< somebody may look into its capture
+    Faces faces = kAllFaces; ///< of its capture that somebody may look into
+    std::uint32_t edge = 0;  ///< texels along an edge that are enough; 0: as many as the row asks
+    /// Of what each face shows but for mirrors, and how it is lit: while the number stays, so do
+    /// the bytes.
+    std::array<std::uint64_t, 6> stamps{};
+    std::vector<std::uint32_t>
+        sees; ///< the other mirrors that its capture shows, from 0, ascending
+};
+
+struct LightNeeds {
+    bool has_map = true;     ///< something that is seen may lie in a shadow of its
+    std::uint64_t stamp = 0; ///< of what casts shadows: while it stays, so does the map
+};
+
+/// A thing that is not done, for the user to read.
+struct LeftOut {
+    std::string what;
+    std::string why;
+    std::string saves;
+    double error = 0; ///< the most that a displayed pixel can differ for it, of 1; 0: nothing
+};
+
+struct Model {
+    bool is_everything = true;
+    std::vector<MirrorNeeds> mirrors; ///< entry n-1 of mirror n
+    std::vector<LightNeeds> lights;   ///< as scene::lights has them
+    std::vector<LeftOut> left_out;
+};
+
+/// Nothing is left out and nothing kept.
+Model everything(const Question& question);
+/// Only what the picture requires. O(objects) and what its rules add.
+Model required(const Question& question);
+
+} // namespace catoptric::require

@@ -1,0 +1,62 @@
+#include "require/model.hpp"
+
+#include <cstring>
+#include <type_traits>
+
+namespace catoptric::require {
+
+namespace {
+
+/// 64-bit FNV-1a of values.
+class Stamp {
+public:
+    template <typename Value>
+    Stamp& add(const Value& value) {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        std::array<unsigned char, sizeof(Value)> bytes;
+        std::memcpy(bytes.data(), &value, sizeof value);
+        for (const unsigned char byte : bytes) sum_ = (sum_ ^ byte) * 0x100000001b3;
+        return *this;
+    }
+    std::uint64_t value() const { return sum_; }
+
+private:
+    std::uint64_t sum_ = 0xcbf29ce484222325;
+};
+
+/// Of all that can be seen anywhere.
+std::uint64_t stamp_of(const scene::Scene& now) {
+    Stamp stamp;
+    for (const scene::Object& object : now.objects) {
+        const scene::Material& material = now.materials[object.material];
+        stamp.add(object.mesh)
+            .add(object.world_from_object)
+            .add(material.albedo)
+            .add(material.emission);
+        stamp.add(material.mirror).add(material.reflectance).add(object.mirror);
+    }
+    for (const scene::PointLight& light : scene::lights(now))
+        stamp.add(light.position)
+            .add(light.normal)
+            .add(light.emission)
+            .add(light.area)
+            .add(light.axis);
+    return stamp.value();
+}
+
+} // namespace
+
+Model required(const Question& question) {
+    Model model = everything(question);
+    model.is_everything = false;
+    const std::uint64_t stamp = stamp_of(question.now);
+    for (std::uint32_t i = 0; i < model.mirrors.size(); ++i) {
+        model.mirrors[i].stamps.fill(stamp);
+        for (std::uint32_t other = 0; other < model.mirrors.size(); ++other)
+            if (other != i) model.mirrors[i].sees.push_back(other);
+    }
+    for (LightNeeds& light : model.lights) light.stamp = stamp;
+    return model;
+}
+
+} // namespace catoptric::require
