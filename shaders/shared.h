@@ -123,6 +123,7 @@ struct View {
     float near;
     vec3 eye_low; // what `eye` lacks as a sum of two floats
     uint parallel; // 1: an orthographic view
+    vec4 clip;     // of a view in a mirror: what it shows has dot(clip.xyz, v) + clip.w >= 0
 };
 
 // What is seen where the scene ends.
@@ -194,7 +195,7 @@ static_assert(sizeof(Detail) == 160);
 static_assert(sizeof(Attribute) == 32);
 static_assert(sizeof(Probe) == 68);
 static_assert(sizeof(CaptureTable) == 8256); // every device has uniform buffers of 16 KiB
-static_assert(sizeof(View) == 68);
+static_assert(sizeof(View) == 84);
 static_assert(sizeof(Sky) == 128);
 static_assert(sizeof(Frame) == 20);
 static_assert(sizeof(Draw) == 80);

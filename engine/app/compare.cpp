@@ -43,7 +43,8 @@ public:
           session_(engine, request.base.scene),
           truths_(session_, request_.base, request_.reference, request_.watcher),
           judge_(session_, truths_, request_.base, request_.watcher) {
-        if (request_.base.techniques.empty()) request_.base.techniques = default_techniques();
+        if (request_.base.techniques.empty())
+            request_.base.techniques = default_techniques(request_.base);
         check_rows(request_.base.techniques); // before any work
         for (const std::string& text : request_.base.techniques)
             reflect::assign(read_plan(text), mirror_names(request_.base.scene));

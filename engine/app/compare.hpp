@@ -10,7 +10,7 @@ inline constexpr const char* kReference = "raytrace:depth=16";
 inline constexpr int kRounds = 6; ///< the fewest that bound a median
 
 struct CompareRequest {
-    Request base; ///< its `techniques` are the rows; empty = default_techniques()
+    Request base; ///< its `techniques` are the rows; empty = default_techniques(base)
     std::string reference = kReference;
     bool together = false; ///< all rows in one frame
     /// In which the rows' frames are measured, at least 6: one row's frames after another's. Fewer
@@ -27,8 +27,9 @@ struct CompareRequest {
     std::function<void(const report::Comparison&)> on_finished_row;
 };
 
-/// The rows that each technique of the table names for itself (reflect::Technique::compared).
-std::vector<std::string> default_techniques();
+/// The rows that each technique of the table names for itself (reflect::Technique::compared), but those that fit no
+/// mirror of the scene as `base` shows it.
+std::vector<std::string> default_techniques(const Request& base);
 /// Throws `bad_data`, saying how to make one, where a scene has no mirror.
 void check_has_mirror(const scene::Scene& scene);
 

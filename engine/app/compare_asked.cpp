@@ -7,14 +7,24 @@
 #include "measure/interval.hpp"
 #include "reflect/technique.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace catoptric::app {
 
-std::vector<std::string> default_techniques() {
+std::vector<std::string> default_techniques(const Request& base) {
+    const scene::Scene now = scene::at(base.scene, base.time);
+    std::vector<std::optional<scene::Flat>> flats;
+    for (const std::size_t object : scene::mirrors(now))
+        flats.push_back(scene::flat(now.meshes[now.objects[object].mesh],
+                                    now.objects[object].world_from_object));
+    const double tolerance = scene::flat_tolerance(base.camera, base.size);
     std::vector<std::string> rows;
     for (const reflect::Technique* technique : reflect::techniques())
-        rows.insert(rows.end(), technique->compared.begin(), technique->compared.end());
+        if (!technique->unfit || std::ranges::any_of(flats, [&](const auto& flat) {
+                return technique->unfit(flat, tolerance).empty();
+            }))
+            rows.insert(rows.end(), technique->compared.begin(), technique->compared.end());
     return rows;
 }
 

@@ -91,11 +91,13 @@ FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plan
                    const std::vector<std::string>& mirrors, const render::GpuScene& scene,
                    graph::History history) {
     FrameGraph frame{graph::Graph(std::move(history)), {}};
+    scene.begin_frame();
     for (const reflect::Plan& plan : plans) {
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
         const render::FrameInputs inputs{scene,     spec.size,   prefix,
                                          spec.seed, spec.mended, spec.with_lookup};
-        const reflect::Assignment assignment = reflect::assign(plan, mirrors);
+        const reflect::Assignment assignment = reflect::fitted(
+            reflect::assign(plan, mirrors), scene.flat_mirrors(), scene.flat_tolerance());
         reflect::Outputs outputs = reflect::add_frame(frame.graph, inputs, assignment);
         const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr,
                                                          spec.exposure);
@@ -131,12 +133,13 @@ measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Dec
 
 /// How each mirror was drawn, and which rule said so.
 std::vector<PlanEntry> plan_of(const Declared& declared, const std::vector<std::string>& mirrors) {
-    const auto& [choices, of_mirror, patterns] = declared.assignment;
+    const auto& [choices, of_mirror, patterns, reasons] = declared.assignment;
     std::vector<PlanEntry> entries;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
         const reflect::Choice& choice = choices[of_mirror[i]];
         std::string why = patterns[i].empty() ? "one technique was asked for"
                                               : "rule '" + patterns[i] + "'";
+        if (!reasons[i].empty()) why = reasons[i] + ": rest=" + choice.label;
         const bool is_left_out = choices.size() > 1 && choice.settings.has("capture") &&
                                  choice.settings.is_special("capture");
         if (is_left_out) why += "; black in the captures of others, capture=none";
@@ -160,7 +163,7 @@ Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& fr
     part.memory_bytes = plan.bytes;
     part.remembers = reads_previous(frame, plan, part.prefix);
     count_scene_passes(frame.graph, plan, part);
-    if (outputs.captures) part.notes = outputs.captures->notes;
+    part.notes = outputs.notes;
     for (const reflect::Choice& choice : declared.assignment.choices)
         if (choice.settings.has("face") && choice.settings.is_special("face"))
             part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};

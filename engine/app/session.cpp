@@ -45,12 +45,16 @@ Sequence::Sequence(Sequence&&) noexcept = default;
 Sequence& Sequence::operator=(Sequence&&) noexcept = default;
 Sequence::~Sequence() = default;
 
+void Session::Impl::wait_for_readers(std::size_t of) {
+    if (last && read_by[of] + read_by.size() > last->frame && read_by[of] > 0)
+        runner.wait(graph::Ticket{read_by[of]});
+}
+
 double Session::Impl::stand(const Standing& wanted) {
     if (standing == wanted && resident->knows_face_needs()) return 0;
     // Another copy than frames on their way read.
     const std::size_t next = (copy + 1) % read_by.size();
-    if (last && read_by[next] + read_by.size() > last->frame && read_by[next] > 0)
-        runner.wait(graph::Ticket{read_by[next]});
+    wait_for_readers(next);
     copy = next;
     const Clock::time_point start = Clock::now();
     if (standing && standing->size != wanted.size) resident->forget_face_needs();
@@ -101,6 +105,7 @@ Frame Session::frame(const FrameSpec& spec) {
     const Clock::time_point start = Clock::now();
     FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, self.runner.history());
     const double declare_ms = milliseconds_since(start);
+    if (self.resident->has_new_views()) self.wait_for_readers(self.copy);
     const Clock::time_point trees = Clock::now();
     self.resident->prepare();
     const double hierarchy_ms = milliseconds_since(trees);

@@ -33,6 +33,8 @@ struct Session::Impl {
 
     /// Writes what is wanted and the device does not have yet; milliseconds of work.
     double stand(const Standing& wanted);
+    /// Until no frame is in flight that reads this copy of what is written.
+    void wait_for_readers(std::size_t of);
     /// The techniques' texts read; only once for as long as they stay.
     const std::vector<reflect::Plan>& plans_of(const std::vector<std::string>& techniques);
 

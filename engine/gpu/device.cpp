@@ -176,6 +176,7 @@ void Device::create_device() {
     Features features;
     features.core.features.imageCubeArray = true;
     features.core.features.fragmentStoresAndAtomics = true;
+    features.core.features.shaderClipDistance = true;
     features.core.features.shaderFloat64 = doubles_;
     features.v12.scalarBlockLayout = true;
     features.v12.timelineSemaphore = true;

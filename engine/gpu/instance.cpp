@@ -220,6 +220,7 @@ std::string Features::missing(VkPhysicalDevice device) {
     const std::pair<const char*, VkBool32> required[] = {
         {"imageCubeArray", has.core.features.imageCubeArray},
         {"fragmentStoresAndAtomics", has.core.features.fragmentStoresAndAtomics},
+        {"shaderClipDistance", has.core.features.shaderClipDistance},
         {"scalarBlockLayout", has.v12.scalarBlockLayout},
         {"timelineSemaphore", has.v12.timelineSemaphore},
         {"hostQueryReset", has.v12.hostQueryReset},

@@ -63,6 +63,11 @@ PassBuilder& PassBuilder::layers(std::uint32_t count) {
     return *this;
 }
 
+PassBuilder& PassBuilder::area(const Area& area) {
+    pass_.area = area;
+    return *this;
+}
+
 void PassBuilder::record(std::function<void(Commands&)> body) { pass_.body = std::move(body); }
 
 Image Graph::image(ImageDesc desc) {

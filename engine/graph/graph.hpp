@@ -117,12 +117,21 @@ struct BufferUse {
     friend bool operator==(const BufferUse&, const BufferUse&) = default;
 };
 
+/// Of a picture, in pixels from its upper left corner.
+struct Area {
+    std::uint32_t x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const Area&) const = default;
+};
+
 struct Pass {
     std::string name; ///< unique in the graph
     Tag tag = Tag::none;
     std::vector<ImageUse> images; ///< in order of declaration
     std::vector<BufferUse> buffers;
     std::uint32_t layer_count = 1; ///< layers rendered at once
+    /// All that is cleared and drawn of attachments; what they hold elsewhere is nobody's. Nothing:
+    /// the whole. No part of the shape: it may differ from frame to frame.
+    std::optional<Area> area;
     std::function<void(Commands&)> body;
 
     bool is_raster() const; ///< has an attachment
@@ -137,6 +146,7 @@ public:
     PassBuilder& writes(Image image, Use use, std::optional<Clear> clear = std::nullopt);
     PassBuilder& writes(Buffer buffer, Use use);
     PassBuilder& layers(std::uint32_t count);
+    PassBuilder& area(const Area& area);
     void record(std::function<void(Commands&)> body);
 
 private:

@@ -33,6 +33,12 @@ VkExtent2D extent_of(const Graph& graph, const Pass& pass) {
     return {at_mip(desc.width, image.first_mip), at_mip(desc.height, image.first_mip)};
 }
 
+VkRect2D area_of(const Pass& pass, VkExtent2D extent) {
+    if (!pass.area) return {{0, 0}, extent};
+    const auto& [x, y, width, height] = *pass.area;
+    return {{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)}, {width, height}};
+}
+
 /// Stages and accesses on both sides of a barrier.
 struct Sides {
     Scope before, after;
@@ -216,7 +222,7 @@ void Recorder::render(const PlannedPass& planned, std::uint32_t first_layer,
                            layer_count);
     const VkExtent2D extent = extent_of(*graph_, pass);
     VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    rendering.renderArea = {{0, 0}, extent};
+    rendering.renderArea = area_of(pass, extent);
     rendering.layerCount = layer_count;
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(colours_.size());
     rendering.pColorAttachments = colours_.data();
@@ -224,9 +230,8 @@ void Recorder::render(const PlannedPass& planned, std::uint32_t first_layer,
     vkCmdBeginRendering(commands_, &rendering);
     const VkViewport viewport{
         0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
-    const VkRect2D scissor{{0, 0}, extent};
     vkCmdSetViewport(commands_, 0, 1, &viewport);
-    vkCmdSetScissor(commands_, 0, 1, &scissor);
+    vkCmdSetScissor(commands_, 0, 1, &rendering.renderArea);
     Commands commands(*this, *graph_, pass, commands_, first_layer, layer_count);
     pass.body(commands);
     vkCmdEndRendering(commands_);

@@ -1,6 +1,7 @@
 #include "reflect/frame.hpp"
 
 #include "reflect/captures.hpp"
+#include "reflect/mirrored.hpp"
 
 #include <algorithm>
 #include <map>
@@ -126,6 +127,25 @@ std::vector<std::uint32_t> mirrors_of(std::size_t choice, const Assignment& assi
     return mirrors;
 }
 
+/// How views in mirrors show the other mirrors: as the picture does, but that nothing is traced in
+/// them. What is nothing but traced is shown as captures show it.
+render::Looks looks_in_mirrors(const Outputs& outputs, const Assignment& assignment,
+                               render::Looks looks) {
+    for (std::size_t i = 0; i < looks.looks.size(); ++i) {
+        render::MirrorLook& look = looks.looks[i];
+        std::erase_if(look.constants,
+                      [](const auto& constant) { return constant.first == "tracer"; });
+        const Technique& technique = *assignment.choices[i].technique;
+        if (technique.mirrored_bounces) look = {};
+        if (technique.capture || !technique.picture) continue;
+        look = {};
+        if (assignment.choices[i].settings.is_special("capture") || !outputs.captures) continue;
+        look.fragment = "reflect/parallax.frag";
+        look.captures = outputs.captures;
+    }
+    return looks;
+}
+
 } // namespace
 
 Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
@@ -156,6 +176,13 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
         if (!outputs.captures) outputs.captures = look.mirror.captures;
         looks.looks.push_back(std::move(look.mirror));
     }
+    if (outputs.captures) outputs.notes = outputs.captures->notes;
+    if (std::ranges::any_of(
+            choices, [](const Choice& choice) { return choice.technique->mirrored_bounces; }) &&
+        !assignment.of_mirror.empty())
+        std::ranges::move(add_mirrored(graph, inputs, assignment, lighting,
+                                       looks_in_mirrors(outputs, assignment, looks), looks),
+                          std::back_inserter(outputs.notes));
     const render::View view = render::add_view(graph, inputs, lighting, std::move(looks),
                                                !tracers.empty());
     outputs.hdr = view.hdr;

@@ -63,6 +63,20 @@ std::uint32_t index_of(const Choice& choice, std::vector<Choice>& choices) {
     return static_cast<std::uint32_t>(choices.size() - 1);
 }
 
+/// The technique that `rest` names, with shadows as the choice has them.
+Choice rest_of(const Choice& choice) {
+    Choice rest = parse_choice(choice.settings.choice("rest"));
+    const Settings defaults(choice.technique->knobs);
+    for (const char* knob : {"shadow", "shadow_map"}) {
+        const std::string value = choice.settings.text(knob);
+        if (value == defaults.text(knob)) continue;
+        rest.settings.set(rest.technique->name, knob, value);
+        rest.label += (rest.label.find(':') == std::string::npos ? ":" : ",") + std::string(knob) +
+                      "=" + value;
+    }
+    return rest;
+}
+
 } // namespace
 
 std::string Plan::file_name() const {
@@ -99,6 +113,7 @@ Assignment assign(const Plan& plan, const std::vector<std::string>& names) {
         assignment.choices = {plan.rules.front().choice};
         assignment.of_mirror.assign(names.size(), 0);
         assignment.patterns.assign(names.size(), "");
+        assignment.reasons.assign(names.size(), "");
         return assignment;
     }
     struct Best {
@@ -125,6 +140,26 @@ Assignment assign(const Plan& plan, const std::vector<std::string>& names) {
         assignment.of_mirror.push_back(index_of(best[i].rule->choice, assignment.choices));
         assignment.patterns.push_back(best[i].rule->pattern);
     }
+    assignment.reasons.assign(names.size(), "");
+    return assignment;
+}
+
+Assignment fitted(Assignment assignment, const std::vector<std::optional<scene::Flat>>& flats,
+                  double tolerance) {
+    std::vector<Choice> choices; // without those that nobody has any more
+    if (assignment.of_mirror.empty()) return assignment;
+    for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
+        Choice choice = assignment.choices[assignment.of_mirror[i]];
+        if (choice.technique->unfit)
+            assignment.reasons[i] = choice.technique->unfit(flats[i], tolerance);
+        if (!assignment.reasons[i].empty()) {
+            assignment.reasons[i] = std::string(choice.technique->name) +
+                                    " draws flat mirrors, and this is " + assignment.reasons[i];
+            choice = rest_of(choice);
+        }
+        assignment.of_mirror[i] = index_of(choice, choices);
+    }
+    assignment.choices = std::move(choices);
     return assignment;
 }
 

@@ -37,11 +37,18 @@ struct Assignment {
     std::vector<Choice> choices;          ///< no two the same; at least one
     std::vector<std::uint32_t> of_mirror; ///< index into `choices`, entry n-1 of mirror n
     std::vector<std::string> patterns; ///< of the rule that decided, likewise; empty: a technique
+    /// Why another technique than the rule's draws the mirror, likewise; empty: the rule's does.
+    std::vector<std::string> reasons;
 };
 
 /// A rule that names the mirror by number goes before one that does by name, that before `*`; of
 /// equals the first. `names`: of the mirrors. Throws `Failure::usage` for a pattern without a match
 /// and for a mirror without a rule. O(rules * mirrors).
 Assignment assign(const Plan& plan, const std::vector<std::string>& names);
+
+/// Mirrors that their technique cannot draw (Technique::unfit) get the one that its knob `rest`
+/// names, with the same shadows. `flats`: of each mirror.
+Assignment fitted(Assignment assignment, const std::vector<std::optional<scene::Flat>>& flats,
+                  double tolerance);
 
 } // namespace catoptric::reflect

@@ -2,6 +2,7 @@
 
 #include "core/knob.hpp"
 #include "reflect/tracer.hpp"
+#include "scene/flat_mirror.hpp"
 
 #include <memory>
 #include <optional>
@@ -21,6 +22,7 @@ struct Outputs {
     std::vector<graph::Buffer> counters; ///< shared::Counters of each tracing
     std::optional<graph::Image> lookup; ///< rgba32f: where mirrors looked, if the inputs ask for it
     std::shared_ptr<const render::Captures> captures; ///< that the view looks into; may be none
+    std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
 };
 
 /// What the mirrors that share a technique and its settings may look into.
@@ -53,6 +55,12 @@ struct Technique {
     /// How its mirrors are drawn; declares what passes that takes.
     Look (*look)(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
                  const Surroundings& around) = nullptr;
+    /// Its mirrors show what a view of their own sees (reflect/mirrored.hpp): mirrors one behind
+    /// the other in it.
+    int (*mirrored_bounces)(const Settings& settings) = nullptr;
+    /// Why it cannot draw the mirror, after "it is"; empty: it can. Null: it draws any. What it
+    /// cannot is drawn by the row that the knob `rest` names.
+    std::string (*unfit)(const std::optional<scene::Flat>& flat, double tolerance) = nullptr;
     /// The whole picture where all mirrors are its own, without a view that is drawn. Null: drawn.
     Outputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
                        const Settings& settings, const render::Lighting& lighting) = nullptr;

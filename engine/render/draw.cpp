@@ -100,7 +100,7 @@ std::string build_of(const MirrorLook& look, bool peeled, bool shadow_map, bool 
 
 void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& drawing,
                   const MirrorLook& look, const std::string& black, const Wanted& wanted) {
-    gpu::RasterState state{"scene.vert", black, drawing.store};
+    gpu::RasterState state{"", black, drawing.store};
     if (!look.fragment.empty() && !look.blank) {
         state.fragment = build_of(look, drawing.peeled.has_value(),
                                   drawing.lighting.shadow_map.has_value(), scene.has_details());
@@ -119,9 +119,10 @@ void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState st
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
                   const Wanted& wanted) {
     state.features = scene.features(first_view);
+    const char* const build = scene.views()[first_view].clip == vec4(0) ? "" : "#clipped";
     for (const bool own : {false, true}) {
         if (own && !scene.has_own_spaces()) break;
-        if (own) state.vertex = "placed.vert";
+        state.vertex = (own ? "placed.vert" : "scene.vert") + std::string(build);
         bool in_use = false; // a pipeline that draws nothing is not made
         for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
             if (scene.ranges()[i].own.has_value() != own || !wanted(i)) continue;
@@ -146,7 +147,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
         commands.bind("first_layer", *peeled);
     }
     const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {
-        draw_objects(commands, scene, {"scene.vert", diffuse, store, hidden}, first_view, layers, 0,
+        draw_objects(commands, scene, {"", diffuse, store, hidden}, first_view, layers, 0,
                      [&](std::size_t i) {
                          const DrawRange& range = scene.ranges()[i];
                          return !range.mirror && range.one_sided == one_sided && wanted(i);
@@ -166,8 +167,8 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
         if (is_shut(i))
-            return draw_objects(commands, scene, {"scene.vert", black, store}, first_view, layers,
-                                0, is_shut);
+            return draw_objects(commands, scene, {"", black, store}, first_view, layers, 0,
+                                is_shut);
 }
 
 } // namespace catoptric::render

@@ -10,8 +10,8 @@ namespace catoptric::render {
 /// Which objects are drawn, by their index.
 using Wanted = std::function<bool(std::size_t)>;
 
-/// The objects that are asked for, with these programs, into the layers whose views they may meet:
-/// views from `first_view` on. Those in spaces of their own come last.
+/// The objects that are asked for, with this fragment shader and state, into the layers whose views
+/// they may meet: views from `first_view` on. Those in spaces of their own come last.
 void draw_objects(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
                   const Wanted& wanted);

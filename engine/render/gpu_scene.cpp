@@ -31,6 +31,18 @@ shared::Surface surface_of(const scene::Object& object, const scene::Material& m
     return surface;
 }
 
+/// Scene units.
+std::optional<scene::Flat> flat_in(const Space& space, const scene::Scene& now,
+                                   std::size_t object) {
+    const scene::Object& mirror = now.objects[object];
+    std::optional<scene::Flat> flat = scene::flat(now.meshes[mirror.mesh],
+                                                  mirror.world_from_object);
+    if (!flat) return flat;
+    flat->point = space.place(flat->point);
+    for (dvec3& corner : flat->corners) corner = space.place(corner);
+    return flat;
+}
+
 bool same(const scene::Camera& a, const scene::Camera& b) {
     return a.eye == b.eye && a.target == b.target && a.up == b.up &&
            a.vertical_fov_degrees == b.vertical_fov_degrees &&
@@ -58,8 +70,8 @@ const scene::Scene& fitting(const gpu::Device& device, const scene::Scene& scene
 
 GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots)
     : device_(device), space_(space_of(fitting(device, scene))),
-      vertices_(expected_motion(scene), slots), frame_("frame", gpu::BufferUse::uniform, slots),
-      view_buffer_("views", gpu::BufferUse::plain, slots),
+      vertices_(expected_motion(scene), slots), view_buffer_("views", gpu::BufferUse::plain, slots),
+      frame_("frame", gpu::BufferUse::uniform, slots),
       surface_buffer_("surfaces", gpu::BufferUse::plain, slots),
       light_buffer_("lights", gpu::BufferUse::uniform, slots),
       probe_buffer_("probes", gpu::BufferUse::plain, slots), details_(slots), sky_(slots),
@@ -153,6 +165,8 @@ shared::Draw GpuScene::draw_of(std::size_t object, std::uint32_t first_view) con
 /// What all views that one draw may go to share.
 const dvec3& GpuScene::eye_of(std::uint32_t view) const {
     if (view == kCameraView) return eye_;
+    const std::size_t own = views_.size() - added_eyes_.size();
+    if (view >= own) return added_eyes_[view - own];
     if (view < shadow_view(0)) return probe_places_[(view - 1) / 6];
     return light_places_[(view - shadow_view(0)) / shadow_faces_];
 }
@@ -167,12 +181,15 @@ shared::Placement GpuScene::placement_of(std::size_t object, std::uint32_t first
 void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
     const std::size_t known = changes.layout ? 0 : probes_.size();
     probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
+    flats_.resize(mirror_objects_.size());
     scene_views_.clear();
     for (std::size_t mirror = 0; mirror < mirror_objects_.size(); ++mirror) {
         const std::size_t object = mirror_objects_[mirror];
         shared::Probe& probe = probes_[mirror];
-        if (mirror >= known || std::ranges::binary_search(changes.moved, object))
+        if (mirror >= known || std::ranges::binary_search(changes.moved, object)) {
             probe_places_[mirror] = space_.place(scene::bounds(now, now.objects[object]).centre());
+            flats_[mirror] = flat_in(space_, now, object);
+        }
         probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];
         probe.sphere = surface.centre, probe.radius = surface.radius;
@@ -199,6 +216,7 @@ void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
     eye_ = space_.place(camera.eye);
     const float gap = nearest_.distance(
         geometry_, eye_, [](std::size_t, const DrawRange& range) { return !range.seen_by_camera; });
+    added_eyes_.clear();
     views_ = {camera_view(camera, space_, size, gap, bounds_of(geometry_))};
     const bool is_parallel = views_.front().parallel != 0;
     if (is_parallel) eye_ = dvec3(views_.front().eye) + dvec3(views_.front().eye_low);
@@ -253,7 +271,26 @@ void GpuScene::bind_vertices(graph::Commands& commands, std::size_t object) cons
     vertices_.bind(commands, slot_, object);
 }
 
+Eye GpuScene::eye() const { return {views_[kCameraView], eye_, bounds_of(geometry_)}; }
+
+void GpuScene::begin_frame() const {
+    views_.resize(views_.size() - added_eyes_.size());
+    added_eyes_.clear();
+}
+
+std::uint32_t GpuScene::add_view(const shared::View& view, const dvec3& eye) const {
+    views_.push_back(view);
+    added_eyes_.push_back(eye);
+    return static_cast<std::uint32_t>(views_.size() - 1);
+}
+
+bool GpuScene::has_new_views() const { return !added_eyes_.empty() && view_buffer_.set(views_); }
+
 void GpuScene::prepare() const {
+    if (!added_eyes_.empty()) {
+        view_buffer_.set(views_);
+        uploads_ += view_buffer_.write(device_, slot_);
+    }
     if (wants_tracing_) tracing_->prepare(device_, geometry_, slot_);
 }
 

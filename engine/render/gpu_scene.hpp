@@ -3,6 +3,7 @@
 #include "graph/commands.hpp"
 #include "render/changes.hpp"
 #include "render/details.hpp"
+#include "render/mirrored.hpp"
 #include "render/nearest.hpp"
 #include "render/resident.hpp"
 #include "render/sky.hpp"
@@ -43,6 +44,12 @@ public:
     std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
     /// The number of the mirror that the object is, from 1; 0: it is none.
     std::uint32_t mirror_of(std::size_t object) const { return surfaces_[object].mirror; }
+    /// Of each mirror, scene units; nothing for those that are not flat.
+    const std::vector<std::optional<scene::Flat>>& flat_mirrors() const { return flats_; }
+    /// How far from flat a mirror may be that is drawn as a plane in this picture.
+    double flat_tolerance() const { return scene::flat_tolerance(camera_, size_); }
+    /// What views in mirrors start from.
+    Eye eye() const;
     /// Whether the object is a closed mirror with the camera inside, where no light from outside
     /// arrives.
     bool hides_all_from_camera(std::size_t object) const { return hides_all_[object]; }
@@ -74,6 +81,14 @@ public:
     bool has_sky() const { return sky_.kind() != 0; }
 
     static constexpr std::uint32_t kCameraView = 0;
+    /// Before a frame's passes are declared: no views but the scene's own.
+    void begin_frame() const;
+    /// One more view for passes of this frame; its number. Costs a write of all views where it is
+    /// another than that of the frame before.
+    std::uint32_t add_view(const shared::View& view, const dvec3& eye) const;
+    /// After they are declared: whether `prepare` writes views, so that no frame may be in flight
+    /// in this slot.
+    bool has_new_views() const;
     std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }
     std::uint32_t shadow_view(std::uint32_t light) const {
         return 1 + 6 * mirror_count() + shadow_faces_ * light;
@@ -88,8 +103,8 @@ public:
 
     /// Said by a pass that traces, when it is declared.
     void want_tracing() const { wants_tracing_ = true; }
-    /// After the frame's passes are declared: makes the hierarchy if one of them wants it and it is
-    /// not up to date.
+    /// After the frame's passes are declared: writes the views that were added; makes the hierarchy
+    /// if one of them wants it and it is not up to date.
     void prepare() const;
     /// Binds the hierarchy; makes it first where nobody has prepared it.
     void bind_tracing(graph::Commands& commands) const;
@@ -124,7 +139,10 @@ private:
     Nearest nearest_;
     Seen seen_;
     Vertices vertices_;
-    std::vector<shared::View> views_, scene_views_;  ///< all; those of mirrors and lights
+    mutable std::vector<shared::View> views_;        ///< all
+    std::vector<shared::View> scene_views_;          ///< of mirrors and lights
+    mutable std::vector<dvec3> added_eyes_;          ///< of the last of `views_`, which were added
+    std::vector<std::optional<scene::Flat>> flats_;  ///< of mirrors
     std::vector<dvec3> probe_places_, light_places_; ///< scene units
     dvec3 eye_{0};
     std::vector<shared::Surface> surfaces_;
@@ -140,9 +158,11 @@ private:
     bool has_own_spaces_ = false;
     bool has_punctual_ = false; ///< some light has no surface
     std::uint32_t shadow_faces_ = 6;
-    std::size_t slot_ = 0, uploads_ = 0, known_layouts_ = 0;
+    mutable std::size_t uploads_ = 0;
+    std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
-    Resident frame_, view_buffer_, surface_buffer_, light_buffer_, probe_buffer_;
+    mutable Resident view_buffer_;
+    Resident frame_, surface_buffer_, light_buffer_, probe_buffer_;
     Details details_;
     Sky sky_;
     std::unique_ptr<Tracing> tracing_;

@@ -22,6 +22,14 @@ struct Reads {
         buffers.push_back(buffer);
         pass.reads(buffer, use);
     }
+    void add(const Captures& captures) {
+        for (const Cubes& cubes : captures.arrays) {
+            add(cubes.colour);
+            if (cubes.distance) add(*cubes.distance);
+            if (cubes.surfaces) add(*cubes.surfaces);
+        }
+        if (captures.table) add(*captures.table, graph::Use::sampled);
+    }
 };
 
 } // namespace
@@ -34,13 +42,7 @@ void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const
     Reads reads{pass};
     if (lighting.shadow_map) reads.add(*lighting.shadow_map);
     for (const MirrorLook& look : looks.looks) {
-        if (!look.captures) continue;
-        for (const Cubes& cubes : look.captures->arrays) {
-            reads.add(cubes.colour);
-            if (cubes.distance) reads.add(*cubes.distance);
-            if (cubes.surfaces) reads.add(*cubes.surfaces);
-        }
-        if (look.captures->table) reads.add(*look.captures->table, graph::Use::sampled);
+        if (look.captures) reads.add(*look.captures);
         for (const auto& [name, images] : look.images)
             for (const graph::Image& image : images) reads.add(image);
         for (const auto& [name, buffer] : look.buffers) reads.add(buffer, graph::Use::storage_read);

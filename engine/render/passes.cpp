@@ -95,7 +95,7 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
             .record([&scene, light](Commands& commands) {
                 scene.bind(commands);
                 for (const bool masked : {false, true})
-                    draw_objects(commands, scene, {"scene.vert", masked ? "masked.frag" : "", {}},
+                    draw_objects(commands, scene, {"", masked ? "masked.frag" : "", {}},
                                  scene.shadow_view(light), scene.drawn_shadow_faces(light), 0,
                                  [&](std::size_t i) {
                                      const DrawRange& range = scene.ranges()[i];
@@ -159,6 +159,34 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
     return view;
+}
+
+Image add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs, const std::string& name,
+                        const MirroredView& view, std::uint32_t number, const Lighting& lighting,
+                        Looks looks) {
+    const uvec2 size = inputs.size;
+    const Image hdr = graph.image({inputs.prefix + name, Format::rgba32f, size.x, size.y});
+    const Image depth = graph.image(
+        {inputs.prefix + name + ".depth", Format::d32f, size.x, size.y});
+    graph::PassBuilder pass = graph.pass(inputs.prefix + name, Tag::scene);
+    read_surroundings(pass, lighting, looks);
+    const Drawing drawing{.first_view = number,
+                          .layers = 1,
+                          .lighting = lighting,
+                          .looks = std::make_shared<const Looks>(std::move(looks)),
+                          .store = {},
+                          .peeled = {}};
+    pass.writes(hdr, Use::colour, kBlack)
+        .writes(depth, Use::depth, kFarthest)
+        .area(view.area)
+        .record([&scene = inputs.scene, drawing, view, size](Commands& commands) {
+            const std::size_t mirror = scene.mirror_object(view.mirror);
+            draw_scene(commands, scene, drawing, [&](std::size_t object) {
+                return object != mirror && may_meet(view, size, scene.ranges()[object].bounds);
+            });
+            draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
+        });
+    return hdr;
 }
 
 Image add_compose(graph::Graph& graph, const FrameInputs& inputs, Image hdr,

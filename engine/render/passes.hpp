@@ -35,6 +35,13 @@ struct View {
 View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, Looks looks,
               bool is_traced = false);
 
+/// What the scene's view numbered `number`, which is `view`, shows in its area: linear radiance,
+/// rgba32f, defined there alone. What lies behind the mirror's plane is not drawn, nor the mirror
+/// itself.
+graph::Image add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
+                               const std::string& name, const MirroredView& view,
+                               std::uint32_t number, const Lighting& lighting, Looks looks);
+
 /// Exposure in stops, clamp, sRGB curve: rgba8_unorm.
 graph::Image add_compose(graph::Graph& graph, const FrameInputs& inputs, graph::Image hdr,
                          double exposure_stops);

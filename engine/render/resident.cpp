@@ -13,7 +13,7 @@ std::size_t page_count(std::size_t bytes) { return (bytes + kPage - 1) / kPage; 
 
 } // namespace
 
-void Resident::set(std::span<const std::byte> data) {
+bool Resident::set(std::span<const std::byte> data) {
     const std::size_t kept = std::min(data.size(), data_.size());
     const std::uint64_t next = version_ + 1;
     bool changed = data.size() != data_.size();
@@ -27,6 +27,7 @@ void Resident::set(std::span<const std::byte> data) {
         changed = true;
     }
     if (changed) version_ = next;
+    return changed;
 }
 
 /// A copy that no other slot binds.

@@ -18,10 +18,10 @@ public:
         : name_(std::move(name)), use_(use), bound_(slots) {}
 
     /// The contents from the next `write` on. Costs a comparison; nothing changes where they equal
-    /// those before.
+    /// those before. Returns whether something did.
     template <typename T>
-    void set(const std::vector<T>& data) {
-        set(std::as_bytes(std::span(data)));
+    bool set(const std::vector<T>& data) {
+        return set(std::as_bytes(std::span(data)));
     }
     /// Makes slot `slot`, of which no frame is in flight, bind the contents. Returns how often the
     /// device's memory was written. Throws as gpu::Buffer does.
@@ -36,7 +36,7 @@ private:
         std::uint64_t version = 0;
     };
 
-    void set(std::span<const std::byte> data);
+    bool set(std::span<const std::byte> data);
     std::size_t free_copy(std::size_t slot);
 
     std::string name_;

@@ -97,13 +97,17 @@ std::vector<app::CompareRequest> make_compare_requests(const Options& options) {
     return requests;
 }
 
+std::vector<std::string> rows_of(const app::CompareRequest& request) {
+    const app::Request& base = request.base;
+    return base.techniques.empty() ? app::default_techniques(base) : base.techniques;
+}
+
 void check_places(const Options& options, const std::vector<app::CompareRequest>& requests) {
-    std::vector<std::string> images;
-    for (const std::string& text :
-         options.techniques.empty() ? app::default_techniques() : options.techniques)
-        images.push_back(app::parse_technique(text).file_name);
     std::vector<std::filesystem::path> outputs{kStdout}, inputs;
     for (const app::CompareRequest& request : requests) {
+        std::vector<std::string> images;
+        for (const std::string& text : rows_of(request))
+            images.push_back(app::parse_technique(text).file_name);
         const bool is_first = &request == &requests.front();
         for (const std::filesystem::path& file : report::files_of(images, request.images))
             if (is_first || file.has_parent_path()) // the documents are of all
@@ -173,8 +177,7 @@ private:
 /// Measures one of the scenes and writes what there is of all so far.
 report::Comparison compare_one(app::Engine& engine, app::CompareRequest& request, std::size_t index,
                                Progress& progress, Output& output) {
-    const std::size_t row_count = request.base.techniques.empty() ? app::default_techniques().size()
-                                                                  : request.base.techniques.size();
+    const std::size_t row_count = rows_of(request).size();
     request.watcher = watcher_of(progress);
     request.watcher.row("reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {

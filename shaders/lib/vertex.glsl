@@ -1,5 +1,6 @@
 // Every raster pass: triangles into the view of this layer. With LAYERED the layer is written here; otherwise the
 // pass draws one layer at a time. gl_InstanceIndex is the layer either way. PLACED: vertices in a space of their own.
+// CLIPPED: nothing behind the view's plane.
 #ifndef CATOPTRIC_VERTEX_GLSL
 #define CATOPTRIC_VERTEX_GLSL
 
@@ -43,6 +44,9 @@ void main() {
     float along = dot(view.forward, v);
     gl_Position = vec4(dot(view.right, v), dot(view.down, v), view.near, along);
     if (orthographic != 0u) gl_Position.zw = vec2(1.0 - view.near * along, 1.0);
+#ifdef CLIPPED
+    gl_ClipDistance[0] = dot(view.clip.xyz, v) + view.clip.w;
+#endif
 #ifdef LAYERED
     gl_Layer = gl_InstanceIndex;
 #endif

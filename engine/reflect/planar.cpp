@@ -1,0 +1,55 @@
+// A flat mirror shows a view of its own: that of the eye mirrored in its plane, clipped there
+// (Diefenbach and Badler 1997). Exact but for the edges of triangles; a mirror in a mirror has a
+// view in a view. R = 2 + views.
+#include "reflect/captures.hpp"
+
+#include <cstdio>
+
+namespace catoptric::reflect {
+
+namespace {
+
+constexpr std::array<std::string_view, 9> kRestChoices{
+    "reuse", "parallax", "proxy", "secant", "pyramid", "march", "layered", "hybrid", "raytrace"};
+constexpr Knob kKnobs[] = {
+    {.name = "bounces",
+     .help = "flat mirrors one behind the other that a picture in one shows; 0: black",
+     .low = 0,
+     .high = 16,
+     .value = 2},
+    {.name = "rest",
+     .help = "technique of mirrors that are not flat",
+     .high = kRestChoices.size() - 1,
+     .choices = kRestChoices},
+    kShadow,
+    kShadowMapEdge,
+    kCapture};
+
+std::string unfit(const std::optional<scene::Flat>& flat, double tolerance) {
+    if (flat && flat->off <= tolerance) return {};
+    char text[96] = "not flat";
+    if (flat)
+        std::snprintf(text, sizeof text, "%.2g rad off a plane, where %.2g would do", flat->off,
+                      tolerance);
+    return text;
+}
+
+constexpr std::string_view kCompared[] = {"planar"};
+
+constexpr Technique kPlanar{
+    .name = "planar",
+    .summary = "Flat mirrors show a mirrored view of their own, rendered in each frame.",
+    .order = 16,
+    .knobs = kKnobs,
+    .compared = kCompared,
+    .scene_passes = [](int, int lights,
+                       const Settings& settings) { return shadow_passes(lights, settings) + 1; },
+    .look = [](graph::Graph&, const render::FrameInputs&, const Settings&,
+               const Surroundings&) { return Look{}; },
+    .mirrored_bounces = [](const Settings& settings) { return settings.integer("bounces"); },
+    .unfit = unfit};
+const Registered kRow{kPlanar};
+
+} // namespace
+
+} // namespace catoptric::reflect

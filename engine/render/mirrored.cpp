@@ -1,0 +1,178 @@
+#include "render/mirrored.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::render {
+
+namespace {
+
+/// A plane, kept where dot(xyz, p - eye) + w >= 0.
+using Planes = std::vector<dvec4>;
+using Polygon = std::vector<dvec3>; ///< convex, relative to the eye
+
+/// An eye that is nearer to a mirror's plane than this, scene units, sees it edge on: some
+/// roundings of a place about 1.
+constexpr double kEdgeOn = 1e-7;
+
+/// What is left of a polygon in front of the plane (Sutherland and Hodgman 1974).
+Polygon clipped(const Polygon& polygon, const dvec4& plane) {
+    Polygon left;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const double of_a = dot(dvec3(plane), a) + plane.w, of_b = dot(dvec3(plane), b) + plane.w;
+        if (of_a >= 0) left.push_back(a);
+        if ((of_a >= 0) != (of_b >= 0)) left.push_back(a + (b - a) * (of_a / (of_a - of_b)));
+    }
+    return left;
+}
+
+/// Where the view's picture shows a place, from -1 to 1.
+dvec2 projected(const shared::View& view, const dvec3& v) {
+    const double w = view.parallel != 0 ? 1 : dot(dvec3(view.forward), v);
+    return dvec2(dot(dvec3(view.right), v), dot(dvec3(view.down), v)) / w;
+}
+
+/// Bounds in the picture, -1 to 1.
+struct Part {
+    dvec2 low{-1}, high{1};
+};
+
+Part part_of(const graph::Area& area, uvec2 size) {
+    const dvec2 low(area.x, area.y), extent(area.width, area.height);
+    return {low / dvec2(size) * 2.0 - 1.0, (low + extent) / dvec2(size) * 2.0 - 1.0};
+}
+
+/// The sides of the part of a view, and its near plane.
+Planes sides_of(const shared::View& view, const Part& part) {
+    const dvec3 right(view.right), down(view.down), forward(view.forward);
+    if (view.parallel != 0)
+        return {{right, -part.low.x},
+                {-right, part.high.x},
+                {down, -part.low.y},
+                {-down, part.high.y},
+                {forward, 0}};
+    return {{forward, -static_cast<double>(view.near)},
+            {right - part.low.x * forward, 0},
+            {part.high.x * forward - right, 0},
+            {down - part.low.y * forward, 0},
+            {part.high.y * forward - down, 0}};
+}
+
+/// The pixels that a polygon of what is in the view may cover, one more on each side.
+graph::Area pixels_of(const Polygon& polygon, const shared::View& view, uvec2 size,
+                      const graph::Area& within) {
+    dvec2 low(1), high(-1);
+    for (const dvec3& v : polygon) {
+        const dvec2 at = projected(view, v);
+        low = min(low, at), high = max(high, at);
+    }
+    const auto pixel = [&](const dvec2& at, double more) {
+        return (at * .5 + .5) * dvec2(size) + more;
+    };
+    const dvec2 first = max(floor(pixel(low, -1)), dvec2(within.x, within.y)),
+                end = min(ceil(pixel(high, 1)),
+                          dvec2(within.x + within.width, within.y + within.height));
+    if (!(first.x < end.x && first.y < end.y)) return {};
+    const uvec2 corner(first), extent(end - first);
+    return {corner.x, corner.y, extent.x, extent.y};
+}
+
+dvec3 mirrored(const dvec3& direction, const dvec3& normal) {
+    return direction - 2 * dot(direction, normal) * normal;
+}
+
+/// The view of an eye behind the plane. `height`: of the eye above the plane, along the normal.
+MirroredView behind(const MirroredView& from, const scene::Flat& plane, double height,
+                    const Bounds<float>& everything) {
+    MirroredView made;
+    made.eye = from.eye - 2 * height * plane.normal;
+    const auto turned = [&](const vec3& axis) { return vec3(mirrored(dvec3(axis), plane.normal)); };
+    shared::View& view = made.view = from.view;
+    view.eye = vec3(made.eye);
+    view.eye_low = vec3(made.eye - dvec3(view.eye));
+    view.right = turned(from.view.right), view.down = turned(from.view.down),
+    view.forward = turned(from.view.forward);
+    // Through the mirror everything is at least as far away as the mirror is from the eye, so the
+    // near plane stays. A parallel view goes on to the scene's end.
+    if (view.parallel != 0) {
+        const dvec3 forward(view.forward), middle(everything.centre()),
+            half(dvec3(everything.extent()) * .5);
+        const double end = dot(forward, middle - made.eye) + dot(abs(forward), half);
+        view.near = static_cast<float>(1 / std::max(1.001 * end, 1e-3));
+    }
+    view.clip = vec4(vec3(height > 0 ? plane.normal : -plane.normal),
+                     static_cast<float>(-std::abs(height)));
+    return made;
+}
+
+/// The view in the mirror that `from` shows; nothing where it shows none of it.
+std::optional<MirroredView> view_in(const MirroredView& from, const scene::Flat& mirror, uvec2 size,
+                                    const Bounds<float>& everything) {
+    const double height = dot(from.eye - mirror.point, mirror.normal);
+    if (std::abs(height) < kEdgeOn) return {};
+    Polygon polygon;
+    for (const dvec3& corner : mirror.corners) polygon.push_back(corner - from.eye);
+    Planes planes = sides_of(from.view, part_of(from.area, size));
+    if (from.view.clip != vec4(0)) planes.emplace_back(from.view.clip);
+    for (const dvec4& plane : planes) polygon = clipped(polygon, plane);
+    if (polygon.empty()) return {};
+    const graph::Area area = pixels_of(polygon, from.view, size, from.area);
+    if (area.width == 0) return {};
+    MirroredView made = behind(from, mirror, height, everything);
+    made.area = area;
+    return made;
+}
+
+/// What all views are made from.
+struct Mirrors {
+    const std::vector<std::optional<MirrorPlane>>& planes;
+    uvec2 size;
+    const Bounds<float>& everything;
+};
+
+/// Adds what `from`, the view numbered `within` or the camera's, shows, `left` mirrors deep. False
+/// where there are too many.
+bool add_views(std::vector<MirroredView>& views, const MirroredView& from,
+               std::optional<std::size_t> within, const Mirrors& mirrors, int left) {
+    for (std::uint32_t mirror = 0; mirror < mirrors.planes.size(); ++mirror) {
+        if (!mirrors.planes[mirror] || (within && from.mirror == mirror)) continue;
+        const auto& [flat, bounces] = *mirrors.planes[mirror];
+        const int deep = within ? left : std::min(left, bounces);
+        if (deep == 0) continue;
+        std::optional<MirroredView> made = view_in(from, flat, mirrors.size, mirrors.everything);
+        if (!made) continue;
+        if (views.size() == kMostMirroredViews) return false;
+        made->mirror = mirror, made->within = within;
+        views.push_back(*made);
+        if (!add_views(views, *made, views.size() - 1, mirrors, deep - 1)) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+std::vector<MirroredView> mirrored_views(const Eye& camera,
+                                         const std::vector<std::optional<MirrorPlane>>& mirrors,
+                                         uvec2 size, int& most) {
+    const MirroredView first{
+        .view = camera.view, .eye = camera.place, .area = {0, 0, size.x, size.y}};
+    std::vector<MirroredView> views;
+    while (!add_views(views, first, {}, {mirrors, size, camera.everything}, most)) {
+        views.clear();
+        --most;
+    }
+    return views;
+}
+
+bool may_meet(const MirroredView& view, uvec2 size, const Bounds<float>& box) {
+    Planes planes = sides_of(view.view, part_of(view.area, size));
+    planes.emplace_back(view.view.clip);
+    const dvec3 middle = dvec3(box.centre()) - view.eye, half(dvec3(box.extent()) * .5);
+    return std::ranges::all_of(planes, [&](const dvec4& plane) {
+        const double reach = dot(dvec3(plane), middle) + dot(abs(dvec3(plane)), half) + plane.w;
+        return reach >= -kEdgeOn * length(dvec3(plane));
+    });
+}
+
+} // namespace catoptric::render
