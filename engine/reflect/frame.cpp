@@ -100,16 +100,24 @@ render::Looks looks_in_captures(const render::Captures& last, bool has_history,
     return looks;
 }
 
+bool has_mirrored_views(const Choice& choice) {
+    return choice.technique->mirrored_bounces != nullptr;
+}
+
 /// The captures of part two of the report and its followers, fed by those of the frame before.
 /// Nothing where no technique looks into any.
 std::shared_ptr<const render::Captures> add_feedback(graph::Graph& graph,
                                                      const render::FrameInputs& inputs,
                                                      const Assignment& assignment, Maps& maps,
                                                      const render::Lighting& view_lighting) {
+    // Views in mirrors show by captures what is nothing but traced.
+    const bool has_views = assignment.choices.size() > 1 &&
+                           std::ranges::any_of(assignment.choices, has_mirrored_views);
     const auto captures_any = [](const Choice& choice) {
         return choice.technique->capture != nullptr;
     };
-    if (assignment.of_mirror.empty() || std::ranges::none_of(assignment.choices, captures_any))
+    if (assignment.of_mirror.empty() ||
+        !(has_views || std::ranges::any_of(assignment.choices, captures_any)))
         return nullptr;
     auto captures = std::make_shared<const render::Captures>(render::declare_captures(
         graph, inputs, "capture", options_of_mirrors(inputs, assignment, maps, view_lighting)));
@@ -136,7 +144,7 @@ render::Looks looks_in_mirrors(const Outputs& outputs, const Assignment& assignm
         std::erase_if(look.constants,
                       [](const auto& constant) { return constant.first == "tracer"; });
         const Technique& technique = *assignment.choices[i].technique;
-        if (technique.mirrored_bounces) look = {};
+        if (has_mirrored_views(assignment.choices[i])) look = {};
         if (technique.capture || !technique.picture) continue;
         look = {};
         if (assignment.choices[i].settings.is_special("capture") || !outputs.captures) continue;
@@ -177,9 +185,7 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
         looks.looks.push_back(std::move(look.mirror));
     }
     if (outputs.captures) outputs.notes = outputs.captures->notes;
-    if (std::ranges::any_of(
-            choices, [](const Choice& choice) { return choice.technique->mirrored_bounces; }) &&
-        !assignment.of_mirror.empty())
+    if (std::ranges::any_of(choices, has_mirrored_views) && !assignment.of_mirror.empty())
         std::ranges::move(add_mirrored(graph, inputs, assignment, lighting,
                                        looks_in_mirrors(outputs, assignment, looks), looks),
                           std::back_inserter(outputs.notes));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
+#include <utility>
 
 namespace catoptric::scene {
 
@@ -26,22 +28,30 @@ dvec3 largest_normal(const Mesh& mesh, const dmat4& world_from_object) {
 /// Angle between two lines along unit vectors; the sine, where it is small.
 double angle_between(const dvec3& a, const dvec3& b) { return length(cross(a, b)); }
 
-/// A rectangle around points of the plane, along the way from its first to its farthest point.
-std::array<dvec3, 4> rectangle(const std::vector<dvec3>& points, const dvec3& normal) {
-    const dvec3& first = points.front();
-    const dvec3 far = *std::ranges::max_element(
-        points, {}, [&](const dvec3& p) { return dot(p - first, p - first); });
-    dvec3 along = far - first;
-    along = normalize(along - dot(along, normal) * normal);
-    const dvec3 across = cross(normal, along);
-    dvec2 low(0), high(0);
-    for (const dvec3& p : points) {
-        const dvec2 at(dot(p - first, along), dot(p - first, across));
-        low = min(low, at), high = max(high, at);
-    }
-    const auto corner = [&](double u, double v) { return first + u * along + v * across; };
-    return {corner(low.x, low.y), corner(high.x, low.y), corner(high.x, high.y),
-            corner(low.x, high.y)};
+/// Corners of the convex hull of points of the plane (Andrew 1979).
+std::vector<dvec3> hull(std::vector<dvec3> points, const dvec3& normal) {
+    const dvec3 size = abs(normal), other = size.x <= size.y && size.x <= size.z ? dvec3(1, 0, 0)
+                                            : size.y <= size.z                   ? dvec3(0, 1, 0)
+                                                                                 : dvec3(0, 0, 1);
+    const dvec3 right = normalize(cross(other, normal)), up = cross(normal, right);
+    const auto place = [&](const dvec3& p) { return std::pair(dot(p, right), dot(p, up)); };
+    std::ranges::sort(points, {}, place);
+    std::vector<dvec3> corners;
+    const auto add_half = [&](const auto& half) {
+        const std::size_t first = corners.size();
+        for (const dvec3& p : half) {
+            const auto turns_right = [&] {
+                const dvec3 &a = corners[corners.size() - 2], &b = corners.back();
+                return dot(cross(b - a, p - b), normal) <= 0;
+            };
+            while (corners.size() >= first + 2 && turns_right()) corners.pop_back();
+            corners.push_back(p);
+        }
+        corners.pop_back(); // the other half begins there
+    };
+    add_half(points);
+    add_half(std::views::reverse(points));
+    return corners;
 }
 
 } // namespace
@@ -67,8 +77,10 @@ std::optional<Flat> flat(const Mesh& mesh, const dmat4& world_from_object) {
                                  angle_between(normal_of(triangle[corner]), found.normal));
         }
     found.point = points.front();
-    found.corners = rectangle(points, found.normal);
-    const double size = distance(found.corners[0], found.corners[2]);
+    found.corners = hull(points, found.normal);
+    double size = 0;
+    for (const dvec3& corner : found.corners)
+        size = std::max(size, distance(corner, found.corners.front()));
     for (const dvec3& p : points)
         found.off = std::max(found.off, std::abs(dot(p - found.point, found.normal)) / size);
     // Written so that a NaN is refused too.

@@ -2,18 +2,17 @@
 
 #include "scene/scene.hpp"
 
-#include <array>
 #include <optional>
+#include <vector>
 
 /// Mirrors that are flat, which show what a camera behind them would see.
 namespace catoptric::scene {
 
 /// A surface that lies in a plane, or nearly so; world units.
 struct Flat {
-    dvec3 point{0};  ///< in the plane
-    dvec3 normal{0}; ///< unit; to which side it points means nothing
-    /// Of a rectangle in the plane around all of the surface, in order.
-    std::array<dvec3, 4> corners{};
+    dvec3 point{0};             ///< in the plane
+    dvec3 normal{0};            ///< unit; to which side it points means nothing
+    std::vector<dvec3> corners; ///< of the surface's convex hull, in order
     /// How far it is from flat: the largest angle, in radians, between the plane's normal and a
     /// vertex's, or a vertex's distance from the plane as a part of the surface's size if that is
     /// more.

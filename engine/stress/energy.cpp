@@ -55,6 +55,26 @@ void judge_captured_corridor(Bench& bench, const scene::Scene& scene) {
     }
 }
 
+/// What k mirrors show, k up to `depth`; what shows more is black.
+void judge_corridor_to(Bench& bench, const scene::Scene& scene, const std::string& technique,
+                       int depth) {
+    double worst = 0;
+    std::vector<std::size_t> seen(static_cast<std::size_t>(depth) + 1);
+    for (const vec3& pixel : render_dark(bench, scene, technique, 1).hdr.pixels) {
+        if (pixel.x == 0) continue;
+        const auto k = static_cast<std::size_t>(
+            std::max(std::lround(std::log(double{pixel.x}) / std::log(.8)), 0L));
+        worst = std::max(worst, std::abs(pixel.x / std::pow(.8, double(k)) - 1));
+        if (k <= static_cast<std::size_t>(depth))
+            ++seen[k];
+        else
+            worst = 1;
+    }
+    bench.add(technique + ": off .8^k", worst, .005);
+    if (depth <= 4)
+        bench.add(technique + ": k that nobody shows", double(std::ranges::count(seen, 0u)), 0);
+}
+
 /// Two mirrors face to face in a box that emits 1: a path of k mirrors shows .8^k.
 void judge_corridor(Bench& bench) {
     scene::Scene scene = furnace({});
@@ -64,25 +84,9 @@ void judge_corridor(Bench& bench) {
     add_quad(scene, mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
     scene.cameras.front() = {
         .eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60};
-    for (const int depth : {1, 4, 12}) {
-        double worst = 0;
-        std::vector<std::size_t> seen(static_cast<std::size_t>(depth) + 1);
-        for (const vec3& pixel :
-             render_dark(bench, scene, "raytrace:depth=" + std::to_string(depth), 1).hdr.pixels) {
-            if (pixel.x == 0) continue; // more mirrors than the depth
-            const auto k = static_cast<std::size_t>(
-                std::max(std::lround(std::log(double{pixel.x}) / std::log(.8)), 0L));
-            worst = std::max(worst, std::abs(pixel.x / std::pow(.8, double(k)) - 1));
-            if (k <= static_cast<std::size_t>(depth))
-                ++seen[k];
-            else
-                worst = 1;
-        }
-        bench.add(fmt::format("depth {}: off .8^k", depth), worst, .005);
-        if (depth <= 4)
-            bench.add(fmt::format("depth {}: k that nobody shows", depth),
-                      double(std::ranges::count(seen, 0u)), 0);
-    }
+    for (const int depth : {1, 4, 12})
+        for (const char* row : {"raytrace:depth=", "planar:bounces="})
+            judge_corridor_to(bench, scene, row + std::to_string(depth), depth);
     judge_captured_corridor(bench, scene);
 }
 

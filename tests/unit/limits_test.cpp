@@ -92,7 +92,7 @@ TEST(Limits, NameWhatIsWantedAndWhatThereIs) {
     EXPECT_EQ(refusal(one, limits),
               "scene 's' wants 5600 bytes of surfaces, the device allows 5599");
     limits.storage_bytes = 5600;
-    EXPECT_EQ(refusal(one, limits), "scene 's' wants 40868 bytes of views, the device allows 5600");
+    EXPECT_EQ(refusal(one, limits), "scene 's' wants 50484 bytes of views, the device allows 5600");
     limits = kRoomy, limits.piece_bytes = 2399;
     EXPECT_EQ(refusal(one, limits),
               "scene 's' wants 2400 bytes of vertices, the device allows 2399");

@@ -1,0 +1,293 @@
+// Flat mirrors with views of their own, against what rays see.
+#include "app/compare.hpp"
+#include "support/lit.hpp"
+#include "support/paths.hpp"
+
+#include <gmock/gmock.h>
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+std::size_t add_mirror(scene::Scene& scene, float reflectance = 1) {
+    return test::add_material(scene,
+                              {.name = "mirror", .mirror = true, .reflectance = vec3(reflectance)});
+}
+
+/// The built-in room of one flat mirror, at z = 2.98, with more.
+scene::Scene flat(const std::string& more = "") {
+    scene::Scene scene = scene::load("flat");
+    scene.name += more;
+    if (more == " parallel")
+        test::add_quad(scene, "behind", add_mirror(scene), {-1.3, .5, -2.98}, {1.3, .5, -2.98},
+                       {1.3, 2.1, -2.98}, {-1.3, 2.1, -2.98});
+    if (more == " orthogonal") {
+        test::add_quad(scene, "beside", add_mirror(scene), {1.999, .5, 2.9}, {1.999, .5, .5},
+                       {1.999, 2.1, .5}, {1.999, 2.1, 2.9});
+        test::add_quad(scene, "below", add_mirror(scene), {-1.3, .001, 1.9}, {1.3, .001, 1.9},
+                       {1.3, .001, 2.9}, {-1.3, .001, 2.9});
+    }
+    if (more == " touched") {
+        const std::size_t red = test::add_material(scene,
+                                                   {.name = "red", .albedo = {.7f, .2f, .1f}});
+        test::add_ball(scene, "ball", red, {-.3, 1.3, 2.68}, .3, 5);
+        scene.objects.back().sphere.reset();
+    }
+    return scene;
+}
+
+/// Pixels beside an outline: of a mirror, of a lamp, or of anything but the room's walls, seen in
+/// the mirrors. The scene is painted so that each thing glows in a colour of its own, and traced.
+measure::Mask beside_outlines(scene::Scene scene, const std::vector<std::uint32_t>& hits,
+                              uvec2 size) {
+    float next = 1;
+    for (scene::Object& object : scene.objects) {
+        if (scene::is_mirror(scene, object)) continue;
+        const bool is_lamp = scene::glows(scene.materials[object.material]);
+        const bool is_wall = !is_lamp && scene.meshes[object.mesh].triangles.size() == 2;
+        object.material = test::add_material(
+            scene, {.name = "painted", .emission = vec3(is_wall ? 1 : ++next)});
+    }
+    const measure::Picture painted = test::render(scene, "raytrace:depth=1,shadow=none", size).hdr;
+    const int width = painted.width;
+    const auto differ = [&](int a, int b) {
+        return painted.pixels[a] != painted.pixels[b] ||
+               measure::first_mirror(hits[a]) != measure::first_mirror(hits[b]);
+    };
+    measure::Mask beside(painted.pixels.size(), 0);
+    for (int i = 0; i < int(beside.size()); ++i) {
+        const int x = i % width;
+        const bool right = x + 1 < width && differ(i, i + 1),
+                   below = i + width < int(beside.size()) && differ(i, i + width);
+        if (right) beside[i] = beside[i + 1] = 255;
+        if (below) beside[i] = beside[i + width] = 255;
+    }
+    return beside;
+}
+
+/// Share of the pixels of a mask that are off.
+double share_off(const measure::Picture& a, const measure::Picture& b, const measure::Mask& mask) {
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < mask.size(); ++i)
+        off += mask[i] && !(test::apart(a.pixels[i], b.pixels[i]) <= float(measure::kOff));
+    return double(off) / double(measure::pixel_count(mask));
+}
+
+struct Found {
+    double share_off, mae, rmse, left_out;
+};
+
+/// Over pixels of first order but those that are left out.
+Found off_of(const app::Part& planar, const app::Part& truth, const measure::Mask& left_out) {
+    measure::Mask mask = measure::first_order(truth.hits);
+    const double whole = double(measure::pixel_count(mask));
+    EXPECT_GT(whole, 2000);
+    for (std::size_t i = 0; i < mask.size(); ++i)
+        if (left_out[i]) mask[i] = 0;
+    const std::vector<float> no_flip(truth.hdr.pixels.size(), 0.0f);
+    const measure::Difference found = measure::difference(planar.hdr, truth.hdr, mask, no_flip);
+    return {share_off(planar.hdr, truth.hdr, mask), found.mae, found.rmse,
+            1 - double(measure::pixel_count(mask)) / whole};
+}
+
+void print(const std::string& what, const Found& found) {
+    std::cout << "[ MEASURED ] " << what << ": share off " << found.share_off << ", MAE "
+              << found.mae << ", rmse " << found.rmse << ", left out " << found.left_out << "\n";
+}
+
+/// What a shadow map does not know as rays do is no flat mirror's fault.
+TEST(Planar, ShowsWhatRaysSee) {
+    constexpr uvec2 size(512);
+    scene::Scene low = flat(" from below");
+    low.cameras.front() = low.cameras.at(1);
+    for (const scene::Scene& scene :
+         {flat(), low, flat(" parallel"), flat(" orthogonal"), flat(" touched")}) {
+        const app::Part truth = test::render(scene, app::kReference, size),
+                        planar = test::render(scene, "planar", size),
+                        lit = test::render(scene, "raytrace:depth=16,shadow=none", size);
+        measure::Mask left_out = beside_outlines(scene, truth.hits, size);
+        const Found found = off_of(planar, truth, left_out);
+        print(scene.name, found);
+        EXPECT_LE(found.share_off, .003) << scene.name;
+        EXPECT_LE(found.mae, .0003) << scene.name;
+        EXPECT_LE(found.left_out, .07) << scene.name << ": lines, two pixels wide";
+        const measure::Mask shadows = test::shadow_edges(lit.hdr, truth.hdr);
+        for (std::size_t i = 0; i < left_out.size(); ++i)
+            if (shadows[i]) left_out[i] = 255;
+        const Found away = off_of(planar, truth, left_out);
+        print(scene.name + ", away from shadow edges", away);
+        EXPECT_LE(away.share_off, .0008) << scene.name;
+        EXPECT_LE(away.rmse, .001) << scene.name;
+        EXPECT_LE(away.left_out, .15) << scene.name;
+    }
+}
+
+constexpr uvec2 kSmall{96, 96};
+
+/// Two mirrors face each other across a bright room: what k mirrors show is .8^k, up to the last
+/// that is asked for.
+TEST(Planar, MirrorsInMirrorsAreAsDeepAsAskedFor) {
+    scene::Scene scene{.name = "corridor"};
+    const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
+    for (int face = 0; face < 6; ++face)
+        test::add_mesh(scene, test::wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
+    const std::size_t mirror = add_mirror(scene, .8f);
+    test::add_quad(scene, "left", mirror, {-2, -2, -2}, {-2, -2, 4}, {-2, 2, 4}, {-2, 2, -2});
+    test::add_quad(scene, "right", mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
+    scene.cameras = {{.eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60}};
+    for (const int bounces : {0, 1, 2, 5}) {
+        const std::string number = std::to_string(bounces);
+        const app::Part planar = test::render(scene, "planar:shadow=none,bounces=" + number,
+                                              kSmall),
+                        truth = test::render(scene, "raytrace:shadow=none,depth=" + number, kSmall);
+        EXPECT_LE(share_off(planar.hdr, truth.hdr, measure::all_pixels(truth.hits)), .01)
+            << bounces;
+        int deepest = -1;
+        for (const vec3& pixel : planar.hdr.pixels) {
+            if (pixel.x == 0) continue;
+            const int k = int(std::lround(std::log(double{pixel.x}) / std::log(.8)));
+            EXPECT_NEAR(pixel.x, std::pow(.8, k), 1e-5);
+            deepest = std::max(deepest, k);
+        }
+        EXPECT_EQ(deepest, bounces);
+        EXPECT_EQ(planar.scene_passes, 1 + bounces) << "a view for each";
+    }
+}
+
+/// R = 2 + views: none for a mirror out of sight, nor for one that a mirror cannot show.
+TEST(Planar, MakesViewsOfWhatIsSeen) {
+    EXPECT_EQ(test::render(flat(), "planar", kSmall).scene_passes, 3);
+    EXPECT_EQ(test::render(flat(" parallel"), "planar:bounces=1", kSmall).scene_passes, 3);
+    EXPECT_EQ(test::render(flat(" parallel"), "planar", kSmall).scene_passes, 4);
+    EXPECT_EQ(test::render(flat(" parallel"), "planar:bounces=4", kSmall).scene_passes, 6);
+    scene::Scene away = flat();
+    std::swap(away.cameras.front().eye, away.cameras.front().target);
+    EXPECT_EQ(test::render(away, "planar", kSmall).scene_passes, 2);
+}
+
+/// From behind, too, and in parallel projection; what lies behind the mirror's plane is not in the
+/// picture.
+TEST(Planar, HasTwoSidesAndHidesWhatIsBehind) {
+    scene::Scene scene = test::yard();
+    scene.punctual.push_back({.kind = scene::Punctual::Kind::directional,
+                              .intensity = vec3(2),
+                              .world_from_light = test::shining({0, 0, 0}, {-.4, -1, -.6})});
+    test::add_quad(scene, "screen", add_mirror(scene), {-1.5, 0, -.4}, {1.8, 0, .6}, {1.8, 1.4, .6},
+                   {-1.5, 1.4, -.4});
+    const scene::Camera before{
+        .eye = {.4, 1.2, 4}, .target = {0, .5, 0}, .vertical_fov_degrees = 45},
+        behind{.eye = {.2, 1.3, -4}, .target = {0, .5, 0}, .vertical_fov_degrees = 45};
+    scene::Camera parallel = before;
+    parallel.orthographic_height = 3;
+    for (const scene::Camera& camera : {before, behind, parallel}) {
+        scene.cameras = {camera};
+        const uvec2 size(160, 128);
+        const app::Part truth = test::render_dark(scene, "raytrace", size),
+                        lit = test::render_dark(scene, "raytrace:shadow=none", size),
+                        planar = test::render_dark(scene, "planar", size);
+        measure::Mask mask = measure::mirrors(truth.hits);
+        const measure::Mask shadows = test::shadow_edges(lit.hdr, truth.hdr),
+                            outlines = beside_outlines(scene, truth.hits, size);
+        for (std::size_t i = 0; i < mask.size(); ++i)
+            if (shadows[i] || outlines[i]) mask[i] = 0;
+        EXPECT_GT(measure::pixel_count(mask), 1500u);
+        EXPECT_LE(share_off(planar.hdr, truth.hdr, mask), .003) << "eye at z " << camera.eye.z;
+    }
+}
+
+/// Other mirrors are drawn by `rest`, which the row says, as that technique draws them.
+TEST(Planar, LeavesTheRestToAnother) {
+    const scene::Scene hall = test::hall();
+    const app::Part planar = test::render(hall, "planar:rest=secant", kSmall, 3),
+                    plan = test::render(hall, "panel=planar *=secant", kSmall, 3);
+    EXPECT_TRUE(test::same_bytes(planar.hdr, plan.hdr));
+    ASSERT_EQ(planar.plan.size(), 3u);
+    EXPECT_EQ(planar.plan[0].technique, "secant");
+    EXPECT_THAT(
+        planar.plan[0].why,
+        testing::MatchesRegex("planar draws flat mirrors, and this is not flat: rest=secant"));
+    EXPECT_EQ(planar.plan[1].technique, "secant") << "a block";
+    EXPECT_EQ(planar.plan[2].technique, "planar");
+    EXPECT_EQ(planar.plan[2].why, "one technique was asked for");
+    const app::Part dark = test::render(hall, "planar:shadow=none", kSmall, 3),
+                    all_dark = test::render(hall, "panel=planar:shadow=none *=reuse:shadow=none",
+                                            kSmall, 3);
+    EXPECT_TRUE(test::same_bytes(dark.hdr, all_dark.hdr)) << "shadows are the row's";
+}
+
+/// Curved mirrors in a flat one are drawn by their own technique, from where the view looks.
+TEST(Planar, ShowsOtherMirrorsAsTheyAre) {
+    const scene::Scene hall = test::hall();
+    const app::Part truth = test::render(hall, app::kReference, kSmall);
+    measure::Mask ball = measure::mirror_in_mirror(truth.hits);
+    const measure::Mask panel = measure::of_mirror(truth.hits, MirrorId(3));
+    for (std::size_t i = 0; i < ball.size(); ++i)
+        if (!panel[i]) ball[i] = 0;
+    EXPECT_GT(measure::pixel_count(ball), 100u);
+    for (const std::string rest : {"secant", "hybrid", "raytrace"}) {
+        const double off = test::rmse(test::render(hall, "planar:rest=" + rest, kSmall, 6).hdr,
+                                      truth.hdr, ball),
+                     black = test::rmse(test::render(hall, "planar:bounces=0", kSmall, 1).hdr,
+                                        truth.hdr, ball);
+        std::cout << "[ MEASURED ] a ball in a flat mirror by " << rest << ": rmse " << off
+                  << ", black " << black << "\n";
+        EXPECT_LT(off, .5 * black) << rest;
+    }
+}
+
+/// A tiny mirror far from the origin, in a space of its own.
+TEST(Planar, IsPreciseWhereThingsAreSmall) {
+    scene::Scene scene = flat();
+    const dmat4 shrink(dvec4(1e-4, 0, 0, 0), dvec4(0, 1e-4, 0, 0), dvec4(0, 0, 1e-4, 0),
+                       dvec4(3, 2, 1, 1));
+    scene::Scene small = scene;
+    for (scene::Object& object : small.objects)
+        object.world_from_object = shrink * object.world_from_object;
+    for (scene::Camera& camera : small.cameras)
+        camera.eye = dvec3(shrink * dvec4(camera.eye, 1)),
+        camera.target = dvec3(shrink * dvec4(camera.target, 1));
+    const std::size_t grey = test::add_material(small, {.name = "grey", .albedo = vec3(.5f)});
+    test::add_quad(small, "far floor", grey, {-3, -1, -3}, {3, -1, -3}, {3, -1, 3}, {-3, -1, 3});
+    const app::Part truth = test::render(small, "raytrace", {160, 160}),
+                    planar = test::render(small, "planar", {160, 160});
+    measure::Mask mask = measure::mirrors(truth.hits);
+    EXPECT_GT(measure::pixel_count(mask), 2000u);
+    EXPECT_LE(share_off(planar.hdr, truth.hdr, mask), .01);
+}
+
+/// Compared where nobody says what, if some mirror is flat.
+TEST(Planar, IsComparedWhereItFits) {
+    const auto rows_of = [](const char* name) {
+        const scene::Scene scene = scene::load(name);
+        return app::default_techniques(test::request(scene, {}, kSmall));
+    };
+    for (const char* name : {"flat", "room", "gallery"})
+        EXPECT_THAT(rows_of(name), testing::Contains("planar")) << name;
+    for (const char* name : {"cornell-mirrors", "courtyard"})
+        EXPECT_THAT(rows_of(name), testing::Not(testing::Contains("planar"))) << name;
+}
+
+/// A view that changes while the scene stands still, with frames in flight.
+TEST(Planar, ViewsAreOfTheFrameThatAskedForThem) {
+    const scene::Scene scene = flat(" parallel");
+    app::Session session(test::engine(), scene, 3);
+    app::FrameSpec spec{.techniques = {"planar:bounces=4"},
+                        .camera = scene.cameras.front(),
+                        .size = kSmall,
+                        .timing = app::Timing::pipelined};
+    const measure::Picture wanted = session.frame(spec).hdr();
+    for (int i = 0; i < 3; ++i) {
+        app::FrameSpec other = spec;
+        other.techniques = {"planar:bounces=1"};
+        session.frame(other);
+        EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), wanted)) << i;
+        app::FrameSpec beside = spec;
+        beside.camera = scene.cameras.at(1);
+        session.frame(beside);
+        EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), wanted)) << i;
+    }
+}
+
+} // namespace

@@ -1,0 +1,162 @@
+// Which mirrors are flat, and the views that they have.
+#include "render/mirrored.hpp"
+#include "render/views.hpp"
+#include "scene/build.hpp"
+#include "scene/shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <ranges>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace {
+
+using namespace catoptric;
+
+scene::Mesh board() { return scene::quad("board", {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}); }
+
+const dmat4 kTurned = glm::rotate(glm::translate(dmat4(1), dvec3(30, -7, 2)), .7,
+                                  glm::normalize(dvec3(1, 2, -1))) *
+                      glm::scale(dmat4(1), dvec3(3, .5, 2));
+
+TEST(FlatMirror, IsFoundWhereverItStands) {
+    const auto flat = scene::flat(board(), kTurned);
+    ASSERT_TRUE(flat);
+    EXPECT_LE(flat->off, 1e-12);
+    const dvec3 normal = glm::normalize(glm::dmat3(kTurned)[2]);
+    EXPECT_NEAR(std::abs(dot(flat->normal, normal)), 1, 1e-12);
+    ASSERT_EQ(flat->corners.size(), 4u);
+    for (const dvec3& p : board().positions) {
+        const dvec3 at(kTurned * dvec4(p, 1));
+        EXPECT_LE(std::ranges::min(flat->corners | std::views::transform([&](const dvec3& c) {
+                                       return distance(c, at);
+                                   })),
+                  1e-12);
+        EXPECT_NEAR(dot(at - flat->point, flat->normal), 0, 1e-12);
+    }
+    EXPECT_FALSE(scene::flat(scene::ball("ball", 2), dmat4(1)));
+    EXPECT_FALSE(scene::flat({}, dmat4(1)));
+    EXPECT_FALSE(scene::flat(board(), dmat4(0))) << "without an area";
+}
+
+TEST(FlatMirror, IsAsFarOffAsItsNormalsAndVerticesAre) {
+    scene::Mesh turned = board();
+    turned.normals[2] = glm::normalize(vec3(.003f, 0, 1));
+    EXPECT_NEAR(scene::flat(turned, dmat4(1))->off, .003, 1e-6);
+    turned.normals[2] = glm::normalize(vec3(.03f, 0, 1));
+    EXPECT_FALSE(scene::flat(turned, dmat4(1)));
+    scene::Mesh bent = board();
+    bent.positions[3].z = .004; // sqrt(2) from the diagonal: the larger triangle, whose plane it is
+    EXPECT_NEAR(scene::flat(bent, dmat4(1))->off, .004 / std::sqrt(2.0), 1e-7);
+    scene::Mesh back = board();
+    for (vec3& normal : back.normals) normal = -normal;
+    EXPECT_EQ(scene::flat(back, dmat4(1))->off, 0) << "a mirror has two sides";
+}
+
+// A sixteenth of atan(2 tan(30 deg) / 600).
+TEST(FlatMirror, ToleranceIsAPartOfAPixel) {
+    const scene::Camera camera{.vertical_fov_degrees = 60};
+    EXPECT_NEAR(scene::flat_tolerance(camera, {10, 600}), 2 * std::tan(M_PI / 6) / 600 / 16, 1e-9);
+    EXPECT_NEAR(scene::flat_tolerance({.orthographic_height = 3}, {10, 600}), 2.0 / 600 / 16, 1e-9);
+}
+
+render::Eye eye_at(const dvec3& place, const dvec3& target) {
+    render::Eye eye;
+    eye.view = render::camera_view({.eye = place, .target = target, .vertical_fov_degrees = 90}, {},
+                                   {64, 64}, .1f);
+    eye.place = place;
+    return eye;
+}
+
+std::optional<render::MirrorPlane> plane(const scene::Mesh& mesh, int bounces = 2) {
+    return render::MirrorPlane{*scene::flat(mesh, dmat4(1)), bounces};
+}
+
+TEST(MirroredViews, StandBehindTheMirrorAndSeeWhatTheEyeSeesInIt) {
+    int most = 2;
+    const auto views = render::mirrored_views(eye_at({.5, .25, 3}, {.5, .25, 0}), {plane(board())},
+                                              {64, 64}, most);
+    ASSERT_EQ(views.size(), 1u);
+    EXPECT_NEAR(distance(views[0].eye, dvec3(.5, .25, -3)), 0, 1e-12);
+    EXPECT_EQ(views[0].view.forward, vec3(0, 0, 1));
+    EXPECT_EQ(views[0].view.clip, vec4(0, 0, 1, -3)) << "kept: what is in front of the mirror";
+    // x from -1.5 / 3 to .5 / 3 of half the picture, y from -1.25 / 3 to .75 / 3 turned over; a
+    // pixel more around.
+    EXPECT_EQ(views[0].area, (graph::Area{15, 23, 24, 24}));
+    // What lies at p in the picture's world is where its image is in the view's.
+    const vec3 p(.3f, -.6f, 2), image(.3f, -.6f, -2);
+    const render::Eye eye = eye_at({.5, .25, 3}, {.5, .25, 0});
+    const vec3 seen = image - eye.view.eye, mirrored = p - views[0].view.eye;
+    EXPECT_NEAR(dot(eye.view.right, seen), dot(views[0].view.right, mirrored), 1e-5f);
+    EXPECT_NEAR(dot(eye.view.down, seen), dot(views[0].view.down, mirrored), 1e-5f);
+    EXPECT_NEAR(dot(eye.view.forward, seen), dot(views[0].view.forward, mirrored), 1e-5f);
+    EXPECT_EQ(most, 2);
+}
+
+TEST(MirroredViews, AreOfWhatThePictureShows) {
+    const auto count = [](const dvec3& place, const dvec3& target) {
+        int most = 2;
+        return render::mirrored_views(eye_at(place, target), {plane(board())}, {64, 64}, most)
+            .size();
+    };
+    EXPECT_EQ(count({0, 0, 3}, {0, 0, 0}), 1u);
+    EXPECT_EQ(count({0, 0, -3}, {0, 0, 0}), 1u) << "from behind";
+    EXPECT_EQ(count({0, 0, 3}, {0, 0, 6}), 0u) << "behind the eye";
+    EXPECT_EQ(count({9, 0, 3}, {9, 0, 0}), 0u) << "beside the picture";
+    EXPECT_EQ(count({0, 3, 0}, {.5, 0, 0}), 0u) << "edge on";
+}
+
+TEST(MirroredViews, GoAsDeepAsAskedForAndNoDeeperThanAFrameHolds) {
+    std::vector<std::optional<render::MirrorPlane>>
+        corner; // three walls of a box around the eye, and the other three
+    for (int face = 0; face < 6; ++face)
+        corner.push_back(plane(scene::wall(face, dvec3(-1), dvec3(1)), 16));
+    const render::Eye eye = eye_at({.1, .2, -.3}, {1, 1, 1});
+    for (int asked = 1; asked <= 3; ++asked) {
+        int most = asked;
+        const auto views = render::mirrored_views(eye, corner, {64, 64}, most);
+        std::vector<int> depth(views.size(), 1);
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            if (!views[i].within) continue;
+            ASSERT_LT(*views[i].within, i) << "after the view that shows it";
+            EXPECT_NE(views[*views[i].within].mirror, views[i].mirror);
+            depth[i] = depth[*views[i].within] + 1;
+            const graph::Area &inner = views[i].area, &outer = views[*views[i].within].area;
+            EXPECT_TRUE(inner.x >= outer.x && inner.y >= outer.y &&
+                        inner.x + inner.width <= outer.x + outer.width &&
+                        inner.y + inner.height <= outer.y + outer.height);
+        }
+        EXPECT_EQ(std::ranges::max(depth), asked);
+        EXPECT_EQ(most, asked);
+    }
+    int most = 16;
+    const auto views = render::mirrored_views(eye, corner, {64, 64}, most);
+    EXPECT_LE(views.size(), render::kMostMirroredViews);
+    EXPECT_LT(most, 16);
+    EXPECT_GT(most, 2);
+    corner[0]->bounces = 0;
+    for (std::size_t i = 1; i < 6; ++i) corner[i]->bounces = 1;
+    most = 16;
+    for (const auto& view : render::mirrored_views(eye, corner, {64, 64}, most)) {
+        EXPECT_FALSE(view.within);
+        EXPECT_NE(view.mirror, 0u) << "black";
+    }
+}
+
+TEST(MirroredViews, MeetWhatIsInFrontOfTheMirrorAndInItsPartOfThePicture) {
+    int most = 1;
+    const render::MirroredView view = render::mirrored_views(eye_at({.5, .25, 3}, {.5, .25, 0}),
+                                                             {plane(board())}, {64, 64}, most)
+                                          .front();
+    const auto meets = [&](const vec3& low, const vec3& high) {
+        return may_meet(view, {64, 64}, {low, high});
+    };
+    EXPECT_TRUE(meets({0, 0, 1}, {.1f, .1f, 1.1f}));
+    EXPECT_FALSE(meets({0, 0, -1}, {.1f, .1f, -.1f})) << "behind it";
+    EXPECT_TRUE(meets({0, 0, -1}, {.1f, .1f, .1f})) << "on both sides";
+    EXPECT_FALSE(meets({3, 0, 1}, {3.1f, .1f, 1.1f}))
+        << "the camera's field of view has it, the mirror has not";
+}
+
+} // namespace
