@@ -81,6 +81,9 @@ TEST(MirroredViews, StandBehindTheMirrorAndSeeWhatTheEyeSeesInIt) {
     EXPECT_NEAR(distance(views[0].eye, dvec3(.5, .25, -3)), 0, 1e-12);
     EXPECT_EQ(views[0].view.forward, vec3(0, 0, 1));
     EXPECT_EQ(views[0].view.clip, vec4(0, 0, 1, -3)) << "kept: what is in front of the mirror";
+    const auto behind = render::mirrored_views(eye_at({.5, .25, -3}, {.5, .25, 0}),
+                                               {plane(board())}, {64, 64}, most);
+    EXPECT_EQ(behind.at(0).view.clip, vec4(0, 0, -1, -3)) << "on whichever side the eye is";
     // x from -1.5 / 3 to .5 / 3 of half the picture, y from -1.25 / 3 to .75 / 3 turned over; a
     // pixel more around.
     EXPECT_EQ(views[0].area, (graph::Area{15, 23, 24, 24}));
