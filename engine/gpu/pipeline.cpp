@@ -1,6 +1,7 @@
 #include "gpu/pipeline.hpp"
 
 #include "core/stopwatch.hpp"
+#include "gpu/specialise.hpp"
 #include "shared.h"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ bool constants_before(const State& a, const State& b) {
     return !before(b.constants, a.constants) && before(a.features, b.features);
 }
 
-/// One stage: its module and its specialisation, which must outlive the create call.
+/// One stage: its module, which must outlive the create call.
 struct Stage {
     Stage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
           const Constants& constants, const Constants& features)
@@ -69,43 +70,35 @@ struct Stage {
         reflection = reflect(name, shader.words);
         check(!reflection.doubles || device.doubles(), Failure::no_device, "shader '", name,
               "' computes with doubles, which device '", device.info().name, "' cannot");
+        std::map<std::uint32_t, std::uint32_t> values;
+        for (const Constants* list : {&constants, &features})
+            for (const auto& [constant, value] : *list)
+                if (const Constant* known = find(constant)) values[known->id] = bits_of(value);
+        const std::vector<std::uint32_t> words = specialise(name, shader.words, values);
         VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-        create.codeSize = shader.words.size_bytes();
-        create.pCode = shader.words.data();
+        create.codeSize = words.size() * sizeof(std::uint32_t);
+        create.pCode = words.data();
         VkShaderModule handle = VK_NULL_HANDLE;
         check_vk(vkCreateShaderModule(device.handle(), &create, nullptr, &handle),
                  "load shader '" + name + "'");
         module = {device.handle(), handle};
-        for (const Constants* list : {&constants, &features})
-            for (const auto& [constant, value] : *list) add(constant, bits_of(value));
     }
-    void add(const std::string& constant, std::uint32_t bits) {
-        const auto found = std::ranges::find(reflection.constants, constant, &Constant::name);
-        if (found == reflection.constants.end()) return;
-        entries.push_back({found->id, static_cast<std::uint32_t>(values.size() * 4), 4});
-        values.push_back(bits);
-    }
-    VkPipelineShaderStageCreateInfo info() {
-        specialisation = {static_cast<std::uint32_t>(entries.size()), entries.data(),
-                          values.size() * 4, values.data()};
+    VkPipelineShaderStageCreateInfo info() const {
         VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
         stage.stage = bit;
         stage.module = module;
         stage.pName = "main";
-        stage.pSpecializationInfo = &specialisation;
         return stage;
     }
-    bool knows(const std::string& constant) const {
-        return std::ranges::find(reflection.constants, constant, &Constant::name) !=
-               reflection.constants.end();
+    /// Null: it has no such constant.
+    const Constant* find(const std::string& constant) const {
+        const auto found = std::ranges::find(reflection.constants, constant, &Constant::name);
+        return found == reflection.constants.end() ? nullptr : &*found;
     }
 
     VkShaderStageFlagBits bit;
     Reflection reflection;
     UniqueShaderModule module;
-    std::vector<VkSpecializationMapEntry> entries;
-    std::vector<std::uint32_t> values;
-    VkSpecializationInfo specialisation{};
 };
 
 void check_images(const Device& device, const std::string& name,
@@ -123,7 +116,7 @@ void check_images(const Device& device, const std::string& name,
 void lay_out(const Device& device, const std::string& name, std::span<Stage> stages,
              const Constants& constants, Pipeline& pipeline) {
     for (const auto& [constant, value] : constants)
-        check(std::ranges::any_of(stages, [&](const Stage& s) { return s.knows(constant); }),
+        check(std::ranges::any_of(stages, [&](const Stage& s) { return s.find(constant); }),
               Failure::internal, "pipeline '", name, "' has no constant '", constant, "'");
     for (const Stage& stage : stages) {
         pipeline.stages |= stage.bit;
@@ -274,7 +267,7 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
                             state.constants, state.features);
     lay_out(device_, name, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
-    for (Stage& stage : stages) infos.push_back(stage.info());
+    for (const Stage& stage : stages) infos.push_back(stage.info());
     pipeline.pipeline = {device_.handle(), make_raster(device_, cache_.handle(), infos, attachments,
                                                        state.hidden, pipeline.layout, name)};
     device_.set_name(VK_OBJECT_TYPE_PIPELINE,

@@ -1,6 +1,7 @@
 // A mirror as it would be with single causes of error taken away: in place of what the technique has, what
 // the reference's rays find. draw.mended says which. For measuring: it traces up to a dozen rays a pixel.
 // A pixel whose rays took more steps than the driver allows is NaN.
+// Calls are few, in loops if need be: the driver's compiler inlines every one, each with a walk, and is slow.
 #ifndef CATOPTRIC_MEND_GLSL
 #define CATOPTRIC_MEND_GLSL
 
@@ -59,12 +60,14 @@ Ray reflected(Ray ray, Point at) {
 End captured_end(uint mirror, Lookup lookup) {
     left_out = mirror + 1u;
     Ray ray = Ray(probes[mirror].centre, lookup.direction, 0u);
-    End end = end_of(ray, 0u);
-    bool second = lookup.layer != 0.0 && end.meets;
-    while (second) {
-        ray = Ray(spawn_origin(end.point.position, end.point.error, end.point.facet, ray.direction), ray.direction, end.point.leaves);
+    End end;
+    bool goes_on = true, is_first = true;
+    while (goes_on) {
         end = end_of(ray, 0u);
-        second = end.meets && dot(end.point.facet, ray.direction) >= 0.0;
+        goes_on = end.meets && (is_first ? lookup.layer != 0.0 : dot(end.point.facet, ray.direction) >= 0.0);
+        is_first = false;
+        if (goes_on)
+            ray = Ray(spawn_origin(end.point.position, end.point.error, end.point.facet, ray.direction), ray.direction, end.point.leaves);
     }
     left_out = 0u;
     return end;
@@ -87,30 +90,39 @@ vec3 looked_up(Path path, Lookup lookup, End target, bool is_target) {
     if (!is_target) captured = captured_end(path.mirror, lookup);
     if (captured.mirror != 0u) return colour; // its picture in the capture stays as it is
     if (!captured.meets) return mends(kMendTexels) ? environment(lookup.direction) : colour;
-    uint by = mends(kMendShadows) ? kShadowRay : shadow;
-    vec3 truth = shaded(captured.point, lookup.direction, by);
+    if (mends(kMendTexels)) colour = vec3(0);
     // The texels were lit through the map: what a ray would have changed.
-    return mends(kMendTexels) ? truth : colour + truth - shaded(captured.point, lookup.direction, shadow);
+    for (uint i = 0u; i < (mends(kMendTexels) ? 1u : 2u); ++i) {
+        vec3 lit = shaded(captured.point, lookup.direction, i == 0u && mends(kMendShadows) ? kShadowRay : shadow);
+        colour += i == 0u ? lit : -lit;
+    }
+    return colour;
 }
 
 vec3 mended_radiance(Path path, Lookup lookup) {
     left_out = 0u;
     shadow_by = mends(kMendShadows) ? kShadowRay : shadow;
     Ray camera = camera_ray(gl_FragCoord.xy, uvec2(picture_width, picture_height));
-    End first = end_of(camera, kBvhHidden);
-    // The rasteriser and the ray disagree on what is seen here: another cause.
-    if (first.mirror != draw.surface.mirror) return path.weight * lookup_colour(path.mirror, lookup);
-    Ray search_ray = reflected(camera, first.point);
-    End target = end_of(search_ray, 0u);
-    bool is_own = target.mirror == draw.surface.mirror;
-    bool is_mirrored = !is_own && (target.mirror != 0u || path.hops > 0u);
-    bool from_camera = is_own ? mends(kMendOwn) : is_mirrored && mends(kMendMirrors);
-    if (path.hops > 0u) {
-        search_ray = Ray(path.at, path.direction, 0u);
-        left_out = path.mirror + 1u;
-        target = end_of(search_ray, 0u);
-        left_out = 0u;
+    Ray search_ray = camera;
+    End first, target;
+    bool from_camera;
+    // From the eye, from the mirror and, if the search went on from another, from that.
+    for (uint i = 0u; i < (path.hops > 0u ? 3u : 2u); ++i) {
+        left_out = i == 2u ? path.mirror + 1u : 0u;
+        target = end_of(search_ray, i == 0u ? kBvhHidden : 0u);
+        if (i == 0u) {
+            // The rasteriser and the ray disagree on what is seen here: another cause.
+            if (target.mirror != draw.surface.mirror) return path.weight * lookup_colour(path.mirror, lookup);
+            first = target;
+            search_ray = reflected(camera, first.point);
+        } else if (i == 1u) {
+            bool is_own = target.mirror == draw.surface.mirror;
+            bool is_mirrored = !is_own && (target.mirror != 0u || path.hops > 0u);
+            from_camera = is_own ? mends(kMendOwn) : is_mirrored && mends(kMendMirrors);
+            if (path.hops > 0u) search_ray = Ray(path.at, path.direction, 0u);
+        }
     }
+    left_out = 0u;
     vec3 to_target = target.meets ? target.point.position - path.centre : search_ray.direction;
     float distance = target.meets ? length(to_target) : uintBitsToFloat(0x7f800000u);
     bool in_capture = target.mirror != path.mirror + 1u;

@@ -259,12 +259,10 @@ vec3 radiance(Ray ray, uint first, out uint met) {
         Surface surface = surface_at(point, ray.direction);
         if (bounce < first + 2u) met |= surface.mirror << (16u * (bounce - first));
         bool reflects = surface.mirror != 0u;
-        if (details != 0u) {
-            reflects = surface.reflectance != vec3(0);
-            if (reflects) result += weight * shade(surface, point.position, point.normal);
-        }
+        if (details != 0u) reflects = surface.reflectance != vec3(0);
+        // One call for both: the driver's compiler inlines each, with the walk of its shadow ray.
+        if (!reflects || details != 0u) result += weight * shade(surface, point.position, point.normal);
         if (!reflects) {
-            result += weight * shade(surface, point.position, point.normal);
             done = true;
         } else if (bounce == max_depth) {
             done = true;

@@ -27,10 +27,12 @@ uint what_is_between(uint mirror, vec3 front, vec3 behind, float captured_front,
     // bilinear lookup mixes in.
     float apart = 1.25 * texel_angle(mirror);
     vec3 move = (behind - front) * (apart / angle);
-    float before = inverse(captured_distance(mirror, normalize(front - move))) -
-                   inverse(captured_distance(mirror, normalize(front - 2.0 * move)));
-    float after = inverse(captured_distance(mirror, normalize(behind + 2.0 * move))) -
-                  inverse(captured_distance(mirror, normalize(behind + move)));
+    // One lookup in a loop, which is unrolled unless it is one that traces (lib/mend.glsl).
+    const vec4 away = vec4(-1, -2, 2, 1);
+    vec4 beside;
+    for (int i = 0; i < 4; ++i)
+        beside[i] = inverse(captured_distance(mirror, normalize((i < 2 ? front : behind) + away[i] * move)));
+    float before = beside[0] - beside[1], after = beside[2] - beside[3];
     float slope = rise < 0.0 ? -min(before, after) : max(before, after);
     if (abs(rise) <= 1.5 * slope * angle / apart) return kGoesOn;
     return rise < 0.0 ? kEnds : kSilhouette;

@@ -1,8 +1,11 @@
 // What the engine reads out of SPIR-V, and what it refuses by name.
 #include "gpu/shader.hpp"
+#include "gpu/specialise.hpp"
 #include "support/device.hpp"
 #include "support/folder.hpp"
 #include "support/process.hpp"
+
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <fstream>
@@ -82,6 +85,23 @@ TEST(Reflection, RefusesWhatIsNoShader) {
     const auto words = gpu::find_shader("compose.comp").words;
     test::expect_refused([&] { gpu::reflect("half", words.first(6)); }, Failure::internal,
                          {"'half' is cut off"});
+}
+
+TEST(Specialise, KeepsWhatIsReachedWithTheValues) {
+    const auto words = gpu::find_shader("raytrace.comp").words;
+    std::map<std::uint32_t, std::uint32_t> plain, rich; // what no scene asks for, and what all do
+    for (const gpu::Constant& constant : reflection("raytrace.comp").constants)
+        plain[constant.id] = 0, rich[constant.id] = 1;
+    const auto without = gpu::specialise("raytrace.comp", words, plain),
+               with = gpu::specialise("raytrace.comp", words, rich);
+    EXPECT_LT(without.size(), with.size());
+    EXPECT_LT(3 * without.size(), 2 * words.size());
+    const gpu::Reflection left = gpu::reflect("specialised", without);
+    EXPECT_THAT(left.constants, testing::IsEmpty()) << "the driver has nothing to put in";
+    EXPECT_TRUE(find(left, "bvh_nodes"));
+    test::expect_refused(
+        [] { gpu::specialise("text", std::vector<std::uint32_t>(10, 0x20202020), {}); },
+        Failure::internal, {"shader 'text' cannot be specialised: "});
 }
 
 /// A graph of one dispatch into a buffer of 16 words.

@@ -11,6 +11,7 @@ namespace {
 using namespace catoptric;
 
 constexpr uvec2 kSize{96, 96};
+constexpr uvec2 kSmall{48, 48}; // for what holds whatever the size: nothing may be left
 
 struct Split {
     report::Causes causes;
@@ -83,7 +84,8 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryCause, testing::ValuesIn(that_capture()),
 
 TEST_P(EveryCause, IsThere) {
     const Split found = split(scene::cornell_mirrors(),
-                              test::with(GetParam(), {{"face", "32"}, {"shadow_map", "256"}}));
+                              test::with(GetParam(), {{"face", "32"}, {"shadow_map", "256"}}),
+                              kSmall);
     std::cout << "[ MEASURED ] " << GetParam().name << ": rmse "
               << std::sqrt(found.causes.squared_error) << ", left " << found.causes.rest_rmse
               << "\n";
@@ -96,18 +98,19 @@ TEST_P(EveryCause, IsThere) {
 }
 
 TEST(Causes, AreThereForEveryFormatAndKindOfShadow) {
-    constexpr uvec2 kSmall{48, 48}; // whatever the size, nothing may be left
     const auto expect_whole = [](const Split& found, const std::string& what) {
         EXPECT_LE(found.causes.rest_rmse, 1e-3) << what;
         expect_adds_up(found);
     };
     for (const std::string technique :
-         {"secant:face=32,shadow=none", "layered:face=32,distance=r16f",
-          "pyramid:face=32,distance=unorm8,shadow=none", "hybrid:face=32,captures=own,continue=0",
-          "march:face=32,mirrors=left_out,lookup=object"})
+         {"parallax:face=32,shadow=none", "parallax:face=32,shadow_map=64,distance=r16f",
+          "parallax:face=32,distance=unorm8,shadow=none",
+          "hybrid:face=32,shadow_map=64,captures=own,continue=0",
+          "march:face=32,shadow_map=64,mirrors=left_out,lookup=object"})
         expect_whole(split(scene::cornell_mirrors_closed(), technique, kSmall), technique);
-    expect_whole(split(test::room(2, 3), "secant:face=32", kSmall), "three lights");
-    expect_whole(split(test::hall(), "pyramid:face=32", kSmall), "mirrors of any shape");
+    expect_whole(split(test::room(2, 3), "parallax:face=32,shadow_map=64", kSmall), "three lights");
+    expect_whole(split(test::hall(), "pyramid:face=32,shadow_map=64", kSmall),
+                 "mirrors of any shape");
 }
 
 // What is shared out is the error that the report gives the row.
@@ -131,7 +134,8 @@ TEST(Causes, EightBitsOfDistanceAreStorageFormat) {
     EXPECT_GT(coarse.share("storage format"), .7);
     EXPECT_GT(coarse.alone("storage format"), .7);
     expect_adds_up(coarse);
-    EXPECT_EQ(split(scene::cornell_mirrors(), "parallax:face=64").share("storage format"), 0.0);
+    EXPECT_EQ(split(scene::cornell_mirrors(), "parallax:face=64", kSmall).share("storage format"),
+              0.0);
 }
 
 // Of two rows that differ in one thing the difference of their errors, which no mended picture
