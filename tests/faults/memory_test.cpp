@@ -2,6 +2,7 @@
 // nothing left alive on the device (after a wait that failed: nothing destroyed), and no file
 // touched.
 #include "faults/faults.hpp"
+#include "support/rendering.hpp"
 
 #include <vulkan/vulkan_core.h>
 
@@ -116,7 +117,9 @@ protected:
 /// In this program, where the driver is loaded once: the error comes out as an exception, and the
 /// next engine of the same process works.
 TEST_F(Memory, EveryCallOfARun) {
-    const catoptric::app::Request request = request_of("hybrid:face=16,shadow_map=16", {16, 16}, 0);
+    // A small scene: every call is made again for each of them.
+    const catoptric::app::Request request = test::request(
+        test::room(2, 1), {"hybrid:face=16,shadow_map=16"}, {16, 16});
     const auto render = [&](catoptric::app::Engine& engine) {
         catoptric::app::run(engine, request);
     };
