@@ -139,7 +139,7 @@ std::vector<PlanEntry> plan_of(const Declared& declared, const std::vector<std::
         const reflect::Choice& choice = choices[of_mirror[i]];
         std::string why = patterns[i].empty() ? "one technique was asked for"
                                               : "rule '" + patterns[i] + "'";
-        if (!reasons[i].empty()) why = reasons[i] + ": rest=" + choice.label;
+        if (!reasons[i].empty()) why = reasons[i];
         const bool is_left_out = choices.size() > 1 && choice.settings.has("capture") &&
                                  choice.settings.is_special("capture");
         if (is_left_out) why += "; black in the captures of others, capture=none";

@@ -81,6 +81,7 @@ Choice rest_of(const Choice& choice) {
 
 std::string Plan::file_name() const {
     if (is_technique) return rules.front().choice.file_name();
+    if (is_auto) return std::string(kAuto);
     std::string name = label.starts_with("plan:") ? label : "plan-" + label;
     std::erase(name, '=');
     std::ranges::replace_if(
@@ -98,10 +99,15 @@ bool Plan::same_as(const Plan& other) const {
 }
 
 Plan parse_plan(std::string_view text) {
+    if (text == kAuto)
+        return {.label = std::string(text), .rules = {}, .is_auto = true, .reasons = {}};
     const std::string_view head = text.substr(0, text.find(':'));
     if (head.find('=') == std::string_view::npos)
-        return {std::string(text), {{"*", parse_choice(text)}}, true};
-    Plan plan{std::string(text), {}};
+        return {.label = std::string(text),
+                .rules = {{"*", parse_choice(text)}},
+                .is_technique = true,
+                .reasons = {}};
+    Plan plan{.label = std::string(text), .rules = {}, .reasons = {}};
     for (const std::string& rule : split(text, kBlanks))
         if (!rule.empty()) plan.rules.push_back(parse_rule(rule, text));
     return plan;
@@ -140,7 +146,8 @@ Assignment assign(const Plan& plan, const std::vector<std::string>& names) {
         assignment.of_mirror.push_back(index_of(best[i].rule->choice, assignment.choices));
         assignment.patterns.push_back(best[i].rule->pattern);
     }
-    assignment.reasons.assign(names.size(), "");
+    assignment.reasons = plan.reasons;
+    assignment.reasons.resize(names.size());
     return assignment;
 }
 
@@ -150,12 +157,14 @@ Assignment fitted(Assignment assignment, const std::vector<std::optional<scene::
     if (assignment.of_mirror.empty()) return assignment;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
         Choice choice = assignment.choices[assignment.of_mirror[i]];
-        if (choice.technique->unfit)
-            assignment.reasons[i] = choice.technique->unfit(flats[i], tolerance);
-        if (!assignment.reasons[i].empty()) {
-            assignment.reasons[i] = std::string(choice.technique->name) +
-                                    " draws flat mirrors, and this is " + assignment.reasons[i];
+        const std::string lack = choice.technique->unfit
+                                     ? choice.technique->unfit(flats[i], tolerance)
+                                     : "";
+        if (!lack.empty()) {
+            const std::string asked(choice.technique->name);
             choice = rest_of(choice);
+            assignment.reasons[i] = asked + " draws flat mirrors, and this is " + lack +
+                                    ": rest=" + choice.label;
         }
         assignment.of_mirror[i] = index_of(choice, choices);
     }

@@ -21,6 +21,9 @@ struct Plan {
     std::string label; ///< "secant:face=64", "1=planar *=reuse", "plan:mixed.json"
     std::vector<Rule> rules;
     bool is_technique = false; ///< one for all mirrors, which may be none
+    bool is_auto = false;      ///< what the scene suggests: no rules until somebody has asked it
+    /// Of each mirror, of a plan that was suggested: why it is drawn so.
+    std::vector<std::string> reasons;
 
     /// The label fit for a file name, of no more than 80 bytes.
     std::string file_name() const;
@@ -28,8 +31,11 @@ struct Plan {
     bool same_as(const Plan& other) const;
 };
 
+/// The plan that is suggested anew for each scene (require::suggest).
+inline constexpr std::string_view kAuto = "auto";
+
 /// Reads "name[:knob=value,...]", or "PATTERN=name[:knob=value,...] ..." with blanks between its
-/// rules. Throws `Failure::usage` naming what is wrong and the nearest name.
+/// rules, or kAuto. Throws `Failure::usage` naming what is wrong and the nearest name.
 Plan parse_plan(std::string_view text);
 
 /// A plan for the mirrors of a scene.
@@ -37,7 +43,8 @@ struct Assignment {
     std::vector<Choice> choices;          ///< no two the same; at least one
     std::vector<std::uint32_t> of_mirror; ///< index into `choices`, entry n-1 of mirror n
     std::vector<std::string> patterns; ///< of the rule that decided, likewise; empty: a technique
-    /// Why another technique than the rule's draws the mirror, likewise; empty: the rule's does.
+    /// Why it is drawn so, likewise, where that is more than the rule: another technique draws it,
+    /// or the plan was suggested.
     std::vector<std::string> reasons;
 };
 
