@@ -1,9 +1,11 @@
 #pragma once
 
+#include "core/mirror_id.hpp"
 #include "scene/scene.hpp"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,8 @@ struct Question {
     const scene::Scene& now; ///< as it stands at the instant (scene::at)
     const scene::Camera& camera;
     uvec2 size{512, 512};
+    /// Texels of the coarsest shadow map in use: the coarser, the further shadows reach.
+    std::uint32_t shadow_edge = 1;
 };
 
 /// Six bits, one a face of a capture, as render::cube_views has them.
@@ -25,9 +29,12 @@ inline constexpr Faces kAllFaces = 0x3f;
 
 struct MirrorNeeds {
     bool is_seen = true;     ///< by the camera, or by a mirror that is
+    MirrorId seen_in;        ///< the mirror through which; none: the camera sees it, or nobody
     bool is_captured = true; ///< somebody may look into its capture
-    Faces faces = kAllFaces; ///< of its capture that somebody may look into
-    std::uint32_t edge = 0;  ///< texels along an edge that are enough; 0: as many as the row asks
+    /// Of its capture, whose directions somebody may ask for. Who reads cubes as a whole (`proxy`
+    /// does, for a mean) needs all.
+    Faces faces = kAllFaces;
+    std::uint32_t edge = 0; ///< texels along an edge that are enough; 0: as many as the row asks
     /// Of what each face shows but for mirrors, and how it is lit: while the number stays, so do
     /// the bytes.
     std::array<std::uint64_t, 6> stamps{};
@@ -57,7 +64,31 @@ struct Model {
 
 /// Nothing is left out and nothing kept.
 Model everything(const Question& question);
-/// Only what the picture requires. O(objects) and what its rules add.
+/// Only what the picture requires; with one stamp for everything, since nothing is known of what
+/// moves. O(vertices): for many pictures of one scene take Requirements.
 Model required(const Question& question);
+
+/// The same for picture after picture of one scene, whose meshes stay. Stamps are told apart by
+/// what moves, and equal ones stand for equal bytes within one object of this class.
+class Requirements {
+public:
+    /// The scene at rest, motions with it. O(vertices), texels of images.
+    explicit Requirements(const scene::Scene& rest);
+    ~Requirements();
+    Requirements(Requirements&&) noexcept;
+    Requirements& operator=(Requirements&&) noexcept;
+
+    /// O(objects) where nothing has changed, else with mirrors * (walls + movers + their shadows)
+    /// (docs/require.md has figures). The model is this object's, until it is asked again.
+    const Model& of(const Question& question);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// What the model says, a line for each mirror and light, then what was left out and why.
+/// `scene`: for names.
+std::string to_text(const Model& model, const scene::Scene& scene);
 
 } // namespace catoptric::require

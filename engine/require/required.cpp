@@ -1,62 +1,126 @@
-#include "require/model.hpp"
+#include "require/left_out.hpp"
+#include "require/reach.hpp"
+#include "require/stamps.hpp"
 
-#include <cstring>
-#include <type_traits>
+#include "scene/transform.hpp"
+
+#include <algorithm>
 
 namespace catoptric::require {
 
-namespace {
+struct Requirements::Impl {
+    World world;
+    Sight sight;
+    Stamps stamps;
+    Findings findings;
+    Model model;
+    std::vector<std::size_t> waiting;     ///< mirrors that are seen and not asked yet what they see
+    std::vector<bool> listed;             ///< what the mirror's capture shows is in the model
+    std::vector<Bounds<double>> viewers;  ///< of one mirror
+    std::vector<std::uint64_t> known_key; ///< of the sentences in the model
 
-/// 64-bit FNV-1a of values.
-class Stamp {
-public:
-    template <typename Value>
-    Stamp& add(const Value& value) {
-        static_assert(std::is_trivially_copyable_v<Value>);
-        std::array<unsigned char, sizeof(Value)> bytes;
-        std::memcpy(bytes.data(), &value, sizeof value);
-        for (const unsigned char byte : bytes) sum_ = (sum_ ^ byte) * 0x100000001b3;
-        return *this;
-    }
-    std::uint64_t value() const { return sum_; }
+    explicit Impl(const scene::Scene& rest) : world(rest) { model.is_everything = false; }
 
-private:
-    std::uint64_t sum_ = 0xcbf29ce484222325;
+    void find_seen(const Picture& picture);
+    void find_captured(std::size_t mirror);
+    Faces faces_of(const Picture& picture, std::size_t mirror);
+    void find_lights(const Picture& picture);
 };
 
-/// Of all that can be seen anywhere.
-std::uint64_t stamp_of(const scene::Scene& now) {
-    Stamp stamp;
-    for (const scene::Object& object : now.objects) {
-        const scene::Material& material = now.materials[object.material];
-        stamp.add(object.mesh)
-            .add(object.world_from_object)
-            .add(material.albedo)
-            .add(material.emission);
-        stamp.add(material.mirror).add(material.reflectance).add(object.mirror);
+/// Mirrors that the camera sees, and those that they can see, and so on.
+void Requirements::Impl::find_seen(const Picture& picture) {
+    const std::size_t count = world.mirrors().size();
+    model.mirrors.resize(count), findings.camera.resize(count), listed.resize(count);
+    waiting.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        MirrorNeeds& needs = model.mirrors[i];
+        findings.camera[i] = hidden_from_camera(world, picture, i);
+        needs.seen_in = {};
+        needs.is_seen = !findings.camera[i];
+        if (needs.is_seen) waiting.push_back(i);
     }
-    for (const scene::PointLight& light : scene::lights(now))
-        stamp.add(light.position)
-            .add(light.normal)
-            .add(light.emission)
-            .add(light.area)
-            .add(light.axis);
-    return stamp.value();
+    for (std::size_t next = 0; next < waiting.size() && waiting.size() < count; ++next)
+        for (std::size_t i = 0; i < count; ++i) {
+            MirrorNeeds& needs = model.mirrors[i];
+            if (needs.is_seen || !sight.reaches(world, waiting[next], i)) continue;
+            needs.is_seen = true;
+            needs.seen_in = MirrorId::at(waiting[next]);
+            waiting.push_back(i);
+        }
 }
 
-} // namespace
-
-Model required(const Question& question) {
-    Model model = everything(question);
-    model.is_everything = false;
-    const std::uint64_t stamp = stamp_of(question.now);
-    for (std::uint32_t i = 0; i < model.mirrors.size(); ++i) {
-        model.mirrors[i].stamps.fill(stamp);
-        for (std::uint32_t other = 0; other < model.mirrors.size(); ++other)
-            if (other != i) model.mirrors[i].sees.push_back(other);
+/// What a mirror's capture shows, once it is known who is seen.
+void Requirements::Impl::find_captured(std::size_t mirror) {
+    MirrorNeeds& needs = model.mirrors[mirror];
+    needs.is_captured = needs.is_seen;
+    if (!needs.is_captured) {
+        listed[mirror] = false;
+        needs.sees.clear();
+        needs.stamps = {};
+        return;
     }
-    for (LightNeeds& light : model.lights) light.stamp = stamp;
-    return model;
+    needs.stamps = stamps.of_faces(world, mirror);
+    if (listed[mirror] && !sight.has_changed(mirror)) return;
+    listed[mirror] = true;
+    needs.sees.clear();
+    for (std::size_t i = 0; i < model.mirrors.size(); ++i)
+        if (sight.shows(world, mirror, i)) needs.sees.push_back(static_cast<std::uint32_t>(i));
 }
+
+Faces Requirements::Impl::faces_of(const Picture& picture, std::size_t mirror) {
+    const Thing& thing = world.things()[world.mirrors()[mirror]];
+    const dvec3 flat = world.meshes()[thing.mesh].flat_normal;
+    if (flat == dvec3(0) || !model.mirrors[mirror].is_captured) return kAllFaces;
+    viewers.clear();
+    // The eyes of an orthographic picture lie in a plane.
+    if (!findings.camera[mirror] && picture.is_parallel()) return kAllFaces;
+    if (!findings.camera[mirror]) viewers.push_back({picture.eye(), picture.eye()});
+    for (std::size_t i = 0; i < model.mirrors.size(); ++i)
+        if (model.mirrors[i].is_captured && sight.reaches(world, i, mirror))
+            viewers.push_back(world.things()[world.mirrors()[i]].box);
+    const dvec3 normal = scene::world_normal(scene::normal_matrix(thing.place), flat);
+    return faces_of_flat(thing.box, normal, world.rounding(), viewers);
+}
+
+/// Whether each light may shine on something that is seen: of what the camera alone sees, or of
+/// everything where some capture is made.
+void Requirements::Impl::find_lights(const Picture& picture) {
+    model.lights.resize(world.lights().size());
+    const bool all_around = std::ranges::any_of(model.mirrors, &MirrorNeeds::is_captured);
+    for (std::size_t i = 0; i < model.lights.size(); ++i) {
+        model.lights[i].stamp = stamps.of_light(world, i);
+        model.lights[i].has_map = std::ranges::any_of(world.things(), [&](const Thing& thing) {
+            return !thing.box.empty() &&
+                   may_light(world.lights()[i], thing.box, world.rounding()) &&
+                   (all_around || (thing.seen_by_camera && picture.may_hold(thing.box)));
+        });
+    }
+}
+
+Requirements::Requirements(const scene::Scene& rest) : impl_(std::make_unique<Impl>(rest)) {}
+Requirements::~Requirements() = default;
+Requirements::Requirements(Requirements&&) noexcept = default;
+Requirements& Requirements::operator=(Requirements&&) noexcept = default;
+
+const Model& Requirements::of(const Question& question) {
+    Impl& impl = *impl_;
+    const Picture picture(question.camera, question.size);
+    impl.world.follow(question.now);
+    impl.sight.follow(impl.world);
+    impl.stamps.follow(impl.world, question.shadow_edge);
+    impl.find_seen(picture);
+    for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i) impl.find_captured(i);
+    for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
+        impl.model.mirrors[i].faces = impl.faces_of(picture, i);
+    impl.find_lights(picture);
+    fill_key(impl.findings, impl.model);
+    if (impl.findings.key != impl.known_key) {
+        impl.known_key = impl.findings.key;
+        impl.model.left_out = left_out(impl.model, impl.findings, question.now);
+    }
+    return impl.model;
+}
+
+Model required(const Question& question) { return Requirements(question.now).of(question); }
 
 } // namespace catoptric::require

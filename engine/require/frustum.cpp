@@ -1,0 +1,91 @@
+#include "require/frustum.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::require {
+
+namespace {
+
+/// The corner of the box that lies furthest along the normal.
+dvec3 furthest(const Bounds<double>& box, const dvec3& normal) {
+    return {normal.x > 0 ? box.hi.x : box.lo.x, normal.y > 0 ? box.hi.y : box.lo.y,
+            normal.z > 0 ? box.hi.z : box.lo.z};
+}
+
+} // namespace
+
+Picture::Picture(const scene::Camera& camera, uvec2 size) : eye_(camera.eye) {
+    forward_ = normalize(camera.target - camera.eye);
+    const dvec3 right = normalize(cross(forward_, camera.up)), down = cross(forward_, right);
+    const double aspect = static_cast<double>(size.x) / static_cast<double>(size.y);
+    is_parallel_ = camera.orthographic_height > 0;
+    const double half = is_parallel_ ? camera.orthographic_height / 2
+                                     : std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
+    pixel_ = 2 * half / size.y;
+    // Before the eye, and |right| <= half * aspect (times how far before it, in perspective).
+    const dvec3 along = is_parallel_ ? dvec3(0) : forward_;
+    const double beyond = is_parallel_ ? 1 : 0;
+    planes_[0] = {forward_, 0};
+    planes_[1] = {half * aspect * along + right, beyond * half * aspect};
+    planes_[2] = {half * aspect * along - right, beyond * half * aspect};
+    planes_[3] = {half * along + down, beyond * half};
+    planes_[4] = {half * along - down, beyond * half};
+}
+
+bool Picture::may_hold(const Bounds<double>& box) const {
+    return std::ranges::none_of(planes_, [&](const auto& plane) {
+        return dot(plane.first, furthest(box, plane.first) - eye_) < -plane.second;
+    });
+}
+
+double Picture::pixel_angle(double distance) const {
+    return is_parallel_ ? pixel_ / distance : pixel_;
+}
+
+Faces faces_with(const Bounds<double>& box) {
+    Faces faces = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        // Towards +: some of the box has a >= |u| and a >= |v|, plane by plane.
+        const double hi = box.hi[axis], lo = -box.lo[axis];
+        const auto reaches = [&](double furthest) {
+            return furthest >= 0 && furthest + box.hi[u] >= 0 && furthest - box.lo[u] >= 0 &&
+                   furthest + box.hi[v] >= 0 && furthest - box.lo[v] >= 0;
+        };
+        if (reaches(hi)) faces |= static_cast<Faces>(1 << (2 * axis));
+        if (reaches(lo)) faces |= static_cast<Faces>(2 << (2 * axis));
+    }
+    return faces;
+}
+
+Faces faces_with(const Bounds<double>& a, const Bounds<double>& b) {
+    Faces faces = 0;
+    for (int face = 0; face < 6; ++face) {
+        dvec3 forward(0);
+        forward[face / 2] = face % 2 == 0 ? 1 : -1;
+        bool meets = true;
+        for (int side = 0; side < 4 && meets; ++side) {
+            dvec3 normal = forward;
+            normal[(face / 2 + 1 + side / 2) % 3] = side % 2 == 0 ? 1 : -1;
+            meets = dot(normal, furthest(a, normal)) >= 0 || dot(normal, furthest(b, normal)) >= 0;
+        }
+        if (meets) faces |= static_cast<Faces>(1 << face);
+    }
+    return faces;
+}
+
+Faces faces_before(const dvec3& normal, double sine) {
+    Faces faces = 0;
+    for (int face = 0; face < 6; ++face) {
+        const int axis = face / 2;
+        const double ahead = face % 2 == 0 ? normal[axis] : -normal[axis];
+        // The largest product is that with a corner's direction, (1, +-1, +-1) turned.
+        const double most = ahead + std::abs(normal[(axis + 1) % 3]) +
+                            std::abs(normal[(axis + 2) % 3]);
+        if (most > -sine * std::sqrt(3.0)) faces |= static_cast<Faces>(1 << face);
+    }
+    return faces;
+}
+
+} // namespace catoptric::require

@@ -1,0 +1,63 @@
+#include "require/reach.hpp"
+
+#include "require/wall.hpp"
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::require {
+
+namespace {
+
+/// Products of an axis with the places of a box: the least and the largest.
+std::array<double, 2> along(const dvec3& axis, const Bounds<double>& box) {
+    const double middle = dot(axis, box.centre()), reach = dot(abs(axis), box.extent()) / 2;
+    return {middle - reach, middle + reach};
+}
+
+} // namespace
+
+dvec3 flat_normal(const scene::Mesh& mesh) {
+    const double least = std::cos(kLean / 2);
+    dvec3 normal(0);
+    const auto agrees = [&](const dvec3& other) {
+        if (normal == dvec3(0)) normal = other;
+        return dot(normal, other) >= least;
+    };
+    for (const uvec3& t : mesh.triangles) {
+        const dvec3& a = mesh.positions[t.x];
+        const dvec3 facet = scene::normalized_or_zero(
+            cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a));
+        if (facet == dvec3(0)) continue;
+        for (int i = 0; i < 3; ++i)
+            if (const dvec3 own(mesh.normals[t[i]]);
+                !agrees(own) || std::abs(dot(facet, normal)) < least)
+                return dvec3(0);
+    }
+    return normal;
+}
+
+Faces faces_of_flat(const Bounds<double>& mirror, const dvec3& normal, double margin,
+                    std::span<const Bounds<double>> viewers) {
+    const auto [low, high] = along(normal, mirror);
+    // A bent mirror, or one whose box is no plane because it leans: only what is truly flat.
+    bool front = true, back = true;
+    for (const Bounds<double>& viewer : viewers) {
+        const auto [viewer_low, viewer_high] = along(normal, viewer);
+        front = front && viewer_low > high + margin;
+        back = back && viewer_high < low - margin;
+    }
+    if (front == back) return kAllFaces; // nobody looks, or some from either side
+    return faces_before(front ? normal : -normal, 2 * kLean);
+}
+
+bool may_light(const scene::PointLight& light, const Bounds<double>& box, double margin) {
+    if (light.directional) return true;
+    const dvec3 nearest = glm::clamp(light.position, box.lo, box.hi);
+    if (!(length(nearest - light.position) <= light.range + margin)) return false;
+    return light.normal == dvec3(0) ||
+           along(light.normal, box)[1] - dot(light.normal, light.position) > -margin;
+}
+
+} // namespace catoptric::require

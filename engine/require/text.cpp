@@ -1,0 +1,67 @@
+// What a model says, for the user to read.
+#include "core/text.hpp"
+#include "require/left_out.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace catoptric::require {
+
+namespace {
+
+std::string numbers_of(const std::vector<std::uint32_t>& mirrors) {
+    std::vector<std::size_t> numbers(mirrors.begin(), mirrors.end());
+    for (std::size_t& number : numbers) ++number;
+    return ranges(numbers);
+}
+
+std::string needs_text(const MirrorNeeds& needs) {
+    if (!needs.is_captured) return "not seen";
+    std::string text = needs.seen_in ? "seen in mirror " + std::to_string(needs.seen_in.number())
+                                     : "seen by the camera";
+    text += "; captured, ";
+    text += needs.faces == kAllFaces ? "six faces" : "faces " + names_of(needs.faces);
+    if (needs.edge > 0) text += " of " + std::to_string(needs.edge) + " texels an edge";
+    text += needs.sees.empty() ? ", no other mirror in it"
+                               : ", mirrors " + numbers_of(needs.sees) + " in it";
+    return text;
+}
+
+std::string error_text(double error) {
+    if (error == 0) return "no pixel";
+    std::ostringstream text;
+    text << "pixels by at most " << error << " of 1";
+    return text.str();
+}
+
+} // namespace
+
+std::string to_text(const Model& model, const scene::Scene& scene) {
+    std::ostringstream text;
+    const std::vector<std::size_t> mirrors = scene::mirrors(scene);
+    text << (model.is_everything ? "everything is required\n" : "required\n");
+    // Neighbours of which the same is said share a line.
+    for (std::size_t i = 0; i < model.mirrors.size();) {
+        const std::string needs = needs_text(model.mirrors[i]);
+        std::size_t end = i + 1;
+        while (end < model.mirrors.size() && needs_text(model.mirrors[end]) == needs) ++end;
+        if (end == i + 1)
+            text << "  mirror " << end << " " << in_quotes(scene.objects[mirrors[i]].name);
+        else
+            text << "  mirrors " << i + 1 << "-" << end;
+        text << ": " << needs << "\n";
+        i = end;
+    }
+    for (std::size_t i = 0; i < model.lights.size(); ++i) {
+        const std::string name = name_of_light(scene, i, model.lights.size());
+        text << "  light " << i + 1 << (name.empty() ? "" : " " + name) << ": "
+             << (model.lights[i].has_map ? "a shadow map" : "no shadow map") << "\n";
+    }
+    text << (model.left_out.empty() ? "nothing is left out\n" : "left out\n");
+    for (const LeftOut& thing : model.left_out)
+        text << "  " << thing.what << "\n    why: " << thing.why << "\n    saves: " << thing.saves
+             << "\n    changes: " << error_text(thing.error) << "\n";
+    return text.str();
+}
+
+} // namespace catoptric::require

@@ -1,0 +1,148 @@
+#include "require/wall.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace catoptric::require {
+
+namespace {
+
+/// Every corner turns the same way, and the four lie in one plane.
+bool is_convex(const Quad& quad) {
+    const dvec3 normal = cross(quad[2] - quad[0], quad[3] - quad[1]);
+    const double size = length(normal);
+    if (!(size > 0)) return false;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const dvec3 along = quad[(i + 1) % 4] - quad[i], on = quad[(i + 2) % 4] - quad[i];
+        if (!(dot(cross(along, on), normal) > kFlat * size * size)) return false;
+        if (std::abs(dot(on, normal)) > kFlat * size * length(on)) return false;
+    }
+    return true;
+}
+
+/// The two triangles as one, where they are.
+std::optional<Quad> joined(const scene::Mesh& mesh, const uvec3& one, const uvec3& other) {
+    const auto at = [&](const uvec3& triangle, int i) { return mesh.positions[triangle[i % 3]]; };
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            // Neighbours that run the same way around run through their edge both ways.
+            if (at(one, i) != at(other, j + 1) || at(one, i + 1) != at(other, j)) continue;
+            const Quad quad{at(one, i), at(other, j + 2), at(one, i + 1), at(one, i + 2)};
+            if (is_convex(quad)) return quad;
+        }
+    return std::nullopt;
+}
+
+/// Corners of a box, or the one place that it is.
+struct Corners {
+    std::array<dvec3, 8> at;
+    std::size_t count = 8;
+    explicit Corners(const Bounds<double>& box) : at(corners_of(box)) {
+        if (box.lo == box.hi) count = 1;
+    }
+};
+
+/// Least and largest height of the box's corners.
+std::array<double, 2> heights(const Wall& wall, const Bounds<double>& box) {
+    const double middle = wall.height(box.centre()),
+                 reach = dot(abs(wall.normal), box.extent()) / 2;
+    return {middle - reach, middle + reach};
+}
+
+struct Side {
+    double height;                ///< from the plane, positive
+    std::array<double, 4> inside; ///< of each edge
+};
+Side side_of(const Wall& wall, const dvec3& place) {
+    Side side{std::abs(wall.height(place)), {}};
+    for (std::size_t edge = 0; edge < 4; ++edge) side.inside[edge] = wall.inside(edge, place);
+    return side;
+}
+
+} // namespace
+
+std::array<dvec3, 8> corners_of(const Bounds<double>& box) {
+    std::array<dvec3, 8> corners;
+    for (unsigned i = 0; i < 8; ++i)
+        corners[i] = {i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y,
+                      i & 4 ? box.hi.z : box.lo.z};
+    return corners;
+}
+
+std::vector<Quad> quads_of(const scene::Mesh& mesh) {
+    std::vector<Quad> quads;
+    const std::size_t count = mesh.triangles.size();
+    if (count > kMostTriangles) return quads;
+    std::vector<bool> is_used(count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = i + 1; j < count && !is_used[i]; ++j) {
+            if (is_used[j]) continue;
+            const std::optional<Quad> quad = joined(mesh, mesh.triangles[i], mesh.triangles[j]);
+            if (!quad) continue;
+            quads.push_back(*quad);
+            is_used[i] = is_used[j] = true;
+        }
+    return quads;
+}
+
+Wall wall_of(const Quad& corners, std::size_t object) {
+    Wall wall{.corners = corners, .object = object};
+    const dvec3 twice = cross(corners[2] - corners[0], corners[3] - corners[1]);
+    wall.area = length(twice) / 2;
+    if (!(wall.area > 0)) return wall;
+    wall.normal = twice / (2 * wall.area);
+    for (std::size_t i = 0; i < 4; ++i)
+        wall.inward[i] = normalize(cross(wall.normal, corners[(i + 1) % 4] - corners[i]));
+    return wall;
+}
+
+double distance(const Wall& wall, const dvec3& place) {
+    const double height = wall.height(place);
+    bool is_over = true;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 4; ++i) {
+        is_over = is_over && wall.inside(i, place) >= 0;
+        const dvec3 along = wall.corners[(i + 1) % 4] - wall.corners[i];
+        const double t = dot(place - wall.corners[i], along) / dot(along, along);
+        nearest = std::min(nearest,
+                           length(place - wall.corners[i] - glm::clamp(t, 0., 1.) * along));
+    }
+    return is_over ? std::abs(height) : nearest;
+}
+
+bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
+           double margin) {
+    const auto [viewer_low, viewer_high] = heights(wall, viewer);
+    const auto [target_low, target_high] = heights(wall, target);
+    const bool from_front = viewer_low > margin && target_high < -margin;
+    const bool from_behind = viewer_high < -margin && target_low > margin && !wall.front_only;
+    if (!(from_front || from_behind)) return false;
+    const Corners from(viewer), to(target);
+    std::array<Side, 8> there;
+    for (std::size_t j = 0; j < to.count; ++j) there[j] = side_of(wall, to.at[j]);
+    for (std::size_t i = 0; i < from.count; ++i) {
+        const Side here = side_of(wall, from.at[i]);
+        for (std::size_t j = 0; j < to.count; ++j)
+            for (std::size_t edge = 0; edge < 4; ++edge)
+                if (!(here.inside[edge] * there[j].height + there[j].inside[edge] * here.height >=
+                      margin * (here.height + there[j].height)))
+                    return false;
+    }
+    return true;
+}
+
+bool hides_along(const Wall& wall, const dvec3& eye, const dvec3& direction,
+                 const Bounds<double>& target, double margin) {
+    const double slant = dot(wall.normal, direction);
+    if (wall.front_only && slant >= 0) return false;
+    for (const dvec3& corner : corners_of(target)) {
+        const double depth = dot(corner - eye, direction), height = wall.height(corner);
+        const double back = height / slant; // to the wall, against the direction
+        if (!(back > margin && depth - back > margin)) return false;
+        for (std::size_t edge = 0; edge < 4; ++edge)
+            if (!(wall.inside(edge, corner - back * direction) >= margin)) return false;
+    }
+    return true;
+}
+
+} // namespace catoptric::require

@@ -1,0 +1,194 @@
+#include "require/world.hpp"
+
+#include "require/reach.hpp"
+#include "require/world_stamps.hpp"
+#include "scene/transform.hpp"
+
+#include <algorithm>
+
+namespace catoptric::require {
+
+namespace {
+
+MeshFacts facts_of(const scene::Mesh& mesh) {
+    MeshFacts facts;
+    for (const uvec3& triangle : mesh.triangles)
+        for (int i = 0; i < 3; ++i) facts.box.add(mesh.positions[triangle[i]]);
+    facts.stamp = stamp_of(mesh);
+    facts.quads = quads_of(mesh);
+    facts.flat_normal = flat_normal(mesh);
+    return facts;
+}
+
+/// Of a box elsewhere.
+Bounds<double> moved(const Bounds<double>& box, const dmat4& place) {
+    Bounds<double> result;
+    if (!box.empty())
+        for (const dvec3& corner : corners_of(box))
+            result.add(scene::transform_point(place, corner));
+    return result;
+}
+
+Bounds<double> shifted(const Bounds<double>& box, const dvec3& offset) {
+    return {box.lo + offset, box.hi + offset};
+}
+
+bool same(const scene::Punctual& a, const scene::Punctual& b) {
+    return a.kind == b.kind && a.intensity == b.intensity && a.range == b.range &&
+           a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer &&
+           a.world_from_light == b.world_from_light;
+}
+
+bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
+    if (a.has_value() != b.has_value()) return false;
+    return !a || (a->centre == b->centre && a->radius == b->radius);
+}
+
+bool is_wall(const scene::Material& material, bool is_mirror) {
+    // A lamp is not there from behind, and nobody knows by a corner's order where that is.
+    return !scene::is_masked(material) &&
+           (is_mirror || material.front_only || !scene::is_one_sided(material)) &&
+           scene::light_of(material) == vec3(0);
+}
+
+} // namespace
+
+World::World(const scene::Scene& rest) {
+    for (const scene::Mesh& mesh : rest.meshes) meshes_.push_back(facts_of(mesh));
+    things_.resize(rest.objects.size());
+    for (std::size_t i = 0; i < things_.size(); ++i)
+        things_[i].is_mover = !std::holds_alternative<std::monostate>(rest.objects[i].motion);
+    lay_out(rest);
+}
+
+void World::lay_out(const scene::Scene& now) {
+    ++layouts_;
+    materials_ = now.materials, environment_ = now.environment, punctual_ = now.punctual;
+    materials_stamp_ = stamp_of(now.materials);
+    environment_stamp_ = stamp_of(now.environment.get());
+    things_.resize(now.objects.size());
+    mirrors_ = scene::mirrors(now), movers_.clear(), still_ = {};
+    for (std::size_t i = 0; i < things_.size(); ++i) {
+        const scene::Object& object = now.objects[i];
+        Thing& thing = things_[i];
+        thing.mesh = object.mesh, thing.material = object.material;
+        thing.rest = object.world_from_object;
+        thing.seen_by_camera = object.seen_by_camera;
+        thing.is_mirror = scene::is_mirror(now, object);
+        thing.casts_shadow = scene::light_of(now.materials[object.material]) == vec3(0);
+        thing.tight_rest = scene::bounds(now, object);
+        if (thing.is_mover)
+            movers_.push_back(i);
+        else
+            still_.add(thing.tight_rest);
+    }
+    const Bounds<double> around = still_.empty() ? scene::bounds(now) : still_;
+    const dvec3 extent = around.empty() ? dvec3(0) : around.extent();
+    middle_ = around.empty() ? dvec3(0) : around.centre();
+    rounding_ = kRounding * std::max({extent.x, extent.y, extent.z});
+    for (std::size_t i = 0; i < things_.size(); ++i) move(now, i);
+    lights_ = scene::lights(now);
+    find_walls();
+    find_epoch();
+}
+
+/// Whether it is the scene that was laid out, but for where movers are.
+bool World::fits(const scene::Scene& now) const {
+    if (now.objects.size() != things_.size() || now.environment != environment_ ||
+        now.materials != materials_ || now.punctual.size() != punctual_.size())
+        return false;
+    for (std::size_t i = 0; i < things_.size(); ++i) {
+        const scene::Object& object = now.objects[i];
+        const Thing& thing = things_[i];
+        if (object.mesh != thing.mesh || object.material != thing.material ||
+            object.seen_by_camera != thing.seen_by_camera ||
+            scene::is_mirror(now, object) != thing.is_mirror ||
+            (!thing.is_mover && object.world_from_object != thing.rest))
+            return false;
+    }
+    return true;
+}
+
+/// Puts an object where it is now.
+void World::move(const scene::Scene& now, std::size_t index) {
+    const scene::Object& object = now.objects[index];
+    Thing& thing = things_[index];
+    thing.place = object.world_from_object, thing.sphere = object.sphere;
+    const bool is_shifted = dmat3(thing.place) == dmat3(thing.rest);
+    thing.tight = is_shifted
+                      ? shifted(thing.tight_rest, dvec3(thing.place[3]) - dvec3(thing.rest[3]))
+                  : thing.is_mirror ? scene::bounds(now, object) // its centre is a capture's
+                                    : moved(meshes_[thing.mesh].box, thing.place);
+    // Floats are of places beside the middle of everything.
+    const dvec3 away = thing.tight.empty() ? dvec3(0) : abs(thing.tight.centre() - middle_);
+    const double room = rounding_ + kRounding * std::max({away.x, away.y, away.z});
+    thing.box = {thing.tight.lo - room, thing.tight.hi + room};
+    Stamp stamp;
+    stamp.add(index).add(meshes_[thing.mesh].stamp).add(thing.material).add(thing.place);
+    if (thing.sphere) stamp.add(thing.sphere->centre).add(thing.sphere->radius);
+    thing.stamp = stamp.value();
+}
+
+void World::follow(const scene::Scene& now) {
+    has_changed_ = false;
+    if (!fits(now)) {
+        for (std::size_t i = 0; i < std::min(things_.size(), now.objects.size()); ++i)
+            if (now.objects[i].world_from_object != things_[i].rest) things_[i].is_mover = true;
+        lay_out(now);
+        for (Thing& thing : things_) thing.has_moved = thing.is_mover;
+        has_changed_ = true;
+        return;
+    }
+    bool lights_moved = !std::ranges::equal(
+        punctual_, now.punctual, [](const auto& a, const auto& b) { return same(a, b); });
+    for (const std::size_t mover : movers_) {
+        Thing& thing = things_[mover];
+        const scene::Object& object = now.objects[mover];
+        thing.has_moved = object.world_from_object != thing.place ||
+                          !same(object.sphere, thing.sphere);
+        if (!thing.has_moved) continue;
+        move(now, mover);
+        has_changed_ = true;
+        lights_moved = lights_moved || !thing.casts_shadow;
+    }
+    if (!lights_moved) return;
+    punctual_ = now.punctual;
+    lights_ = scene::lights(now);
+    find_epoch();
+    has_changed_ = true;
+}
+
+void World::find_walls() {
+    walls_.clear();
+    const double extent = rounding_ / kRounding, least = kLeastWall * extent * extent;
+    for (std::size_t i = 0; i < things_.size(); ++i) {
+        const Thing& thing = things_[i];
+        const scene::Material& material = materials_[thing.material];
+        if (thing.is_mover || !is_wall(material, thing.is_mirror)) continue;
+        for (Quad quad : meshes_[thing.mesh].quads) {
+            for (dvec3& corner : quad) corner = scene::transform_point(thing.rest, corner);
+            Wall wall = wall_of(quad, i);
+            wall.front_only = material.front_only && !thing.is_mirror;
+            wall.seen_by_camera = thing.seen_by_camera;
+            if (wall.area > 0 && wall.area >= least) walls_.push_back(wall);
+        }
+    }
+    std::ranges::stable_sort(walls_, std::ranges::greater(), &Wall::area);
+    if (walls_.size() > kMostWalls) walls_.resize(kMostWalls);
+}
+
+void World::find_epoch() {
+    Stamp stamp;
+    stamp.add(materials_stamp_).add(environment_stamp_).add(things_.size());
+    for (const Thing& thing : things_) stamp.add(thing.is_mover ? 0 : thing.stamp);
+    for (const scene::PointLight& light : lights_) stamp.add(stamp_of(light));
+    epoch_ = stamp.value();
+}
+
+Bounds<double> World::everything() const {
+    Bounds<double> all = still_;
+    for (const std::size_t mover : movers_) all.add(things_[mover].tight);
+    return all;
+}
+
+} // namespace catoptric::require
