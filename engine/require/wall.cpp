@@ -15,7 +15,7 @@ bool is_convex(const Quad& quad) {
     for (std::size_t i = 0; i < 4; ++i) {
         const dvec3 along = quad[(i + 1) % 4] - quad[i], on = quad[(i + 2) % 4] - quad[i];
         if (!(dot(cross(along, on), normal) > kFlat * size * size)) return false;
-        if (std::abs(dot(on, normal)) > kFlat * size * length(on)) return false;
+        if (std::abs(dot(along, normal)) > kFlat * size * length(along)) return false;
     }
     return true;
 }

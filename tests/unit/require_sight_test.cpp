@@ -1,0 +1,242 @@
+// Which mirrors a picture requires: answers that are known, and rays that must find no other.
+#include "require/frustum.hpp"
+#include "require/sight.hpp"
+#include "support/drawn_hall.hpp"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::require;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Wall square() { return wall_of({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}, 0); }
+
+Bounds<double> around(dvec3 middle, double half) { return {middle - half, middle + half}; }
+
+TEST(RequireWall, HidesWhatLiesInItsShadow) {
+    const Bounds<double> eye = around({0, 0, 2}, 0);
+    // 3.9 from the eye the wall's shadow is [-1.95, 1.95], of what is 2 from it.
+    EXPECT_TRUE(hides(square(), eye, around({0, 0, -2}, 1.3), 0));
+    EXPECT_TRUE(hides(square(), eye, around({1.84, 0, -2}, .1), 0));
+    EXPECT_FALSE(hides(square(), eye, around({1.86, 0, -2}, .1), 0));
+    EXPECT_FALSE(hides(square(), eye, around({1.84, 0, -2}, .1), .01)); // .995 from the middle
+    EXPECT_FALSE(hides(square(), eye, around({0, 0, -2}, 2.1), 0));     // reaches through the wall
+    EXPECT_FALSE(hides(square(), eye, around({0, 0, 1}, .1), 0));       // before it
+}
+
+TEST(RequireWall, HidesFromARegionWhatItHidesFromEachOfItsPlaces) {
+    const Bounds<double> target = around({0, 0, -2}, .5);
+    EXPECT_TRUE(hides(square(), around({0, 0, 2}, 1), target, 0)); // crossings up to .8
+    EXPECT_FALSE(hides(square(), around({2.2, 0, 2}, .1), target, 0));
+    EXPECT_FALSE(hides(square(), around({1, 0, 2}, 1), target, 0));  // its far corner looks past
+    EXPECT_FALSE(hides(square(), around({0, 0, .5}, 1), target, 0)); // stands in the wall
+}
+
+TEST(RequireWall, HasASideWhereItIsThereFromTheFrontAlone) {
+    Wall wall = square();
+    wall.front_only = true;
+    const Bounds<double> front = around({0, 0, 2}, 0), behind = around({0, 0, -2}, 0);
+    EXPECT_TRUE(hides(wall, front, around({0, 0, -1}, .2), 0));
+    EXPECT_FALSE(hides(wall, behind, around({0, 0, 1}, .2), 0));
+    EXPECT_TRUE(hides_along(wall, {0, 0, 2}, {0, 0, -1}, around({0, 0, -1}, .9), 0));
+    EXPECT_FALSE(hides_along(wall, {0, 0, -2}, {0, 0, 1}, around({0, 0, 1}, .9), 0));
+}
+
+TEST(RequireWall, HidesAlongADirection) {
+    const dvec3 eye(0, 0, 5), down(0, 0, -1);
+    EXPECT_TRUE(hides_along(square(), eye, down, around({0, 0, -3}, .99), 0));
+    EXPECT_FALSE(hides_along(square(), eye, down, around({0, 0, -3}, 1.01), 0));
+    EXPECT_FALSE(hides_along(square(), {0, 0, -.5}, down, around({0, 0, -3}, .5), 0)); // behind
+    // Seen at 45 degrees the wall stands over what is as much to the side as it is deep.
+    const dvec3 slanting = glm::normalize(dvec3(1, 0, -1));
+    EXPECT_TRUE(hides_along(square(), eye, slanting, around({3, 0, -3}, .4), 0));
+    EXPECT_FALSE(hides_along(square(), eye, slanting, around({0, 0, -3}, .4), 0));
+}
+
+TEST(RequireWall, IsTwoTrianglesThatMakeAConvexQuadrilateral) {
+    EXPECT_EQ(quads_of(scene::quad("", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})).size(), 1u);
+    EXPECT_EQ(quads_of(scene::box("", dvec3(0), dvec3(1))).size(), 6u);
+    EXPECT_THAT(quads_of(scene::ball("", 2)), IsEmpty());
+    // Bent along the diagonal; not convex.
+    EXPECT_THAT(quads_of(scene::quad("", {0, 0, 0}, {1, 0, 0}, {1, 1, .001}, {0, 1, 0})),
+                IsEmpty());
+    EXPECT_THAT(quads_of(scene::quad("", {0, 0, 0}, {1, 0, 0}, {.2, .2, 0}, {0, 1, 0})), IsEmpty());
+}
+
+TEST(RequireFrustum, TellsFacesByTheirPlanes) {
+    EXPECT_EQ(faces_with(around({3, 0, 0}, 1)), 1);             // +X alone
+    EXPECT_EQ(faces_with(around({0, -3, 0}, 1)), 1 << 3);       // -Y
+    EXPECT_EQ(faces_with(around({3, 3, 0}, .5)), 1 | 1 << 2);   // over the edge of +X and +Y
+    EXPECT_EQ(faces_with(around({-2, 2, -2}, .1)), 2 | 4 | 32); // a corner: -X +Y -Z
+    EXPECT_EQ(faces_with(around({0, 0, 0}, .1)), kAllFaces);
+    EXPECT_EQ(faces_before({0, 0, 1}, .1), kAllFaces & ~(1 << 5)); // all but -Z
+    EXPECT_EQ(faces_before(glm::normalize(dvec3(1, 0, 1)), .1), kAllFaces);
+}
+
+TEST(RequireFrustum, HoldsWhatIsInThePicture) {
+    scene::Camera camera{.eye = {0, 0, 0}, .target = {0, 0, 1}, .vertical_fov_degrees = 90};
+    const Picture wide(camera, {200, 100});
+    EXPECT_TRUE(wide.may_hold(around({0, 9, 10}, .1)));
+    EXPECT_FALSE(wide.may_hold(around({0, 11, 10}, .1)));
+    EXPECT_TRUE(wide.may_hold(around({19, 0, 10}, .1)));
+    EXPECT_FALSE(wide.may_hold(around({21, 0, 10}, .1)));
+    EXPECT_FALSE(wide.may_hold(around({0, 0, -1}, .5)));
+    camera.orthographic_height = 4;
+    const Picture parallel(camera, {200, 100});
+    EXPECT_TRUE(parallel.may_hold(around({0, 1.8, 100}, .1)));
+    EXPECT_FALSE(parallel.may_hold(around({0, 2.2, 100}, .1)));
+    EXPECT_TRUE(parallel.may_hold(around({3.8, 0, 100}, .1)));
+    EXPECT_FALSE(parallel.may_hold(around({4.2, 0, 100}, .1)));
+}
+
+/// A hall with three mirrors before a partition and one behind it.
+scene::Scene parted() {
+    scene::Scene scene{.name = "parted"};
+    const std::size_t white = add_material(scene, {.albedo = vec3(.7f)}),
+                      mirror = add_material(scene, {.mirror = true});
+    for (int face = 0; face < 6; ++face)
+        test::add_mesh(scene, test::wall(face, {-4, -4, -4}, {4, 4, 8}), white);
+    test::add_quad(scene, "partition", white, {-4, -4, 2}, {4, -4, 2}, {4, 4, 2}, {-4, 4, 2});
+    const std::array<dvec3, 4> places{{{0, 0, 0}, {-2, 0, 1}, {0, 1, -3.4}, {0, 0, 5}}};
+    for (const dvec3& place : places) test::add_ball(scene, "ball", mirror, place, .4, 2);
+    scene.cameras.push_back({.eye = {0, 0, -2}, .target = {0, 0, 1}, .vertical_fov_degrees = 60});
+    return scene;
+}
+
+TEST(RequireSight, WhatNobodySeesIsNotCaptured) {
+    const scene::Scene scene = parted();
+    const Model model = required({scene, scene.cameras[0]});
+    ASSERT_EQ(model.mirrors.size(), 4u);
+    for (const std::size_t seen : {0, 1, 2}) EXPECT_TRUE(model.mirrors[seen].is_captured) << seen;
+    EXPECT_FALSE(model.mirrors[3].is_seen);
+    EXPECT_FALSE(model.mirrors[3].is_captured);
+    EXPECT_FALSE(model.mirrors[0].seen_in);
+    EXPECT_EQ(model.mirrors[2].seen_in, MirrorId(1)); // behind the camera
+    EXPECT_THAT(model.mirrors[0].sees, ElementsAre(1, 2));
+    EXPECT_THAT(model.mirrors[3].sees, IsEmpty());
+    ASSERT_EQ(model.left_out.size(), 1u);
+    EXPECT_EQ(model.left_out[0].what, "the capture of mirror 4 'ball'");
+    EXPECT_EQ(model.left_out[0].why, "'partition' hides it from the camera, and walls from each of "
+                                     "the 3 mirrors that are seen");
+    EXPECT_EQ(model.left_out[0].error, 0);
+}
+
+TEST(RequireSight, FollowsAWallThatMoves) {
+    scene::Scene scene = parted();
+    Requirements requirements(scene);
+    EXPECT_FALSE(requirements.of({scene, scene.cameras[0]}).mirrors[3].is_captured);
+    scene.objects[6].world_from_object[3] = {0, 6, 0, 1};
+    const Model& model = requirements.of({scene, scene.cameras[0]});
+    EXPECT_TRUE(model.mirrors[3].is_captured);
+    EXPECT_THAT(model.mirrors[0].sees, ElementsAre(1, 2, 3));
+    EXPECT_THAT(model.left_out, IsEmpty());
+}
+
+TEST(RequireSight, SeesThroughWhatIsCutOutOrPassedBy) {
+    for (const bool is_masked : {true, false}) {
+        scene::Scene scene = parted();
+        if (is_masked) {
+            scene.objects[6].material = add_material(scene, {.alpha = 1, .alpha_cutoff = .5f});
+        } else {
+            scene.objects[6].seen_by_camera = false;
+        }
+        const Model model = required({scene, scene.cameras[0]});
+        EXPECT_TRUE(model.mirrors[3].is_captured);
+        // Captures are no cameras: what these pass by, stands in their way.
+        EXPECT_EQ(model.mirrors[0].sees.size(), is_masked ? 3u : 2u);
+    }
+}
+
+TEST(RequireSight, WithoutASeenMirrorNothingIsCaptured) {
+    scene::Scene scene = parted();
+    scene.cameras[0].target = {0, -1, -2.01}; // at the floor
+    scene.cameras[0].vertical_fov_degrees = 10;
+    const Model model = required({scene, scene.cameras[0]});
+    for (const MirrorNeeds& needs : model.mirrors) EXPECT_FALSE(needs.is_captured);
+    ASSERT_EQ(model.left_out.size(), 1u);
+    EXPECT_EQ(model.left_out[0].what, "the captures of mirrors 1-4");
+    EXPECT_EQ(model.left_out[0].why, "they are not in the camera's picture, and no mirror is seen "
+                                     "in which they could show");
+}
+
+/// Counts of what was found and of what was not to be.
+struct Found {
+    int unseen = 0, not_shown = 0, rays = 0;
+};
+
+/// Rays of the camera to all mirrors.
+void look_from_camera(const test::Tree& tree, const scene::Scene& scene, const Model& model,
+                      test::Numbers& numbers, Found& found) {
+    const Picture picture(scene.cameras[0], {64, 64});
+    const std::vector<std::size_t> mirrors = scene::mirrors(scene);
+    for (std::size_t i = 0; i < mirrors.size(); ++i)
+        for (int k = 0; k < 60; ++k) {
+            const dvec3 to = tree.place_on(mirrors[i], numbers);
+            if (!picture.may_hold({to, to})) continue;
+            const dvec3 from = picture.is_parallel()
+                                   ? to - dot(to - picture.eye(), picture.forward()) *
+                                              picture.forward()
+                                   : picture.eye();
+            const auto met = tree.meets(from, to - from, scene.objects.size(),
+                                        bvh::kHidden | bvh::kOneSided);
+            const auto mirror = met ? std::ranges::find(mirrors, met->object) : mirrors.end();
+            ++found.rays;
+            if (mirror == mirrors.end()) continue;
+            const MirrorNeeds& needs =
+                model.mirrors[static_cast<std::size_t>(mirror - mirrors.begin())];
+            EXPECT_TRUE(needs.is_seen && needs.is_captured && !needs.seen_in);
+        }
+}
+
+/// Rays from the centre and from the surface of a mirror to all others.
+void look_from_mirror(const test::Tree& tree, const scene::Scene& scene, const Model& model,
+                      std::size_t viewer, test::Numbers& numbers, Found& found) {
+    const std::vector<std::size_t> mirrors = scene::mirrors(scene);
+    const dvec3 centre = scene::bounds(scene, scene.objects[mirrors[viewer]]).centre();
+    for (std::size_t i = 0; i < mirrors.size(); ++i)
+        for (int k = 0; k < 60 && i != viewer; ++k) {
+            const bool is_captured = k % 2 == 0;
+            const dvec3 from = is_captured ? centre : tree.place_on(mirrors[viewer], numbers);
+            const dvec3 to = tree.place_on(mirrors[i], numbers);
+            const auto met = tree.meets(from, to - from, mirrors[viewer], bvh::kOneSided);
+            const auto mirror = met ? std::ranges::find(mirrors, met->object) : mirrors.end();
+            ++found.rays;
+            if (mirror == mirrors.end()) continue;
+            const auto number = static_cast<std::uint32_t>(mirror - mirrors.begin());
+            EXPECT_TRUE(model.mirrors[number].is_captured);
+            if (is_captured) {
+                EXPECT_THAT(model.mirrors[viewer].sees, testing::Contains(number));
+            }
+        }
+}
+
+TEST(RequireSight, RaysFindNoMirrorThatWasCalledUnseen) {
+    Found found;
+    for (std::uint64_t seed = 0; seed < 150; ++seed) {
+        const scene::Scene scene = test::drawn_hall(seed, 6);
+        const Model model = required({scene, scene.cameras[0], {64, 64}});
+        const test::Tree tree(scene);
+        test::Numbers numbers(seed);
+        SCOPED_TRACE(seed);
+        look_from_camera(tree, scene, model, numbers, found);
+        for (std::size_t i = 0; i < model.mirrors.size(); ++i) {
+            if (!model.mirrors[i].is_captured) {
+                ++found.unseen;
+                continue;
+            }
+            found.not_shown += static_cast<int>(model.mirrors.size() - 1 -
+                                                model.mirrors[i].sees.size());
+            look_from_mirror(tree, scene, model, i, numbers, found);
+        }
+        if (testing::Test::HasFailure()) break;
+    }
+    EXPECT_GT(found.unseen, 150); // of 900
+    EXPECT_GT(found.not_shown, 200);
+    EXPECT_GT(found.rays, 100'000);
+}
+
+} // namespace

@@ -1,0 +1,162 @@
+// Stamps of captures' faces and of shadow maps: equal only where nothing can have changed.
+#include "require/model.hpp"
+#include "require/shadows.hpp"
+#include "require/world.hpp"
+#include "support/drawn_hall.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::require;
+
+constexpr std::uint32_t kEdge = 1024;
+
+/// What the model says of a scene's instants.
+class Instants {
+public:
+    explicit Instants(const scene::Scene& rest) : rest_(rest), requirements_(rest) {}
+    Model at(double seconds) {
+        const scene::Scene now = scene::at(rest_, seconds);
+        return requirements_.of({now, rest_.cameras[0], {64, 64}, kEdge});
+    }
+
+private:
+    const scene::Scene& rest_;
+    Requirements requirements_;
+};
+
+int kept(const Model& before, const Model& after) {
+    int count = 0;
+    for (std::size_t i = 0; i < after.mirrors.size(); ++i)
+        for (std::size_t face = 0; face < 6; ++face)
+            count += before.mirrors[i].stamps[face] == after.mirrors[i].stamps[face] ? 1 : 0;
+    return count;
+}
+
+TEST(RequireStamps, StayWhileNothingMoves) {
+    const scene::Scene scene = scene::cornell_mirrors();
+    Instants instants(scene);
+    const Model first = instants.at(0), second = instants.at(0), elsewhere = instants.at(1),
+                again = instants.at(1);
+    EXPECT_EQ(kept(first, second), 24);
+    EXPECT_EQ(kept(elsewhere, again), 24);
+    EXPECT_EQ(first.lights[0].stamp, second.lights[0].stamp);
+    EXPECT_NE(first.lights[0].stamp, elsewhere.lights[0].stamp);
+}
+
+TEST(RequireStamps, ChangeWithABallThatMovesOnlyWhereItOrItsShadowShows) {
+    const scene::Scene scene = scene::cornell_mirrors();
+    Instants instants(scene);
+    Model before = instants.at(0);
+    int stays = 0;
+    for (int frame = 1; frame <= 20; ++frame) {
+        const Model after = instants.at(.1 * frame);
+        stays += kept(before, after);
+        for (std::size_t face = 0; face < 6; ++face)
+            EXPECT_NE(before.mirrors[3].stamps[face], after.mirrors[3].stamps[face]); // its own
+        before = after;
+    }
+    EXPECT_GE(stays, 20 * 24 / 3);
+    RecordProperty("kept", stays);
+}
+
+TEST(RequireStamps, ChangeWithTheLampWithAMaterialAndWithAnEdit) {
+    const scene::Scene rest = scene::cornell_mirrors();
+    scene::Scene scene = rest;
+    Requirements requirements(scene);
+    const auto model = [&] { return Model(requirements.of({scene, scene.cameras[0], {64, 64}})); };
+    const Model first = model();
+    scene.materials[3].emission = {1, 1, 1};
+    const Model dimmed = model();
+    EXPECT_EQ(kept(first, dimmed), 0);
+    EXPECT_NE(first.lights[0].stamp, dimmed.lights[0].stamp);
+    scene.materials[3].emission = vec3(0);
+    EXPECT_TRUE(model().lights.empty());
+    scene.materials[0].albedo = {.1f, .1f, .1f};
+    const Model painted = model();
+    EXPECT_EQ(kept(dimmed, painted), 0);
+    scene.objects[0].world_from_object[3].y = -1; // the floor, which had no motion
+    const Model lowered = model();
+    EXPECT_EQ(kept(painted, lowered), 0);
+    EXPECT_EQ(kept(lowered, model()), 24);
+    scene.punctual.push_back({.name = "bare", .intensity = vec3(1)});
+    EXPECT_EQ(kept(lowered, model()), 0);
+}
+
+TEST(RequireShadows, FallWhereTheLightSendsThem) {
+    const Bounds<double> room{{-10, 0, -10}, {10, 10, 10}};
+    scene::PointLight light{.position = {0, 10, 0}};
+    // All of it is in the floor once its top is, 2.5 times as far from the lamp.
+    const Shade below = shade_of(light, {{-1, 5, -1}, {1, 6, 1}}, room);
+    EXPECT_EQ(below.from.hi, dvec3(1, 6, 1));
+    EXPECT_EQ(below.to.hi, dvec3(2.5, 0, 2.5));
+    EXPECT_EQ(below.to.lo, dvec3(-2.5, -2.5, -2.5));
+    // Around the lamp: anywhere.
+    EXPECT_EQ(shade_of(light, {{-1, 9, -1}, {1, 11, 1}}, room).to.hi, room.hi);
+    light = {.axis = {0, -1, 0}, .directional = true};
+    const Shade along = shade_of(light, {{-1, 5, -1}, {1, 6, 1}}, room);
+    EXPECT_EQ(along.to.lo, dvec3(-1, -1, -1));
+    EXPECT_EQ(along.to.hi, dvec3(1, 0, 1));
+}
+
+/// What rays of one face of a capture meet, and which lights shine there.
+std::vector<double> seen_in_face(const test::Tree& tree, const scene::Scene& now,
+                                 std::size_t mirror, int face) {
+    constexpr int kRays = 14;
+    const dvec3 centre = scene::bounds(now, now.objects[mirror]).centre();
+    const std::vector<scene::PointLight> lights = scene::lights(now);
+    std::vector<double> seen;
+    for (int k = 0; k < kRays * kRays; ++k) {
+        const double u = (2. * (k % kRays) + 1) / kRays - 1, v = (2. * (k / kRays) + 1) / kRays - 1;
+        dvec3 direction;
+        direction[face / 2] = face % 2 == 0 ? 1 : -1;
+        direction[(face / 2 + 1) % 3] = u, direction[(face / 2 + 2) % 3] = v;
+        const auto met = tree.meets(centre, direction, mirror, bvh::kOneSided);
+        seen.push_back(met ? static_cast<double>(met->object) : -1);
+        seen.push_back(met ? met->t : 0);
+        for (std::size_t i = 0; met && i < lights.size(); ++i) {
+            const dvec3 place = centre + met->t * direction;
+            seen.push_back(tree.is_shaded(place, lights[i].position) ? 1 : 0);
+        }
+    }
+    return seen;
+}
+
+TEST(RequireStamps, RaysFindNoChangeWhereAStampStays) {
+    int stays = 0, changes = 0, faces = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        scene::Scene scene = test::drawn_hall(seed, 3);
+        test::Numbers numbers(seed + 1000);
+        const std::size_t mover = scene.objects.size() - 2 - numbers.below(6); // before the lamp
+        scene.objects[mover].motion = scene::Harmonic{.amplitude = dvec3(numbers.direction()),
+                                                      .period = 2};
+        Instants instants(scene);
+        const Model before = instants.at(.2), after = instants.at(.5);
+        const scene::Scene then = scene::at(scene, .2), now = scene::at(scene, .5);
+        const test::Tree old_tree(then), new_tree(now);
+        const std::vector<std::size_t> mirrors = scene::mirrors(scene);
+        for (std::size_t i = 0; i < mirrors.size(); ++i) {
+            if (!before.mirrors[i].is_captured || !after.mirrors[i].is_captured) continue;
+            for (int face = 0; face < 6; ++face) {
+                const auto f = static_cast<std::size_t>(face);
+                const bool is_kept = before.mirrors[i].stamps[f] == after.mirrors[i].stamps[f];
+                const bool is_same = seen_in_face(old_tree, then, mirrors[i], face) ==
+                                     seen_in_face(new_tree, now, mirrors[i], face);
+                EXPECT_TRUE(is_same || !is_kept)
+                    << "seed " << seed << ", mirror " << i + 1 << ", face " << face;
+                ++faces, stays += is_kept ? 1 : 0, changes += is_same ? 0 : 1;
+            }
+        }
+    }
+    EXPECT_GT(faces, 500);
+    EXPECT_GT(changes, 100);
+    EXPECT_GT(stays, 100);
+    RecordProperty("faces", faces), RecordProperty("kept", stays);
+    RecordProperty("changed", changes);
+}
+
+} // namespace
