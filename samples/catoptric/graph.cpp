@@ -1,5 +1,6 @@
 // catoptric graph: the compiled plan of a frame.
 #include "app/session.hpp"
+#include "app/why.hpp"
 #include "core/error.hpp"
 #include "drawn.hpp"
 #include "options.hpp"
@@ -19,15 +20,18 @@ constexpr const char* kExamples = R"(Examples:
   catoptric graph scene.glb --technique reuse --format dot | dot -Tsvg > reuse.svg
   catoptric graph --technique parallax --json
   catoptric graph --plan "1=reuse:face=64 *=raytrace"
+  catoptric graph gallery --why
 
 The plan of a frame with a frame before it: passes in order, what each reads and writes, what was
-left out and why, memory that images share.)";
+left out and why, memory that images share. With --why what the picture requires of mirrors and
+lights, what of captures and shadow maps it does without and why, and which plan suits it.)";
 
 struct Options {
     Common common;
     Drawn drawn;
     std::string technique; ///< of the two, checked
     std::optional<app::PlanFormat> format;
+    bool why = false;
 };
 
 app::PlanFormat format_of(const Options& options) {
@@ -36,6 +40,8 @@ app::PlanFormat format_of(const Options& options) {
     const app::PlanFormat format = options.format.value_or(asked);
     check(!options.common.manners.json || format == app::PlanFormat::json, Failure::usage,
           "--json and --format: stdout has room for one of them");
+    check(!options.why || format != app::PlanFormat::dot, Failure::usage,
+          "--why: wanted --format text or json, found dot");
     return format;
 }
 
@@ -44,6 +50,10 @@ int run(const Options& options) {
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
     check_apart({kStdout}, request.scene.files);
+    if (options.why) {
+        put(format == app::PlanFormat::json ? app::why_json(request) : app::why_text(request));
+        return 0;
+    }
     app::Engine engine(engine_options(options.common.device, options.common.validate));
     introduce(engine, options.common.manners);
     std::string plan = app::Session(engine, request.scene).plan(request, format);
@@ -65,9 +75,14 @@ void add_graph(CommandLine& program) {
                                                 app::PlanFormat::json};
         options->format = kFormats[parse_choice("--format", text, {"text", "dot", "json"})];
     });
+    verb.flag("--why",
+              "what the picture requires, and why the rest is left out, in place of the plan; "
+              "asks no device and needs no technique",
+              options->why);
     add_common(verb, options->common);
     verb.does([options] {
-        options->technique = checked(options->drawn, "graph");
+        const bool is_given = !options->drawn.technique.empty() || !options->drawn.plan.empty();
+        if (is_given || !options->why) options->technique = checked(options->drawn, "graph");
         return run(*options);
     });
 }

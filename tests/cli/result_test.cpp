@@ -184,6 +184,22 @@ TEST_F(Cli, GraphInThreeFormats) {
     EXPECT_EQ(cli({"graph", "--technique", "reuse", "--json"}).out, document);
 }
 
+TEST_F(Cli, GraphSaysWhatAPictureRequires) {
+    const std::string text = cli({"graph", "flat", "--why"}).out;
+    EXPECT_THAT(text, testing::HasSubstr("mirror 1 'mirror': seen by the camera; captured, faces "
+                                         "+X -X +Y -Y -Z, no other mirror in it"));
+    EXPECT_THAT(text, testing::HasSubstr("face +Z of the capture of mirror 1 'mirror'"));
+    EXPECT_THAT(text, testing::HasSubstr("changes: no pixel"));
+    EXPECT_THAT(text, testing::HasSubstr("suggested --plan \"planar\""));
+    const json document = json::parse(cli({"graph", "flat", "--why", "--json"}).out);
+    EXPECT_EQ(document["schema"], "catoptric/why/1");
+    EXPECT_EQ(document["mirrors"][0]["faces"].size(), 5u);
+    EXPECT_EQ(document["left_out"][0]["error"], 0);
+    const test::Ended dot = cli({"graph", "flat", "--why", "--format", "dot"});
+    EXPECT_EQ(dot.exit_code, 2);
+    EXPECT_THAT(dot.err, testing::HasSubstr("--why: wanted --format text or json, found dot"));
+}
+
 TEST_F(Cli, DiffOfEqualAndOtherPictures) {
     ASSERT_EQ(cli(quick({"render", "--technique", "naive:bounces=0", "-o", "a.exr"})).exit_code, 0);
     ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "b.exr"})).exit_code, 0);

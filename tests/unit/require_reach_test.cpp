@@ -1,0 +1,124 @@
+// Faces that nobody asks for, lights that reach nothing seen, and what is said of them.
+#include "require/left_out.hpp"
+#include "require/reach.hpp"
+#include "require/suggest.hpp"
+#include "support/scenes.hpp"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::require;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(RequireFaces, OfAFlatMirrorAreThoseBeforeIt) {
+    scene::Scene scene = scene::flat();
+    const Model model = required({scene, scene.cameras[0]});
+    EXPECT_EQ(model.mirrors[0].faces, kAllFaces & ~(1 << 4)); // the mirror looks to -z
+    ASSERT_EQ(model.left_out.size(), 1u);
+    EXPECT_EQ(model.left_out[0].what, "face +Z of the capture of mirror 1 'mirror'");
+    EXPECT_EQ(model.left_out[0].saves, "1 of six faces, each time that they would be made anew");
+}
+
+TEST(RequireFaces, AreAllOfAMirrorThatIsSeenFromBothSides) {
+    scene::Scene scene = scene::flat();
+    // A ball behind the mirror's plane sees its back; the wall is out of the way.
+    const std::size_t mirror = scene.objects[6].material;
+    scene.objects[4].world_from_object[3].z = 5;
+    test::add_ball(scene, "ball", mirror, {1.7, 1, 4}, .2, 2);
+    EXPECT_EQ(required({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
+}
+
+TEST(RequireFaces, AreAllOfAMirrorThatIsNotFlatOrThatTheOrthographicEyeMayPass) {
+    scene::Scene scene = scene::flat();
+    scene.cameras[0].orthographic_height = 3;
+    EXPECT_EQ(required({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
+    EXPECT_EQ(flat_normal(scene::ball("", 2)), dvec3(0));
+    EXPECT_EQ(flat_normal(scene::box("", dvec3(0), dvec3(1))), dvec3(0));
+    EXPECT_EQ(flat_normal(scene.meshes[scene.objects[6].mesh]), dvec3(0, 0, -1));
+}
+
+TEST(RequireLights, ThatReachNothingHaveNoMap) {
+    scene::Scene scene = test::room(1, 1);
+    const auto bare = [&](const char* name, dvec3 at, double range) {
+        scene.punctual.push_back({.name = name, .intensity = vec3(4), .range = range});
+        scene.punctual.back().world_from_light[3] = dvec4(at, 1);
+    };
+    bare("near", {0, 5, 0}, 2.9), bare("far", {0, 5, 0}, 3.1);
+    const Model model = required({scene, scene.cameras[0]});
+    ASSERT_EQ(model.lights.size(), 3u);
+    EXPECT_TRUE(model.lights[0].has_map);
+    EXPECT_FALSE(model.lights[1].has_map); // the ceiling is 3 away
+    EXPECT_TRUE(model.lights[2].has_map);
+    ASSERT_EQ(model.left_out.size(), 1u);
+    EXPECT_EQ(model.left_out[0].what, "the shadow map of light 2 'near'");
+    EXPECT_EQ(model.left_out[0].why,
+              "nothing that is seen lies within its range and in front of it");
+}
+
+TEST(RequireLights, ThatShineAwayFromEverythingSeenHaveNoMap) {
+    scene::Scene scene = test::room(0, 0);
+    const std::size_t lamp = add_material(scene, {.emission = vec3(9)});
+    // Above the ceiling, upwards; the other way round it shines at the ceiling's back.
+    test::add_quad(scene, "lamp", lamp, {0, 3, 0}, {0, 3, 1}, {1, 3, 1}, {1, 3, 0});
+    test::add_quad(scene, "lamp", lamp, {0, 3, 0}, {1, 3, 0}, {1, 3, 1}, {0, 3, 1});
+    const Model model = required({scene, scene.cameras[0]});
+    ASSERT_EQ(model.lights.size(), 2u);
+    EXPECT_GT(scene::lights(scene)[0].normal.y, .9);
+    EXPECT_FALSE(model.lights[0].has_map);
+    EXPECT_TRUE(model.lights[1].has_map);
+}
+
+TEST(RequireLeftOut, SaysTheSameOfManyOnce) {
+    EXPECT_EQ(ranges({1}), "1");
+    EXPECT_EQ(ranges({1, 2, 3, 7, 9, 10}), "1-3, 7, 9-10");
+    EXPECT_EQ(names_of(1 | 8 | 32), "+X -Y -Z");
+    scene::Scene scene = test::room(0, 1);
+    const std::size_t mirror = add_material(scene, {.mirror = true});
+    for (int i = 0; i < 50; ++i)
+        test::add_ball(scene, "ball" + std::to_string(i), mirror, {.03 * i, 0, -5}, .2, 1);
+    const Model model = required({scene, scene.cameras[0]});
+    ASSERT_EQ(model.left_out.size(), 1u);
+    EXPECT_EQ(model.left_out[0].what, "the captures of mirrors 1-50");
+    EXPECT_THAT(to_text(model, scene), HasSubstr("  mirrors 1-50: not seen\n"));
+    EXPECT_THAT(to_text(model, scene), HasSubstr("    changes: no pixel\n"));
+    const Model all = everything({scene, scene.cameras[0]});
+    EXPECT_THAT(to_text(all, scene), HasSubstr("everything is required\n"));
+    EXPECT_THAT(to_text(all, scene), HasSubstr("nothing is left out\n"));
+}
+
+TEST(RequireSuggest, APlanForEachBuiltInScene) {
+    const auto plan = [](const scene::Scene& rest) {
+        const scene::Scene now = scene::at(rest, 0);
+        return suggest({now, now.cameras[0]}).plan;
+    };
+    EXPECT_EQ(plan(scene::cornell_mirrors()), "secant");
+    EXPECT_EQ(plan(scene::cornell_mirrors_closed()), "secant");
+    EXPECT_EQ(plan(scene::flat()), "planar");
+    EXPECT_EQ(plan(scene::furnished_room()), "planar");
+    EXPECT_EQ(plan(scene::gallery()), "14,15=planar 10,13=reuse:face=64 1,4,8=secant *=hybrid");
+    EXPECT_EQ(plan(scene::courtyard()), "2=secant *=hybrid");
+}
+
+TEST(RequireSuggest, SaysWhy) {
+    scene::Scene scene = test::hall();
+    const std::size_t mirror = scene.objects.back().material;
+    test::add_mesh(scene, test::hollow_corner(), mirror);
+    test::add_ball(scene, "speck", mirror, {0, 0, 1}, .01, 1);
+    scene::Mesh bent = scene::quad("bent", {-1, 0, 0}, {1, 0, 0}, {1, 1, .001}, {-1, 1, 0});
+    for (vec3& normal : bent.normals) normal = {0, 0, -1};
+    test::add_mesh(scene, bent, mirror);
+    const Suggestion suggestion = suggest({scene, scene.cameras[0]});
+    EXPECT_THAT(suggestion.reasons,
+                ElementsAre("secant: it is an exact sphere", "hybrid: it is curved and no sphere",
+                            "planar: it is flat within a sixteenth of a pixel",
+                            HasSubstr("hybrid: "), HasSubstr("reuse:face=64: it takes up"),
+                            HasSubstr("hybrid: ")));
+    EXPECT_EQ(suggestion.plan, "3=planar 5=reuse:face=64 1=secant *=hybrid");
+    EXPECT_EQ(suggest({test::room(0, 1), scene.cameras[0]}).plan, "hybrid");
+}
+
+} // namespace
