@@ -41,12 +41,13 @@ dvec3 flat_normal(const scene::Mesh& mesh) {
 Faces faces_of_flat(const Bounds<double>& mirror, const dvec3& normal, double margin,
                     std::span<const Bounds<double>> viewers) {
     const auto [low, high] = along(normal, mirror);
-    // A bent mirror, or one whose box is no plane because it leans: only what is truly flat.
     bool front = true, back = true;
     for (const Bounds<double>& viewer : viewers) {
         const auto [viewer_low, viewer_high] = along(normal, viewer);
-        front = front && viewer_low > high + margin;
-        back = back && viewer_high < low - margin;
+        // Who is in the plane sees nothing of it.
+        if (viewer_low > low - margin && viewer_high < high + margin) continue;
+        front = front && viewer_low > high;
+        back = back && viewer_high < low;
     }
     if (front == back) return kAllFaces; // nobody looks, or some from either side
     return faces_before(front ? normal : -normal, 2 * kLean);

@@ -20,7 +20,8 @@ dvec3 flat_normal(const scene::Mesh& mesh);
 /// boxes of all who may look at it: one side of the mirror's plane has them all or it reflects to
 /// both. What is reflected stays on the viewers' side of the plane through the mirror, in which the
 /// capture's centre lies, and so does the place where a reflected ray ends: no direction from the
-/// centre to such a place points to behind the plane, nor does a reflected ray's own.
+/// centre to such a place points to behind the plane, nor does a reflected ray's own. A viewer that
+/// lies in the plane, within `margin`, sees nothing of it: panels on one wall.
 Faces faces_of_flat(const Bounds<double>& mirror, const dvec3& normal, double margin,
                     std::span<const Bounds<double>> viewers);
 

@@ -79,7 +79,7 @@ Faces Requirements::Impl::faces_of(const Picture& picture, std::size_t mirror) {
         if (model.mirrors[i].is_captured && sight.reaches(world, i, mirror))
             viewers.push_back(world.things()[world.mirrors()[i]].box);
     const dvec3 normal = scene::world_normal(scene::normal_matrix(thing.place), flat);
-    return faces_of_flat(thing.box, normal, world.rounding(), viewers);
+    return faces_of_flat(thing.box, normal, 4 * world.rounding(), viewers);
 }
 
 /// Whether each light may shine on something that is seen: of what the camera alone sees, or of

@@ -85,7 +85,8 @@ void find_landings(const World& world, std::uint32_t edge, std::vector<Landing>&
                 if (receiver.empty()) continue;
                 const double room = texels_at(light, receiver, everything, edge);
                 const Bounds<double> box = common(grown(shade, room), receiver);
-                if (!box.empty()) landings.push_back({mover, i, box});
+                if (!box.empty())
+                    landings.push_back({mover, i, box, {grown(from, room), grown(to, room)}});
             }
         }
     }

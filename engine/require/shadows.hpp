@@ -7,12 +7,6 @@
 /// Where shadows of things that move may fall.
 namespace catoptric::require {
 
-/// A part of a receiver that a mover may shade.
-struct Landing {
-    std::size_t caster = 0, receiver = 0; ///< objects
-    Bounds<double> box;
-};
-
 /// Texels of a shadow map by which what is shaded may lie off where the shadow geometrically is:
 /// 1.5 that a receiver is lifted along its normal, 1 of the four taps, .5 by which a caster's
 /// outline is off, each along both axes: 3 * sqrt(2) (shaders/lib/shadow.glsl).
@@ -28,6 +22,13 @@ struct Shade {
 };
 Shade shade_of(const scene::PointLight& light, const Bounds<double>& caster,
                const Bounds<double>& everything);
+
+/// A part of a receiver that a mover may shade, and the shade that it lies in.
+struct Landing {
+    std::size_t caster = 0, receiver = 0; ///< objects
+    Bounds<double> box;
+    Shade shade;
+};
 
 /// For each light and mover that casts a shadow the receivers that its shadow may meet: the
 /// receiver's box cut with that of the shade, larger by kShadowTexels of a map whose faces have

@@ -136,7 +136,10 @@ void Stamps::add_up(const World& world, Faces6& faces, std::size_t mirror) const
         if (landing.receiver == object) continue;
         const std::uint64_t stamp =
             Stamp(world.things()[landing.caster].stamp).add(landing.receiver).value();
-        add(faces_with(seen_from(faces.centre, landing.box)), stamp);
+        const auto& [box, shade] = std::tie(landing.box, landing.shade);
+        add(faces_with(seen_from(faces.centre, box)) &
+                faces_with(seen_from(faces.centre, shade.from), seen_from(faces.centre, shade.to)),
+            stamp);
     }
     for (std::size_t face = 0; face < 6; ++face)
         faces.stamps[face] =

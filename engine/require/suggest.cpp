@@ -102,7 +102,7 @@ Choice by_shape(const Question& question, const Picture& picture, const scene::O
     if (kind == Kind::concave) return {"hybrid", "it is hollow and shows itself"};
     if (kind == Kind::other && faces_itself(surface))
         return {"hybrid", "parts of it face one another"};
-    return {"hybrid", "it is curved and no sphere"};
+    return {"hybrid", "it is neither flat nor a sphere"};
 }
 
 Choice choice_of(const Question& question, const Picture& picture, const scene::Object& object,

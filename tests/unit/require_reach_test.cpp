@@ -32,6 +32,18 @@ TEST(RequireFaces, AreAllOfAMirrorThatIsSeenFromBothSides) {
     EXPECT_EQ(required({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
 }
 
+TEST(RequireFaces, OfPanelsOnOneWallAreThoseBeforeIt) {
+    scene::Scene scene = scene::flat();
+    const std::size_t mirror = scene.objects[6].material;
+    test::add_quad(scene, "beside", mirror, {1.9, .5, 2.98}, {1.5, .5, 2.98}, {1.5, 2.1, 2.98},
+                   {1.9, 2.1, 2.98});
+    const Model model = required({scene, scene.cameras[0]});
+    EXPECT_EQ(model.mirrors[0].faces, kAllFaces & ~(1 << 4));
+    EXPECT_EQ(model.mirrors[1].faces, kAllFaces & ~(1 << 4));
+    ASSERT_EQ(model.left_out.size(), 1u);
+    EXPECT_EQ(model.left_out[0].what, "face +Z of the captures of mirrors 1-2");
+}
+
 TEST(RequireFaces, AreAllOfAMirrorThatIsNotFlatOrThatTheOrthographicEyeMayPass) {
     scene::Scene scene = scene::flat();
     scene.cameras[0].orthographic_height = 3;
@@ -112,11 +124,11 @@ TEST(RequireSuggest, SaysWhy) {
     for (vec3& normal : bent.normals) normal = {0, 0, -1};
     test::add_mesh(scene, bent, mirror);
     const Suggestion suggestion = suggest({scene, scene.cameras[0]});
-    EXPECT_THAT(suggestion.reasons,
-                ElementsAre("secant: it is an exact sphere", "hybrid: it is curved and no sphere",
-                            "planar: it is flat within a sixteenth of a pixel",
-                            HasSubstr("hybrid: "), HasSubstr("reuse:face=64: it takes up"),
-                            HasSubstr("hybrid: ")));
+    EXPECT_THAT(
+        suggestion.reasons,
+        ElementsAre("secant: it is an exact sphere", "hybrid: it is neither flat nor a sphere",
+                    "planar: it is flat within a sixteenth of a pixel", HasSubstr("hybrid: "),
+                    HasSubstr("reuse:face=64: it takes up"), HasSubstr("hybrid: ")));
     EXPECT_EQ(suggestion.plan, "3=planar 5=reuse:face=64 1=secant *=hybrid");
     EXPECT_EQ(suggest({test::room(0, 1), scene.cameras[0]}).plan, "hybrid");
 }
