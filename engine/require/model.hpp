@@ -28,9 +28,11 @@ using Faces = std::uint8_t;
 inline constexpr Faces kAllFaces = 0x3f;
 
 struct MirrorNeeds {
-    bool is_seen = true;     ///< by the camera, or by a mirror that is
-    MirrorId seen_in;        ///< the mirror through which; none: the camera sees it, or nobody
-    bool is_captured = true; ///< somebody may look into its capture
+    bool is_seen = true; ///< by the camera, or by a mirror that is
+    MirrorId seen_in;    ///< the mirror through which; none: the camera sees it, or nobody
+    /// Somebody may look into its capture: in searches of its own pixels, and of rays that go on
+    /// from other mirrors. Who asks all captures whoever is seen (`captures=all`) needs all.
+    bool is_captured = true;
     /// Of its capture, whose directions somebody may ask for. Who reads cubes as a whole (`proxy`
     /// does, for a mean) needs all.
     Faces faces = kAllFaces;

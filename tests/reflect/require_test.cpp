@@ -71,4 +71,44 @@ TEST(Require, FacesWhoseStampStaysKeepTheirBytes) {
     RecordProperty("kept", stays), RecordProperty("changed", changes);
 }
 
+/// The face of a cube that holds the direction.
+std::size_t face_of(const vec3& direction) {
+    const vec3 size = abs(direction);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    return static_cast<std::size_t>(2 * axis + (direction[axis] < 0 ? 1 : 0));
+}
+
+TEST(Require, MirrorsLookIntoNoFaceThatIsLeftOut) {
+    std::size_t looked = 0, left_out = 0;
+    for (const scene::Scene& scene : {scene::flat(), scene::furnished_room(), scene::gallery()}) {
+        app::Session session(test::engine(), scene);
+        for (const scene::Camera& camera : scene.cameras) {
+            if (&camera != &scene.cameras.front() && scene.name == "gallery")
+                continue; // takes long
+            const scene::Camera now = scene::camera_at(camera, 0);
+            const scene::Scene at_rest = scene::at(scene, 0);
+            const require::Model model = require::required({at_rest, now, {64, 48}});
+            for (const require::MirrorNeeds& needs : model.mirrors)
+                left_out += needs.faces != require::kAllFaces ? 1 : 0;
+            for (const char* technique :
+                 {"parallax:face=32", "secant:face=32", "pyramid:face=32"}) {
+                SCOPED_TRACE(scene.name + " " + camera.name + " " + technique);
+                app::FrameSpec spec{.techniques = {technique}, .camera = camera, .size = {64, 48}};
+                spec.with_lookup = true;
+                for (const vec4& lookup : session.frame(spec).read().lookup) {
+                    if (!(lookup.w > 0)) continue;
+                    const auto mirror = static_cast<std::size_t>((lookup.w - 1) / 8);
+                    ASSERT_LT(mirror, model.mirrors.size());
+                    EXPECT_TRUE(model.mirrors[mirror].is_captured);
+                    EXPECT_NE(model.mirrors[mirror].faces >> face_of(vec3(lookup)) & 1, 0);
+                    ++looked;
+                }
+            }
+        }
+    }
+    EXPECT_GT(looked, 3000u);
+    EXPECT_GE(left_out, 5u);
+    RecordProperty("looked", static_cast<int>(looked));
+}
+
 } // namespace

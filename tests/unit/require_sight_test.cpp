@@ -237,6 +237,8 @@ TEST(RequireSight, RaysFindNoMirrorThatWasCalledUnseen) {
     EXPECT_GT(found.unseen, 150); // of 900
     EXPECT_GT(found.not_shown, 200);
     EXPECT_GT(found.rays, 100'000);
+    RecordProperty("unseen", found.unseen), RecordProperty("not_shown", found.not_shown);
+    RecordProperty("rays", found.rays);
 }
 
 } // namespace
