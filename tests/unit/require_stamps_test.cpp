@@ -74,17 +74,41 @@ TEST(RequireStamps, ChangeWithTheLampWithAMaterialAndWithAnEdit) {
     const Model dimmed = model();
     EXPECT_EQ(kept(first, dimmed), 0);
     EXPECT_NE(first.lights[0].stamp, dimmed.lights[0].stamp);
-    scene.materials[3].emission = vec3(0);
-    EXPECT_TRUE(model().lights.empty());
     scene.materials[0].albedo = {.1f, .1f, .1f};
     const Model painted = model();
     EXPECT_EQ(kept(dimmed, painted), 0);
+    EXPECT_EQ(kept(painted, model()), 24);
+    scene.materials[3].emission = vec3(0);
+    EXPECT_TRUE(model().lights.empty());
+    scene.materials[3].emission = {1, 1, 1};
+    EXPECT_EQ(kept(painted, model()), 24);
     scene.objects[0].world_from_object[3].y = -1; // the floor, which had no motion
     const Model lowered = model();
     EXPECT_EQ(kept(painted, lowered), 0);
     EXPECT_EQ(kept(lowered, model()), 24);
     scene.punctual.push_back({.name = "bare", .intensity = vec3(1)});
     EXPECT_EQ(kept(lowered, model()), 0);
+}
+
+TEST(RequireStamps, ChangeEverywhereWithWhatMayBeNextToTheCentre) {
+    scene::Scene scene{.name = "bare"};
+    const std::size_t white = add_material(scene, {.albedo = vec3(.7f)});
+    for (int face = 0; face < 6; ++face)
+        test::add_mesh(scene, test::wall(face, dvec3(-10), dvec3(10)), white);
+    test::add_ball(scene, "ball", add_material(scene, {.mirror = true}), {0, 0, 0}, .5, 2);
+    test::add_mesh(scene, scene::box("block", dvec3(-.2), dvec3(.2)), white);
+    scene.objects.back().world_from_object[3] = {3, 0, 0, 1};
+    scene.objects.back().motion = scene::Harmonic{.amplitude = {.5, 0, 0}, .period = 1};
+    scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
+    {
+        Instants instants(scene);
+        const Model before = instants.at(.1);
+        EXPECT_EQ(kept(before, instants.at(.2)), 0); // nearer than the walls: near planes move
+    }
+    test::add_mesh(scene, scene::box("nearer", {-2, -.2, -.2}, {-1.6, .2, .2}), white);
+    Instants instants(scene);
+    const Model before = instants.at(.1);
+    EXPECT_EQ(kept(before, instants.at(.2)), 5); // all but +X
 }
 
 TEST(RequireShadows, FallWhereTheLightSendsThem) {
