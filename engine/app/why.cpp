@@ -2,6 +2,7 @@
 
 #include "app/plan_file.hpp"
 #include "core/text.hpp"
+#include "require/left_out.hpp"
 #include "require/suggest.hpp"
 
 #include <nlohmann/json.hpp>
@@ -27,24 +28,17 @@ Required required(const Request& request) {
     return required;
 }
 
-Json faces_of(require::Faces faces) {
-    constexpr const char* kNames[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
-    Json list = Json::array();
-    for (std::size_t face = 0; face < 6; ++face)
-        if ((faces >> face & 1) != 0) list.push_back(kNames[face]);
-    return list;
-}
-
 Json mirror_of(const Required& required, const std::string& name, std::size_t i) {
     const require::MirrorNeeds& needs = required.model.mirrors[i];
-    Json sees = Json::array();
+    Json sees = Json::array(), faces = Json::array();
+    if (needs.is_captured) faces = split(require::names_of(needs.faces), " ");
     for (const std::uint32_t other : needs.sees) sees.push_back(other + 1);
     return {{"mirror", i + 1},
             {"name", name},
             {"seen", needs.is_seen},
             {"seen_in", needs.seen_in ? Json(needs.seen_in.number()) : Json()},
             {"captured", needs.is_captured},
-            {"faces", needs.is_captured ? faces_of(needs.faces) : Json::array()},
+            {"faces", faces},
             {"sees", sees},
             {"suggested", required.suggestion.reasons[i]}};
 }

@@ -8,16 +8,6 @@
 
 namespace catoptric::require {
 
-namespace {
-
-/// Products of an axis with the places of a box: the least and the largest.
-std::array<double, 2> along(const dvec3& axis, const Bounds<double>& box) {
-    const double middle = dot(axis, box.centre()), reach = dot(abs(axis), box.extent()) / 2;
-    return {middle - reach, middle + reach};
-}
-
-} // namespace
-
 dvec3 flat_normal(const scene::Mesh& mesh) {
     const double least = std::cos(kLean / 2);
     dvec3 normal(0);

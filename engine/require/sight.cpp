@@ -56,10 +56,10 @@ Sight::Sides Sight::sides_of(const World& world, const Bounds<double>& box) cons
     Sides sides;
     for (std::size_t i = 0; i < world.walls().size(); ++i) {
         const Wall& wall = world.walls()[i];
-        const double middle = wall.height(box.centre()),
-                     reach = dot(abs(wall.normal), box.extent()) / 2;
-        if (middle - reach > 0) sides.front |= 1u << i;
-        if (middle + reach < 0) sides.back |= 1u << i;
+        const auto [low, high] = along(wall.normal, box);
+        const double plane = dot(wall.normal, wall.corners[0]);
+        if (low > plane) sides.front |= 1u << i;
+        if (high < plane) sides.back |= 1u << i;
     }
     return sides;
 }

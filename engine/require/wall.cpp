@@ -42,13 +42,6 @@ struct Corners {
     }
 };
 
-/// Least and largest height of the box's corners.
-std::array<double, 2> heights(const Wall& wall, const Bounds<double>& box) {
-    const double middle = wall.height(box.centre()),
-                 reach = dot(abs(wall.normal), box.extent()) / 2;
-    return {middle - reach, middle + reach};
-}
-
 struct Side {
     double height;                ///< from the plane, positive
     std::array<double, 4> inside; ///< of each edge
@@ -67,6 +60,11 @@ std::array<dvec3, 8> corners_of(const Bounds<double>& box) {
         corners[i] = {i & 1 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y,
                       i & 4 ? box.hi.z : box.lo.z};
     return corners;
+}
+
+std::array<double, 2> along(const dvec3& axis, const Bounds<double>& box) {
+    const double middle = dot(axis, box.centre()), reach = dot(abs(axis), box.extent()) / 2;
+    return {middle - reach, middle + reach};
 }
 
 std::vector<Quad> quads_of(const scene::Mesh& mesh) {
@@ -112,10 +110,12 @@ double distance(const Wall& wall, const dvec3& place) {
 
 bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
            double margin) {
-    const auto [viewer_low, viewer_high] = heights(wall, viewer);
-    const auto [target_low, target_high] = heights(wall, target);
-    const bool from_front = viewer_low > margin && target_high < -margin;
-    const bool from_behind = viewer_high < -margin && target_low > margin && !wall.front_only;
+    const auto [viewer_low, viewer_high] = along(wall.normal, viewer);
+    const auto [target_low, target_high] = along(wall.normal, target);
+    const double plane = dot(wall.normal, wall.corners[0]), above = plane + margin,
+                 below = plane - margin;
+    const bool from_front = viewer_low > above && target_high < below;
+    const bool from_behind = viewer_high < below && target_low > above && !wall.front_only;
     if (!(from_front || from_behind)) return false;
     const Corners from(viewer), to(target);
     std::array<Side, 8> there;

@@ -16,6 +16,9 @@ using Quad = std::array<dvec3, 4>;
 /// The eight corners of a box.
 std::array<dvec3, 8> corners_of(const Bounds<double>& box);
 
+/// Products of an axis with the places of a box: the least and the largest.
+std::array<double, 2> along(const dvec3& axis, const Bounds<double>& box);
+
 /// Pairs of the mesh's triangles that are such quadrilaterals, in the mesh's own space: an edge in
 /// common, one plane (within kFlat of their extent), one orientation, every corner convex. No
 /// triangle is in two. None of a mesh with more than kMostTriangles. O(triangles^2).

@@ -185,10 +185,4 @@ void World::find_epoch() {
     epoch_ = stamp.value();
 }
 
-Bounds<double> World::everything() const {
-    Bounds<double> all = still_;
-    for (const std::size_t mover : movers_) all.add(things_[mover].tight);
-    return all;
-}
-
 } // namespace catoptric::require

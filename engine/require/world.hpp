@@ -59,7 +59,6 @@ public:
     const std::vector<scene::PointLight>& lights() const { return lights_; }
     const std::vector<MeshFacts>& meshes() const { return meshes_; }
     const Bounds<double>& still() const { return still_; } ///< of what has never moved
-    Bounds<double> everything() const;                     ///< now, with movers
     double rounding() const { return rounding_; }          ///< world units
     std::uint64_t epoch() const { return epoch_; } ///< of all that is no mover, and of the lights
     std::uint64_t layouts() const { return layouts_; } ///< another where other things stand still
