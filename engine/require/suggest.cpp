@@ -2,6 +2,7 @@
 
 #include "require/frustum.hpp"
 #include "require/wall.hpp"
+#include "scene/flat_mirror.hpp"
 #include "scene/mirror_shape.hpp"
 #include "scene/transform.hpp"
 
@@ -42,23 +43,6 @@ dvec3 facet_of(const Surface& surface, const uvec3& t) {
     return dot(facet, surface.normals[t.x]) < 0 ? -facet : facet;
 }
 
-/// All facets and normals point one way within an angle, all vertices lie within `height` of a
-/// plane.
-bool is_flat(const Surface& surface, double angle, double height) {
-    dvec3 normal(0), at(0);
-    for (const uvec3& t : surface.triangles) {
-        const dvec3 facet = facet_of(surface, t);
-        if (facet == dvec3(0)) continue;
-        if (normal == dvec3(0)) normal = facet, at = surface.places[t.x];
-        for (int i = 0; i < 3; ++i)
-            if (length(cross(surface.normals[t[i]], normal)) > angle ||
-                std::abs(dot(surface.places[t[i]] - at, normal)) > height)
-                return false;
-        if (length(cross(facet, normal)) > angle || dot(facet, normal) < 0) return false;
-    }
-    return normal != dvec3(0);
-}
-
 /// Some of it lies in front of some of its triangles.
 bool faces_itself(const Surface& surface) {
     if (surface.triangles.size() * surface.places.size() > kMostFacings) return true;
@@ -89,14 +73,12 @@ struct Choice {
     std::string technique, reason;
 };
 
-Choice by_shape(const Question& question, const Picture& picture, const scene::Object& object) {
+Choice by_shape(const Question& question, const scene::Object& object) {
     if (object.sphere) return {"secant", "it is an exact sphere"};
-    const Bounds<double> box = scene::bounds(question.now, object);
-    const Surface surface = surface_of(question.now, object);
-    const double distance = std::max(length(box.centre() - picture.eye()), surface.extent),
-                 lean = kFlatPixels * picture.pixel_angle(distance);
-    if (is_flat(surface, lean, lean * distance))
+    const auto flat = scene::flat(question.now.meshes[object.mesh], object.world_from_object);
+    if (flat && flat->off <= scene::flat_tolerance(question.camera, question.size))
         return {"planar", "it is flat within a sixteenth of a pixel"};
+    const Surface surface = surface_of(question.now, object);
     using Kind = scene::Shape::Kind;
     const Kind kind = scene::shape_of(question.now, object).kind;
     if (kind == Kind::concave) return {"hybrid", "it is hollow and shows itself"};
@@ -109,11 +91,11 @@ Choice choice_of(const Question& question, const Picture& picture, const scene::
                  const MirrorNeeds& needs) {
     const std::string cheapest = "reuse:face=" + std::to_string(kSmallFace);
     if (needs.seen_in) return {cheapest, "the camera sees it in other mirrors alone"};
-    if (!needs.is_seen) return by_shape(question, picture, object);
+    if (!needs.is_seen) return by_shape(question, object);
     const double pixels = pixels_of(picture, scene::bounds(question.now, object), question.size);
     if (pixels <= kFewPixels)
         return {cheapest, "it takes up " + std::to_string(std::lround(pixels)) + " pixels at most"};
-    return by_shape(question, picture, object);
+    return by_shape(question, object);
 }
 
 /// "1,3=planar *=hybrid": what is not hybrid by its numbers.

@@ -8,9 +8,6 @@
 /// Which technique suits which mirror of a picture.
 namespace catoptric::require {
 
-/// A flat mirror may lean by this part of a pixel's angle: what it shows then moves by an eighth of
-/// a pixel at most.
-inline constexpr double kFlatPixels = 1. / 16;
 /// What may be no larger in the picture, pixels, is looked up in the cheapest way, in a capture of
 /// this edge.
 inline constexpr double kFewPixels = 256;
@@ -27,8 +24,9 @@ struct Suggestion {
 };
 
 /// By shape and by size in this picture: what is seen in other mirrors alone, or is small there:
-/// `reuse` with small faces; flat: `planar`; a true sphere: `secant`; anything else `hybrid`.
-/// O(n log n) in the mirrors' triangles, kMostFacings for one that is neither.
+/// `reuse` with small faces; flat (scene::flat_tolerance): `planar`; a true sphere: `secant`;
+/// anything else `hybrid`. O(n log n) in the mirrors' triangles, kMostFacings for one that is
+/// neither.
 Suggestion suggest(const Question& question);
 
 } // namespace catoptric::require

@@ -1,0 +1,24 @@
+#include "app/suggested.hpp"
+
+#include "require/suggest.hpp"
+
+#include <utility>
+
+namespace catoptric::app {
+
+reflect::Plan suggested(reflect::Plan plan, const scene::Scene& scene, const FrameSpec& spec) {
+    if (!plan.is_auto) return plan;
+    const scene::Scene now = scene::at(scene, spec.time);
+    const scene::Camera camera = scene::camera_at(spec.camera, spec.time);
+    const require::Suggestion suggestion = require::suggest(
+        {.now = now, .camera = camera, .size = spec.size});
+    reflect::Plan made = reflect::parse_plan(suggestion.plan);
+    plan.rules = std::move(made.rules);
+    plan.reasons = suggestion.reasons;
+    // One technique for all is drawn as such, by its own picture if it has one, and needs no
+    // mirror.
+    plan.is_technique = made.is_technique;
+    return plan;
+}
+
+} // namespace catoptric::app
