@@ -1,8 +1,19 @@
 #pragma once
 
 #include "reflect/plan.hpp"
+#include "render/kept.hpp"
 
 namespace catoptric::reflect {
+
+/// What a frame may leave out, and what it goes on from.
+struct Keeping {
+    const require::Model& model;
+    /// Outputs::kept of the frame before; null: there was none.
+    std::shared_ptr<render::KeptCaptures> before;
+    render::Comparisons* comparisons = nullptr; ///< see render::feed_required
+};
+/// Nothing is left out.
+inline const require::Model kEverything;
 
 /// Declares the passes of one frame: the union of what the mirrors' techniques need. Where all
 /// mirrors share one, the passes are that technique's; where they do not, the view is drawn, lit by

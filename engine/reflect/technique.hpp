@@ -2,6 +2,7 @@
 
 #include "core/knob.hpp"
 #include "reflect/tracer.hpp"
+#include "render/kept.hpp"
 #include "scene/flat_mirror.hpp"
 
 #include <memory>
@@ -23,6 +24,7 @@ struct Outputs {
     std::optional<graph::Image> lookup; ///< rgba32f: where mirrors looked, if the inputs ask for it
     std::shared_ptr<const render::Captures> captures; ///< that the view looks into; may be none
     std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
+    std::shared_ptr<render::KeptCaptures> kept; ///< for the next frame, where captures are kept
 };
 
 /// What the mirrors that share a technique and its settings may look into.

@@ -1,28 +1,9 @@
+#include "core/stamp.hpp"
 #include "require/model.hpp"
-
-#include <cstring>
-#include <type_traits>
 
 namespace catoptric::require {
 
 namespace {
-
-/// 64-bit FNV-1a of values.
-class Stamp {
-public:
-    template <typename Value>
-    Stamp& add(const Value& value) {
-        static_assert(std::is_trivially_copyable_v<Value>);
-        std::array<unsigned char, sizeof(Value)> bytes;
-        std::memcpy(bytes.data(), &value, sizeof value);
-        for (const unsigned char byte : bytes) sum_ = (sum_ ^ byte) * 0x100000001b3;
-        return *this;
-    }
-    std::uint64_t value() const { return sum_; }
-
-private:
-    std::uint64_t sum_ = 0xcbf29ce484222325;
-};
 
 /// Of all that can be seen anywhere.
 std::uint64_t stamp_of(const scene::Scene& now) {
