@@ -16,6 +16,8 @@ struct CompareRequest {
     /// In which the rows' frames are measured, at least 6: one row's frames after another's. Fewer
     /// frames than that are measured one a round.
     int rounds = kRounds;
+    /// Each row with everything and with what is required, one after the other; `base.model` else.
+    bool both_models = false;
     bool causes = false; ///< split each row's error by cause; only against the default reference
     int views = 1; ///< beside the one of the pictures as many drawn ones (app/views.hpp); 1: none
     bool lag = false; ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row

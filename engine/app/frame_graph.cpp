@@ -89,16 +89,17 @@ std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& technique
 
 FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plans,
                    const std::vector<std::string>& mirrors, const render::GpuScene& scene,
-                   graph::History history) {
+                   graph::History history, const std::vector<reflect::Keeping>& keeping) {
     FrameGraph frame{graph::Graph(std::move(history)), {}};
     scene.begin_frame();
     for (const reflect::Plan& plan : plans) {
+        const reflect::Keeping& kept = keeping[frame.parts.size()];
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
         const render::FrameInputs inputs{scene,     spec.size,   prefix,
                                          spec.seed, spec.mended, spec.with_lookup};
         const reflect::Assignment assignment = reflect::fitted(
             reflect::assign(plan, mirrors), scene.flat_mirrors(), scene.flat_tolerance());
-        reflect::Outputs outputs = reflect::add_frame(frame.graph, inputs, assignment);
+        reflect::Outputs outputs = reflect::add_frame(frame.graph, inputs, assignment, kept);
         const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr,
                                                          spec.exposure);
         frame.graph.want(outputs.hdr);
@@ -117,13 +118,15 @@ FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plan
     return frame;
 }
 
-bool reads_previous(const FrameGraph& frame, const graph::Plan& plan, const std::string& prefix) {
-    return std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
-        const graph::Pass& pass = frame.graph.passes()[planned.pass];
-        return pass.name.starts_with(prefix) &&
-               std::ranges::any_of(pass.images,
-                                   [](const graph::ImageUse& use) { return use.image.previous; });
-    });
+bool remembers(const FrameGraph& frame, const graph::Plan& plan, const Declared& part) {
+    return part.outputs.kept ||
+           std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
+               const graph::Pass& pass = frame.graph.passes()[planned.pass];
+               return pass.name.starts_with(part.prefix) &&
+                      std::ranges::any_of(pass.images, [](const graph::ImageUse& use) {
+                          return use.image.previous;
+                      });
+           });
 }
 
 measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Declared& declared,
@@ -161,7 +164,7 @@ Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& fr
     part.prefix = declared.prefix;
     part.plan = plan_of(declared, mirrors);
     part.memory_bytes = plan.bytes;
-    part.remembers = reads_previous(frame, plan, part.prefix);
+    part.remembers = app::remembers(frame, plan, declared);
     count_scene_passes(frame.graph, plan, part);
     part.notes = outputs.notes;
     for (const reflect::Choice& choice : declared.assignment.choices)

@@ -10,7 +10,8 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::array<const char*, 2> kSets{"a", "b"};
+/// Of a sequence, and of what is rendered beside it and follows nothing.
+constexpr std::array<const char*, 3> kSets{"a", "b", "aside"};
 constexpr std::uint64_t kCleared = 1; // the drawing of a face that holds nothing
 
 /// A mirror that is not captured is one without a capture, unless that would leave none.
@@ -135,23 +136,36 @@ Cubes faces_of(const Captures& captures, std::uint32_t mirror, std::uint32_t fir
     return part_of(captures.arrays[array], 6 * cube + first, count);
 }
 
-/// Brings what stays into the set that the frame fills, unless it is there.
-void add_keeping(graph::Graph& graph, const std::string& name, const Feeding& feeding,
-                 const std::vector<std::array<KeptFace, 6>>& faces) {
+/// Brings what stays into the set that the frame fills, unless it is there, and says what the frame
+/// makes that from.
+void add_keeping(graph::Graph& graph, const std::string& name, const Feeding& feeding) {
+    const Captures& captures = *feeding.captures;
     std::vector<std::pair<graph::Image, graph::Image>> copies;
-    for (std::uint32_t mirror = 0; mirror < faces.size(); ++mirror) {
-        if (!feeding.captures->places[mirror].exists()) continue;
-        const auto is_missing = [&](std::uint32_t face) {
-            return feeding.work.of(mirror, face) == FaceWork::keep &&
-                   !graph.holds(faces_of(*feeding.captures, mirror, face, 1).colour,
-                                faces[mirror][face].drawing);
+    for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror) {
+        if (!captures.places[mirror].exists()) continue;
+        const auto drawing = [&](std::uint32_t face) {
+            return feeding.kept->faces[mirror][face].drawing;
         };
-        for_each_run(is_missing, [&](std::uint32_t first, std::uint32_t end) {
+        const auto is_made = [&](std::uint32_t face) {
+            return feeding.work.of(mirror, face) != FaceWork::keep ||
+                   !graph.holds(faces_of(captures, mirror, face, 1).colour, drawing(face));
+        };
+        const auto is_copied = [&](std::uint32_t face) {
+            return is_made(face) && feeding.work.of(mirror, face) == FaceWork::keep;
+        };
+        for_each_run(is_copied, [&](std::uint32_t first, std::uint32_t end) {
             for_each_pair(
                 faces_of(*feeding.last, mirror, first, end - first),
-                faces_of(*feeding.captures, mirror, first, end - first),
+                faces_of(captures, mirror, first, end - first),
                 [&](graph::Image from, graph::Image to) { copies.emplace_back(from, to); });
         });
+        for (std::uint32_t face = 0; face < 6; ++face) {
+            if (!is_made(face)) continue;
+            const Cubes part = faces_of(captures, mirror, face, 1);
+            for_each_pair(part, part, [&](graph::Image image, graph::Image) {
+                graph.made_from(image, drawing(face));
+            });
+        }
     }
     if (copies.empty()) return;
     graph::PassBuilder pass = graph.pass(name);
@@ -162,25 +176,11 @@ void add_keeping(graph::Graph& graph, const std::string& name, const Feeding& fe
     });
 }
 
-/// What the frame writes is made from what is said of the faces.
-void stamp_faces(graph::Graph& graph, const Captures& captures,
-                 const std::vector<std::array<KeptFace, 6>>& faces) {
-    for (std::uint32_t mirror = 0; mirror < faces.size(); ++mirror) {
-        if (!captures.places[mirror].exists()) continue;
-        for (std::uint32_t face = 0; face < 6; ++face) {
-            const Cubes part = faces_of(captures, mirror, face, 1);
-            for_each_pair(part, part, [&](graph::Image image, graph::Image) {
-                graph.made_from(image, faces[mirror][face].drawing);
-            });
-        }
-    }
-}
-
 /// What captures can see of last frame's.
-Captures looked_into(Captures captures) {
+std::shared_ptr<const Captures> looked_into(Captures captures) {
     for (Cubes& cubes : captures.arrays)
         cubes.surfaces.reset(), cubes.colour2.reset(), cubes.distance2.reset();
-    return captures;
+    return std::make_shared<const Captures>(std::move(captures));
 }
 
 bool is_idle(const CaptureWork& work) {
@@ -232,13 +232,11 @@ Feeding feed_required(graph::Graph& graph, const FrameInputs& inputs, const std:
         feeding.captures = declare(layout, kept.set);
         return feeding;
     }
-    kept.set = before ? 1 - before->set : 0;
-    if (any_there)
-        feeding.last = std::make_shared<const Captures>(
-            looked_into(*declare(known->options, known->set)));
+    kept.set = before ? 1 - before->set : (comparisons ? 0 : 2);
+    if (any_there) feeding.last = declare(known->options, known->set);
     feeding.captures = declare(layout, kept.set);
-    add_keeping(graph, inputs.prefix + name + ".keep", feeding, kept.faces);
-    stamp_faces(graph, *feeding.captures, kept.faces);
+    add_keeping(graph, inputs.prefix + name + ".keep", feeding);
+    if (any_there) feeding.last = looked_into(*feeding.last);
     if (std::ranges::find(kept.changes, Change::unknown) != kept.changes.end()) {
         kept.before = before;
         kept.differing = comparisons->buffer(mirrors);

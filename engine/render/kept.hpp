@@ -52,6 +52,9 @@ std::vector<char> changed(const KeptCaptures& captures);
 void learn(const std::shared_ptr<KeptCaptures>& captures,
            const std::function<bool(std::uint64_t)>& has_ended);
 
+/// As if comparisons had found all as it was.
+void find_unchanged(KeptCaptures& captures);
+
 /// What a frame does with a face.
 enum class FaceWork : std::uint8_t {
     keep,

@@ -34,6 +34,12 @@ void learn(const std::shared_ptr<KeptCaptures>& captures,
     captures->differing = nullptr;
 }
 
+void find_unchanged(KeptCaptures& captures) {
+    std::ranges::fill(captures.changes, Change::none);
+    captures.before = nullptr;
+    captures.differing = nullptr;
+}
+
 std::shared_ptr<gpu::Buffer> Comparisons::buffer(std::size_t mirrors) {
     const std::vector<std::uint32_t> zeros(mirrors, 0);
     const auto fits = [&](const std::shared_ptr<gpu::Buffer>& buffer) {
