@@ -62,6 +62,17 @@ void add_counters(const std::vector<std::byte>& bytes, Part& part) {
                                static_cast<double>(counters.listed) / counters.mirror_pixels;
 }
 
+/// Of what is kept and the frame does not need.
+std::uint64_t idle_bytes(const graph::Runner& runner, const graph::Graph& graph) {
+    std::uint64_t bytes = 0;
+    for (const auto& [name, kept] : runner.history().kept) {
+        const bool is_used = std::ranges::find(graph.images(), name, &graph::ImageDesc::name) !=
+                             graph.images().end();
+        if (!is_used) bytes += graph::plain_sizer().image(kept.desc).bytes;
+    }
+    return bytes;
+}
+
 /// Texels of four halves with a colour at or above the largest half.
 std::size_t saturated_texels(const std::vector<std::byte>& bytes) {
     const std::vector<std::uint16_t> halves = values_of<std::uint16_t>(bytes);
@@ -163,7 +174,7 @@ Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& fr
     part.label = declared.plan.label;
     part.prefix = declared.prefix;
     part.plan = plan_of(declared, mirrors);
-    part.memory_bytes = plan.bytes;
+    part.memory_bytes = plan.bytes + idle_bytes(runner, frame.graph);
     part.remembers = app::remembers(frame, plan, declared);
     count_scene_passes(frame.graph, plan, part);
     part.notes = outputs.notes;
