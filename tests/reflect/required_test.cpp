@@ -158,6 +158,14 @@ TEST(RequiredFrames, BeginAnewAfterACut) {
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(draws_captures(pair.frame()));
 }
 
+TEST(RequiredFrames, BeginAnewWithOtherEdges) {
+    Pair pair(test::room(3, 1), {"parallax:face=auto"});
+    for (int k = 0; k < 3; ++k) pair.frame();
+    pair.spec.size = {72, 56}; // finer
+    EXPECT_TRUE(draws_captures(pair.frame()));
+    pair.settle();
+}
+
 TEST(RequiredFrames, GoOnFromWhereTheyWereSetAside) {
     Pair pair(test::room(3, 1), {"parallax:face=16"});
     for (int k = 0; k < 3; ++k) pair.frame();
