@@ -22,7 +22,7 @@ Names names_of(const app::FrameTimes& times) {
 
 bool draws_captures(const Names& names) {
     return std::ranges::any_of(names,
-                               [](const std::string& name) { return name.starts_with("capture"); });
+                               [](const std::string& name) { return name.starts_with("capture/"); });
 }
 
 const Names kSettled{"view", "compose"};
@@ -115,6 +115,14 @@ TEST(RequiredFrames, OfAStillSceneAreViewAndCompose) {
     for (int k = 0; k < 3; ++k) EXPECT_EQ(pair.frame(), kSettled);
     pair.spec.camera.eye.x += .1;
     EXPECT_EQ(pair.frame(), kSettled) << "captures are not the camera's";
+}
+
+TEST(RequiredFrames, ShowFlatMirrorsBesideCaptures) {
+    Pair pair(test::hall(), {"3=planar *=parallax:face=16"});
+    for (int k = 0; k < 3; ++k) pair.frame();
+    pair.settle();
+    pair.spec.camera.eye.x += .1;
+    pair.frame();
 }
 
 TEST(RequiredFrames, DrawAnewWhatChanged) {
