@@ -19,6 +19,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <utility>
 
 namespace catoptric::app {
 
@@ -47,15 +48,19 @@ public:
             request_.base.techniques = default_techniques(request_.base);
         check_rows(request_.base.techniques); // before any work
         for (const std::string& text : request_.base.techniques)
-            reflect::assign(read_plan(text), mirror_names(request_.base.scene));
+            if (const reflect::Plan plan = read_plan(text); !plan.is_auto)
+                reflect::assign(plan, mirror_names(request_.base.scene));
         check_has_mirror(request_.base.scene);
         check_rounds(request_.rounds);
         if (request_.causes) check_explains(request_.reference);
+        check(!request_.both_models || !request_.together, Failure::usage,
+              "--model both and --together: rows of one frame have one model");
         comparison_.views = drawn_views(request_.base, request_.views);
     }
 
     report::Comparison run() {
         settle_exposure(session_, request_.base);
+        list_rows();
         start();
         try {
             fill_reference();
@@ -76,6 +81,18 @@ public:
     }
 
 private:
+    void list_rows() {
+        std::vector<std::string>& texts = request_.base.techniques;
+        const std::vector<std::string> asked = std::exchange(texts, {});
+        for (const std::string& text : asked) {
+            texts.push_back(text);
+            models_.push_back(request_.both_models ? Modelling::everything : request_.base.model);
+            if (!request_.both_models) continue;
+            texts.push_back(text);
+            models_.push_back(Modelling::required);
+        }
+    }
+
     void start() {
         const Request& base = request_.base;
         const DeviceInfo& device = engine_.device();
@@ -97,6 +114,7 @@ private:
         comparison_.ambient = base.ambient;
         comparison_.exposure = base.exposure;
         comparison_.timing = base.timing == Timing::isolated ? "isolated" : "pipelined";
+        comparison_.model = request_.both_models ? "both" : name_of(base.model);
         comparison_.together = request_.together;
     }
 
@@ -155,6 +173,10 @@ private:
         const std::string samples = sample_count(parse_technique(text));
         row.is_reference = same(parse_technique(text),
                                 parse_technique(reference_at(request_.reference, samples)));
+        if (request_.both_models && part.model == Modelling::required) {
+            row.label += ", model=required";
+            row.image += "-required";
+        }
         comparison_.rows.push_back(std::move(row));
         row_warnings_.emplace_back();
         prefixes_.push_back(part.prefix);
@@ -186,7 +208,8 @@ private:
         const std::vector<std::vector<std::string>> all = lanes();
         for (std::size_t lane = 0; lane < all.size(); ++lane) {
             const auto rounds = static_cast<std::size_t>(comparison_.rounds);
-            const std::string row = request_.together ? "all rows in one frame" : all[lane].front();
+            std::string row = request_.together ? "all rows in one frame" : all[lane].front();
+            if (request_.both_models) row += ", model " + name_of(models_[lane]);
             request_.watcher.row(row + ", round " + std::to_string(round + 1) + " of " +
                                      std::to_string(comparison_.rounds),
                                  static_cast<std::size_t>(round) * all.size() + lane,
@@ -202,6 +225,7 @@ private:
         if (first) {
             Request request = request_.base;
             request.techniques = texts;
+            request.model = models_[lane];
             runs_.push_back(std::make_unique<RowRun>(session_, request, request_.watcher));
         }
         RowRun& run = *runs_[lane];
@@ -227,7 +251,7 @@ private:
             report::Row& row = comparison_.rows[i];
             const std::string& text = request_.base.techniques[i];
             const bool is_plan = !read_plan(text).is_technique; // no one search is to blame
-            if (!row.lookup || is_plan) continue;
+            if (!row.lookup || is_plan || models_[i] != Modelling::everything) continue;
             request_.watcher.row("causes of " + text, i, comparison_.rows.size());
             row.causes = judge_.causes_of(text);
             tell();
@@ -244,8 +268,12 @@ private:
     }
 
     void add_lag() {
+        Request base = request_.base;
+        if (request_.both_models)
+            base.techniques.erase(std::unique(base.techniques.begin(), base.techniques.end()),
+                                  base.techniques.end());
         measure_lag(session_,
-                    {.base = request_.base,
+                    {.base = std::move(base),
                      .reference = request_.reference,
                      .watcher = request_.watcher,
                      .on_finished_row = [this] { tell(); }},
@@ -258,6 +286,7 @@ private:
     Session session_;          ///< of all rows
     Truths truths_;
     RowJudge judge_;
+    std::vector<Modelling> models_;             ///< of rows
     std::vector<std::unique_ptr<RowRun>> runs_; ///< of rows, or of all together
     std::vector<std::string> prefixes_;         ///< of the rows' passes
     std::vector<std::vector<double>> clear_ms_; ///< by round

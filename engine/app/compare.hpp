@@ -16,6 +16,8 @@ struct CompareRequest {
     /// In which the rows' frames are measured, at least 6: one row's frames after another's. Fewer
     /// frames than that are measured one a round.
     int rounds = kRounds;
+    /// Each row with everything and with what is required, one after the other; `base.model` else.
+    bool both_models = false;
     bool causes = false; ///< split each row's error by cause; only against the default reference
     int views = 1; ///< beside the one of the pictures as many drawn ones (app/views.hpp); 1: none
     bool lag = false; ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row
@@ -27,8 +29,8 @@ struct CompareRequest {
     std::function<void(const report::Comparison&)> on_finished_row;
 };
 
-/// The rows that each technique of the table names for itself (reflect::Technique::compared), but those that fit no
-/// mirror of the scene as `base` shows it.
+/// The rows that each technique of the table names for itself (reflect::Technique::compared), and
+/// `auto`, but those that fit no mirror of the scene as `base` shows it.
 std::vector<std::string> default_techniques(const Request& base);
 /// Throws `bad_data`, saying how to make one, where a scene has no mirror.
 void check_has_mirror(const scene::Scene& scene);

@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "measure/interval.hpp"
-#include "reflect/technique.hpp"
+#include "reflect/plan.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -25,6 +25,7 @@ std::vector<std::string> default_techniques(const Request& base) {
                 return technique->unfit(flat, tolerance).empty();
             }))
             rows.insert(rows.end(), technique->compared.begin(), technique->compared.end());
+    rows.emplace_back(reflect::kAuto);
     return rows;
 }
 

@@ -4,6 +4,8 @@
 #include "measure/flip.hpp"
 #include "measure/masks.hpp"
 
+#include <algorithm>
+
 namespace catoptric::app {
 
 namespace {
@@ -27,6 +29,22 @@ report::HostParts host_parts(const Rounds& rounds) {
     };
     return {part(&HostTimes::update), part(&HostTimes::hierarchy), part(&HostTimes::compile),
             part(&HostTimes::record)};
+}
+
+/// Every pass that some frame has, as they come: what is kept is not rendered in each.
+std::vector<std::string> names_of_passes(const Rounds& rounds) {
+    std::vector<std::string> names;
+    for (const std::vector<FrameTimes>& round : rounds)
+        for (const FrameTimes& frame : round)
+            for (std::size_t i = 0; i < frame.passes.size(); ++i) {
+                if (std::ranges::find(names, frame.passes[i].name) != names.end()) continue;
+                // Behind the one that it stands behind here.
+                const auto before = i == 0 ? names.begin()
+                                           : std::next(std::ranges::find(names,
+                                                                         frame.passes[i - 1].name));
+                names.insert(before, frame.passes[i].name);
+            }
+    return names;
 }
 
 /// Whether a picture shows nothing in its mirrors, but for pixels at their outlines, where the
@@ -84,6 +102,9 @@ report::Row make_row(const std::string& text, const Part& part) {
     row.settings = choice.settings;
     row.image = choice.file_name;
     row.plan = part.plan;
+    row.model = name_of(part.model);
+    for (const auto& [what, why, saves, error] : part.left_out)
+        row.left_out.push_back({what, why, saves, error});
     row.scene_passes = part.scene_passes;
     row.scene_draws = part.scene_draws;
     row.memory_bytes = part.memory_bytes;
@@ -118,11 +139,12 @@ void fill_times(report::Row& row, const Rounds& rounds, const std::string& prefi
     row.frame_ms = over_frames(rounds, [](const FrameTimes& frame) { return frame.frame_ms(); });
     row.host_parts = host_parts(rounds);
     row.passes.clear();
-    const std::vector<PassTime>& passes = rounds.front().front().passes;
-    for (std::size_t i = 0; i < passes.size(); ++i)
-        if (mine(passes[i]))
-            row.passes.push_back({passes[i].name, over_frames(rounds, [&](const FrameTimes& frame) {
-                                      return frame.passes[i].ms();
+    for (const std::string& name : names_of_passes(rounds))
+        if (name.starts_with(prefix))
+            row.passes.push_back({name, over_frames(rounds, [&](const FrameTimes& frame) {
+                                      const auto pass = std::ranges::find(frame.passes, name,
+                                                                          &PassTime::name);
+                                      return pass == frame.passes.end() ? 0 : pass->ms();
                                   })});
 }
 

@@ -25,8 +25,10 @@ const FrameTimes& Frame::times() const {
 std::size_t Frame::size() const { return impl_->frame.parts.size(); }
 
 bool Frame::remembers(std::size_t part) const {
-    return reads_previous(impl_->frame, impl_->plan(), impl_->part(part).prefix);
+    return app::remembers(impl_->frame, impl_->plan(), impl_->part(part));
 }
+
+const require::Model& Frame::model() const { return *impl_->model; }
 
 measure::Picture Frame::hdr(std::size_t part) const {
     return read_hdr(impl_->runner(), impl_->ticket, impl_->part(part), impl_->spec.size);
@@ -34,8 +36,11 @@ measure::Picture Frame::hdr(std::size_t part) const {
 
 Part Frame::read(std::size_t part) const {
     if (impl_->spec.with_lookup) impl_->check_last();
-    return read_part(impl_->runner(), impl_->ticket, impl_->frame, part, impl_->session->mirrors,
-                     *impl_->session->resident, impl_->spec);
+    Part read = read_part(impl_->runner(), impl_->ticket, impl_->frame, part,
+                          impl_->session->mirrors, *impl_->session->resident, impl_->spec);
+    read.model = impl_->spec.model;
+    read.left_out = impl_->model->left_out;
+    return read;
 }
 
 std::vector<Part> Frame::read_all() const {
@@ -62,11 +67,19 @@ std::vector<std::byte> Frame::state() const {
     impl_->check_last();
     graph::Runner& runner = impl_->runner();
     std::vector<std::byte> bytes = runner.read_history();
-    if (bytes.empty()) return bytes;
+    const auto add = [&](graph::Image image) {
+        const std::vector<std::byte> texels = runner.read(impl_->ticket, image);
+        bytes.insert(bytes.end(), texels.begin(), texels.end());
+    };
     for (const Declared& part : impl_->frame.parts) {
-        const std::vector<std::byte> picture = runner.read(impl_->ticket, part.outputs.hdr);
-        bytes.insert(bytes.end(), picture.begin(), picture.end());
+        if (!part.outputs.kept) continue;
+        for (const render::Cubes& cubes : part.outputs.captures->arrays) {
+            add(cubes.colour);
+            if (cubes.distance) add(*cubes.distance);
+        }
     }
+    if (bytes.empty()) return bytes;
+    for (const Declared& part : impl_->frame.parts) add(part.outputs.hdr);
     return bytes;
 }
 

@@ -62,6 +62,17 @@ void add_counters(const std::vector<std::byte>& bytes, Part& part) {
                                static_cast<double>(counters.listed) / counters.mirror_pixels;
 }
 
+/// Of what is kept and the frame does not need.
+std::uint64_t idle_bytes(const graph::Runner& runner, const graph::Graph& graph) {
+    std::uint64_t bytes = 0;
+    for (const auto& [name, kept] : runner.history().kept) {
+        const bool is_used = std::ranges::find(graph.images(), name, &graph::ImageDesc::name) !=
+                             graph.images().end();
+        if (!is_used) bytes += graph::plain_sizer().image(kept.desc).bytes;
+    }
+    return bytes;
+}
+
 /// Texels of four halves with a colour at or above the largest half.
 std::size_t saturated_texels(const std::vector<std::byte>& bytes) {
     const std::vector<std::uint16_t> halves = values_of<std::uint16_t>(bytes);
@@ -89,16 +100,17 @@ std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& technique
 
 FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plans,
                    const std::vector<std::string>& mirrors, const render::GpuScene& scene,
-                   graph::History history) {
+                   graph::History history, const std::vector<reflect::Keeping>& keeping) {
     FrameGraph frame{graph::Graph(std::move(history)), {}};
     scene.begin_frame();
     for (const reflect::Plan& plan : plans) {
+        const reflect::Keeping& kept = keeping[frame.parts.size()];
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
         const render::FrameInputs inputs{scene,     spec.size,   prefix,
                                          spec.seed, spec.mended, spec.with_lookup};
         const reflect::Assignment assignment = reflect::fitted(
             reflect::assign(plan, mirrors), scene.flat_mirrors(), scene.flat_tolerance());
-        reflect::Outputs outputs = reflect::add_frame(frame.graph, inputs, assignment);
+        reflect::Outputs outputs = reflect::add_frame(frame.graph, inputs, assignment, kept);
         const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr,
                                                          spec.exposure);
         frame.graph.want(outputs.hdr);
@@ -117,13 +129,15 @@ FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plan
     return frame;
 }
 
-bool reads_previous(const FrameGraph& frame, const graph::Plan& plan, const std::string& prefix) {
-    return std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
-        const graph::Pass& pass = frame.graph.passes()[planned.pass];
-        return pass.name.starts_with(prefix) &&
-               std::ranges::any_of(pass.images,
-                                   [](const graph::ImageUse& use) { return use.image.previous; });
-    });
+bool remembers(const FrameGraph& frame, const graph::Plan& plan, const Declared& part) {
+    return part.outputs.kept ||
+           std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
+               const graph::Pass& pass = frame.graph.passes()[planned.pass];
+               return pass.name.starts_with(part.prefix) &&
+                      std::ranges::any_of(pass.images, [](const graph::ImageUse& use) {
+                          return use.image.previous;
+                      });
+           });
 }
 
 measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Declared& declared,
@@ -160,8 +174,8 @@ Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& fr
     part.label = declared.plan.label;
     part.prefix = declared.prefix;
     part.plan = plan_of(declared, mirrors);
-    part.memory_bytes = plan.bytes;
-    part.remembers = reads_previous(frame, plan, part.prefix);
+    part.memory_bytes = plan.bytes + idle_bytes(runner, frame.graph);
+    part.remembers = app::remembers(frame, plan, declared);
     count_scene_passes(frame.graph, plan, part);
     part.notes = outputs.notes;
     for (const reflect::Choice& choice : declared.assignment.choices)

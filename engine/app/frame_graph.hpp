@@ -28,13 +28,14 @@ struct FrameGraph {
 std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& techniques);
 
 /// Every technique's passes and its compose, and what is wanted of them.
-/// `mirrors`: their names. Throws `usage` for a plan that does not fit them.
+/// `mirrors`: their names; `keeping`: of each plan. Throws `usage` for a plan that does not fit
+/// them.
 FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plans,
                    const std::vector<std::string>& mirrors, const render::GpuScene& scene,
-                   graph::History history);
+                   graph::History history, const std::vector<reflect::Keeping>& keeping);
 
-/// Whether a pass whose name begins with `prefix` reads what the frame before left.
-bool reads_previous(const FrameGraph& frame, const graph::Plan& plan, const std::string& prefix);
+/// Whether captures are kept, or a pass of the part reads what the frame before left.
+bool remembers(const FrameGraph& frame, const graph::Plan& plan, const Declared& part);
 
 measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Declared& declared,
                           uvec2 size);

@@ -1,7 +1,9 @@
 #include "app/session_impl.hpp"
 
 #include "app/plan_file.hpp"
+#include "app/suggested.hpp"
 #include "core/error.hpp"
+#include "core/stamp.hpp"
 #include "graph/dump.hpp"
 
 #include <chrono>
@@ -32,9 +34,21 @@ void check_spec(const FrameSpec& spec) {
 
 } // namespace
 
+/// The light that each surface gets anyway is no part of a scene, but of what is kept.
+void add_ambient(require::Model& model, double ambient) {
+    for (require::MirrorNeeds& mirror : model.mirrors)
+        for (std::uint64_t& stamp : mirror.stamps) stamp = Stamp().add(stamp).add(ambient).value();
+}
+
+std::string name_of(Modelling modelling) {
+    return modelling == Modelling::everything ? "everything" : "required";
+}
+
 struct Sequence::Impl {
     graph::Leavings leavings;
     std::vector<reflect::Plan> remembered;
+    Modelling remembered_model = Modelling::everything;
+    std::vector<std::shared_ptr<render::KeptCaptures>> kept;
     std::vector<double> face_needs;
     std::optional<Standing> standing; ///< from which its next frame moves on
     std::uint64_t units = 0;          ///< in which distances were captured
@@ -59,6 +73,7 @@ double Session::Impl::stand(const Standing& wanted) {
     const Clock::time_point start = Clock::now();
     if (standing && standing->size != wanted.size) resident->forget_face_needs();
     standing.reset(); // should the update end half-way
+    models.clear();
     resident->update(scene::at(scene, wanted.time), wanted.camera, wanted.size, wanted.ambient,
                      static_cast<std::uint32_t>(copy));
     standing = wanted;
@@ -66,13 +81,50 @@ double Session::Impl::stand(const Standing& wanted) {
     return milliseconds_since(start);
 }
 
-const std::vector<reflect::Plan>&
-Session::Impl::plans_of(const std::vector<std::string>& techniques) {
-    if (plans.empty() || texts != techniques) {
-        plans = parse_plans(techniques);
-        texts = techniques;
+const std::vector<reflect::Plan>& Session::Impl::plans_of(const FrameSpec& spec) {
+    if (plans.empty() || texts != spec.techniques) {
+        plans = parse_plans(spec.techniques);
+        for (reflect::Plan& plan : plans) plan = suggested(std::move(plan), scene, spec);
+        texts = spec.techniques;
+        models.clear();
     }
     return plans;
+}
+
+const std::shared_ptr<const require::Model>& Session::Impl::model_of(Modelling modelling,
+                                                                     bool is_mended) {
+    std::shared_ptr<const require::Model>& model = models[{modelling, is_mended}];
+    if (model) return model;
+    const scene::Scene now = scene::at(scene, standing->time);
+    require::Question question{now, standing->camera, standing->size};
+    reflect::demand(question, plans);
+    question.whole_cubes = question.whole_cubes ||
+                           is_mended; // what is exact looks where a search never would
+    if (modelling == Modelling::required && !requirements) requirements.emplace(scene);
+    require::Model made = modelling == Modelling::everything ? require::everything(question)
+                                                             : requirements->of(question);
+    add_ambient(made, standing->ambient);
+    model = std::make_shared<const require::Model>(std::move(made));
+    return model;
+}
+
+std::vector<reflect::Keeping> Session::Impl::keeping(const require::Model& model, std::size_t parts,
+                                                     bool follows, bool is_aside) {
+    std::vector<reflect::Keeping> keeping(parts,
+                                          {model, nullptr, is_aside ? nullptr : &comparisons});
+    for (std::size_t i = 0; follows && i < kept.size(); ++i) {
+        keeping[i].before = kept[i];
+        render::learn(kept[i], [&](std::uint64_t frame) { return runner.has_ended({frame}); });
+    }
+    return keeping;
+}
+
+void Session::Impl::keep(const FrameGraph& frame, graph::Ticket ticket) {
+    kept.clear();
+    for (const Declared& part : frame.parts) {
+        kept.push_back(part.outputs.kept);
+        if (kept.back()) kept.back()->frame = ticket.frame;
+    }
 }
 
 Session::Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight)
@@ -83,6 +135,7 @@ const scene::Scene& Session::scene() const { return impl_->scene; }
 Counts Session::counts() const {
     Counts counts = impl_->counts;
     counts.plans = impl_->runner.plans_made();
+    counts.memory_bytes = impl_->runner.memory_bytes();
     counts.uploads = impl_->resident->uploads();
     counts.hierarchies_built = impl_->resident->hierarchies_built();
     counts.hierarchies_refitted = impl_->resident->hierarchies_refitted();
@@ -96,14 +149,18 @@ Setup Session::setup() const {
 Frame Session::frame(const FrameSpec& spec) {
     Impl& self = *impl_;
     check_spec(spec);
-    const std::vector<reflect::Plan>& plans = self.plans_of(spec.techniques);
-    if (!spec.is_aside && !same(self.remembered, plans)) {
+    const std::vector<reflect::Plan>& plans = self.plans_of(spec);
+    const bool follows = same(self.remembered, plans) && self.remembered_model == spec.model;
+    if (!spec.is_aside && !follows) {
         self.runner.forget();
-        self.remembered = plans;
+        self.kept.clear();
+        self.remembered = plans, self.remembered_model = spec.model;
     }
     const double update_ms = self.stand(standing_of(spec));
     const Clock::time_point start = Clock::now();
-    FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, self.runner.history());
+    const std::shared_ptr<const require::Model> model = self.model_of(spec.model, spec.mended != 0);
+    FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, self.runner.history(),
+                               self.keeping(*model, plans.size(), follows, spec.is_aside));
     const double declare_ms = milliseconds_since(start);
     if (self.resident->has_new_views()) self.wait_for_readers(self.copy);
     const Clock::time_point trees = Clock::now();
@@ -115,9 +172,10 @@ Frame Session::frame(const FrameSpec& spec) {
         spec.is_aside);
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
+    if (!spec.is_aside) self.keep(frame, ticket);
     ++self.counts.frames;
     return Frame(std::make_shared<Frame::Impl>(Frame::Impl{
-        impl_, ticket, spec, std::move(frame), update_ms, declare_ms, hierarchy_ms, {}}));
+        impl_, ticket, spec, std::move(frame), model, update_ms, declare_ms, hierarchy_ms, {}}));
 }
 
 void Session::change(const scene::Edit& edit) {
@@ -130,25 +188,29 @@ void Session::change(const scene::Edit& edit) {
         auto made = std::make_unique<render::GpuScene>(self.engine.device, edited,
                                                        self.read_by.size());
         self.runner.forget(); // waits for frames under way; captured distances were in other units
+        self.kept.clear();
         self.resident = std::move(made);
         ++self.units;
     }
     self.scene = std::move(edited);
     self.mirrors = mirror_names(self.scene);
     self.standing.reset();
+    self.texts.clear(); // another plan may be suggested
 }
 
 void Session::forget() {
     impl_->runner.forget();
+    impl_->kept.clear();
+    impl_->texts.clear(); // another plan may be suggested
     impl_->resident->forget_face_needs();
     impl_->standing.reset();
 }
 
 Sequence Session::set_aside() {
     Impl& self = *impl_;
-    auto sequence = std::make_unique<Sequence::Impl>(
-        Sequence::Impl{self.runner.set_aside(), std::exchange(self.remembered, {}),
-                       self.resident->face_needs(), self.standing, self.units});
+    auto sequence = std::make_unique<Sequence::Impl>(Sequence::Impl{
+        self.runner.set_aside(), std::exchange(self.remembered, {}), self.remembered_model,
+        std::exchange(self.kept, {}), self.resident->face_needs(), self.standing, self.units});
     self.resident->forget_face_needs();
     return Sequence(std::move(sequence));
 }
@@ -161,6 +223,8 @@ void Session::resume(Sequence sequence) {
     }
     self.runner.resume(std::move(sequence.impl_->leavings));
     self.remembered = std::move(sequence.impl_->remembered);
+    self.remembered_model = sequence.impl_->remembered_model;
+    self.kept = std::move(sequence.impl_->kept);
     self.resident->put_face_needs(std::move(sequence.impl_->face_needs));
     if (sequence.impl_->standing) self.stand(*sequence.impl_->standing);
 }
@@ -168,14 +232,19 @@ void Session::resume(Sequence sequence) {
 std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
     Impl& self = *impl_;
     check_spec(spec);
-    const std::vector<reflect::Plan>& plans = self.plans_of(spec.techniques);
+    const std::vector<reflect::Plan>& plans = self.plans_of(spec);
     self.stand(standing_of(spec));
-    graph::History history; // what the first frame would leave
-    const FrameGraph first = declare(spec, plans, self.mirrors, *self.resident, {});
-    for (std::uint32_t i = 0; i < first.graph.images().size(); ++i)
-        if (first.graph.lifetime(i) == graph::Lifetime::previous)
-            history.previous.insert(first.graph.images()[i].name);
-    const FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, history);
+    const std::shared_ptr<const require::Model> model = self.model_of(spec.model, spec.mended != 0);
+    std::vector<reflect::Keeping> keeping(plans.size(), {*model, nullptr, &self.comparisons});
+    FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, {}, keeping);
+    // Where captures are kept, the second frame compares; what follows that if nothing has changed?
+    for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
+        for (std::size_t i = 0; i < plans.size(); ++i) {
+            keeping[i].before = frame.parts[i].outputs.kept;
+            if (k > 0 && keeping[i].before) render::find_unchanged(*keeping[i].before);
+        }
+        frame = declare(spec, plans, self.mirrors, *self.resident, frame.graph.left(), keeping);
+    }
     const graph::Plan& plan = self.runner.compiled(frame.graph);
     switch (format) {
     case PlanFormat::dot: return graph::to_dot(frame.graph, plan);

@@ -4,6 +4,7 @@
 #include "core/math.hpp"
 #include "core/plan_entry.hpp"
 #include "measure/picture.hpp"
+#include "require/model.hpp"
 #include "scene/edit.hpp"
 #include "scene/scene.hpp"
 
@@ -23,6 +24,12 @@ namespace catoptric::app {
 /// isolated: passes do not overlap and their times add up. pipelined: believe the span only.
 enum class Timing { isolated, pipelined };
 
+/// What is rendered of what could be. everything: each mirror, six faces, every frame. required:
+/// what the picture needs (require/model.hpp), with the same picture where nothing else is said.
+enum class Modelling { everything, required };
+/// "everything", "required"
+std::string name_of(Modelling modelling);
+
 /// What one frame shows and how it is made.
 struct FrameSpec {
     /// "name[:knob=value,...]", a plan "PATTERN=name[:knob=value,...] ..." (reflect/plan.hpp), or
@@ -36,6 +43,7 @@ struct FrameSpec {
     double exposure = 0;    ///< stops
     std::uint64_t seed = 1; ///< of sample patterns that are not a regular grid
     Timing timing = Timing::isolated;
+    Modelling model = Modelling::everything;
     /// Causes of error that mirrors are drawn without: a sum of shared::kMend...
     /// (shaders/shared.h).
     std::uint32_t mended = 0;
@@ -100,9 +108,11 @@ struct Part {
     std::string prefix;             ///< of its passes' names; empty when it was alone
     std::vector<PlanEntry> plan;    ///< of each mirror
     std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
+    Modelling model = Modelling::everything;
+    std::vector<require::LeftOut> left_out; ///< by the model, of its picture
     int scene_passes = 0;
     int scene_draws = 0;            ///< scene passes times the layers that each renders
-    bool remembers = false;         ///< a pass of it reads what the frame before left
+    bool remembers = false;         ///< it shows what the frame before left
     std::uint64_t memory_bytes = 0; ///< of the whole frame's images
     measure::Picture hdr;           ///< linear radiance
     measure::Picture display;       ///< what the screen shows: multiples of 1/255
@@ -128,8 +138,10 @@ public:
     const FrameTimes& times() const;
     /// Techniques in it.
     std::size_t size() const;
-    /// Whether a pass of a technique reads what the frame before left.
+    /// Whether a technique shows what the frame before left.
     bool remembers(std::size_t part = 0) const;
+    /// What was rendered, and what was left out.
+    const require::Model& model() const;
     /// Linear radiance; the cheapest thing to read.
     measure::Picture hdr(std::size_t part = 0) const;
     /// Everything that one technique made.
@@ -160,6 +172,7 @@ struct Counts {
     // Of the scene as it is resident now; a change of the scene's units makes it anew.
     std::uint64_t uploads = 0; ///< writes of buffers
     std::uint64_t hierarchies_built = 0, hierarchies_refitted = 0;
+    std::uint64_t memory_bytes = 0; ///< of the device, for images and buffers of frames
 };
 
 /// Frames that followed one another in a session, set aside: what they have left for the next one.
@@ -197,8 +210,8 @@ public:
 
     const scene::Scene& scene() const;
     /// Submits a frame. Waits where all places in flight are taken, and for the frame before where
-    /// the scene is written to. Other techniques than those of the frame before begin without
-    /// history. Throws `usage` for a specification that means nothing.
+    /// the scene is written to. Other techniques than those of the frame before, or another model,
+    /// begin without history. Throws `usage` for a specification that means nothing.
     Frame frame(const FrameSpec& spec);
     /// Edits the scene; seen from the next frame on. History stays unless the edit changes the
     /// scene's units on the device (render::space_of): it is much larger or smaller now, or what
@@ -213,7 +226,8 @@ public:
     /// forgotten. Where the scene's units changed in between (see change) it begins without
     /// history.
     void resume(Sequence sequence);
-    /// The plan of a frame that has a frame before it, written out.
+    /// The plan of a frame that has a frame before it, written out; with Modelling::required, of a
+    /// still scene whose captures change no more.
     std::string plan(const FrameSpec& spec, PlanFormat format);
     /// A frame that clears the cubes of every mirror, 256 texels an edge, and draws nothing: what
     /// any capture costs before it shows something. History stays.

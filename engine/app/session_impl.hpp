@@ -7,6 +7,8 @@
 #include "core/error.hpp"
 #include "graph/run.hpp"
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +29,8 @@ struct Session::Impl {
     Impl(Engine::Impl& shared, scene::Scene at_rest, std::uint32_t in_flight)
         : engine(shared), scene(std::move(at_rest)),
           resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
-          runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {
+          comparisons(shared.device), runner(shared.device, shared.pipelines, in_flight),
+          read_by(in_flight, 0) {
         mirrors = mirror_names(scene);
     }
 
@@ -35,19 +38,33 @@ struct Session::Impl {
     double stand(const Standing& wanted);
     /// Until no frame is in flight that reads this copy of what is written.
     void wait_for_readers(std::size_t of);
-    /// The techniques' texts read; only once for as long as they stay.
-    const std::vector<reflect::Plan>& plans_of(const std::vector<std::string>& techniques);
+    /// The techniques' texts read, only once for as long as they stay: what is suggested (`auto`)
+    /// is so for the frame that asks for them first, after a cut and after an edit.
+    const std::vector<reflect::Plan>& plans_of(const FrameSpec& spec);
+    /// Of the scene as it stands.
+    const std::shared_ptr<const require::Model>& model_of(Modelling modelling);
+    /// What the next frame of these techniques goes on from.
+    std::vector<reflect::Keeping> keeping(const require::Model& model, std::size_t parts,
+                                          bool follows, bool is_aside);
+    /// The frame was submitted: the next one goes on from it.
+    void keep(const FrameGraph& frame, graph::Ticket ticket);
 
     Engine::Impl& engine;
     scene::Scene scene;
     std::unique_ptr<render::GpuScene> resident;
+    render::Comparisons comparisons;
     graph::Runner runner;
     std::vector<std::string> mirrors; ///< their names
     std::optional<Standing> standing;
     std::vector<std::string> texts;
     std::vector<reflect::Plan> plans;      ///< of `texts`
     std::vector<reflect::Plan> remembered; ///< whose history the runner has
-    std::optional<graph::Ticket> last;     ///< of the frame that was submitted last
+    Modelling remembered_model = Modelling::everything;
+    std::vector<std::shared_ptr<render::KeptCaptures>> kept; ///< likewise, by technique
+    std::optional<require::Requirements> requirements;       ///< once somebody asks
+    std::map<Modelling, std::shared_ptr<const require::Model>>
+        models;                         ///< of `standing` and `plans`
+    std::optional<graph::Ticket> last;  ///< of the frame that was submitted last
     std::vector<std::uint64_t> read_by; ///< by copy of what is written: the last frame to read it
     std::size_t copy = 0;               ///< that frames read now
     std::uint64_t units = 0;            ///< times that the scene's units on the device changed
@@ -59,6 +76,7 @@ struct Frame::Impl {
     graph::Ticket ticket;
     FrameSpec spec;
     FrameGraph frame;
+    std::shared_ptr<const require::Model> model;
     double update_ms = 0, declare_ms = 0, hierarchy_ms = 0;
     mutable std::optional<FrameTimes> times; ///< once it was waited for
 

@@ -20,6 +20,7 @@ std::string reference_at(const std::string& reference, const std::string& sample
 Result Truths::rendered(const std::string& technique, int number) const {
     Request request = base_;
     request.techniques = {technique};
+    request.model = Modelling::everything;
     request.warmup = std::min(request.warmup, number - 1);
     request.frames = number - request.warmup;
     return run(session_, request, watcher_);

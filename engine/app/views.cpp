@@ -114,6 +114,9 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
                                 count * pictures);
             Request one = at_view;
             one.techniques = {texts[k]};
+            one.model = comparison.rows[k].model == name_of(Modelling::required)
+                            ? Modelling::required
+                            : Modelling::everything;
             const Result result = run(session, one, request.watcher);
             add_view(comparison.rows[k], result.parts.front(),
                      truths.at(sample_count(parse_technique(texts[k]))).part, hits, mirrors,

@@ -162,6 +162,20 @@ bool Graph::has_history(Image image) const {
 void Graph::want(Image image) { wanted_images_.push_back(image); }
 void Graph::want(Buffer buffer) { wanted_buffers_.push_back(buffer); }
 
+History Graph::left() const {
+    History left = history_;
+    for (std::uint32_t i = 0; i < images_.size(); ++i) {
+        if (lives_[i].lifetime == Lifetime::previous) left.previous.insert(images_[i].name);
+        if (lives_[i].lifetime == Lifetime::kept)
+            left.kept.insert_or_assign(images_[i].name, History::Kept{images_[i], lives_[i].held});
+    }
+    for (const auto& [part, stamp] : stamped_)
+        for_each_range(part, images_[part.id].layers, [&](std::uint32_t first, std::uint32_t end) {
+            left.kept.at(images_[part.id].name).stamps.set(first, end, stamp);
+        });
+    return left;
+}
+
 Graph Graph::without_bodies() const {
     Graph outline = *this;
     outline.history_ = {};

@@ -225,6 +225,8 @@ public:
     const gpu::Buffer* outside(Buffer buffer) const { return outside_buffers_[buffer.id]; }
     /// Of a kept image: what it holds at the start of the frame.
     const Stamps& held(std::uint32_t image) const { return lives_[image].held; }
+    /// What there is for the next frame once this one has run.
+    History left() const;
     /// The declarations alone, to compare other graphs with.
     Graph without_bodies() const;
 

@@ -210,6 +210,21 @@ Slot& Runner::slot_of(Ticket ticket) {
     return slot;
 }
 
+bool Runner::has_ended(Ticket ticket) {
+    const Slot& slot = slots_[index_of(ticket.frame)];
+    if (slot.frame != ticket.frame || slot.ended)
+        return true; // another has its place, or waited for
+    const VkSemaphore semaphore = timeline_;
+    VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
+    wait.semaphoreCount = 1;
+    wait.pSemaphores = &semaphore;
+    wait.pValues = &ticket.frame;
+    const VkResult result = vkWaitSemaphores(device_.handle(), &wait, 0);
+    if (result != VK_SUCCESS && result != VK_TIMEOUT)
+        device_.check_waited(result, "run " + name_of_frame(slot.frame, *slot.shape));
+    return result == VK_SUCCESS;
+}
+
 const FrameTimes& Runner::wait(Ticket ticket) {
     Slot& slot = slot_of(ticket);
     finish(slot);

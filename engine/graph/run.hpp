@@ -53,6 +53,8 @@ public:
     /// Waits until the frame has ended; at once when that was done before. Throws `device_lost`
     /// (naming the frame's passes), and `internal` when its place was taken by a later frame.
     const FrameTimes& wait(Ticket ticket);
+    /// Whether the frame has ended, without waiting. Throws `device_lost`.
+    bool has_ended(Ticket ticket);
     FrameTimes run(const Graph& graph, Timing timing, bool stays = false) {
         return wait(submit(graph, timing, stays));
     }

@@ -127,13 +127,20 @@ struct WorstView {
     Picture display;      ///< the row's picture there, to its right the reference's
 };
 
+/// What a row did not render, since its picture does not need it.
+struct LeftOut {
+    std::string what, why, saves;
+    double error = 0; ///< the most that a displayed pixel can differ for it, of 1
+};
+
 /// One technique with its settings: what it cost and what it got wrong.
 struct Row : Errors {
-    std::string technique;         ///< "naive"; "plan" where several draw the mirrors
-    std::string label;             ///< as it was asked for: "naive:bounces=1"
-    std::vector<Setting> settings; ///< all knobs
-    std::vector<PlanEntry> plan;   ///< of each mirror
-    std::string model = "everything";
+    std::string technique;            ///< "naive"; "plan" where several draw the mirrors
+    std::string label;                ///< as it was asked for: "naive:bounces=1"
+    std::vector<Setting> settings;    ///< all knobs
+    std::vector<PlanEntry> plan;      ///< of each mirror
+    std::string model = "everything"; ///< or "required"
+    std::vector<LeftOut> left_out;
     int scene_passes =
         0; ///< counted in the executed plan; a cube counts once, as in the seed report
     int scene_draws = 0; ///< the same with every cube face counted
@@ -190,8 +197,8 @@ struct Comparison {
     double load_start = NAN, load_end = NAN; ///< of the machine, runnable threads; NaN: not known
     double time = 0, ambient = 0.05, exposure = 0;
     std::string timing = "isolated";
-    std::string model = "everything";
-    bool together = false; ///< all rows were one frame, one command buffer
+    std::string model = "everything"; ///< or "required", or "both" of each row
+    bool together = false;            ///< all rows were one frame, one command buffer
     std::string reference_technique;
     std::string reference_label;
     std::vector<Setting> reference_settings;

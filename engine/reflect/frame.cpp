@@ -18,19 +18,21 @@ std::optional<std::uint32_t> map_edge(const Settings& settings) {
 /// A shadow map for each edge that is asked for, made once.
 class Maps {
 public:
-    Maps(graph::Graph& graph, const render::FrameInputs& inputs) : graph_(graph), inputs_(inputs) {}
+    Maps(graph::Graph& graph, const render::FrameInputs& inputs, const require::Model& model)
+        : graph_(graph), inputs_(inputs), model_(model) {}
 
     render::Lighting of(std::optional<std::uint32_t> edge) {
         if (!edge) return {};
         const auto found = made_.find(*edge);
         if (found != made_.end()) return found->second;
         const std::string suffix = made_.empty() ? "" : "." + std::to_string(*edge);
-        return made_[*edge] = {render::add_shadow(graph_, inputs_, *edge, suffix)};
+        return made_[*edge] = {render::add_shadow(graph_, inputs_, *edge, model_, suffix)};
     }
 
 private:
     graph::Graph& graph_;
     const render::FrameInputs& inputs_;
+    const require::Model& model_;
     std::map<std::uint32_t, render::Lighting> made_;
 };
 
@@ -80,17 +82,17 @@ std::vector<render::CaptureOptions> options_of_mirrors(const render::FrameInputs
 }
 
 /// How captures show the other mirrors: by last frame's captures of these.
-render::Looks looks_in_captures(const render::Captures& last, bool has_history,
-                                const Assignment& assignment) {
-    const auto shared = std::make_shared<const render::Captures>(last);
+render::Looks looks_in_captures(const render::Feeding& feeding, const Assignment& assignment) {
     render::Looks looks;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const Technique& technique = *assignment.choices[assignment.of_mirror[i]].technique;
         render::MirrorLook look; // black
-        if (last.places[i].exists()) {
+        const bool is_kept = feeding.kept != nullptr;
+        if (feeding.last && feeding.last->places[i].exists() &&
+            (feeding.was_there[i] || !is_kept)) {
             look.fragment = technique.capture ? technique.in_captures : "reflect/parallax.frag";
-            look.captures = shared;
-            look.blank = !has_history;
+            look.captures = feeding.last;
+            look.blank = !feeding.was_there[i];
         }
         const auto found = std::ranges::find(looks.looks, look.fragment,
                                              &render::MirrorLook::fragment);
@@ -106,10 +108,9 @@ bool has_mirrored_views(const Choice& choice) {
 
 /// The captures of part two of the report and its followers, fed by those of the frame before.
 /// Nothing where no technique looks into any.
-std::shared_ptr<const render::Captures> add_feedback(graph::Graph& graph,
-                                                     const render::FrameInputs& inputs,
-                                                     const Assignment& assignment, Maps& maps,
-                                                     const render::Lighting& view_lighting) {
+render::Feeding add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
+                             const Assignment& assignment, const Keeping& keeping, Maps& maps,
+                             const render::Lighting& view_lighting) {
     // Views in mirrors show by captures what is nothing but traced.
     const bool has_views = assignment.choices.size() > 1 &&
                            std::ranges::any_of(assignment.choices, has_mirrored_views);
@@ -118,14 +119,19 @@ std::shared_ptr<const render::Captures> add_feedback(graph::Graph& graph,
     };
     if (assignment.of_mirror.empty() ||
         !(has_views || std::ranges::any_of(assignment.choices, captures_any)))
-        return nullptr;
-    auto captures = std::make_shared<const render::Captures>(render::declare_captures(
-        graph, inputs, "capture", options_of_mirrors(inputs, assignment, maps, view_lighting)));
-    const render::Captures last = render::previous(graph, *captures);
-    const bool has_history = graph.has_history(captures->arrays.front().colour);
-    render::add_captures(graph, inputs, *captures,
-                         looks_in_captures(last, has_history, assignment));
-    return captures;
+        return {};
+    std::vector<render::CaptureOptions> options = options_of_mirrors(inputs, assignment, maps,
+                                                                     view_lighting);
+    const render::Feeding feeding = keeping.model.is_everything
+                                        ? render::feed_all(graph, inputs, "capture",
+                                                           std::move(options))
+                                        : render::feed_required(
+                                              graph, inputs, "capture", std::move(options),
+                                              keeping.model, keeping.before, keeping.comparisons);
+    render::add_captures(graph, inputs, *feeding.captures, looks_in_captures(feeding, assignment),
+                         feeding.work);
+    render::add_comparison(graph, inputs, feeding);
+    return feeding;
 }
 
 std::vector<std::uint32_t> mirrors_of(std::size_t choice, const Assignment& assignment) {
@@ -157,16 +163,19 @@ render::Looks looks_in_mirrors(const Outputs& outputs, const Assignment& assignm
 } // namespace
 
 Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
-                  const Assignment& assignment) {
+                  const Assignment& assignment, const Keeping& keeping) {
     const std::vector<Choice>& choices = assignment.choices;
     const bool is_mixed = choices.size() > 1;
-    Maps maps(graph, inputs);
+    Maps maps(graph, inputs, keeping.model);
     const render::Lighting lighting = maps.of(view_map_edge(choices));
     if (!is_mixed && choices.front().technique->picture)
         return choices.front().technique->picture(graph, inputs, choices.front().settings,
                                                   lighting);
     Outputs outputs;
-    outputs.captures = add_feedback(graph, inputs, assignment, maps, lighting);
+    const render::Feeding feeding = add_feedback(graph, inputs, assignment, keeping, maps,
+                                                 lighting);
+    outputs.captures = feeding.captures;
+    outputs.kept = feeding.kept;
     render::Looks looks{{}, assignment.of_mirror};
     std::vector<Tracer> tracers;
     for (std::size_t i = 0; i < choices.size() && !assignment.of_mirror.empty(); ++i) {

@@ -63,6 +63,11 @@ std::uint32_t index_of(const Choice& choice, std::vector<Choice>& choices) {
     return static_cast<std::uint32_t>(choices.size() - 1);
 }
 
+/// Some search may ask the captures of all mirrors.
+bool asks_all(const Settings& settings) {
+    return settings.has("captures") && settings.choice("captures") == "all";
+}
+
 /// The technique that `rest` names, with shadows as the choice has them.
 Choice rest_of(const Choice& choice) {
     Choice rest = parse_choice(choice.settings.choice("rest"));
@@ -149,6 +154,24 @@ Assignment assign(const Plan& plan, const std::vector<std::string>& names) {
     assignment.reasons = plan.reasons;
     assignment.reasons.resize(names.size());
     return assignment;
+}
+
+void demand(require::Question& question, const std::vector<Plan>& plans) {
+    std::optional<std::uint32_t> coarsest;
+    for (const Plan& plan : plans)
+        for (const auto& [pattern, choice] : plan.rules) {
+            const Settings& settings = choice.settings;
+            const std::string_view rest = settings.has("rest") ? settings.choice("rest")
+                                                               : choice.technique->name;
+            question.whole_cubes = question.whole_cubes || find_technique(rest).reads_whole_cubes;
+            question.asks_all = question.asks_all || asks_all(rest == choice.technique->name
+                                                                  ? settings
+                                                                  : parse_choice(rest).settings);
+            if (settings.choice("shadow") == "none") continue;
+            const auto edge = static_cast<std::uint32_t>(settings.integer("shadow_map"));
+            coarsest = std::min(coarsest.value_or(edge), edge);
+        }
+    question.shadow_edge = coarsest.value_or(question.shadow_edge);
 }
 
 Assignment fitted(Assignment assignment, const std::vector<std::optional<scene::Flat>>& flats,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reflect/technique.hpp"
+#include "require/model.hpp"
 
 #include <string>
 #include <string_view>
@@ -52,6 +53,9 @@ struct Assignment {
 /// equals the first. `names`: of the mirrors. Throws `Failure::usage` for a pattern without a match
 /// and for a mirror without a rule. O(rules * mirrors).
 Assignment assign(const Plan& plan, const std::vector<std::string>& names);
+
+/// What the plans' techniques need of a model, whoever is seen.
+void demand(require::Question& question, const std::vector<Plan>& plans);
 
 /// Mirrors that their technique cannot draw (Technique::unfit) get the one that its knob `rest`
 /// names, with the same shadows. `flats`: of each mirror.

@@ -67,6 +67,7 @@ constexpr Technique kProxy{
     .scene_passes = feedback_passes,
     .capture = capture_options,
     .in_captures = "reflect/parallax.frag",
+    .reads_whole_cubes = true,
     .look = look};
 const Registered kRow{kProxy};
 

@@ -2,6 +2,7 @@
 
 #include "core/knob.hpp"
 #include "reflect/tracer.hpp"
+#include "render/kept.hpp"
 #include "scene/flat_mirror.hpp"
 
 #include <memory>
@@ -23,6 +24,7 @@ struct Outputs {
     std::optional<graph::Image> lookup; ///< rgba32f: where mirrors looked, if the inputs ask for it
     std::shared_ptr<const render::Captures> captures; ///< that the view looks into; may be none
     std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
+    std::shared_ptr<render::KeptCaptures> kept; ///< for the next frame, where captures are kept
 };
 
 /// What the mirrors that share a technique and its settings may look into.
@@ -52,6 +54,7 @@ struct Technique {
     render::CaptureOptions (*capture)(const render::FrameInputs& inputs,
                                       const Settings& settings) = nullptr;
     const char* in_captures = nullptr; ///< path of a fragment shader
+    bool reads_whole_cubes = false;    ///< whatever directions its mirrors ask for
     /// How its mirrors are drawn; declares what passes that takes.
     Look (*look)(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
                  const Surroundings& around) = nullptr;

@@ -66,10 +66,12 @@ bool merge(Kinds& kinds, std::vector<std::string>& notes) {
 
 /// A piece of a kind that fits into one array.
 Cubes declare_cubes(graph::Graph& graph, const std::string& name, const CaptureOptions& options,
-                    std::size_t cubes) {
+                    std::size_t cubes, bool stay) {
     const auto image = [&](const char* what, Format format) {
-        return graph.image({name + what, format, options.face, options.face,
-                            static_cast<std::uint32_t>(6 * cubes), true});
+        graph::ImageDesc desc{
+            name + what, format, options.face, options.face, static_cast<std::uint32_t>(6 * cubes),
+            true};
+        return stay ? graph.kept(std::move(desc)) : graph.image(std::move(desc));
     };
     check(options.distance || !(options.surfaces || options.second_layer), Failure::internal,
           "captures '", name, "' want surfaces or a second layer, which need the distance");
@@ -107,8 +109,25 @@ graph::Buffer add_table(graph::Graph& graph, const std::string& name, const Capt
 
 } // namespace
 
+Cubes part_of(const Cubes& cubes, std::uint32_t first, std::uint32_t count) {
+    const auto part = [&](const std::optional<graph::Image>& image) {
+        return image ? std::optional(image->layers(first, count)) : image;
+    };
+    return {cubes.face,
+            cubes.colour.layers(first, count),
+            part(cubes.distance),
+            part(cubes.colour2),
+            part(cubes.distance2),
+            part(cubes.surfaces)};
+}
+
+bool same_contents(const CaptureOptions& a, const CaptureOptions& b) {
+    return a.face == b.face && contents_of(a) == contents_of(b) && a.saturates == b.saturates &&
+           a.leaves_out_spheres == b.leaves_out_spheres;
+}
+
 Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
-                          std::vector<CaptureOptions> options) {
+                          std::vector<CaptureOptions> options, const std::string& set) {
     Captures captures;
     captures.name = std::move(name);
     Kinds kinds = kinds_of(options);
@@ -122,6 +141,7 @@ Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::s
           " sizes and formats want ", count, " arrays of at most ", most_cubes,
           " cubes; a frame has ", shared::kMostArrays, ", of ", shared::kMostCaptured, " mirrors");
     captures.places.resize(options.size());
+    const std::string dot_set = set.empty() ? "" : "." + set;
     for (const auto& [kind, mirrors] : kinds) {
         for (std::size_t first = 0; first < mirrors.size(); first += most_cubes) {
             const std::size_t cubes = std::min(most_cubes, mirrors.size() - first);
@@ -132,9 +152,9 @@ Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::s
                 captures.places[mirror] = {array, cube};
             }
             const std::string number = array == 0 ? "" : std::to_string(array + 1);
-            captures.arrays.push_back(
-                declare_cubes(graph, inputs.prefix + captures.name + "/cubes" + number + ".",
-                              options[mirrors[first]], cubes));
+            captures.arrays.push_back(declare_cubes(
+                graph, inputs.prefix + captures.name + "/cubes" + number + dot_set + ".",
+                options[mirrors[first]], cubes, !set.empty()));
         }
     }
     captures.options = std::move(options);
@@ -142,7 +162,7 @@ Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::s
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror)
         in_order.push_back({0, mirror});
     if (captures.places != in_order)
-        captures.table = add_table(graph, inputs.prefix + captures.name, captures);
+        captures.table = add_table(graph, inputs.prefix + captures.name + dot_set, captures);
     return captures;
 }
 

@@ -21,6 +21,9 @@ struct Cubes {
         surfaces; ///< rgba16f: number and normal, see shaders/lib/surface.glsl
 };
 
+/// Some layers of each image that is there.
+Cubes part_of(const Cubes& cubes, std::uint32_t first, std::uint32_t count);
+
 /// What one mirror's capture holds, and how it is made.
 struct CaptureOptions {
     std::uint32_t face = 256; ///< cube edge in texels; 0: there is no capture of this mirror
@@ -33,6 +36,9 @@ struct CaptureOptions {
     float stored_unit = 1;           ///< scene units of a stored 1 (unorm8: the range)
     Lighting lighting;
 };
+
+/// Whether captures of the one are captures of the other but for what they show.
+bool same_contents(const CaptureOptions& a, const CaptureOptions& b);
 
 /// Where a mirror's capture is kept.
 struct CapturePlace {
@@ -55,10 +61,11 @@ struct Captures {
 /// Declares the arrays, one for each size and format that some mirror wants and as many more as the
 /// device's limit of layers asks for. Where that makes more than kMostArrays, the edges that cost
 /// least are enlarged to the next larger one, which `notes` says. `options`: of each mirror, one of
-/// which at least has a capture. Throws `exhausted` where so many arrays do not hold them.
-/// O(mirrors).
+/// which at least has a capture. With a `set` the arrays stay until they are written again
+/// (graph::Lifetime::kept), and it tells them from others of the same name. Throws `exhausted`
+/// where so many arrays do not hold them. O(mirrors).
 Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
-                          std::vector<CaptureOptions> options);
+                          std::vector<CaptureOptions> options, const std::string& set = "");
 
 /// The same as they were at the end of the frame before: colours and distances.
 Captures previous(graph::Graph& graph, const Captures& captures);

@@ -1,6 +1,7 @@
 #include "render/passes.hpp"
 
 #include "core/half.hpp"
+#include "core/stamp.hpp"
 #include "render/draw.hpp"
 
 #include <cmath>
@@ -19,25 +20,35 @@ using graph::Use;
 constexpr Clear kBlack{0, 0, 0, 1};
 constexpr Clear kFarthest{0, 0, 0, 0}; // reversed depth
 
-/// A mirror's six faces; with `peeled`, of what lies behind these distances.
-void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
-                 std::uint32_t mirror, const std::string& pass_name, const Cubes& cubes,
-                 const std::shared_ptr<const Looks>& looks, std::optional<Image> peeled) {
+/// Neighbouring faces of a mirror's capture.
+struct Faces {
+    std::uint32_t mirror = 0, first = 0, count = 6;
+};
+
+/// They are cleared.
+void write_cubes(graph::PassBuilder& pass, const CaptureOptions& options, const Cubes& cubes) {
     // "Nothing there" is +infinity; unorm8 has none, so there it is the end of the range.
     const float nothing = options.distance == Format::r8_unorm
                               ? 1.0f
                               : std::numeric_limits<float>::infinity();
-    const std::string name = inputs.prefix + pass_name;
-    const Image depth = graph.image(
-        {name + ".depth", Format::d32f, options.face, options.face, 6, true});
-    graph::PassBuilder pass = graph.pass(name, Tag::scene);
-    read_surroundings(pass, options.lighting, *looks);
-    if (peeled) pass.reads(*peeled, Use::sampled);
     pass.writes(cubes.colour, Use::colour, kBlack);
     if (cubes.distance) pass.writes(*cubes.distance, Use::colour, Clear{nothing, 0, 0, 0});
     if (cubes.surfaces) pass.writes(*cubes.surfaces, Use::colour, Clear{});
-    Drawing drawing{.first_view = inputs.scene.capture_view(mirror),
-                    .layers = 6,
+}
+
+/// Faces of a mirror; with `peeled`, of what lies behind these distances.
+void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
+                 const Faces& faces, const std::string& pass_name, const Cubes& cubes,
+                 const std::shared_ptr<const Looks>& looks, std::optional<Image> peeled) {
+    const std::string name = inputs.prefix + pass_name;
+    const Image depth = graph.image(
+        {name + ".depth", Format::d32f, options.face, options.face, faces.count, faces.count == 6});
+    graph::PassBuilder pass = graph.pass(name, Tag::scene);
+    read_surroundings(pass, options.lighting, *looks);
+    if (peeled) pass.reads(*peeled, Use::sampled);
+    write_cubes(pass, options, cubes);
+    Drawing drawing{.first_view = inputs.scene.capture_view(faces.mirror) + faces.first,
+                    .layers = faces.count,
                     .lighting = options.lighting,
                     .looks = looks,
                     .store = {{"distance_scale", 1 / options.stored_unit}},
@@ -48,8 +59,8 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
     if (peeled && options.distance == Format::r8_unorm)
         drawing.store.emplace_back("half_step", 0.5f / 255);
     pass.writes(depth, Use::depth, kFarthest)
-        .layers(6)
-        .record([&scene = inputs.scene, mirror, drawing = std::move(drawing),
+        .layers(faces.count)
+        .record([&scene = inputs.scene, mirror = faces.mirror, drawing = std::move(drawing),
                  leaves_out = options.leaves_out_spheres](Commands& commands) {
             draw_scene(commands, scene, drawing, [&](std::size_t object) {
                 const DrawRange& range = scene.ranges()[object];
@@ -59,6 +70,35 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
             if (!drawing.peeled)
                 draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
+}
+
+/// Of all six, or "NAME.FIRST-LAST".
+std::string name_of(const std::string& name, const Faces& faces) {
+    if (faces.count == 6) return name;
+    return name + "." + std::to_string(faces.first + 1) + "-" +
+           std::to_string(faces.first + faces.count);
+}
+
+/// Faces that nobody looks at hold nothing.
+void add_clear(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
+               const Faces& faces, const std::string& name, const Cubes& cubes) {
+    graph::PassBuilder pass = graph.pass(inputs.prefix + name_of(name, faces) + ".clear");
+    write_cubes(pass, options, cubes);
+    if (cubes.colour2)
+        write_cubes(pass, options, {cubes.face, *cubes.colour2, cubes.distance2, {}, {}, {}});
+    pass.layers(faces.count).record([](Commands&) {});
+}
+
+/// Of what casts shadows, and of the views that it is drawn with.
+std::uint64_t shadow_stamp(const GpuScene& scene, const require::LightNeeds& needs,
+                           std::uint32_t light) {
+    Stamp stamp;
+    stamp.add(needs.has_map);
+    if (!needs.has_map) return stamp.value();
+    stamp.add(needs.stamp);
+    for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
+        stamp.add(scene.views()[scene.shadow_view(light) + face]);
+    return stamp.value();
 }
 
 /// The same looks with causes of error taken away.
@@ -80,19 +120,28 @@ Looks mended(Looks looks, const FrameInputs& inputs, const Lighting& lighting) {
 } // namespace
 
 std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t edge,
-                                const std::string& suffix) {
+                                const require::Model& model, const std::string& suffix) {
     const GpuScene& scene = inputs.scene;
     if (scene.light_count() == 0) return std::nullopt;
     const std::uint32_t faces = scene.shadow_faces();
-    const Image map = graph.image({inputs.prefix + "shadow_map" + suffix, Format::d32f, edge, edge,
-                                   faces * scene.light_count()});
+    const graph::ImageDesc desc{inputs.prefix + "shadow_map" + suffix, Format::d32f, edge, edge,
+                                faces * scene.light_count()};
+    const Image map = model.is_everything ? graph.image(desc) : graph.kept(desc);
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
+        const bool has_map = model.is_everything || model.lights[light].has_map;
+        const Image part = map.layers(faces * light, faces);
+        if (!model.is_everything) {
+            const std::uint64_t stamp = shadow_stamp(scene, model.lights[light], light);
+            if (graph.holds(part, stamp)) continue;
+            graph.made_from(part, stamp);
+        }
         const std::string name = scene.light_count() == 1 ? "shadow"
                                                           : "shadow/" + std::to_string(light + 1);
         graph.pass(inputs.prefix + name + suffix, Tag::scene)
-            .writes(map.layers(faces * light, faces), Use::depth, kFarthest)
+            .writes(part, Use::depth, kFarthest)
             .layers(faces)
-            .record([&scene, light](Commands& commands) {
+            .record([&scene, light, has_map](Commands& commands) {
+                if (!has_map) return; // nothing is nearer than what is lit
                 scene.bind(commands);
                 for (const bool masked : {false, true})
                     draw_objects(commands, scene, {"", masked ? "masked.frag" : "", {}},
@@ -107,24 +156,33 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
 }
 
 void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
-                  Looks looks) {
+                  Looks looks, const CaptureWork& work) {
     const auto shared = std::make_shared<const Looks>(std::move(looks));
     for (std::uint32_t mirror = 0; mirror < captures.options.size(); ++mirror) {
         if (!captures.places[mirror].exists()) continue;
         const auto& [array, cube] = captures.places[mirror];
         const CaptureOptions& options = captures.options[mirror];
-        const Cubes& cubes = captures.arrays[array];
-        const auto part_of = [&, first = 6 * cube](std::optional<Image> image) {
-            return image ? std::optional(image->layers(first, 6)) : image;
-        };
         const std::string number = "/" + std::to_string(mirror + 1);
-        const Cubes first{cubes.face, *part_of(cubes.colour), part_of(cubes.distance), {},
-                          {},         part_of(cubes.surfaces)};
-        add_capture(graph, inputs, options, mirror, captures.name + number, first, shared, {});
-        if (cubes.colour2)
-            add_capture(graph, inputs, options, mirror, captures.name + "2" + number,
-                        {cubes.face, *part_of(cubes.colour2), part_of(cubes.distance2), {}, {}, {}},
-                        shared, first.distance);
+        const auto draw = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
+                              std::uint32_t first, std::uint32_t end) {
+            const Faces faces{mirror, first, end - first};
+            const Cubes part = part_of(cubes, first_layer + first, faces.count);
+            const Cubes front{part.face, part.colour, part.distance, {}, {}, part.surfaces};
+            add_capture(graph, inputs, options, faces, name_of(captures.name + number, faces),
+                        front, shared, {});
+            if (part.colour2)
+                add_capture(
+                    graph, inputs, options, faces, name_of(captures.name + "2" + number, faces),
+                    {part.face, *part.colour2, part.distance2, {}, {}, {}}, shared, part.distance);
+        };
+        const auto clear = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
+                               std::uint32_t first, std::uint32_t end) {
+            add_clear(graph, inputs, options, {mirror, first, end - first}, captures.name + number,
+                      part_of(cubes, first_layer + first, end - first));
+        };
+        for_each_run([&](std::uint32_t face) { return work.is_drawn(mirror, face); }, draw);
+        for_each_run([&](std::uint32_t face) { return work.of(mirror, face) == FaceWork::clear; },
+                     clear);
     }
 }
 

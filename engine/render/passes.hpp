@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/kept.hpp"
 #include "render/looks.hpp"
 
 #include <memory>
@@ -14,14 +15,18 @@ namespace catoptric::render {
 inline constexpr std::uint32_t kReferenceDepth = 16;
 
 /// Depth around every light, one pass a light: layers [shadow_faces * l, ...) of a 2D array.
-/// Nothing when the scene has no light. `suffix` tells maps of one frame apart.
+/// Nothing when the scene has no light. `suffix` tells maps of one frame apart. Unless the model is
+/// everything, maps stay while what casts shadows does, and none is drawn of a light that needs
+/// none.
 std::optional<graph::Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs,
-                                       std::uint32_t edge, const std::string& suffix = "");
+                                       std::uint32_t edge, const require::Model& model = {},
+                                       const std::string& suffix = "");
 
-/// One pass a mirror that has a capture, six faces at once; two with a second layer. `looks`: of
-/// the other mirrors; mirror n is left out of its own capture.
+/// One pass a mirror that has a capture, all faces that are drawn at once (neighbours, where some
+/// are not); two with a second layer. `looks`: of the other mirrors; mirror n is left out of its
+/// own capture.
 void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
-                  Looks looks);
+                  Looks looks, const CaptureWork& work = {});
 
 /// The camera's picture.
 struct View {

@@ -135,10 +135,18 @@ Json plan_json(const std::vector<PlanEntry>& plan) {
 
 namespace {
 
+Json to_json(const std::vector<measure::LeftOut>& list) {
+    Json json = Json::array();
+    for (const auto& [what, why, saves, error] : list)
+        json.push_back({{"what", what}, {"why", why}, {"saves", saves}, {"error", number(error)}});
+    return json;
+}
+
 Json to_json(const Comparison& comparison, const Row& row) {
     Json json{{"technique", row.technique}, {"settings", to_json(row.settings)}};
     json["label"] = row.label;
     json["model"] = row.model;
+    json["left_out"] = to_json(row.left_out);
     add_figures(json, row);
     json["views"] = views_json(comparison, row);
     json["plan"] = plan_json(row.plan);

@@ -21,6 +21,10 @@ struct Question {
     uvec2 size{512, 512};
     /// Texels of the coarsest shadow map in use: the coarser, the further shadows reach.
     std::uint32_t shadow_edge = 1;
+    /// Some search asks every mirror's capture, seen or not (`captures=all`).
+    bool asks_all = false;
+    /// Some technique reads whole cubes, whatever direction a mirror can ask for.
+    bool whole_cubes = false;
 };
 
 /// Six bits, one a face of a capture, as render::cube_views has them.
@@ -31,10 +35,9 @@ struct MirrorNeeds {
     bool is_seen = true; ///< by the camera, or by a mirror that is
     MirrorId seen_in;    ///< the mirror through which; none: the camera sees it, or nobody
     /// Somebody may look into its capture: in searches of its own pixels, and of rays that go on
-    /// from other mirrors. Who asks all captures whoever is seen (`captures=all`) needs all.
+    /// from other mirrors, and with Question::asks_all whoever is seen.
     bool is_captured = true;
-    /// Of its capture, whose directions somebody may ask for. Who reads cubes as a whole (`proxy`
-    /// does, for a mean) needs all.
+    /// Of its capture, whose directions somebody may ask for.
     Faces faces = kAllFaces;
     std::uint32_t edge = 0; ///< texels along an edge that are enough; 0: as many as the row asks
     /// Of what each face shows but for mirrors, and how it is lit: while the number stays, so do

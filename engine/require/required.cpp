@@ -22,7 +22,7 @@ struct Requirements::Impl {
     explicit Impl(const scene::Scene& rest) : world(rest) { model.is_everything = false; }
 
     void find_seen(const Picture& picture);
-    void find_captured(std::size_t mirror);
+    void find_captured(std::size_t mirror, bool asks_all);
     Faces faces_of(const Picture& picture, std::size_t mirror);
     void find_lights(const Picture& picture);
 };
@@ -50,9 +50,9 @@ void Requirements::Impl::find_seen(const Picture& picture) {
 }
 
 /// What a mirror's capture shows, once it is known who is seen.
-void Requirements::Impl::find_captured(std::size_t mirror) {
+void Requirements::Impl::find_captured(std::size_t mirror, bool asks_all) {
     MirrorNeeds& needs = model.mirrors[mirror];
-    needs.is_captured = needs.is_seen;
+    needs.is_captured = needs.is_seen || asks_all;
     if (!needs.is_captured) {
         listed[mirror] = false;
         needs.sees.clear();
@@ -109,9 +109,12 @@ const Model& Requirements::of(const Question& question) {
     impl.sight.follow(impl.world);
     impl.stamps.follow(impl.world, question.shadow_edge);
     impl.find_seen(picture);
-    for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i) impl.find_captured(i);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
-        impl.model.mirrors[i].faces = impl.faces_of(picture, i);
+        impl.find_captured(i, question.asks_all);
+    for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
+        impl.model.mirrors[i].faces = question.asks_all || question.whole_cubes
+                                          ? kAllFaces
+                                          : impl.faces_of(picture, i);
     impl.find_lights(picture);
     fill_key(impl.findings, impl.model);
     if (impl.findings.key != impl.known_key) {

@@ -1,8 +1,8 @@
 #include "require/stamps.hpp"
 
+#include "core/stamp.hpp"
 #include "require/frustum.hpp"
 #include "require/sight.hpp"
-#include "require/stamp.hpp"
 
 #include <algorithm>
 

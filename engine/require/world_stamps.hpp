@@ -1,6 +1,6 @@
 #pragma once
 
-#include "require/stamp.hpp"
+#include "core/stamp.hpp"
 #include "scene/scene.hpp"
 
 /// Numbers that stand for parts of a scene: what is seen of them is the same while they are.

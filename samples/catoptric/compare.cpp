@@ -23,6 +23,7 @@ constexpr const char* kExamples = R"(Examples:
   catoptric compare -o out --together --json > report.json
   catoptric compare -o out --views 30 --techniques secant march layered
   catoptric compare cornell-mirrors room.glb -o out
+  catoptric compare -o out --model both --techniques parallax hybrid
   catoptric compare -o out --lag --size 256x256 --techniques reuse parallax secant
 
 SCENE comes before --techniques; several become one report with a section and a front for each. DIR gets
@@ -71,6 +72,7 @@ app::CompareRequest make_compare_request(const Options& options, const std::stri
     common.scene = scene;
     request.base = make_request(common, app::check_has_mirror);
     request.base.techniques = options.techniques;
+    request.both_models = options.common.both_models;
     request.reference = options.common.reference;
     request.together = options.together;
     request.rounds = options.rounds;
@@ -106,8 +108,10 @@ void check_places(const Options& options, const std::vector<app::CompareRequest>
     std::vector<std::filesystem::path> outputs{kStdout}, inputs;
     for (const app::CompareRequest& request : requests) {
         std::vector<std::string> images;
-        for (const std::string& text : rows_of(request))
+        for (const std::string& text : rows_of(request)) {
             images.push_back(app::parse_technique(text).file_name);
+            if (request.both_models) images.push_back(images.back() + "-required");
+        }
         const bool is_first = &request == &requests.front();
         for (const std::filesystem::path& file : report::files_of(images, request.images))
             if (is_first || file.has_parent_path()) // the documents are of all

@@ -47,6 +47,8 @@ app::PlanFormat format_of(const Options& options) {
 
 int run(const Options& options) {
     const app::PlanFormat format = format_of(options);
+    check(!options.common.both_models, Failure::usage,
+          "--model both: wanted everything or required, of which a plan has one");
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
     check_apart({kStdout}, request.scene.files);

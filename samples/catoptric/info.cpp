@@ -42,7 +42,7 @@ InfoFacts gather(const std::string& device) {
                       {"scenes", scenes},
                       {"scene_files", {"glb", "gltf", "obj"}},
                       {"picture_files", {"exr", "png"}},
-                      {"models", {"everything"}},
+                      {"models", {"everything", "required"}},
                       {"timings", {"isolated", "pipelined"}}};
     return facts;
 }

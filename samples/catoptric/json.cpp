@@ -40,13 +40,25 @@ Json over_frames(const std::vector<app::FrameTimes>& frames, Value&& value) {
     return to_json(measure::summarise(samples));
 }
 
+/// Of the last frame's passes; 0 in frames that had none of that name.
 Json passes_json(const std::vector<app::FrameTimes>& frames) {
     Json passes = Json::array();
-    for (std::size_t i = 0; i < frames.front().passes.size(); ++i)
+    for (const app::PassTime& pass : frames.back().passes)
         passes.push_back(
-            {{"name", frames.front().passes[i].name},
-             {"gpu_ms", over_frames(frames, [&](const auto& f) { return f.passes[i].ms(); })}});
+            {{"name", pass.name}, {"gpu_ms", over_frames(frames, [&](const auto& frame) {
+                                       double ms = 0;
+                                       for (const app::PassTime& other : frame.passes)
+                                           if (other.name == pass.name) ms += other.ms();
+                                       return ms;
+                                   })}});
     return passes;
+}
+
+Json left_out_json(const app::Part& part) {
+    Json list = Json::array();
+    for (const auto& [what, why, saves, error] : part.left_out)
+        list.push_back({{"what", what}, {"why", why}, {"saves", saves}, {"error", error}});
+    return list;
 }
 
 Json settings_json(const std::vector<Setting>& list) {
@@ -107,6 +119,8 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["settings"] = settings_json(choice.settings);
     document["plan"] = report::plan_json(part.plan);
     document["notes"] = part.notes;
+    document["model"] = name_of(part.model);
+    document["left_out"] = left_out_json(part);
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
     // The frames of a still compile what they use first: their times say nothing.

@@ -33,16 +33,17 @@ void add_numbers(Verb& verb, Common& common) {
               common.animate);
 }
 
-void take_model(const std::string& text) {
-    const bool everything = parse_choice("--model", text, {"everything", "required"}) == 0;
-    check(everything, Failure::usage,
-          "--model required: is not there yet; this version renders 'everything'");
+void take_model(const std::string& text, Common& common) {
+    const std::size_t choice = parse_choice("--model", text, {"everything", "required", "both"});
+    common.both_models = choice == 2;
+    common.model = choice == 1 ? app::Modelling::required : app::Modelling::everything;
 }
 
 void add_choices(Verb& verb, Common& common) {
     verb.option("--model", "M",
-                "everything: each mirror, six faces, every frame. required: not there yet",
-                take_model);
+                "everything: each mirror, six faces, every frame. required: what the picture needs "
+                "(render's default). both: compare shows each row twice (everything)",
+                [&](const std::string& text) { take_model(text, common); });
     verb.option("--reference", "T", "technique that compare judges against (raytrace:depth=16)",
                 [&](const std::string& text) {
                     const app::TechniqueChoice choice = app::parse_technique(text);
@@ -160,6 +161,7 @@ Asked make_asked(const Common& common, const std::function<void(const scene::Sce
     request.exposure = exposure.value_or(0);
     request.auto_exposure = !exposure;
     request.timing = common.timing;
+    request.model = common.model.value_or(request.model);
     request.scene = std::move(asked.wanted.scene);
     return asked;
 }

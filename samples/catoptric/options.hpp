@@ -27,6 +27,8 @@ struct Common {
     bool use_scene_file = true;
     std::string reference = "raytrace:depth=16";
     std::string device;
+    std::optional<app::Modelling> model; ///< none: the verb's own
+    bool both_models = false;            ///< of compare: each row with both
     app::Timing timing = app::Timing::isolated;
     bool validate = false;
 };

@@ -46,6 +46,8 @@ bool is_stdout(const Options& options) { return options.output == "-"; }
 bool is_exr(const Options& options) { return options.output.ends_with(".exr"); }
 
 void check_output(const Options& options) {
+    check(!options.common.both_models, Failure::usage,
+          "--model both: wanted everything or required, of which a picture has one");
     require_given(!options.output.empty(), "render", "-o OUT",
                   "a name ending in .exr or .png, or - for stdout");
     check(!is_stdout(options) || !options.common.manners.json, Failure::usage,
@@ -75,6 +77,7 @@ bool is_still(const Options& options) {
 app::Request make_render_request(const Options& options) {
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
+    request.model = options.common.model.value_or(app::Modelling::required);
     if (!is_still(options)) return request;
     request.frames += request.warmup; // as many as compare renders
     request.warmup = 0;

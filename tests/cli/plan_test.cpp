@@ -64,6 +64,39 @@ TEST_F(Cli, PlansAreRowsOfACompare) {
         EXPECT_TRUE(exists(folder / "out" / row["image"].get<std::string>())) << row["image"];
 }
 
+TEST_F(Cli, PicturesOfWhatIsRequiredAreThoseOfEverything) {
+    for (const char* model : {"everything", "required"}) {
+        const test::Ended ended = cli({"render", "--plan", kMixed, "--size", "16x16", "--model",
+                                       model, "-o", std::string(model) + ".exr", "--json"});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_EQ(Json::parse(ended.out)["model"], model);
+        EXPECT_TRUE(Json::parse(ended.out)["left_out"].is_array());
+    }
+    EXPECT_EQ(read("everything.exr"), read("required.exr"));
+    const std::string plan =
+        cli({"graph", "--technique", "parallax:face=16", "--model", "required"}).out;
+    EXPECT_THAT(plan, testing::StartsWith("2 passes"));
+}
+
+TEST_F(Cli, CompareShowsRowsWithBothModels) {
+    const test::Ended ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames", "6",
+                                   "--warmup", "20", "--model", "both", "--techniques",
+                                   "parallax:face=16", "raytrace", "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const Json document = Json::parse(ended.out);
+    EXPECT_EQ(document["model"], "both");
+    const Json& rows = document["rows"];
+    ASSERT_EQ(rows.size(), 4u);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        EXPECT_EQ(rows[i]["model"], i % 2 == 0 ? "everything" : "required");
+    EXPECT_EQ(rows[0]["label"], "parallax:face=16");
+    EXPECT_EQ(rows[1]["label"], "parallax:face=16, model=required");
+    EXPECT_EQ(rows[0]["scene_passes"], 4 + 2);
+    EXPECT_EQ(rows[1]["scene_passes"], 1) << "all captures are kept";
+    EXPECT_EQ(rows[0]["error"], rows[1]["error"]);
+    EXPECT_TRUE(exists(folder / "out/images/parallax-face16-required.png"));
+}
+
 TEST_F(Cli, PlanThatCannotBeIsRefused) {
     const auto refused = [&](const std::vector<std::string>& options, int exit_code,
                              const std::vector<std::string>& words) {

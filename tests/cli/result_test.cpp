@@ -109,8 +109,9 @@ TEST_F(Cli, SeededCameraCanBeTypedAgain) {
 }
 
 TEST_F(Cli, RenderJsonAndTrace) {
-    const test::Ended ended = cli(quick({"render", "--technique", "naive:bounces=1", "-o", "x.exr",
-                                         "--trace", "t.json", "--json"}));
+    const test::Ended ended = cli(
+        quick({"render", "--technique", "naive:bounces=1", "--model", "everything", "-o", "x.exr",
+               "--trace", "t.json", "--json"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json document = json::parse(ended.out);
     EXPECT_EQ(document["label"], "naive:bounces=1");

@@ -205,9 +205,14 @@ TEST_F(Cli, WishesForNothingThatIsThere) {
 }
 
 TEST_F(Cli, WhatIsNotThereYetSaysSo) {
-    expect_refused({"render", "--model", "required"}, 2, {"--model required", "not there yet"});
     expect_refused({"render", "--profile", "p.json"}, 2, {"--profile", "not there yet"});
     expect_refused({"render", "--model", "evrything"}, 2, {"--model", "did you mean 'everything'"});
+    expect_refused({"render", "--technique", "reuse", "--model", "both", "-o", "x.png"}, 2,
+                   {"--model both: wanted everything or required, of which a picture has one"});
+    expect_refused({"graph", "--technique", "reuse", "--model", "both"}, 2,
+                   {"--model both: wanted everything or required, of which a plan has one"});
+    expect_refused({"compare", "-o", "x", "--techniques", "reuse", "--model", "both", "--together"},
+                   2, {"--model both and --together"});
 }
 
 TEST_F(Cli, WhatIsNeeded) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace catoptric::require {
+namespace catoptric {
 
 /// One of 2^64 numbers for a sequence of values: what differs has another one, but for chance.
 class Stamp {
@@ -48,4 +48,4 @@ private:
     std::uint64_t sum_ = 0;
 };
 
-} // namespace catoptric::require
+} // namespace catoptric

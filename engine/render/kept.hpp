@@ -1,0 +1,125 @@
+#pragma once
+
+#include "gpu/buffer.hpp"
+#include "render/captures.hpp"
+#include "require/model.hpp"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+/// Captures that stay as long as what they show does. They lie in one of two sets of arrays: a
+/// frame that draws some of them anew looks into the one set and fills the other, so that each of
+/// its mirrors shows the frame before; a frame that draws none uses the set as it is.
+namespace catoptric::render {
+
+/// A face of a mirror's capture.
+struct KeptFace {
+    std::uint64_t stamp = 0;   ///< of what it shows but for mirrors; 0: of nothing any more
+    std::uint64_t drawing = 0; ///< which picture it is: the same number, the same bytes; 0: none
+    bool operator==(const KeptFace&) const = default;
+};
+
+/// What became of a mirror's capture in a frame, against the frame before.
+enum class Change {
+    none,
+    unknown, ///< drawn anew, and only since other mirrors' captures had changed
+    some,    ///< or it may have
+};
+
+/// The captures that a frame left, for the next one to go on from.
+struct KeptCaptures {
+    std::vector<CaptureOptions> options;        ///< after which they lie in the arrays
+    std::uint32_t set = 0;                      ///< of the two
+    std::vector<std::array<KeptFace, 6>> faces; ///< of each mirror
+    std::vector<Change> changes;                ///< of each mirror
+    // While some change is unknown:
+    std::vector<std::vector<std::uint32_t>> saw; ///< of each mirror: whom those faces show
+    std::shared_ptr<KeptCaptures> before;
+    std::shared_ptr<const gpu::Buffer> differing; ///< a word a mirror, once the frame has ended
+    std::uint64_t frame = 0; ///< that was submitted with it, which its caller says
+};
+
+/// Of each mirror, whether its capture is another one than a frame before, for all that is known.
+/// The unknown is told by what it saw: where nothing of that had changed, what was drawn again is
+/// the same.
+std::vector<char> changed(const KeptCaptures& captures);
+
+/// Reads what comparisons of frames that have ended have found, along the frames before it.
+/// `has_ended`: asked with KeptCaptures::frame.
+void learn(const std::shared_ptr<KeptCaptures>& captures,
+           const std::function<bool(std::uint64_t)>& has_ended);
+
+/// As if comparisons had found all as it was.
+void find_unchanged(KeptCaptures& captures);
+
+/// What a frame does with a face.
+enum class FaceWork : std::uint8_t {
+    keep,
+    clear,   ///< nobody looks, and there is nothing yet
+    draw,    ///< what it shows is another thing now
+    compare, ///< draw, since mirrors in it may have changed, and tell whether it did
+};
+
+/// What a frame does with its captures.
+struct CaptureWork {
+    std::vector<std::array<FaceWork, 6>> faces; ///< of each mirror; empty: all six are drawn
+    FaceWork of(std::uint32_t mirror, std::uint32_t face) const {
+        return faces.empty() ? FaceWork::draw : faces[mirror][face];
+    }
+    bool is_drawn(std::uint32_t mirror, std::uint32_t face) const {
+        return of(mirror, face) == FaceWork::draw || of(mirror, face) == FaceWork::compare;
+    }
+};
+
+/// Captures of a frame, what they are made from, and what is left for the next.
+struct Feeding {
+    std::shared_ptr<const Captures> captures; ///< that the frame looks into
+    std::shared_ptr<const Captures> last;     ///< that captures look into; null: nothing was there
+    std::vector<bool> was_there;              ///< of each mirror, in `last`
+    CaptureWork work;
+    std::shared_ptr<KeptCaptures> kept; ///< null: nothing is kept
+};
+
+/// Where comparisons write what they found; of one session.
+class Comparisons {
+public:
+    explicit Comparisons(gpu::Device& device) : device_(device) {}
+    /// A buffer of zeros that nobody else has, a word a mirror.
+    std::shared_ptr<gpu::Buffer> buffer(std::size_t mirrors);
+
+private:
+    gpu::Device& device_;
+    std::vector<std::shared_ptr<gpu::Buffer>> buffers_; ///< free where nobody else holds one
+};
+
+/// Everything anew in each frame, beside last frame's: declares both.
+Feeding feed_all(graph::Graph& graph, const FrameInputs& inputs, const std::string& name,
+                 std::vector<CaptureOptions> options);
+
+/// What of the captures has to be drawn, given those of the frame before (null: none); declares the
+/// arrays, and the pass that brings what stays into the set that the frame fills. `comparisons`:
+/// null where the frame is beside the sequence, and so tells the next one nothing.
+/// O(mirrors seen by mirrors).
+Feeding feed_required(graph::Graph& graph, const FrameInputs& inputs, const std::string& name,
+                      std::vector<CaptureOptions> options, const require::Model& model,
+                      const std::shared_ptr<KeptCaptures>& before, Comparisons* comparisons);
+
+/// After the captures are drawn: declares the pass that tells which of those that were to be
+/// compared differ from the frame before. None where none was.
+void add_comparison(graph::Graph& graph, const FrameInputs& inputs, const Feeding& feeding);
+
+/// Calls visit(first, end) for each run of faces of a mirror, of six, for which `is` holds.
+template <typename Is, typename Visit>
+void for_each_run(Is&& is, Visit&& visit) {
+    for (std::uint32_t first = 0; first < 6; ++first) {
+        std::uint32_t end = first;
+        while (end < 6 && is(end)) ++end;
+        if (end > first) visit(first, end);
+        first = end;
+    }
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,128 @@
+// Captures that stay, by models made by hand: which faces are drawn when, and what is there of the
+// others.
+#include "support/rendering.hpp"
+#include "support/techniques.hpp"
+
+namespace {
+
+using namespace catoptric;
+using Names = std::vector<std::string>;
+
+/// Frames of `parallax` in a room of three balls, with a model of one's own.
+class KeptFrames : public testing::Test {
+protected:
+    KeptFrames() {
+        scene_.update(room_, room_.cameras.front(), kSize, .05);
+        model_ = require::required({room_, room_.cameras.front(), kSize});
+    }
+
+    /// Passes but for view and compose.
+    Names frame(const std::string& technique = "parallax:face=8") {
+        graph::Graph graph(runner_.history());
+        const reflect::Assignment assignment = reflect::assign(reflect::parse_plan(technique),
+                                                               std::vector<std::string>(3, "ball"));
+        outputs_ = reflect::add_frame(graph, {scene_, kSize, ""}, assignment,
+                                      {model_, kept_, &comparisons_});
+        graph.want(outputs_.hdr);
+        runner_.run(graph, graph::Timing::isolated);
+        kept_ = outputs_.kept;
+        render::learn(kept_, [](std::uint64_t) { return true; });
+        Names names;
+        for (const graph::PlannedPass& planned : runner_.compiled(graph).passes)
+            if (graph.passes()[planned.pass].name != "view")
+                names.push_back(graph.passes()[planned.pass].name);
+        return names;
+    }
+    void settle() {
+        for (int k = 0; k < 40; ++k)
+            if (frame().empty()) return;
+        ADD_FAILURE() << "captures are still drawn";
+    }
+    /// Colours of a mirror's capture, from 0.
+    std::vector<std::byte> colours(std::uint32_t mirror, std::uint32_t face = 0,
+                                   std::uint32_t count = 6) {
+        const auto& [array, cube] = outputs_.captures->places[mirror];
+        return runner_.read(outputs_.captures->arrays[array].colour.layers(6 * cube + face, count));
+    }
+
+    static constexpr uvec2 kSize{32, 24};
+    test::Bench& bench_ = test::bench();
+    scene::Scene room_ = test::room(3, 2);
+    render::GpuScene scene_{bench_.device, room_};
+    render::Comparisons comparisons_{bench_.device};
+    graph::Runner runner_{bench_.device, bench_.pipelines};
+    require::Model model_;
+    std::shared_ptr<render::KeptCaptures> kept_;
+    reflect::Outputs outputs_;
+};
+
+TEST_F(KeptFrames, DrawTheFacesWhoseStampChanged) {
+    for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear(); // or all follow
+    settle();
+    EXPECT_EQ(frame(), Names());
+    const std::vector<std::byte> before = colours(0, 0, 2);
+    for (const std::size_t face : {2, 3, 5}) model_.mirrors[0].stamps[face] += 1;
+    EXPECT_EQ(frame(), (Names{"capture.keep", "capture/1.3-4", "capture/1.6-6"}));
+    EXPECT_EQ(colours(0, 0, 2), before);
+    model_.mirrors[0].stamps[5] += 1;
+    EXPECT_EQ(frame(), (Names{"capture.keep", "capture/1.6-6"})) << "3 and 4 lie in one set yet";
+    model_.mirrors[0].stamps[5] += 1;
+    EXPECT_EQ(frame(), Names{"capture/1.6-6"});
+    EXPECT_EQ(frame(), Names());
+}
+
+TEST_F(KeptFrames, ShowNothingInFacesThatNobodyLooksAt) {
+    model_.mirrors[1].faces = 0b000110;
+    const Names first = frame();
+    EXPECT_EQ(first, (Names{"shadow/1", "shadow/2", "capture/1", "capture/2.2-3",
+                            "capture/2.1-1.clear", "capture/2.4-6.clear", "capture/3"}));
+    const std::vector<std::byte> empty = colours(1, 0, 1);
+    EXPECT_TRUE(std::ranges::all_of(empty, [](std::byte byte) {
+        return byte == std::byte{0} || byte == std::byte{0x3c}; // black, alpha 1
+    }));
+    settle();
+    model_.mirrors[1].faces = require::kAllFaces;
+    const Names names = frame();
+    EXPECT_TRUE(std::ranges::find(names, "capture/2.4-6") != names.end()) << "now they are";
+    settle();
+    const std::vector<std::byte> late = colours(1);
+    kept_ = nullptr, runner_.forget();
+    settle();
+    EXPECT_EQ(late, colours(1));
+}
+
+TEST_F(KeptFrames, AddMirrorsThatAreCapturedLater) {
+    model_.mirrors[1].is_captured = false;
+    const Names first = frame();
+    EXPECT_EQ(first, (Names{"shadow/1", "shadow/2", "capture.a.table", "capture/1", "capture/3"}));
+    EXPECT_FALSE(outputs_.captures->places[1].exists());
+    for (int k = 0; k < 40; ++k)
+        if (frame().size() == 1) break;
+    model_.mirrors[1].is_captured = true;
+    const Names second = frame();
+    EXPECT_TRUE(std::ranges::find(second, "capture.keep") != second.end()) << "into more layers";
+    EXPECT_TRUE(std::ranges::find(second, "capture/2") != second.end());
+    settle();
+    std::vector<std::vector<std::byte>> late;
+    for (std::uint32_t mirror = 0; mirror < 3; ++mirror) late.push_back(colours(mirror));
+    // Out of sight again it costs nothing, and arrays stay as they are.
+    model_.mirrors[1].is_captured = false;
+    settle();
+    model_.mirrors[1].is_captured = true;
+    settle();
+    kept_ = nullptr, runner_.forget();
+    settle();
+    for (std::uint32_t mirror = 0; mirror < 3; ++mirror)
+        EXPECT_EQ(late[mirror], colours(mirror)) << mirror;
+}
+
+TEST_F(KeptFrames, DrawTheMapsOfLightsThatNeedOne) {
+    model_.lights[1].has_map = false;
+    settle();
+    model_.lights[0].stamp += 1;
+    EXPECT_EQ(frame("naive:bounces=0"), Names{"shadow/1"});
+    model_.lights[1].has_map = true;
+    EXPECT_EQ(frame("naive:bounces=0"), Names{"shadow/2"});
+}
+
+} // namespace
