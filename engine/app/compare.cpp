@@ -251,7 +251,8 @@ private:
             report::Row& row = comparison_.rows[i];
             const std::string& text = request_.base.techniques[i];
             const bool is_plan = !read_plan(text).is_technique; // no one search is to blame
-            if (!row.lookup || is_plan || models_[i] != Modelling::everything) continue;
+            const bool is_twin = request_.both_models && models_[i] == Modelling::required;
+            if (!row.lookup || is_plan || is_twin) continue;
             request_.watcher.row("causes of " + text, i, comparison_.rows.size());
             row.causes = judge_.causes_of(text);
             tell();
