@@ -42,7 +42,7 @@ struct Session::Impl {
     /// is so for the frame that asks for them first, after a cut and after an edit.
     const std::vector<reflect::Plan>& plans_of(const FrameSpec& spec);
     /// Of the scene as it stands.
-    const std::shared_ptr<const require::Model>& model_of(Modelling modelling);
+    const std::shared_ptr<const require::Model>& model_of(Modelling modelling, bool is_mended);
     /// What the next frame of these techniques goes on from.
     std::vector<reflect::Keeping> keeping(const require::Model& model, std::size_t parts,
                                           bool follows, bool is_aside);
@@ -62,7 +62,7 @@ struct Session::Impl {
     Modelling remembered_model = Modelling::everything;
     std::vector<std::shared_ptr<render::KeptCaptures>> kept; ///< likewise, by technique
     std::optional<require::Requirements> requirements;       ///< once somebody asks
-    std::map<Modelling, std::shared_ptr<const require::Model>>
+    std::map<std::pair<Modelling, bool>, std::shared_ptr<const require::Model>>
         models;                         ///< of `standing` and `plans`
     std::optional<graph::Ticket> last;  ///< of the frame that was submitted last
     std::vector<std::uint64_t> read_by; ///< by copy of what is written: the last frame to read it

@@ -40,6 +40,7 @@ std::vector<Setting> settings_of(const reflect::Choice& choice) {
 
 TechniqueChoice parse_technique(const std::string& text) {
     const reflect::Plan plan = read_plan(text);
+    if (plan.is_auto) return {plan.label, plan.label, plan.file_name(), {}};
     if (!plan.is_technique) return {"plan", plan.label, plan.file_name(), {}};
     const reflect::Choice& choice = plan.rules.front().choice;
     return {std::string(choice.technique->name), choice.label, choice.file_name(),
