@@ -27,6 +27,12 @@ bool draws_captures(const Names& names) {
 
 const Names kSettled{"view", "compose"};
 
+bool needs_all_faces(const require::Model& model) {
+    return std::ranges::all_of(model.mirrors, [](const require::MirrorNeeds& mirror) {
+        return mirror.is_captured && mirror.faces == require::kAllFaces;
+    });
+}
+
 /// Two sessions of one scene in which the same happens.
 class Pair {
 public:
@@ -46,7 +52,8 @@ public:
                 << "frame " << number_ << ", part " << part;
         if (!spec.is_aside) {
             EXPECT_EQ(found.remembers(), wanted.remembers());
-            EXPECT_TRUE(found.state() == wanted.state()) << "frame " << number_;
+            const bool is_whole = needs_all_faces(found.model()); // else some faces hold nothing
+            EXPECT_TRUE(!is_whole || found.state() == wanted.state()) << "frame " << number_;
         }
         return names_of(found.times());
     }
@@ -104,8 +111,9 @@ TEST_P(Required, ShowsWhatEverythingShows) {
 
 TEST(RequiredFrames, OfAStillSceneAreViewAndCompose) {
     Pair pair(test::hall(), {"parallax:face=32"});
-    EXPECT_EQ(pair.frame(),
-              (Names{"shadow", "capture/1", "capture/2", "capture/3", "view", "compose"}));
+    // Nobody looks behind the panel on the wall.
+    EXPECT_EQ(pair.frame(), (Names{"shadow", "capture/1", "capture/2", "capture/3.1-4",
+                                   "capture/3.6-6", "capture/3.5-5.clear", "view", "compose"}));
     // Of each mirror the faces that show another.
     EXPECT_EQ(pair.frame(),
               (Names{"capture.keep", "capture/1.1-1", "capture/1.3-3", "capture/1.5-5",
