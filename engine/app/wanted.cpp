@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostLights = 16;
 constexpr std::size_t kMostTexels = std::size_t{1} << 25; // 8192 x 4096
+constexpr std::size_t kManyMirrors = 64;                  // more are announced
 
 bool is_built_in(const std::string& name) {
     return std::ranges::any_of(scene::built_in_scenes(),
@@ -79,6 +80,25 @@ void surround(Wanted& wanted) {
     scene.environment = std::move(environment);
 }
 
+/// Says what many mirrors cost.
+void announce_mirrors(scene::Scene& scene) {
+    // Six faces of 256 texels an edge, kept for the next frame too: half colour; with it distance
+    // and, of one frame, which surface is seen.
+    constexpr std::size_t kTexels = 6 * 256 * 256, kMebibyte = 1 << 20, kColours = kTexels * 2 * 8,
+                          kAll = kTexels * (2 * (8 + 4) + 8);
+    const std::size_t count = scene::mirrors(scene).size();
+    if (count <= kManyMirrors) return;
+    const std::string number = std::to_string(count);
+    const auto mebibytes = [&](std::size_t bytes) {
+        return std::to_string(count * bytes / kMebibyte);
+    };
+    scene.warnings.push_back("scene " + in_quotes(scene.name) + " has " + number +
+                             " mirrors: " + number + " captures of six faces a frame, " +
+                             mebibytes(kColours) + " to " + mebibytes(kAll) +
+                             " MiB at face=256; a smaller face=, --plan and --model required "
+                             "lessen that");
+}
+
 /// What the scene file says belongs to the scene, and so to its hash: the camera comes first.
 void adopt(Wanted& wanted, const scene::Wishes& filed) {
     scene::Scene& scene = wanted.scene;
@@ -112,6 +132,7 @@ Wanted load_wanted(const std::string& name, const WantedOptions& options) {
     }
     if (wanted.is_file) scene::leave_out_lights(wanted.scene, kMostLights);
     surround(wanted);
+    announce_mirrors(wanted.scene);
     return wanted;
 }
 

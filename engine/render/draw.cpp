@@ -98,6 +98,18 @@ std::string build_of(const MirrorLook& look, bool peeled, bool shadow_map, bool 
     return look.fragment + (build.empty() ? "" : "#" + build);
 }
 
+/// Whether nothing of the object that faces away is seen in a drawing, so that it need not be
+/// drawn: of a crowd of balls those triangles are half of all the work. Not where something is seen
+/// from within or cut open.
+bool hides_its_back(const GpuScene& scene, const Drawing& drawing, std::size_t object) {
+    const DrawRange& range = scene.ranges()[object];
+    const shared::View& view = scene.views()[drawing.first_view];
+    const bool within = all(lessThanEqual(range.bounds.lo, view.eye)) &&
+                        all(lessThanEqual(view.eye, range.bounds.hi));
+    return range.shell && !range.flipped && !within && !drawing.peeled && view.parallel == 0 &&
+           view.clip == vec4(0);
+}
+
 void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& drawing,
                   const MirrorLook& look, const std::string& black, const Wanted& wanted) {
     gpu::RasterState state{"", black, drawing.store};
@@ -110,7 +122,14 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& draw
         for (const auto& [name, images] : look.images) commands.bind(name, images);
         for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
     }
-    draw_objects(commands, scene, state, drawing.first_view, drawing.layers, look.mended, wanted);
+    const auto draw = [&](const Wanted& part) {
+        draw_objects(commands, scene, state, drawing.first_view, drawing.layers, look.mended, part);
+    };
+    if (!scene.is_crowd()) return draw(wanted);
+    const auto is_front = [&](std::size_t i) { return hides_its_back(scene, drawing, i); };
+    draw([&](std::size_t i) { return wanted(i) && !is_front(i); });
+    state.hidden = turns_away(scene.views()[drawing.first_view]);
+    draw([&](std::size_t i) { return wanted(i) && is_front(i); });
 }
 
 } // namespace
@@ -153,17 +172,24 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
                          return !range.mirror && range.one_sided == one_sided && wanted(i);
                      });
     };
-    draw_diffuse(false, gpu::Winding::none);
-    if (std::ranges::any_of(scene.ranges(), &DrawRange::one_sided))
-        draw_diffuse(true, turns_away(scene.views()[first_view]));
     const auto is_black = [&](std::size_t object) {
         return first_view == GpuScene::kCameraView && scene.hides_all_from_camera(object);
     };
-    for (std::uint32_t look = 0; look < looks->looks.size(); ++look)
-        draw_mirrors(commands, scene, drawing, looks->looks[look], black, [&](std::size_t i) {
-            const std::uint32_t mirror = scene.mirror_of(i);
-            return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) && !is_black(i);
-        });
+    const auto draw_all_mirrors = [&] {
+        for (std::uint32_t look = 0; look < looks->looks.size(); ++look)
+            draw_mirrors(commands, scene, drawing, looks->looks[look], black, [&](std::size_t i) {
+                const std::uint32_t mirror = scene.mirror_of(i);
+                return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) &&
+                       !is_black(i);
+            });
+    };
+    // Among many mirrors little else is seen from one of them, so what they hide is not shaded.
+    const bool mirrors_first = scene.is_crowd() && first_view != GpuScene::kCameraView;
+    if (mirrors_first) draw_all_mirrors();
+    draw_diffuse(false, gpu::Winding::none);
+    if (std::ranges::any_of(scene.ranges(), &DrawRange::one_sided))
+        draw_diffuse(true, turns_away(scene.views()[first_view]));
+    if (!mirrors_first) draw_all_mirrors();
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
     for (std::size_t i = 0; i < scene.ranges().size(); ++i)
         if (is_shut(i))

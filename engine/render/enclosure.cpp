@@ -11,18 +11,18 @@ namespace {
 
 constexpr double kRoundings = 1e-3; // of a sum of solid angles, far more than they are
 
-using Place = std::array<float, 3>;
+using Place = std::array<double, 3>;
 
-Place place_of(vec3 p) { return {p.x, p.y, p.z}; }
+Place place_of(const dvec3& p) { return {p.x, p.y, p.z}; }
 
 /// Whether each edge is run through as often one way as the other, by places rather than by
-/// vertices.
-bool is_closed(const Geometry& geometry, const DrawRange& range) {
+/// vertices. `at(k)`: corner k, three a triangle.
+template <typename At>
+bool is_closed(std::size_t corners, At&& at) {
     std::map<std::pair<Place, Place>, int> runs;
-    for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3)
-        for (std::uint32_t j = 0; j < 3; ++j) {
-            const Place a = place_of(geometry.vertices[geometry.indices[k + j]].position);
-            const Place b = place_of(geometry.vertices[geometry.indices[k + (j + 1) % 3]].position);
+    for (std::size_t k = 0; k < corners; k += 3)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Place a = place_of(at(k + j)), b = place_of(at(k + (j + 1) % 3));
             if (a < b) ++runs[{a, b}];
             if (b < a) --runs[{b, a}];
         }
@@ -54,7 +54,22 @@ bool encloses(const Geometry& geometry, const DrawRange& range, const dvec3& pla
     }
     // Inside the whole sphere of directions, on a face half of it, on an edge or a corner a part,
     // outside nothing.
-    return std::abs(seen) > kRoundings && is_closed(geometry, range);
+    return std::abs(seen) > kRoundings && is_closed(range.index_count, [&](std::size_t k) {
+               return dvec3(geometry.vertices[geometry.indices[range.first_index + k]].position);
+           });
+}
+
+bool is_shell(const scene::Mesh& mesh) {
+    Bounds<double> box;
+    for (const dvec3& position : mesh.positions) box.add(position);
+    const dvec3 middle = box.empty() ? dvec3(0) : box.centre();
+    const auto arm = [&](std::uint32_t vertex) { return mesh.positions[vertex] - middle; };
+    const bool faces_out = std::ranges::all_of(mesh.triangles, [&](const uvec3& t) {
+        return dot(arm(t.x), cross(arm(t.y), arm(t.z))) > 0;
+    });
+    return faces_out && is_closed(3 * mesh.triangles.size(), [&](std::size_t k) {
+               return mesh.positions[mesh.triangles[k / 3][static_cast<int>(k % 3)]];
+           });
 }
 
 } // namespace catoptric::render

@@ -218,6 +218,7 @@ bool move_object(Geometry& geometry, const scene::Scene& now, const Space& space
     } else {
         move_flat(geometry, now, space, index);
     }
+    range.flipped = !(glm::determinant(dmat3(object.world_from_object)) > 0);
     check_reach(range.bounds, object.name);
     if (!range.shares) store_indices(geometry, now.meshes[object.mesh], range);
     return changed;

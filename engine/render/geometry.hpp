@@ -32,6 +32,8 @@ struct DrawRange {
     bool turns = false;        ///< its normal turns to who looks
     bool masked = false;       ///< parts of it may be cut out
     bool lit = false;          ///< a mirror with light of its own, which only its picture shows
+    bool shell = false;        ///< in its mesh's space it is one (is_shell); asked of crowds only
+    bool flipped = false;      ///< mirrored or flattened on its way from that space
     /// Of its mesh, in Geometry::attributes; none: its vertices have none.
     std::optional<std::uint32_t> first_attribute;
     std::optional<OwnSpace> own; ///< none: vertices are in scene units

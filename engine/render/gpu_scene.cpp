@@ -8,6 +8,7 @@
 #include "render/views.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace catoptric::render {
 
@@ -74,7 +75,8 @@ GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t s
       frame_("frame", gpu::BufferUse::uniform, slots),
       surface_buffer_("surfaces", gpu::BufferUse::plain, slots),
       light_buffer_("lights", gpu::BufferUse::uniform, slots),
-      probe_buffer_("probes", gpu::BufferUse::plain, slots), details_(slots), sky_(slots),
+      probe_buffer_("probes", gpu::BufferUse::plain, slots),
+      mirror_tree_("mirror_tree", gpu::BufferUse::texels, slots), details_(slots), sky_(slots),
       tracing_(std::make_unique<Tracing>(slots)) {}
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
@@ -111,9 +113,22 @@ void GpuScene::lay_out(const scene::Scene& now) {
     has_own_spaces_ = std::ranges::any_of(
         geometry_.ranges, [](const DrawRange& range) { return range.own.has_value(); });
     mirror_objects_ = scene::mirrors(now);
+    if (mirror_objects_.size() > kFewMirrors) find_shells(now);
     nearest_.lay_out(geometry_);
     tracing_->lay_out();
     vertices_.lay_out(geometry_);
+}
+
+/// Of the mirrors that are exact spheres, the shapes that hide their own backs.
+void GpuScene::find_shells(const scene::Scene& now) {
+    std::map<std::size_t, bool> known; // by mesh
+    for (const std::size_t object : mirror_objects_) {
+        DrawRange& range = geometry_.ranges[object];
+        if (!range.exact_sphere || range.masked) continue;
+        const std::size_t mesh = now.objects[object].mesh;
+        if (!known.contains(mesh)) known[mesh] = is_shell(now.meshes[mesh]);
+        range.shell = known[mesh];
+    }
 }
 
 void GpuScene::move(const scene::Scene& now, const std::vector<std::size_t>& objects) {
@@ -209,6 +224,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
     for (const shared::Light& light : lights_)
         std::ranges::copy(shadow_views(light), std::back_inserter(scene_views_));
     probe_buffer_.set(probes_);
+    if (is_crowd()) mirror_tree_.set(mirror_tree(probes_));
 }
 
 /// The camera's, then those of mirrors and lights.
@@ -241,7 +257,7 @@ std::uint32_t GpuScene::common_face() const {
 void GpuScene::write(std::size_t slot) {
     uploads_ += vertices_.write(device_, slot) + sky_.write(device_, slot);
     for (Resident* buffer :
-         {&frame_, &view_buffer_, &surface_buffer_, &light_buffer_, &probe_buffer_})
+         {&frame_, &view_buffer_, &surface_buffer_, &light_buffer_, &probe_buffer_, &mirror_tree_})
         uploads_ += buffer->write(device_, slot);
     uploads_ += details_.write(device_, slot);
 }
@@ -252,6 +268,7 @@ void GpuScene::bind(graph::Commands& commands) const {
     commands.bind("Surfaces", surface_buffer_.at(slot_));
     commands.bind("Lights", light_buffer_.at(slot_));
     commands.bind("Probes", probe_buffer_.at(slot_));
+    commands.bind("mirror_nodes", mirror_tree_.at(slot_));
     details_.bind(commands, slot_);
     sky_.bind(commands, slot_);
     vertices_.bind(commands, slot_);
@@ -260,7 +277,8 @@ void GpuScene::bind(graph::Commands& commands) const {
 gpu::Constants GpuScene::features(std::uint32_t view) const {
     return {{"own_spaces", has_own_spaces() ? 1u : 0u}, {"details", details_.any() ? 1u : 0u},
             {"masks", details_.masks() ? 1u : 0u},      {"light_kinds", has_punctual_ ? 1u : 0u},
-            {"environment_kind", sky_.kind()},          {"orthographic", views_[view].parallel}};
+            {"environment_kind", sky_.kind()},          {"orthographic", views_[view].parallel},
+            {"mirror_tree", is_crowd() ? 1u : 0u}};
 }
 
 void GpuScene::bind_sky_vertices(graph::Commands& commands) const {

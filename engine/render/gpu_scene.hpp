@@ -3,6 +3,7 @@
 #include "graph/commands.hpp"
 #include "render/changes.hpp"
 #include "render/details.hpp"
+#include "render/mirror_tree.hpp"
 #include "render/mirrored.hpp"
 #include "render/nearest.hpp"
 #include "render/resident.hpp"
@@ -31,6 +32,8 @@ public:
                 std::size_t slot = 0);
 
     std::uint32_t mirror_count() const { return static_cast<std::uint32_t>(probes_.size()); }
+    /// So many that looking through all of them one by one costs more than what sorts them.
+    bool is_crowd() const { return probes_.size() > kFewMirrors; }
     /// Whether some mirror is no exact sphere.
     bool has_other_mirrors() const;
     std::uint32_t light_count() const { return static_cast<std::uint32_t>(lights_.size()); }
@@ -123,6 +126,7 @@ public:
 
 private:
     void lay_out(const scene::Scene& now);
+    void find_shells(const scene::Scene& now);
     void move(const scene::Scene& now, const std::vector<std::size_t>& objects);
     void fill_surfaces(const scene::Scene& now);
     void fill_lights(const scene::Scene& now, bool others);
@@ -162,7 +166,7 @@ private:
     std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
     mutable Resident view_buffer_;
-    Resident frame_, surface_buffer_, light_buffer_, probe_buffer_;
+    Resident frame_, surface_buffer_, light_buffer_, probe_buffer_, mirror_tree_;
     Details details_;
     Sky sky_;
     std::unique_ptr<Tracing> tracing_;

@@ -8,7 +8,6 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint32_t kLeaf = 4;
 constexpr std::uint32_t kFew = 16; // triangles that are looked at one by one
 
 Bounds<float> bounds_of(const Geometry& geometry, std::uint32_t first_index) {
@@ -40,7 +39,8 @@ float gap_below(const vec3& point, const Bounds<float>& box) {
     return std::max(0.0f, length(apart) - f32::gamma_bound(64) * f32::largest(size));
 }
 
-BoxTree::BoxTree(std::span<const Bounds<float>> boxes) : order_(boxes.size()) {
+BoxTree::BoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf)
+    : leaf_(leaf), order_(boxes.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
     if (!boxes.empty()) add(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
 }
@@ -55,7 +55,7 @@ void BoxTree::add(std::span<const Bounds<float>> boxes, std::uint32_t first, std
         if (!boxes[order_[i]].empty()) centres.add(boxes[order_[i]].centre());
     }
     nodes_[place].box = box;
-    if (count <= kLeaf) {
+    if (count <= leaf_) {
         nodes_[place].first = first, nodes_[place].count = count;
         return;
     }
@@ -82,6 +82,18 @@ void BoxTree::refit(std::span<const Bounds<float>> boxes) {
         for (std::uint32_t k = 0; k < node.count; ++k) node.box.add(boxes[order_[node.first + k]]);
         if (node.count == 0) node.box.add(nodes_[i + 1].box), node.box.add(nodes_[node.second].box);
     }
+}
+
+std::vector<BoxTree::Step> BoxTree::steps() const {
+    std::vector<Step> steps(nodes_.size());
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        const Node& node = nodes_[i];
+        steps[i].box = node.box;
+        steps[i].past = node.count > 0 ? static_cast<std::uint32_t>(i + 1)
+                                       : steps[node.second].past;
+        if (node.count == 1) steps[i].only = order_[node.first];
+    }
+    return steps;
 }
 
 void Nearest::lay_out(const Geometry& geometry) {

@@ -12,13 +12,23 @@ namespace catoptric::render {
 class BoxTree {
 public:
     BoxTree() = default;
-    explicit BoxTree(std::span<const Bounds<float>> boxes);
+    /// At most `leaf` boxes, at least 1, in what is not split further.
+    explicit BoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf = 4);
     /// The same boxes elsewhere. O(n).
     void refit(std::span<const Bounds<float>> boxes);
     /// Calls visit(box) for all boxes that may hold a point nearer to `point` than the root of
     /// `squared`, which visit lowers.
     template <typename Visit>
     void nearest(const vec3& point, const float& squared, Visit&& visit) const;
+
+    /// A node of a walk without a stack: what the ray does not meet is left by going on at `past`.
+    struct Step {
+        Bounds<float> box;
+        std::uint32_t past = 0;            ///< the node after all that is below this one
+        std::optional<std::uint32_t> only; ///< its box, where it has just one
+    };
+    /// All nodes, parents before their children.
+    std::vector<Step> steps() const;
 
 private:
     struct Node {
@@ -28,6 +38,7 @@ private:
     };
     void add(std::span<const Bounds<float>> boxes, std::uint32_t first, std::uint32_t count);
 
+    std::uint32_t leaf_ = 0;
     std::vector<std::uint32_t> order_;
     std::vector<Node> nodes_; ///< children after their parents
 };

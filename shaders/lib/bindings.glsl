@@ -21,6 +21,7 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define COUNTERS_BINDING 14
 #define HDR_BINDING 15
 #define FIRST_LAYER_BINDING 16
+#define MIRROR_NODES_BINDING 30 // see lib/next_mirror.glsl
 // From 20 on a technique's own. See lib/material.glsl:
 #define DETAILS_BINDING 40
 #define ATTRIBUTES_BINDING 41

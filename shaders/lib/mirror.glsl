@@ -7,6 +7,7 @@
 #define CATOPTRIC_MIRROR_GLSL
 
 #include "lib/constants.glsl"
+#include "lib/next_mirror.glsl"
 #include "lib/probe.glsl"
 #include "lib/surface.glsl"
 #ifdef LIT
@@ -44,22 +45,6 @@ vec4 captured_surface(uint mirror, vec3 direction) {
     RETURN_OF_ARRAY(mirror, SURFACE)
 }
 
-// The nearest other mirror along the ray, if it is an exact sphere.
-bool next_mirror(Path path, out uint next, out float t) {
-    bool found = false;
-    t = kLargest;
-    for (uint i = 0u; i < frame.value.mirror_count; ++i) {
-        float t_sphere;
-        if (i != path.mirror && probes[i].radius > 0.0 &&
-            sphere_test(probes[i].sphere, probes[i].radius, Ray(path.at, path.direction, 0u), t, t_sphere)) {
-            t = t_sphere;
-            next = i;
-            found = true;
-        }
-    }
-    return found;
-}
-
 // Of a ray that meets the mirror. A mirror without a capture is black where others show it.
 vec3 reflectance_of(uint mirror, vec3 direction, vec3 n) {
     if (!is_captured(mirror)) return vec3(0);
@@ -72,9 +57,10 @@ vec3 reflectance_of(uint mirror, vec3 direction, vec3 n) {
 bool follow_sphere(inout Path path) {
     uint next;
     float t;
-    if (!next_mirror(path, next, t)) return false;
+    Ray ray = Ray(path.at, path.direction, 0u);
+    if (!first_sphere(ray, path.mirror, next, t)) return false;
     vec3 error;
-    vec3 met = sphere_point(probes[next].sphere, probes[next].radius, Ray(path.at, path.direction, 0u), t, error);
+    vec3 met = sphere_point(probes[next].sphere, probes[next].radius, ray, t, error);
     // Something that stands more than the sphere's radius in front of it hides it.
     vec3 seen = met - path.centre;
     if (captured_distance(path.mirror, normalize(seen)) + probes[next].radius < length(seen)) return false;
@@ -107,33 +93,27 @@ float looked_at() { return 0.0; }
 void look_at(float distance) {}
 #endif
 
-// Whether the ray, which ends as capture `mirror` has it, meets another mirror before, or may: an exact sphere, or the
-// bounds of any other shape.
-bool may_meet_mirror_before(uint mirror, Path path, Lookup lookup) {
-    Ray ray = Ray(path.at, path.direction, 0u);
+// How far along the path a search in capture `mirror` ends.
+float end_of(uint mirror, Path path, Lookup lookup) {
     float distance = looked_at() > 0.0 ? looked_at() : captured_distance(mirror, lookup.direction);
     vec3 end = probes[mirror].centre + lookup.direction * distance;
-    float t_end = lookup.state == kMiss ? kLargest : dot(end - path.at, path.direction);
-    for (uint i = 0u; i < frame.value.mirror_count; ++i) {
-        if (i == path.mirror) continue;
-        Probe probe = probes[i];
-        float t;
-        bool meets = probe.radius > 0.0
-                         ? sphere_test(probe.sphere, probe.radius, ray, kLargest, t)
-                         : slab_test(probe.lowest, probe.highest, box_ray(ray, probe.lowest, probe.highest, 1.0), kLargest, t);
-        if (meets && !(t_end < t)) return true;
-    }
-    return false;
+    return lookup.state == kMiss ? kLargest : dot(end - path.at, path.direction);
 }
 
 // Where another capture knows how the ray ends, if one does. What a mirror shows there is for another eye.
 void ask_others(inout Path path, inout Lookup lookup) {
     float distance = looked_at();
+    Ray ray = Ray(path.at, path.direction, 0u);
+    // The first mirror that the ray meets, or may, is the same whoever is asked.
+    uint first;
+    float met;
+    bool meets = mirror_tree != 0u && first_by_tree(ray, path.mirror, false, first, met);
     for (uint i = 0u; i < frame.value.mirror_count; ++i) {
         if (i == path.mirror || !is_captured(i)) continue;
         Lookup other = search(i, path.at - probes[i].centre, path.direction);
-        if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction)) || may_meet_mirror_before(i, path, other))
-            continue;
+        if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction))) continue;
+        float end = end_of(i, path, other);
+        if (mirror_tree != 0u ? meets && !(end < met) : meets_mirror_before(ray, path.mirror, end)) continue;
         path.mirror = i;
         path.centre = probes[i].centre;
         lookup = other;

@@ -23,6 +23,7 @@ void put(float number) { put(floatBitsToUint(number)); }
 void put(vec2 v) { put(v.x), put(v.y); }
 void put(uvec2 v) { put(v.x), put(v.y); }
 void put(vec3 v) { put(v.x), put(v.y), put(v.z); }
+void put(vec4 v) { put(v.x), put(v.y), put(v.z), put(v.w); }
 void put(Surface s) {
     put(s.albedo), put(s.emission), put(s.reflectance), put(s.mirror), put(s.centre), put(s.radius);
 }
@@ -36,7 +37,7 @@ void main() {
     put(probes[1].centre), put(probes[1].sphere), put(probes[1].radius), put(probes[1].reflectance);
     put(probes[1].lowest), put(probes[1].highest), put(probes[1].kind);
     View v = views[1];
-    put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near), put(v.eye_low), put(v.parallel);
+    put(v.eye), put(v.right), put(v.down), put(v.forward), put(v.near), put(v.eye_low), put(v.parallel), put(v.clip);
     Sky s = skies[1];
     put(s.size), put(s.scale), put(s.turn);
     for (int i = 0; i < 9; ++i) put(s.irradiance[i]);

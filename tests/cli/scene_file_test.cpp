@@ -57,6 +57,35 @@ TEST_F(SceneFile, WhatIsNotReadIsNamed) {
                                    "(first: of the whole file)\n"));
 }
 
+// Said by every verb that loads the scene, and kept in the report.
+TEST_F(SceneFile, WhatManyMirrorsCostIsSaid) {
+    write("a.bin", corners());
+    const auto write_mirrors = [&](int count) {
+        Json scene = triangle("a.bin");
+        scene["nodes"] = Json::array();
+        for (int i = 0; i < count; ++i)
+            scene["nodes"].push_back(
+                {{"mesh", 0}, {"name", "m" + std::to_string(i)}, {"translation", {1.5 * i, 0, 0}}});
+        write("x.gltf", scene.dump());
+    };
+    write_mirrors(64);
+    EXPECT_THAT(cli(render("x.gltf", {"--mirror", "m*"})).err,
+                testing::Not(testing::HasSubstr("captures")));
+    write_mirrors(65);
+    const std::string sentence = "scene 'x' has 65 mirrors: 65 captures of six faces a frame, 390 "
+                                 "to 780 MiB at face=256; a smaller face=, --plan and --model "
+                                 "required lessen that";
+    EXPECT_THAT(cli(render("x.gltf", {"--mirror", "m*", "--quiet"})).err,
+                testing::HasSubstr("catoptric: warning: " + sentence + "\n"));
+    const Json info = Json::parse(cli({"info", "x.gltf", "--json", "--mirror", "m*"}).out);
+    EXPECT_THAT(info["warnings"], testing::Contains(Json(sentence)));
+    const test::Ended compared = cli(quick(
+        {"compare", "x.gltf", "--mirror", "m*", "--techniques", "reuse:face=1", "-o", "out"}));
+    EXPECT_EQ(compared.exit_code, 0) << compared.err;
+    EXPECT_THAT(Json::parse(read("out/report.json"))["warnings"],
+                testing::Contains(Json(sentence)));
+}
+
 /// Names that clear a terminal, set its title, begin a line of their own or turn the writing.
 TEST_F(SceneFile, TheTerminalIsNotSpokenTo) {
     const std::string evil = "\x1b[2J\x1b]0;title\x07\rcatoptric: \xc2\x9b"

@@ -36,6 +36,18 @@ scene::Mesh box(std::initializer_list<int> walls, bool outwards) {
     return mesh;
 }
 
+TEST(Shell, IsClosedAndFacesOut) {
+    const auto all = {0, 1, 2, 3, 4, 5};
+    EXPECT_TRUE(render::is_shell(scene::ball("ball", 3)));
+    EXPECT_TRUE(render::is_shell(box(all, true)));
+    EXPECT_FALSE(render::is_shell(box(all, false))) << "faces in";
+    EXPECT_FALSE(render::is_shell(box({0, 1, 2, 3, 4}, true))) << "open";
+    EXPECT_FALSE(render::is_shell(scene::torus("torus", 1, .3, 24))) << "not seen from its middle";
+    scene::Mesh turned = scene::ball("ball", 2);
+    std::swap(turned.triangles[5].x, turned.triangles[5].y);
+    EXPECT_FALSE(render::is_shell(turned)) << "one triangle faces in";
+}
+
 TEST(Enclosure, ABallShutsInWhatIsInIt) {
     const Alone ball(scene::ball("ball", 3));
     for (const vec3 inside : {vec3(0), vec3(.5f, -.3f, .2f), vec3(0, 0, -.999f)})

@@ -1,0 +1,34 @@
+#include "render/mirror_tree.hpp"
+
+#include "bvh/words.hpp"
+#include "render/nearest.hpp"
+
+namespace catoptric::render {
+
+namespace {
+
+/// No narrower than what a ray is tested against.
+Bounds<float> box_of(const shared::Probe& probe) {
+    if (!(probe.radius > 0)) return {probe.lowest, probe.highest};
+    Bounds<float> box{probe.sphere - probe.radius, probe.sphere + probe.radius};
+    for (int axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = f32::next_down(box.lo[axis]);
+        box.hi[axis] = f32::next_up(box.hi[axis]);
+    }
+    return box;
+}
+
+} // namespace
+
+std::vector<vec4> mirror_tree(std::span<const shared::Probe> probes) {
+    std::vector<Bounds<float>> boxes;
+    for (const shared::Probe& probe : probes) boxes.push_back(box_of(probe));
+    std::vector<vec4> texels;
+    for (const BoxTree::Step& step : BoxTree(boxes, 1).steps()) {
+        texels.emplace_back(step.box.lo, bvh::id_word(step.only ? *step.only + 1 : 0));
+        texels.emplace_back(step.box.hi, bvh::id_word(step.past));
+    }
+    return texels;
+}
+
+} // namespace catoptric::render

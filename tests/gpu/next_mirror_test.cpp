@@ -1,0 +1,160 @@
+// Which mirror a ray meets first: a walk over the tree against looking at all of them.
+#include "render/mirror_tree.hpp"
+#include "support/device.hpp"
+#include "support/numbers.hpp"
+
+#include <array>
+#include <bit>
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+/// As the shader reads it.
+struct MirrorRay {
+    vec3 origin{0};
+    float end = 0; ///< whether a mirror is met before it is asked
+    vec3 direction{0};
+    std::uint32_t leaves = 0; ///< the mirror that is not met, from 0
+};
+static_assert(sizeof(MirrorRay) == 32);
+
+struct Answer {
+    std::uint32_t sphere = 0; ///< the first exact sphere, from 1; 0: none
+    std::uint32_t t = 0;      ///< bits
+    std::uint32_t before = 0, unused = 0;
+    bool operator==(const Answer&) const = default;
+};
+
+std::vector<Answer> answers(const std::vector<shared::Probe>& probes,
+                            const std::vector<MirrorRay>& rays, bool by_tree) {
+    auto& [device, pipelines] = test::bench();
+    gpu::Buffer input, mirrors, tree, frame;
+    upload(device, input, "rays", rays, gpu::BufferUse::plain);
+    upload(device, mirrors, "probes", probes, gpu::BufferUse::plain);
+    upload(device, tree, "tree", render::mirror_tree(probes), gpu::BufferUse::texels);
+    const auto count = static_cast<std::uint32_t>(probes.size());
+    upload(device, frame, "frame", std::vector{shared::Frame{.mirror_count = count}},
+           gpu::BufferUse::uniform);
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    const graph::Buffer out = graph.buffer({"answers", rays.size() * sizeof(Answer)});
+    graph.pass("next_mirror")
+        .writes(out, graph::Use::storage_write)
+        .record([&](graph::Commands& commands) {
+            commands.bind("frame", frame);
+            commands.bind("Probes", mirrors);
+            commands.bind("mirror_nodes", tree);
+            commands.bind("Rays", input);
+            commands.bind("Answers", out);
+            commands.use(
+                gpu::ComputeState{"tests/next_mirror.comp", {{"mirror_tree", by_tree ? 1u : 0u}}});
+            commands.push(static_cast<std::uint32_t>(rays.size()));
+            commands.dispatch(static_cast<std::uint32_t>((rays.size() + 63) / 64), 1);
+        });
+    graph.want(out);
+    test::run(runner, graph);
+    return test::read_as<Answer>(runner, out);
+}
+
+shared::Probe sphere(vec3 centre, float radius) {
+    return {.centre = centre,
+            .sphere = centre,
+            .radius = radius,
+            .lowest = centre - radius,
+            .highest = centre + radius};
+}
+
+/// Spheres and boxes of many sizes, some twice, some inside others.
+std::vector<shared::Probe> crowd(test::Numbers& numbers, std::size_t count) {
+    std::vector<shared::Probe> probes;
+    while (probes.size() < count) {
+        const vec3 centre = numbers.in_cube();
+        const float size = std::abs(numbers.wide(-3, -.5f));
+        shared::Probe probe = sphere(centre, size);
+        if (numbers.below(3) == 0) {
+            probe.radius = 0;
+            probe.lowest = centre - size * vec3(1, .5f, 0);
+            probe.highest = centre + size * vec3(1, .25f, .1f);
+        }
+        probes.push_back(probe);
+        if (numbers.below(8) == 0) probes.push_back(probe);
+        if (numbers.below(8) == 0) probes.push_back(sphere(centre, .5f * size));
+    }
+    return probes;
+}
+
+/// Anywhere; to a mirror's outline, where roundings decide; along an axis; from a mirror.
+std::vector<MirrorRay> rays_among(const std::vector<shared::Probe>& probes, test::Numbers& numbers,
+                                  std::size_t count) {
+    std::vector<MirrorRay> rays(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        MirrorRay& ray = rays[i];
+        const std::size_t mirror = numbers.below(probes.size());
+        const shared::Probe& probe = probes[mirror];
+        const float size = .5f * (probe.highest.x - probe.lowest.x);
+        ray.origin = (i % 2 == 0 ? 1.5f : 100) * numbers.in_cube();
+        ray.direction = numbers.direction();
+        ray.leaves = static_cast<std::uint32_t>(numbers.below(probes.size()));
+        ray.end = numbers.between(0, i % 2 == 0 ? 2 : 200);
+        const vec3 aside = normalize(cross(ray.direction, numbers.direction()));
+        const float nearly = 1 + numbers.between(-4, 4) * 0x1p-23f;
+        if (i % 4 >= 2) // past the outline, far or near
+            ray.origin = probe.sphere + size * nearly * aside -
+                         numbers.between(0, i % 8 < 4 ? 2 : 200) * ray.direction;
+        if (i % 16 == 15) ray.direction = vec3(i % 3 == 0, i % 3 == 1, i % 3 == 2);
+        if (i % 16 == 7)
+            ray.origin = probe.sphere + size * aside,
+            ray.leaves = static_cast<std::uint32_t>(mirror);
+    }
+    return rays;
+}
+
+TEST(NextMirror, ByTheTreeIsWhatLookingAtAllFinds) {
+    test::Numbers numbers(14);
+    for (const std::size_t count : {1, 2, 9, 30, 200}) {
+        const std::vector<shared::Probe> probes = crowd(numbers, count);
+        const std::vector<MirrorRay> rays = rays_among(probes, numbers, 40000);
+        const std::vector<Answer> all = answers(probes, rays, false),
+                                  tree = answers(probes, rays, true);
+        std::size_t different = 0, met = 0, before = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            met += all[i].sphere != 0, before += all[i].before;
+            if (all[i] == tree[i] || different++ > 0) continue;
+            ADD_FAILURE() << probes.size() << " mirrors, ray " << i << ": one by one sphere "
+                          << all[i].sphere << " at " << std::bit_cast<float>(all[i].t)
+                          << (all[i].before ? ", one before the end" : "") << "; by the tree "
+                          << tree[i].sphere << " at " << std::bit_cast<float>(tree[i].t)
+                          << (tree[i].before ? ", one before the end" : "");
+        }
+        std::cout << "[ MEASURED ] " << probes.size() << " mirrors, " << rays.size()
+                  << " rays: " << different << " differ, " << met << " meet a sphere, " << before
+                  << " some mirror before their end\n";
+        EXPECT_EQ(different, 0u);
+        EXPECT_GE(met, count > 1 ? rays.size() / 20 : 0);
+        EXPECT_GE(before, count > 1 ? rays.size() / 20 : 0);
+    }
+}
+
+// Twenty equal spheres around ten others: the nearest is met, and of equals the lowest number that
+// the ray does not leave.
+TEST(NextMirror, OfEqualsTheLowestNumberIsMet) {
+    std::vector<shared::Probe> probes;
+    for (int i = 0; i < 10; ++i) probes.push_back(sphere({0, float(i - 5), 0}, .25f));
+    for (int i = 0; i < 20; ++i) probes.push_back(sphere({2, 0, 0}, .5f));
+    const std::vector<MirrorRay> rays{{{6, 0, 0}, 3, {-1, 0, 0}, 0},  // to the equals
+                                      {{6, 0, 0}, 9, {-1, 0, 0}, 10}, // but for the first
+                                      {{-4, 0, 0}, 3, {1, 0, 0}, 29}, // to the sixth
+                                      {{-4, 0, 0}, 5, {1, 0, 0}, 5},  // past it
+                                      {{6, 3, 0}, 9, {1, 0, 0}, 0}};  // to nothing
+    const auto met = [](std::uint32_t sphere, float t, std::uint32_t before) {
+        return Answer{sphere, std::bit_cast<std::uint32_t>(t), before, 0};
+    };
+    const std::vector<Answer> expected{met(11, 3.5f, 0), met(12, 3.5f, 1), met(6, 3.75f, 0),
+                                       met(11, 5.5f, 0), met(0, 0, 0)};
+    for (const bool by_tree : {false, true})
+        EXPECT_TRUE(answers(probes, rays, by_tree) == expected) << (by_tree ? "tree" : "all");
+}
+
+} // namespace

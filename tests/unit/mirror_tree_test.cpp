@@ -1,0 +1,67 @@
+// The tree in which shaders look for the next mirror, read as they read it.
+#include "render/mirror_tree.hpp"
+
+#include "bvh/words.hpp"
+#include "support/numbers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace catoptric;
+
+struct Node {
+    explicit Node(const std::vector<vec4>& tree, std::size_t i)
+        : lowest(tree[2 * i]), highest(tree[2 * i + 1]), mirror(bvh::number_of(tree[2 * i].w)),
+          past(bvh::number_of(tree[2 * i + 1].w)) {}
+    bool holds(const vec3& lo, const vec3& hi) const {
+        return all(lessThanEqual(lowest, lo)) && all(lessThanEqual(hi, highest));
+    }
+    vec3 lowest, highest;
+    std::uint32_t mirror, past;
+};
+
+/// Spheres, and boxes in front of them by which nothing is tested.
+std::vector<shared::Probe> probes(std::size_t count) {
+    test::Numbers numbers(3);
+    std::vector<shared::Probe> probes(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        probes[i].sphere = numbers.in_cube();
+        probes[i].radius = i % 3 == 0 ? 0 : numbers.between(.01f, .3f);
+        probes[i].lowest = numbers.in_cube() + 4.0f;
+        probes[i].highest = probes[i].lowest + numbers.unit();
+    }
+    return probes;
+}
+
+TEST(MirrorTree, HasEachMirrorOnceInTheBoxesAboveIt) {
+    for (const std::size_t count : {1, 2, 3, 9, 64, 500}) {
+        const std::vector<shared::Probe> mirrors = probes(count);
+        const std::vector<vec4> tree = render::mirror_tree(mirrors);
+        ASSERT_EQ(tree.size(), 2 * (2 * count - 1));
+        std::vector<int> met(count);
+        for (std::size_t i = 0; i < tree.size() / 2; ++i) {
+            const Node node(tree, i);
+            ASSERT_GT(node.past, i);
+            ASSERT_LE(node.past, tree.size() / 2);
+            for (std::size_t below = i; below < node.past; ++below) {
+                const Node leaf(tree, below);
+                if (leaf.mirror == 0) continue;
+                const shared::Probe& mirror = mirrors[leaf.mirror - 1];
+                const vec3 reach(mirror.radius);
+                const bool is_sphere = mirror.radius > 0;
+                EXPECT_TRUE(node.holds(is_sphere ? mirror.sphere - reach : mirror.lowest,
+                                       is_sphere ? mirror.sphere + reach : mirror.highest))
+                    << "mirror " << leaf.mirror << " of " << count << " below node " << i;
+            }
+            if (node.mirror == 0) continue;
+            EXPECT_EQ(node.past, i + 1) << "nothing is below a mirror";
+            ++met[node.mirror - 1];
+        }
+        EXPECT_THAT(met, testing::Each(1)) << count;
+    }
+    EXPECT_TRUE(render::mirror_tree({}).empty());
+}
+
+} // namespace
