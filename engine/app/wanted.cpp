@@ -79,14 +79,25 @@ void surround(Wanted& wanted) {
     scene.environment = std::move(environment);
 }
 
+bool is_seeded(const std::string& camera, const scene::Scene& scene) {
+    return camera == "seeded" &&
+           std::ranges::find(scene.cameras, camera, &scene::Camera::name) == scene.cameras.end();
+}
+
+/// The camera that these wishes name; none: it is to be drawn, or nothing is said of it.
+std::optional<scene::Camera> named_camera(const scene::Wishes& wishes, const scene::Scene& scene) {
+    if (!wishes.camera || is_seeded(*wishes.camera, scene)) return std::nullopt;
+    return scene::camera_named(*wishes.camera, scene);
+}
+
 /// What the scene file says belongs to the scene, and so to its hash: the camera comes first.
 void adopt(Wanted& wanted, const scene::Wishes& filed) {
     scene::Scene& scene = wanted.scene;
     if (filed.exposure) scene.exposure = filed.exposure->stops;
-    if (!filed.camera || *filed.camera == "seeded") return;
-    const scene::Camera camera = scene::camera_named(*filed.camera, scene);
-    std::erase(scene.cameras, camera);
-    scene.cameras.insert(scene.cameras.begin(), camera);
+    const std::optional<scene::Camera> camera = named_camera(filed, scene);
+    if (!camera) return;
+    std::erase(scene.cameras, *camera);
+    scene.cameras.insert(scene.cameras.begin(), *camera);
 }
 
 } // namespace
@@ -106,6 +117,10 @@ Wanted load_wanted(const std::string& name, const WantedOptions& options) {
     if (wanted.wishes.animation) load.animation = *wanted.wishes.animation;
     wanted.scene = scene::load(name, load);
     scene::apply(wanted.scene, wanted.wishes);
+    // Before `adopt` gives the cameras another order: an index counts in the scene's own.
+    wanted.camera = named_camera(wanted.wishes, wanted.scene);
+    wanted.is_camera_seeded = wanted.wishes.camera &&
+                              is_seeded(*wanted.wishes.camera, wanted.scene);
     if (filed) {
         adopt(wanted, filed->wishes);
         for (const std::filesystem::path& file : filed->files) add_file(wanted.scene, file);
@@ -127,7 +142,7 @@ std::optional<double> exposure_of(const Wanted& wanted) {
 
 scene::Camera camera_of(Wanted& wanted, double aspect) {
     scene::Scene& scene = wanted.scene;
-    if (wanted.wishes.camera) return scene::camera_named(*wanted.wishes.camera, scene);
+    if (wanted.camera) return *wanted.camera;
     if (!scene.cameras.empty()) return scene.cameras.front();
     const scene::Camera camera = scene::default_camera(scene, aspect);
     if (wanted.is_file)

@@ -65,10 +65,8 @@ void add_choices(Verb& verb, Common& common) {
 }
 
 scene::Camera choose_camera(const Common& common, app::Wanted& wanted) {
-    const scene::Scene& scene = wanted.scene;
-    const auto is_called_so = [](const scene::Camera& camera) { return camera.name == "seeded"; };
-    if (wanted.wishes.camera == "seeded" && std::ranges::none_of(scene.cameras, is_called_so)) {
-        scene::Camera camera = app::seeded_camera(scene, common.time, common.seed);
+    if (wanted.is_camera_seeded) {
+        scene::Camera camera = app::seeded_camera(wanted.scene, common.time, common.seed);
         note(common.manners,
              "camera drawn from seed " + std::to_string(common.seed) + ": " + camera.name);
         return camera;

@@ -72,6 +72,22 @@ TEST_F(Beside, ItIsPartOfTheHashAndCanBeLeftOut) {
     }
 }
 
+TEST_F(Beside, AnIndexCountsInTheOrderOfTheScene) {
+    const std::string scene = write("x.obj", kDark + kCamera +
+                                                 "# catoptric camera d 0 0 6 0 0 0 0 1 0 40\n" +
+                                                 "# catoptric camera e 0 0 7 0 0 0 0 1 0 40\n");
+    for (const auto& [index, name] : {std::pair("0", "c"), {"1", "d"}, {"2", "e"}}) {
+        write("x.obj.catoptric.json", std::string("{\"camera\": \"") + index + "\"}");
+        app::Wanted found = app::load_wanted(scene, {});
+        EXPECT_EQ(app::camera_of(found, 1).name, name);
+        EXPECT_EQ(found.scene.cameras.front().name, name);
+        Wishes wishes;
+        wishes.camera = "1";
+        app::Wanted other = app::load_wanted(scene, {.wishes = wishes});
+        EXPECT_EQ(app::camera_of(other, 1).name, "d");
+    }
+}
+
 TEST_F(Beside, TheCommandLineWins) {
     Wishes wishes;
     wishes.exposure = ExposureWish{2};
