@@ -88,15 +88,15 @@ void move_flat(Geometry& geometry, const scene::Scene& now, const Space& space, 
 /// Whether what is seen of the surface is more than one colour and its light.
 bool varies(const scene::Mesh& mesh, const scene::Material& material, float sharp_below) {
     const bool is_sharp = material.roughness <= sharp_below || material.roughness_texture;
-    const bool throws_back = material.mirror && material.albedo != vec3(0) &&
-                             material.reflectance != vec3(1);
+    const bool throws_back = material.albedo != vec3(0) && material.reflectance != vec3(1);
     return !mesh.colours.empty() || material.albedo_texture || material.emission_texture ||
            material.unlit || scene::is_masked(material) ||
-           (material.mirror ? throws_back : is_sharp);
+           (material.mirror ? throws_back || scene::glows(material) : is_sharp);
 }
 
 /// A mirror that shows nothing but what it mirrors.
 bool is_pure(const scene::Mesh& mesh, const scene::Material& material) {
+    if (scene::glows(material)) return false;
     if (material.mirror) return material.albedo == vec3(0) || material.reflectance == vec3(1);
     return material.metallic == 1 && mesh.colours.empty() && !material.albedo_texture &&
            !material.roughness_texture && !material.emission_texture && !material.unlit;

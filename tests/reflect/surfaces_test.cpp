@@ -266,6 +266,28 @@ TEST(SharpSurfaces, ReflectBySchlick) {
 /// A board with a hole of the texture's left half hangs over a floor, beneath a small lamp.
 scene::Scene hole(float cutoff) {
     scene::Scene scene{.name = "hole"};
+/// A mirror that glows shows its own light: seen by the eye, and by a mirror before it. Tilted, it
+/// reflects only the dark.
+TEST(GlowingMirror, ShowsItsOwnLight) {
+    const vec3 glow(.25f, .5f, 1);
+    for (const bool in_mirror : {false, true}) {
+        scene::Scene scene = showing(
+            square({0, 0}, {1, 1}),
+            {.emission = in_mirror ? vec3(0) : glow, .mirror = true, .reflectance = vec3(1)});
+        if (in_mirror)
+            test::add_quad(scene, "behind the eye",
+                           test::add_material(
+                               scene, {.emission = glow, .mirror = true, .reflectance = vec3(.5f)}),
+                           {-12, -4, 3}, {-12, 12, 19}, {13, 12, 19}, {13, -4, 3});
+        for (const char* technique : {"raytrace", "reuse:face=64", "secant:face=64,continue=4",
+                                      "hybrid:face=64,continue=4"})
+            EXPECT_LE(farthest(test::render(scene, technique, {16, 16}, 3).hdr,
+                               [&](dvec2) { return dvec3(glow); }),
+                      in_mirror ? 2e-3 : 1e-6)
+                << technique << ' ' << in_mirror;
+    }
+}
+
     auto halves = std::make_shared<scene::Image>();
     halves->name = "halves", halves->size = {2, 1}, halves->texels = {0x00ffffffu, 0xffffffffu};
     test::add_quad(scene, "floor", test::add_material(scene, {.albedo = vec3(.5f)}), {-2, 0, 2},
