@@ -81,6 +81,17 @@ TEST_F(LoadSurface, FactorsAndSides) {
 }
 
 TEST_F(LoadSurface, DielectricsByExtension) {
+TEST_F(LoadSurface, APerfectMetalKeepsTheColoursOfItsVertices) {
+    Gltf gltf = with({{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0}}}});
+    EXPECT_TRUE(scene_of(gltf).materials[0].mirror);
+    const std::size_t colours = gltf.add<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}, "VEC3", 5126);
+    gltf.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colours;
+    const Scene scene = scene_of(gltf);
+    EXPECT_FALSE(scene.materials[0].mirror);
+    EXPECT_EQ(scene.materials[0].metallic, 1);
+    EXPECT_EQ(scene.meshes[0].colours.size(), 3u);
+}
+
     const auto with_extension = [&](const char* name, const Json& is) {
         return material_of({{"extensions", {{name, is}}}});
     };
