@@ -195,6 +195,15 @@ TEST_F(LoadGeometry, MorphTargetsAtTheirDefaultWeights) {
 
 TEST_F(LoadGeometry, SkinsStandAsTheirJointsDo) {
     Gltf gltf = small();
+    // A node's own weigh in place of the mesh's; nodes of the same weights share.
+    gltf.root["nodes"] = {
+        {{"mesh", 0}}, {{"mesh", 0}, {"weights", {0, 1}}}, {{"mesh", 0}, {"weights", {0, 1}}}};
+    gltf.root["scenes"][0]["nodes"] = {0, 1, 2};
+    const Scene nodes = scene_of(gltf);
+    const dvec3 own(0, 0, 4);
+    EXPECT_EQ(nodes.meshes.size(), 2u);
+    const std::array moved{kA + own, kB + own, kC + own};
+    EXPECT_THAT(triangles(nodes), ElementsAre(std::array{kA + up, kB + up, kC + up}, moved, moved));
     // a joint 2 above and turned by nothing, bound 1 above: carries by 1; another at the origin
     std::vector<float> bound(32);
     for (const std::size_t i : {0, 5, 10, 15, 16, 21, 26, 31}) bound[i] = 1;
