@@ -2,6 +2,7 @@
 
 #include "app/scene_facts.hpp"
 #include "measure/statistics.hpp"
+#include "scene/wishes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +20,8 @@ double exposure_for(const measure::Picture& picture) {
     if (luminances.empty()) return 0;
     const double bright = measure::percentile(std::move(luminances), kPercentile);
     if (!(bright > 0)) return 0;
-    constexpr double kMostStops = 64; // as --exposure
     const double stops = std::round(kSteps * std::log2(kWanted / bright)) / kSteps;
-    return std::clamp(stops, -kMostStops, kMostStops) + 0.0; // no -0
+    return std::clamp(stops, -scene::kMostStops, scene::kMostStops) + 0.0; // no -0
 }
 
 double auto_exposure(Session& session, const Request& request) {

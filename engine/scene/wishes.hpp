@@ -25,6 +25,10 @@ struct ExposureWish {
 enum class Up { y, z };
 
 /// Each as the user gave it; what is empty was not said.
+inline constexpr double kMostStops = 64;   ///< of exposure, either way: 2^64 is finite
+inline constexpr double kMostTurn = 36000; ///< degrees that an environment is turned, either way
+inline constexpr double kMostScale = 1e30; ///< of what light is multiplied with
+
 struct Wishes {
     std::vector<MirrorWish> mirrors; ///< a later one wins
     std::vector<std::string> lights; ///< patterns

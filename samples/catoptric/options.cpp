@@ -16,7 +16,6 @@ namespace catoptric::cli {
 namespace {
 
 constexpr std::int64_t kMostFrames = 1'000'000;
-constexpr double kMostStops = 64; // 2^64 is far beyond every picture, and finite
 
 const std::string kCommonGroup = "Common options";
 const std::string kMannersGroup = "Output";
@@ -85,7 +84,7 @@ void warn_of_no_mirror(const scene::Scene& scene) {
 } // namespace
 
 double parse_stops(const std::string& text) {
-    return parse_real("--exposure", text, -kMostStops, kMostStops);
+    return parse_real("--exposure", text, -scene::kMostStops, scene::kMostStops);
 }
 
 void add_manners(Verb& verb, Manners& manners) {
