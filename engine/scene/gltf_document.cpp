@@ -1,7 +1,9 @@
 #include "scene/gltf_model.hpp"
 
 #include "core/text.hpp"
+#include "scene/wishes.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace catoptric::scene::gltf {
@@ -66,7 +68,10 @@ std::optional<double> read_exposure(const Item& root) {
     const std::optional<Item> ours = ours_of(
         root.at("scenes", root.index("scene", count).value_or(0)));
     if (!ours || !ours->has("exposure")) return std::nullopt;
-    return ours->number("exposure", 0);
+    const double stops = ours->number("exposure", 0);
+    ours->require(std::abs(stops) <= kMostStops, "exposure: wanted ", -kMostStops, " to ",
+                  kMostStops, ", found ", stops);
+    return stops;
 }
 
 /// Of each animation {"repeats": true}.
