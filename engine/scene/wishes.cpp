@@ -105,6 +105,10 @@ Wishes over(const Wishes& stronger, const Wishes& weaker) {
     put_over(both.dielectric_mirrors, stronger.dielectric_mirrors);
     put_over(both.environment, stronger.environment);
     put_over(both.environment_scale, stronger.environment_scale);
+    for (const MirrorWish& wish : stronger.mirrors)
+        std::erase_if(both.mirrors,
+                      [&](const MirrorWish& other) { return other.pattern == wish.pattern; });
+    for (const std::string& pattern : stronger.lights) std::erase(both.lights, pattern);
     put_over(both.environment_rotation, stronger.environment_rotation);
     put_over(both.exposure, stronger.exposure);
     put_over(both.camera, stronger.camera);

@@ -44,7 +44,8 @@ struct Wishes {
     bool operator==(const Wishes&) const = default;
 };
 
-/// Both, `stronger` where both say something; its mirrors and lights come after the others.
+/// Both, `stronger` where both say something; its mirrors and lights come after the others,
+/// each pattern once.
 Wishes over(const Wishes& stronger, const Wishes& weaker);
 
 /// Whether a whole name is the pattern, or what the pattern (fnmatch: * ? [...]) stands for; case

@@ -87,6 +87,13 @@ TEST(MirrorWish, ALaterOneWins) {
     EXPECT_EQ(of(scene, 0).reflectance, vec3(.5f));
 }
 
+TEST(Over, SaysEachPatternOnce) {
+    const Wishes both = over({.mirrors = {{"a", vec3(1)}}, .lights = {"l"}},
+                             {.mirrors = {{"a", vec3(.5f)}, {"b", vec3(1)}}, .lights = {"l", "k"}});
+    EXPECT_EQ(both.mirrors, (std::vector<MirrorWish>{{"b", vec3(1)}, {"a", vec3(1)}}));
+    EXPECT_THAT(both.lights, ElementsAre("k", "l"));
+}
+
 TEST(MirrorOptions, CanBePastedAndMeanThatObject) {
     Scene scene = room();
     scene.objects[1].name = "it's a * [1]=2";
