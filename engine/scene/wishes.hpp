@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/said_by.hpp"
 #include "scene/scene.hpp"
 
 #include <memory>
@@ -59,6 +60,10 @@ MirrorWish read_mirror_wish(const std::string& option, const std::string& text);
 /// The word of --mirror for what has this name: signs of patterns escaped, bytes that no terminal
 /// shows as '?', of a long one the first 60 bytes.
 std::string pattern_of(const std::string& name);
+
+/// Throws as the file's, naming it and the key, for a pattern of mirrors or lights that `apply`
+/// would not take.
+void check_patterns(const Scene& scene, const Wishes& wishes, const std::string& file);
 
 /// Applies mirrors, lights, roughness and dielectrics, turns the scene, and finds its mirrors anew
 /// (classify.hpp). What names a picture is left to app/wanted.hpp. Throws `usage`, with the nearest
