@@ -41,7 +41,7 @@ InfoFacts gather(const std::string& device) {
     facts.features = {{"techniques", techniques},
                       {"scenes", scenes},
                       {"scene_files", {"glb", "gltf", "obj"}},
-                      {"picture_files", {"exr", "png"}},
+                      {"picture_files", {"exr", "hdr", "png"}},
                       {"models", {"everything"}},
                       {"timings", {"isolated", "pipelined"}}};
     return facts;

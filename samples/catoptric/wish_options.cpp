@@ -33,11 +33,11 @@ void add_surfaces(Verb& verb, scene::Wishes& wishes) {
 
 void add_surroundings(Verb& verb, scene::Wishes& wishes) {
     verb.option("--environment", "E",
-                "what is seen where the scene ends, and lights it: FILE.exr or FILE.hdr "
+                "what is seen where the scene ends, and lights it: FILE.exr, .hdr or .png "
                 "(equirectangular), studio or none (none; studio for a file without a light)",
                 [&](const std::string& text) {
                     check(!text.empty(), Failure::usage,
-                          "--environment: wanted FILE.exr, FILE.hdr, studio or none, found ''");
+                          "--environment: wanted FILE.exr, .hdr or .png, studio or none, found ''");
                     wishes.environment = text;
                 });
     verb.option("--environment-scale", "S", "times its light (1)", [&](const std::string& text) {
