@@ -25,11 +25,11 @@ struct ExposureWish {
 
 enum class Up { y, z };
 
-/// Each as the user gave it; what is empty was not said.
 inline constexpr double kMostStops = 64;   ///< of exposure, either way: 2^64 is finite
 inline constexpr double kMostTurn = 36000; ///< degrees that an environment is turned, either way
 inline constexpr double kMostScale = 1e30; ///< of what light is multiplied with
 
+/// Each as the user gave it; what is empty was not said.
 struct Wishes {
     std::vector<MirrorWish> mirrors; ///< a later one wins
     std::vector<std::string> lights; ///< patterns
@@ -73,8 +73,9 @@ void apply(Scene& scene, const Wishes& wishes);
 /// Turns a scene whose up is +z so that it is +y: (x, y, z) becomes (x, z, -y), exactly.
 void turn_z_up(Scene& scene);
 
-/// Leaves `most` lights, the strongest at the centre of the bounds, at rest; what a mesh that is
-/// left out emits is seen, but lights nothing. Adds the gap "lights-left-out".
+/// Leaves `most` lights, the strongest at the centre of the bounds, at rest, of a mesh that lights
+/// from several places some of them; what is left out is seen, but lights nothing. Adds the gap
+/// "lights-left-out".
 void leave_out_lights(Scene& scene, std::size_t most);
 
 } // namespace catoptric::scene
