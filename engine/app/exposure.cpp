@@ -1,6 +1,7 @@
 #include "app/exposure.hpp"
 
 #include "app/scene_facts.hpp"
+#include "core/luminance.hpp"
 #include "measure/statistics.hpp"
 #include "scene/wishes.hpp"
 
@@ -13,9 +14,8 @@ double exposure_for(const measure::Picture& picture) {
     constexpr double kPercentile = .95, kWanted = .8, kSteps = 3; // a stop
     std::vector<double> luminances;
     for (const vec3& pixel : picture.pixels) {
-        const double luminance = .2126 * double{pixel.x} + .7152 * double{pixel.y} +
-                                 .0722 * double{pixel.z};
-        if (std::isfinite(luminance)) luminances.push_back(luminance);
+        const double its = luminance(dvec3(pixel));
+        if (std::isfinite(its)) luminances.push_back(its);
     }
     if (luminances.empty()) return 0;
     const double bright = measure::percentile(std::move(luminances), kPercentile);

@@ -1,6 +1,7 @@
 // Of many lights the strongest.
 #include "scene/wishes.hpp"
 
+#include "core/luminance.hpp"
 #include "core/text.hpp"
 #include "scene/light.hpp"
 
@@ -12,13 +13,9 @@ namespace catoptric::scene {
 
 namespace {
 
-double luminance(const vec3& colour) { // Rec. 709
-    return .2126 * colour.x + .7152 * colour.y + .0722 * colour.z;
-}
-
 /// What one light does to a surface at the point that faces it, without shadows.
 double strength_at(const dvec3& point, const PointLight& light) {
-    const double emitted = luminance(light.emission) * light.area;
+    const double emitted = luminance(dvec3(light.emission)) * light.area;
     if (light.directional) return emitted;
     const dvec3 way = point - light.position;
     const double square = glm::dot(way, way), distance = std::sqrt(square);
