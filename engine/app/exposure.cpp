@@ -1,7 +1,9 @@
 #include "app/exposure.hpp"
 
 #include "app/scene_facts.hpp"
+#include "core/luminance.hpp"
 #include "measure/statistics.hpp"
+#include "scene/wishes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +14,14 @@ double exposure_for(const measure::Picture& picture) {
     constexpr double kPercentile = .95, kWanted = .8, kSteps = 3; // a stop
     std::vector<double> luminances;
     for (const vec3& pixel : picture.pixels) {
-        const double luminance = .2126 * double{pixel.x} + .7152 * double{pixel.y} +
-                                 .0722 * double{pixel.z};
-        if (std::isfinite(luminance)) luminances.push_back(luminance);
+        const double its = luminance(dvec3(pixel));
+        if (std::isfinite(its)) luminances.push_back(its);
     }
     if (luminances.empty()) return 0;
     const double bright = measure::percentile(std::move(luminances), kPercentile);
     if (!(bright > 0)) return 0;
-    constexpr double kMostStops = 64; // as --exposure
     const double stops = std::round(kSteps * std::log2(kWanted / bright)) / kSteps;
-    return std::clamp(stops, -kMostStops, kMostStops) + 0.0; // no -0
+    return std::clamp(stops, -scene::kMostStops, scene::kMostStops) + 0.0; // no -0
 }
 
 double auto_exposure(Session& session, const Request& request) {

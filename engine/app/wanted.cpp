@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace catoptric::app {
 
@@ -58,7 +59,17 @@ void add_file(scene::Scene& scene, const std::filesystem::path& real) {
     if (std::ranges::find(scene.files, real) == scene.files.end()) scene.files.push_back(real);
 }
 
-void surround(Wanted& wanted) {
+/// Where there is no environment. `remedy` ends the message.
+void require_unchanged(const scene::Wishes& wishes, const scene::SaidBy& scale,
+                       const scene::SaidBy& rotation, const char* remedy) {
+    for (const auto& [is_said, by] :
+         {std::pair(wishes.environment_scale.has_value(), &scale),
+          std::pair(wishes.environment_rotation.has_value(), &rotation)})
+        check(!is_said, by->failure, by->where, ": wanted an environment, found none; ", remedy);
+}
+
+/// `said`: on the command line.
+void surround(Wanted& wanted, const scene::Wishes& said) {
     scene::Scene& scene = wanted.scene;
     const scene::Wishes& wishes = wanted.wishes;
     std::shared_ptr<scene::Environment> environment;
@@ -71,12 +82,21 @@ void surround(Wanted& wanted) {
         scene::add_gap(scene.gaps, "added-studio", "scene " + in_quotes(scene.name));
         wanted.said.push_back("no light: lit by the environment studio (see --environment)");
     }
-    const bool is_changed = wishes.environment_scale || wishes.environment_rotation;
-    check(environment != nullptr || !is_changed, Failure::usage, "--environment-",
-          wishes.environment_scale ? "scale" : "rotate",
-          ": wanted an environment, found none; give --environment");
-    if (wishes.environment_scale) environment->scale = *wishes.environment_scale;
-    if (wishes.environment_rotation) environment->rotation_degrees = *wishes.environment_rotation;
+    if (environment) {
+        if (wishes.environment_scale) environment->scale = *wishes.environment_scale;
+        if (wishes.environment_rotation)
+            environment->rotation_degrees = *wishes.environment_rotation;
+    } else {
+        require_unchanged(said, {"--environment-scale"}, {"--environment-rotate"},
+                          "give --environment");
+        // What the command line takes away the file could not know of.
+        if (wanted.scene_file && !said.environment) {
+            const std::string file = wanted.scene_file->string();
+            require_unchanged(wishes, {file + ": environment_scale", Failure::bad_data},
+                              {file + ": environment_rotate", Failure::bad_data},
+                              "say \"environment\", too");
+        }
+    }
     scene.environment = std::move(environment);
 }
 
@@ -99,14 +119,43 @@ void announce_mirrors(scene::Scene& scene) {
                              "lessen that");
 }
 
-/// What the scene file says belongs to the scene, and so to its hash: the camera comes first.
-void adopt(Wanted& wanted, const scene::Wishes& filed) {
+bool is_seeded(const std::string& camera, const scene::Scene& scene) {
+    return camera == "seeded" &&
+           std::ranges::find(scene.cameras, camera, &scene::Camera::name) == scene.cameras.end();
+}
+
+/// The camera that these wishes name; none: it is to be drawn, or nothing is said of it.
+std::optional<scene::Camera> named_camera(const scene::Wishes& wishes, const scene::Scene& scene,
+                                          const scene::SaidBy& by) {
+    if (!wishes.camera || is_seeded(*wishes.camera, scene)) return std::nullopt;
+    return scene::camera_named(*wishes.camera, scene, by);
+}
+
+/// What the scene file says belongs to the scene, and so to its hash: its camera comes first.
+void adopt(Wanted& wanted, const scene::SceneFile& filed,
+           const std::optional<scene::Camera>& camera) {
     scene::Scene& scene = wanted.scene;
-    if (filed.exposure) scene.exposure = filed.exposure->stops;
-    if (!filed.camera || *filed.camera == "seeded") return;
-    const scene::Camera camera = scene::camera_named(*filed.camera, scene);
-    std::erase(scene.cameras, camera);
-    scene.cameras.insert(scene.cameras.begin(), camera);
+    if (filed.wishes.exposure) scene.exposure = filed.wishes.exposure->stops;
+    if (camera) {
+        std::erase(scene.cameras, *camera);
+        scene.cameras.insert(scene.cameras.begin(), *camera);
+    }
+    for (const std::filesystem::path& file : filed.files) add_file(scene, file);
+}
+
+/// The scene as wished. `said`: on the command line.
+void apply(Wanted& wanted, const scene::Wishes& said,
+           const std::optional<scene::SceneFile>& filed) {
+    scene::Scene& scene = wanted.scene;
+    const std::string file = filed ? filed->path.string() : "";
+    if (filed) scene::check_patterns(scene, filed->wishes, file);
+    scene::apply(scene, wanted.wishes);
+    // Before `adopt` gives the cameras another order: an index counts in the scene's own.
+    std::optional<scene::Camera> camera;
+    if (filed) camera = named_camera(filed->wishes, scene, {file + ": camera", Failure::bad_data});
+    wanted.camera = said.camera ? named_camera(said, scene, {"--camera"}) : camera;
+    wanted.is_camera_seeded = wanted.wishes.camera && is_seeded(*wanted.wishes.camera, scene);
+    if (filed) adopt(wanted, *filed, camera);
 }
 
 } // namespace
@@ -124,14 +173,12 @@ Wanted load_wanted(const std::string& name, const WantedOptions& options) {
     }
     scene::LoadOptions load = options.load;
     if (wanted.wishes.animation) load.animation = *wanted.wishes.animation;
+    if (filed && !options.wishes.animation)
+        load.animation_by = {filed->path.string() + ": animation", Failure::bad_data};
     wanted.scene = scene::load(name, load);
-    scene::apply(wanted.scene, wanted.wishes);
-    if (filed) {
-        adopt(wanted, filed->wishes);
-        for (const std::filesystem::path& file : filed->files) add_file(wanted.scene, file);
-    }
+    apply(wanted, options.wishes, filed);
     if (wanted.is_file) scene::leave_out_lights(wanted.scene, kMostLights);
-    surround(wanted);
+    surround(wanted, options.wishes);
     announce_mirrors(wanted.scene);
     return wanted;
 }
@@ -148,7 +195,7 @@ std::optional<double> exposure_of(const Wanted& wanted) {
 
 scene::Camera camera_of(Wanted& wanted, double aspect) {
     scene::Scene& scene = wanted.scene;
-    if (wanted.wishes.camera) return scene::camera_named(*wanted.wishes.camera, scene);
+    if (wanted.camera) return *wanted.camera;
     if (!scene.cameras.empty()) return scene.cameras.front();
     const scene::Camera camera = scene::default_camera(scene, aspect);
     if (wanted.is_file)

@@ -13,8 +13,10 @@ namespace catoptric::app {
 /// A scene as its user wants it, completed where its file says too little.
 struct Wanted {
     scene::Scene scene;
-    scene::Wishes wishes;          ///< in effect, the scene file's among them
-    std::vector<std::string> said; ///< what was read beside it or added, a sentence each
+    scene::Wishes wishes;                ///< in effect, the scene file's among them
+    std::optional<scene::Camera> camera; ///< the wished one
+    bool is_camera_seeded = false;       ///< wished is one that is drawn (app/seeded_camera.hpp)
+    std::vector<std::string> said;       ///< what was read beside it or added, a sentence each
     std::optional<std::filesystem::path> scene_file; ///< that was read
     bool is_file = false;                            ///< else built in
 };
@@ -27,7 +29,8 @@ struct WantedOptions {
 
 /// Loads a scene, reads the file beside it, applies what is wished and completes what a file leaves
 /// open: at most 16 lights; without a light and a word about it the environment `studio` (gap
-/// "added-studio"). Throws as scene::load, scene::read_scene_file and scene::apply do, and
+/// "added-studio"). Throws as scene::load, scene::read_scene_file, scene::apply and
+/// scene::camera_named do, and
 /// `bad_data` for a picture that cannot be an environment.
 Wanted load_wanted(const std::string& name, const WantedOptions& options);
 

@@ -2,23 +2,16 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "scene/texel.hpp"
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace catoptric::render {
 
 namespace {
 
 constexpr std::size_t kTableTexels = 256; // before all others: sRGB bytes in linear light
-
-/// IEC 61966-2-1.
-float linear_of(std::size_t byte) {
-    const double value = static_cast<double>(byte) / 255;
-    return static_cast<float>(value <= .04045 ? value / 12.92
-                                              : std::pow((value + .055) / 1.055, 2.4));
-}
 
 std::uint32_t bit(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
 
@@ -75,8 +68,8 @@ void Details::fill_texels(const scene::Scene& now, std::uint64_t most_bytes) {
     if (images == images_ && !first_texels_.empty()) return;
     std::vector<std::uint32_t> texels;
     texels.reserve(count);
-    for (std::size_t byte = 0; byte < kTableTexels; ++byte)
-        texels.push_back(std::bit_cast<std::uint32_t>(linear_of(byte)));
+    for (std::uint32_t byte = 0; byte < kTableTexels; ++byte)
+        texels.push_back(std::bit_cast<std::uint32_t>(scene::linear_from_srgb(byte)));
     first_texels_ = {};
     for (const auto& image : images) {
         first_texels_.push_back(static_cast<std::uint32_t>(texels.size()));

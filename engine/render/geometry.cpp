@@ -88,18 +88,18 @@ void move_flat(Geometry& geometry, const scene::Scene& now, const Space& space, 
 /// Whether what is seen of the surface is more than one colour and its light.
 bool varies(const scene::Mesh& mesh, const scene::Material& material, float sharp_below) {
     const bool is_sharp = material.roughness <= sharp_below || material.roughness_texture;
-    const bool throws_back = material.mirror && material.albedo != vec3(0) &&
-                             material.reflectance != vec3(1);
+    const bool throws_back = material.albedo != vec3(0) && material.reflectance != vec3(1);
     return !mesh.colours.empty() || material.albedo_texture || material.emission_texture ||
            material.unlit || scene::is_masked(material) ||
-           (material.mirror ? throws_back : is_sharp);
+           (material.mirror ? throws_back || scene::glows(material) : is_sharp);
 }
 
 /// A mirror that shows nothing but what it mirrors.
 bool is_pure(const scene::Mesh& mesh, const scene::Material& material) {
+    if (scene::glows(material)) return false;
     if (material.mirror) return material.albedo == vec3(0) || material.reflectance == vec3(1);
     return material.metallic == 1 && mesh.colours.empty() && !material.albedo_texture &&
-           !material.roughness_texture && !material.emission_texture && !material.unlit;
+           !material.roughness_texture && !material.unlit;
 }
 
 /// What is known of an object without its place.
@@ -115,7 +115,9 @@ DrawRange range_of(const scene::Scene& now, const scene::Object& object) {
     range.exact_sphere = object.sphere.has_value();
     range.one_sided = !range.mirror && scene::is_one_sided(material);
     range.varies = varies(mesh, material, now.mirror_max_roughness);
-    range.turns = material.two_sided && (material.albedo != vec3(0) || range.varies);
+    // A mirror is there from both sides, whatever its material says of sides.
+    range.turns = (material.two_sided || range.mirror) &&
+                  (material.albedo != vec3(0) || range.varies);
     range.masked = scene::is_masked(material);
     range.lit = range.mirror && !is_pure(mesh, material);
     return range;

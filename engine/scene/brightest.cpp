@@ -1,22 +1,21 @@
 // Of many lights the strongest.
 #include "scene/wishes.hpp"
 
+#include "core/luminance.hpp"
 #include "core/text.hpp"
+#include "scene/light.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace catoptric::scene {
 
 namespace {
 
-double luminance(const vec3& colour) { // Rec. 709
-    return .2126 * colour.x + .7152 * colour.y + .0722 * colour.z;
-}
-
 /// What one light does to a surface at the point that faces it, without shadows.
 double strength_at(const dvec3& point, const PointLight& light) {
-    const double emitted = luminance(light.emission) * light.area;
+    const double emitted = luminance(dvec3(light.emission)) * light.area;
     if (light.directional) return emitted;
     const dvec3 way = point - light.position;
     const double square = glm::dot(way, way), distance = std::sqrt(square);
@@ -35,10 +34,10 @@ double strength_at(const dvec3& point, const PointLight& light) {
     return emitted * facing * window * cone / square;
 }
 
-/// A thing that lights, as one or several points.
+/// One of the points that a thing lights as.
 struct Source {
     std::size_t index = 0; ///< of the object, or after them of the light without a surface
-    std::size_t points = 0;
+    std::size_t point = 0; ///< of its own
     double strength = 0;
 };
 
@@ -48,10 +47,9 @@ std::vector<Source> sources_of(const Scene& scene) {
     one.meshes = scene.meshes, one.materials = scene.materials;
     std::vector<Source> sources;
     const auto add = [&](std::size_t index) {
-        Source source{.index = index};
+        std::size_t point = 0;
         for (const PointLight& light : lights(one))
-            ++source.points, source.strength += strength_at(centre, light);
-        if (source.points > 0) sources.push_back(source);
+            sources.push_back({index, point++, strength_at(centre, light)});
     };
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         one.objects = {scene.objects[i]};
@@ -65,38 +63,68 @@ std::vector<Source> sources_of(const Scene& scene) {
     return sources;
 }
 
+/// The object lights nothing any more.
+void darken(Scene& scene, Object& object) {
+    Material dark = scene.materials[object.material];
+    dark.light = vec3(0);
+    const auto known = std::ranges::find(scene.materials, dark);
+    object.material = static_cast<std::size_t>(known - scene.materials.begin());
+    if (known == scene.materials.end()) scene.materials.push_back(std::move(dark));
+}
+
+/// Those of the object's triangles that make other points become an object of their own, which
+/// lights nothing.
+void split_off(Scene& scene, std::size_t index, const std::vector<std::size_t>& kept) {
+    Object rest = scene.objects[index];
+    Mesh bright = scene.meshes[rest.mesh], dark = bright;
+    const auto points = light_of_triangles(bright, rest.world_from_object);
+    bright.triangles.clear(), dark.triangles.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool stays = points[i] && std::ranges::find(kept, *points[i]) != kept.end();
+        (stays ? bright : dark).triangles.push_back(scene.meshes[rest.mesh].triangles[i]);
+    }
+    scene.objects[index].mesh = scene.meshes.size();
+    scene.meshes.push_back(std::move(bright));
+    rest.mesh = scene.meshes.size();
+    scene.meshes.push_back(std::move(dark));
+    darken(scene, rest);
+    scene.objects.push_back(std::move(rest));
+}
+
 } // namespace
 
 void leave_out_lights(Scene& scene, std::size_t most) {
     if (lights(scene).size() <= most) return;
     std::vector<Source> sources = sources_of(scene);
     std::ranges::stable_sort(sources, std::ranges::greater(), &Source::strength);
-    std::size_t kept = 0;
-    std::vector<std::size_t> left_out;
-    for (const Source& source : sources) {
-        if (kept + source.points <= most)
-            kept += source.points;
-        else
-            left_out.push_back(source.index);
+    struct Thing {
+        std::vector<std::size_t> kept;
+        std::size_t points = 0;
+    };
+    std::map<std::size_t, Thing> things; // by index
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        Thing& thing = things[sources[i].index];
+        ++thing.points;
+        if (i < most) thing.kept.push_back(sources[i].point);
     }
-    std::ranges::sort(left_out);
+    const std::size_t objects = scene.objects.size();
     std::vector<Punctual> punctual;
-    for (std::size_t i = 0; i < scene.punctual.size(); ++i)
-        if (!std::ranges::binary_search(left_out, scene.objects.size() + i))
-            punctual.push_back(scene.punctual[i]);
-    for (const std::size_t index : left_out) {
-        const bool is_object = index < scene.objects.size();
-        const std::string& name = is_object ? scene.objects[index].name
-                                            : scene.punctual[index - scene.objects.size()].name;
-        add_gap(scene.gaps, "lights-left-out",
-                (is_object ? "object " : "light ") + in_quotes(name));
-        if (!is_object) continue;
-        Object& object = scene.objects[index];
-        Material dark = scene.materials[object.material];
-        dark.light = vec3(0);
-        const auto known = std::ranges::find(scene.materials, dark);
-        object.material = static_cast<std::size_t>(known - scene.materials.begin());
-        if (known == scene.materials.end()) scene.materials.push_back(std::move(dark));
+    for (const auto& [index, thing] : things) {
+        const bool is_object = index < objects;
+        if (thing.kept.size() == thing.points) {
+            if (!is_object) punctual.push_back(scene.punctual[index - objects]);
+            continue;
+        }
+        std::string place = is_object ? "object " + in_quotes(scene.objects[index].name)
+                                      : "light " + in_quotes(scene.punctual[index - objects].name);
+        if (!thing.kept.empty())
+            place += ", " + std::to_string(thing.points - thing.kept.size()) + " of its " +
+                     std::to_string(thing.points) + " parts";
+        add_gap(scene.gaps, "lights-left-out", place);
+        if (!thing.kept.empty())
+            split_off(scene, index, thing.kept);
+        else if (is_object)
+            darken(scene, scene.objects[index]);
     }
     scene.punctual = std::move(punctual);
 }

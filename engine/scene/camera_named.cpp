@@ -11,40 +11,40 @@ namespace catoptric::scene {
 
 namespace {
 
-double number(const std::string& text) {
+double number(const std::string& text, const SaidBy& by) {
     const std::optional<double> value = parse_number(text);
-    check(value.has_value(), Failure::usage, "--camera: wanted a finite number, found ",
+    check(value.has_value(), by.failure, by.where, ": wanted a finite number, found ",
           in_quotes(text));
     return *value;
 }
 
-double number_within(const std::string& text, double low, double high) {
+double number_within(const std::string& text, double low, double high, const SaidBy& by) {
     const std::optional<double> value = parse_number(text);
-    check(value && *value >= low && *value <= high, Failure::usage,
-          "--camera: wanted a finite number from ", low, " to ", high, ", found ", in_quotes(text));
+    check(value && *value >= low && *value <= high, by.failure, by.where,
+          ": wanted a finite number from ", low, " to ", high, ", found ", in_quotes(text));
     return *value;
 }
 
-dvec3 point(const std::string& text) {
+dvec3 point(const std::string& text, const SaidBy& by) {
     const std::vector<std::string> parts = split(text, ",");
-    check(parts.size() == 3, Failure::usage, "--camera: wanted a point X,Y,Z, found ",
+    check(parts.size() == 3, by.failure, by.where, ": wanted a point X,Y,Z, found ",
           in_quotes(text));
-    return {number(parts[0]), number(parts[1]), number(parts[2])};
+    return {number(parts[0], by), number(parts[1], by), number(parts[2], by)};
 }
 
-Camera placed(const std::string& text) {
+Camera placed(const std::string& text, const SaidBy& by) {
     const std::vector<std::string> parts = split(text, ":");
-    check(parts.size() == 3, Failure::usage,
-          "--camera: wanted EX,EY,EZ:TX,TY,TZ:FOV (eye, target, degrees) or "
+    check(parts.size() == 3, by.failure, by.where,
+          ": wanted EX,EY,EZ:TX,TY,TZ:FOV (eye, target, degrees) or "
           "EX,EY,EZ:TX,TY,TZ:h=HEIGHT (orthographic), found ",
           in_quotes(text));
-    Camera camera{.name = text, .eye = point(parts[0]), .target = point(parts[1])};
+    Camera camera{.name = text, .eye = point(parts[0], by), .target = point(parts[1], by)};
     if (parts[2].starts_with("h="))
-        camera.orthographic_height = number_within(parts[2].substr(2), 1e-9, 1e18);
+        camera.orthographic_height = number_within(parts[2].substr(2), 1e-9, 1e18, by);
     else
-        camera.vertical_fov_degrees = number_within(parts[2], 0.001, 179);
-    check(camera.eye != camera.target, Failure::usage,
-          "--camera: wanted a target away from the eye, found both at ", parts[0]);
+        camera.vertical_fov_degrees = number_within(parts[2], 0.001, 179, by);
+    check(camera.eye != camera.target, by.failure, by.where,
+          ": wanted a target away from the eye, found both at ", parts[0]);
     const dvec3 along = camera.target - camera.eye;
     if (along.x == 0 && along.z == 0) camera.up = dvec3(0, 0, 1); // straight up or down
     return camera;
@@ -66,19 +66,19 @@ std::string text_of(const dvec3& v) {
 
 } // namespace
 
-Camera camera_named(const std::string& text, const Scene& scene) {
+Camera camera_named(const std::string& text, const Scene& scene, const SaidBy& by) {
     std::vector<std::string> names;
     for (const Camera& camera : scene.cameras) {
         if (camera.name == text) return camera;
         names.push_back(camera.name);
     }
-    if (text.find(':') != std::string::npos) return placed(text);
+    if (text.find(':') != std::string::npos) return placed(text, by);
     const bool is_index = text.find_first_not_of("0123456789") == std::string::npos &&
                           text.size() < 10;
     if (is_index && !text.empty() && std::stoul(text) < scene.cameras.size())
         return scene.cameras[std::stoul(text)];
     names.emplace_back("seeded");
-    fail(Failure::usage, "--camera: scene ", in_quotes(scene.name), " has no camera ",
+    fail(by.failure, by.where, ": scene ", in_quotes(scene.name), " has no camera ",
          in_quotes(text), "; it has: ", list_of(scene.cameras),
          "; or seeded, EX,EY,EZ:TX,TY,TZ:FOV, or EX,EY,EZ:TX,TY,TZ:h=HEIGHT",
          did_you_mean(text, names));

@@ -61,6 +61,7 @@ struct Builder {
         std::size_t mesh, part;
         int skin; ///< -1: none
         bool inside_out;
+        std::vector<double> weights; ///< of morph targets
         auto operator<=>(const Key&) const = default;
     };
     std::map<Key, std::size_t> meshes;
@@ -83,7 +84,7 @@ std::string Builder::node_place(std::size_t node) const {
 Mesh Builder::repaired(const Key& key) {
     std::vector<dmat4> joints;
     if (key.skin >= 0) joints = joints_of(key.skin, at_rest, context);
-    Mesh mesh = mesh_of(key.mesh, parts[key.mesh][key.part], context,
+    Mesh mesh = mesh_of(key.mesh, parts[key.mesh][key.part], key.weights, context,
                         key.skin >= 0 ? &joints : nullptr);
     context.account.mesh_vertices.add(corners_without_normal(mesh),
                                       mesh_place(context.document, key.mesh));
@@ -123,7 +124,9 @@ void Builder::add_object(std::size_t node, const gltf::Placed& placed, std::size
     const int skin = context.document.model.nodes[node].skin;
     if (skin < 0) // what has one stands where its joints are
         object.world_from_object = placed.world_from_node, object.motion = placed.motion;
-    object.mesh = mesh_for({its_mesh, part, skin, turns_inside_out(object.world_from_object)});
+    const std::vector<double>& weights = context.document.node_weights[node];
+    object.mesh = mesh_for({its_mesh, part, skin, turns_inside_out(object.world_from_object),
+                            weights.empty() ? context.document.weights[its_mesh] : weights});
     const Mesh& mesh = scene.meshes[object.mesh];
     context.account.shown_vertices.add(mesh.positions.size(), place);
     context.account.shown_triangles.add(mesh.triangles.size(), place);
@@ -194,7 +197,7 @@ void Builder::check_unshown() {
     for (const auto& [key, mesh] : meshes) is_shown[key.mesh] = true;
     for (std::size_t mesh = 0; mesh < is_shown.size(); ++mesh)
         for (std::size_t part = 0; !is_shown[mesh] && part < parts[mesh].size(); ++part)
-            mesh_of(mesh, parts[mesh][part], context);
+            mesh_of(mesh, parts[mesh][part], context.document.weights[mesh], context);
 }
 
 } // namespace

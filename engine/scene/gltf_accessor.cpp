@@ -70,7 +70,7 @@ Elements elements_of(const tinygltf::Model& model, int index) {
 Elements Context::floats(int index, int type, Total& total, const std::string& place, Also also) {
     const Elements elements = typed(document.model, index, type, place);
     const bool is_whole = is_short(elements) &&
-                          ((also != Also::nothing && elements.normalised) ||
+                          ((also == Also::normalised && elements.normalised) ||
                            (also == Also::quantised && document.is_quantised));
     check(elements.component == TINYGLTF_COMPONENT_TYPE_FLOAT || is_whole, Failure::bad_data, place,
           ": wanted floats, found component type ", elements.component);

@@ -139,8 +139,9 @@ std::optional<std::size_t> chosen(const Context& context) {
         names.push_back(all[i].name);
         list += ", " + in_quotes(all[i].name);
     }
-    fail(Failure::usage, "--animation: ", context.document.file, " has no animation ",
-         in_quotes(name), ": wanted one of none", list, did_you_mean(name, names));
+    const SaidBy& by = context.options.animation_by;
+    fail(by.failure, by.where, ": ", context.document.file, " has no animation ", in_quotes(name),
+         ": wanted one of none", list, did_you_mean(name, names));
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 #include "scene/gltf_model.hpp"
 
 #include "core/text.hpp"
+#include "scene/wishes.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace catoptric::scene::gltf {
@@ -42,12 +44,12 @@ bool uses(const Item& root, std::string_view extension) {
     return false;
 }
 
-/// Of each mesh the weights of its morph targets, as they stand when nothing moves them.
-std::vector<std::vector<double>> read_weights(const Item& root) {
+/// Of each mesh, or node, the weights of its morph targets, as they stand when nothing moves them.
+std::vector<std::vector<double>> read_weights(const Item& root, std::string_view things) {
     std::vector<std::vector<double>> weights;
-    root.each("meshes", [&](const Item& mesh) {
-        const Json* list = mesh.find("weights");
-        weights.push_back(mesh.numbers("weights", list && list->is_array() ? list->size() : 0));
+    root.each(things, [&](const Item& thing) {
+        const Json* list = thing.find("weights");
+        weights.push_back(thing.numbers("weights", list && list->is_array() ? list->size() : 0));
     });
     return weights;
 }
@@ -66,7 +68,10 @@ std::optional<double> read_exposure(const Item& root) {
     const std::optional<Item> ours = ours_of(
         root.at("scenes", root.index("scene", count).value_or(0)));
     if (!ours || !ours->has("exposure")) return std::nullopt;
-    return ours->number("exposure", 0);
+    const double stops = ours->number("exposure", 0);
+    ours->require(std::abs(stops) <= kMostStops, "exposure: wanted ", -kMostStops, " to ",
+                  kMostStops, ", found ", stops);
+    return stops;
 }
 
 /// Of each animation {"repeats": true}.
@@ -108,7 +113,8 @@ Document read(const std::string& file, Files& files, Account& account, Notes& no
         check_uses(root, files, notes);
         document.marks = read_marks(root);
         document.exposure = read_exposure(root);
-        document.weights = read_weights(root);
+        document.weights = read_weights(root, "meshes");
+        document.node_weights = read_weights(root, "nodes");
         document.is_quantised = uses(root, "KHR_mesh_quantization");
         const Source source{root, container, files, account, notes, gaps};
         document.materials = read_materials(source);

@@ -41,9 +41,11 @@ float fraction(const Item& item, std::string_view key, double otherwise) {
 /// One material on its way.
 class Reader {
 public:
-    Reader(const Item& from, std::size_t index, const Source& source, Textures& textures)
-        : from_(from), index_(index), source_(source), textures_(textures),
-          extensions_(from.object("extensions")) {}
+    /// `has_colours`: vertices that show it have colours of their own.
+    Reader(const Item& from, std::size_t index, bool has_colours, const Source& source,
+           Textures& textures)
+        : from_(from), index_(index), has_colours_(has_colours), source_(source),
+          textures_(textures), extensions_(from.object("extensions")) {}
 
     Material read();
 
@@ -70,6 +72,7 @@ private:
 
     const Item& from_;
     std::size_t index_;
+    bool has_colours_;
     const Source& source_;
     Textures& textures_;
     std::optional<Item> extensions_;
@@ -206,10 +209,23 @@ Material Reader::read() {
     // What reflects everything at every angle needs no angle.
     const bool is_perfect = material_.metallic == 1 && material_.roughness == 0 &&
                             material_.albedo == vec3(1) && !material_.albedo_texture &&
-                            !material_.roughness_texture;
+                            !material_.roughness_texture && !has_colours_;
     if (is_perfect) be_mirror(vec3(1), vec3(0));
     marks();
     return material_;
+}
+
+/// Which materials primitives with colours show.
+std::vector<bool> coloured_materials(const Item& root) {
+    std::vector<bool> coloured(root.size("materials"));
+    root.each("meshes", [&](const Item& mesh) {
+        mesh.each("primitives", [&](const Item& primitive) {
+            const std::optional<Item> attributes = primitive.object("attributes");
+            const auto material = primitive.index("material", coloured.size());
+            if (material && attributes && attributes->has("COLOR_0")) coloured[*material] = true;
+        });
+    });
+    return coloured;
 }
 
 } // namespace
@@ -217,8 +233,10 @@ Material Reader::read() {
 std::vector<Material> read_materials(const Source& source) {
     std::vector<Material> materials;
     Textures textures(source);
+    const std::vector<bool> coloured = coloured_materials(source.root);
     source.root.each("materials", [&](const Item& item) {
-        materials.push_back(Reader(item, materials.size(), source, textures).read());
+        const std::size_t index = materials.size();
+        materials.push_back(Reader(item, index, coloured[index], source, textures).read());
     });
     return materials;
 }

@@ -119,8 +119,8 @@ std::vector<std::vector<Part>> read_parts(std::vector<Material>& materials, Cont
     return parts;
 }
 
-Mesh mesh_of(std::size_t index, const Part& part, const Context& context,
-             const std::vector<dmat4>* joints) {
+Mesh mesh_of(std::size_t index, const Part& part, const std::vector<double>& weights,
+             const Context& context, const std::vector<dmat4>* joints) {
     const tinygltf::Model& model = context.document.model;
     const std::string place = mesh_place(context.document, index);
     Account& account = context.account;
@@ -128,7 +128,7 @@ Mesh mesh_of(std::size_t index, const Part& part, const Context& context,
     std::size_t vertices = 0, triangles = 0;
     for (const std::size_t i : part.primitives) { // before anything is made of it
         const Primitive& its = primitives.emplace_back(model, model.meshes[index].primitives[i],
-                                                       context.document.weights[index]);
+                                                       weights);
         const std::size_t count = std::min(its.positions.count, 3 * its.triangle_count());
         account.mesh_triangles.add(its.triangle_count(), place);
         account.mesh_vertices.add(count, place);

@@ -34,6 +34,8 @@ struct Document {
     std::vector<Material> materials;
     Lights lights;
     std::vector<std::vector<double>> weights; ///< of each mesh, of its morph targets
+    std::vector<std::vector<double>>
+        node_weights;          ///< of each node, in place of its mesh's; or none
     std::vector<bool> repeats; ///< of each animation: {"catoptric": {"repeats": true}}
     std::optional<double> exposure;
     bool is_quantised = false; ///< KHR_mesh_quantization
@@ -114,10 +116,11 @@ struct Part {
 std::vector<std::vector<Part>> read_parts(std::vector<Material>& materials, Context& context);
 /// "FILE: meshes[0] 'm'".
 std::string mesh_place(const Document& document, std::size_t mesh);
-/// One part's triangles, unused vertices left out; normals may be missing or have no length. With
-/// `joints`, the world from the space in which each was bound, as a skin of them stands.
-Mesh mesh_of(std::size_t mesh, const Part& part, const Context& context,
-             const std::vector<dmat4>* joints = nullptr);
+/// One part's triangles, unused vertices left out; normals may be missing or have no length.
+/// `weights`: of its morph targets. With `joints`, the world from the space in which each was
+/// bound, as a skin of them stands.
+Mesh mesh_of(std::size_t mesh, const Part& part, const std::vector<double>& weights,
+             const Context& context, const std::vector<dmat4>* joints = nullptr);
 
 // ---- gltf_animation.cpp
 

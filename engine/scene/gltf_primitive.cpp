@@ -54,9 +54,6 @@ void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
         const bool is_uv = type == TINYGLTF_TYPE_VEC2;
         const Context::Also allowed = is_uv && !context.document.is_quantised
                                           ? Context::Also::normalised
-                                      : also == Context::Also::quantised &&
-                                              !context.document.is_quantised
-                                          ? Context::Also::nothing
                                           : also;
         Account& account = context.account;
         Total& total = also == kWanted[0].also && !is_uv ? account.normals : account.attributes;

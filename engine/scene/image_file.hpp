@@ -12,7 +12,7 @@ namespace catoptric::scene {
 /// A picture of a scene from the bytes of its file, or null for a kind of file that is not read.
 /// `file` is the file's name, of which a TARGA, that has no other mark, needs its end; may be
 /// empty. Throws `bad_data` beginning with `place` for a picture that cannot be decoded, or, before
-/// it is, for more texels than the budget.
+/// it is, for a side above 65535 texels or more texels than the budget.
 std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::string& file,
                                           const std::string& place, Account& account);
 

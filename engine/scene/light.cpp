@@ -1,4 +1,5 @@
-#include "scene/scene.hpp"
+#include "scene/light.hpp"
+
 #include "scene/transform.hpp"
 
 #include <array>
@@ -66,8 +67,14 @@ double area_of(const std::vector<dvec3>& world, const uvec3& t) {
     return 0.5 * glm::length(glm::cross(world[t.y] - world[t.x], world[t.z] - world[t.x]));
 }
 
-/// The sums of each connected component, in the order of their first vertices.
-std::vector<Sums> sums_of(const Mesh& mesh, const dmat4& world_from_object) {
+/// The sums of each connected component, in the order of their first vertices; and which of them
+/// each triangle with an area belongs to.
+struct Components {
+    std::vector<Sums> sums;
+    std::vector<std::optional<std::size_t>> of_triangles;
+};
+
+Components components_of(const Mesh& mesh, const dmat4& world_from_object) {
     std::vector<dvec3> world;
     for (const dvec3& p : mesh.positions) world.push_back(transform_point(world_from_object, p));
     const std::vector<std::size_t> first = first_at_position(mesh);
@@ -86,7 +93,8 @@ std::vector<Sums> sums_of(const Mesh& mesh, const dmat4& world_from_object) {
 
     const dmat3 normal_to_world = normal_matrix(world_from_object);
     std::map<std::size_t, std::size_t> index_of_root;
-    std::vector<Sums> sums;
+    Components components;
+    std::vector<Sums>& sums = components.sums;
     std::vector<bool> counted(world.size(), false);
     for (std::size_t i = 0; i < world.size(); ++i) {
         if (!used[i]) continue;
@@ -98,7 +106,11 @@ std::vector<Sums> sums_of(const Mesh& mesh, const dmat4& world_from_object) {
         if (!counted[first[i]]) sums[index].add_position(world[i]);
         counted[first[i]] = true;
     }
-    return sums;
+    for (const uvec3& t : mesh.triangles)
+        components.of_triangles.push_back(
+            area_of(world, t) > 0 ? std::optional(index_of_root.at(islands.find(first[t.x])))
+                                  : std::nullopt);
+    return components;
 }
 
 PointLight light_of(const Punctual& punctual) {
@@ -116,12 +128,18 @@ PointLight light_of(const Punctual& punctual) {
 
 } // namespace
 
+std::vector<std::optional<std::size_t>> light_of_triangles(const Mesh& mesh,
+                                                           const dmat4& world_from_object) {
+    return components_of(mesh, world_from_object).of_triangles;
+}
+
 std::vector<PointLight> lights(const Scene& scene) {
     std::vector<PointLight> all;
     for (const Object& object : scene.objects) {
         const Material& material = scene.materials[object.material];
         if (scene::light_of(material) == vec3(0)) continue;
-        for (const Sums& sums : sums_of(scene.meshes[object.mesh], object.world_from_object))
+        const Mesh& mesh = scene.meshes[object.mesh];
+        for (const Sums& sums : components_of(mesh, object.world_from_object).sums)
             all.push_back(light_of(sums, material));
     }
     for (const Punctual& punctual : scene.punctual) all.push_back(light_of(punctual));

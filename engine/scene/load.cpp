@@ -29,6 +29,13 @@ Scene classified(Scene scene) {
     return scene;
 }
 
+/// Of a scene that has no animation to choose.
+void refuse_animation(const std::string& scene, const LoadOptions& options) {
+    check(options.animation.empty() || options.animation == "none", options.animation_by.failure,
+          options.animation_by.where, ": ", scene, " has no animation ",
+          in_quotes(options.animation), ": wanted one of none");
+}
+
 [[noreturn]] void fail_unknown(const std::string& word) {
     std::vector<std::string> names;
     std::string list;
@@ -56,11 +63,17 @@ const std::vector<BuiltIn>& built_in_scenes() {
 
 Scene load(const std::string& name_or_path, const LoadOptions& options) {
     for (const BuiltIn& scene : built_in_scenes())
-        if (scene.name == name_or_path) return classified(scene.make());
+        if (scene.name == name_or_path) {
+            refuse_animation(name_or_path, options);
+            return classified(scene.make());
+        }
     const std::string extension = lower_case_extension(name_or_path);
     if (extension == ".glb" || extension == ".gltf")
         return classified(load_gltf(name_or_path, options));
-    if (extension == ".obj") return classified(load_obj(name_or_path, options));
+    if (extension == ".obj") {
+        refuse_animation(name_or_path, options);
+        return classified(load_obj(name_or_path, options));
+    }
     fail_unknown(name_or_path);
 }
 

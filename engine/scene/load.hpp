@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/budget.hpp"
+#include "scene/said_by.hpp"
 #include "scene/scene.hpp"
 
 #include <filesystem>
@@ -30,6 +31,7 @@ struct LoadOptions {
     std::filesystem::path root;
     /// Which animation of a glTF file moves its nodes: by name, or "none"; empty: the first.
     std::string animation;
+    SaidBy animation_by{.where = "--animation"};
     Budget budget;
 };
 

@@ -1,4 +1,5 @@
 #include "core/text.hpp"
+#include "scene/classify.hpp"
 #include "scene/image_file.hpp"
 #include "scene/number.hpp"
 #include "scene/obj_text.hpp"
@@ -117,7 +118,11 @@ bool add_member(const Line& line, Draft& draft) {
         std::string_view rest = line.rest;
         const Line of{line.file, line.number, line.keyword,
                       take_word(rest) == "-halo" ? rest : line.rest};
-        draft.*(number->member) = number_in(of);
+        const double value = number_in(of);
+        check(line.keyword != "illum" || (value >= 0 && value <= 10 && value == std::floor(value)),
+              Failure::bad_data, line.where(),
+              ": 'illum' wants a whole number from 0 to 10, found ", value);
+        draft.*(number->member) = value;
         return true;
     }
     if (line.keyword == "Tr") return draft.alpha = 1 - number_in(line), true;
@@ -227,13 +232,15 @@ private:
             context_.notes.add("glass, drawn as what it is without being clear", draft_.place);
             return gap("glass-as-diffuse"), gap("glass-shadow");
         }
-        const bool is_cut = draft_.cut && draft_.colour && draft_.cut->real == draft_.colour->real;
-        if (alpha == 1 && !draft_.cut) return;
+        const bool is_cut = draft_.cut && material_.albedo_texture &&
+                            draft_.cut->real == draft_.colour->real;
+        if (draft_.cut && !is_cut) gap("material-extension");
+        if (alpha == 1 && !is_cut) return;
         context_.notes.add("materials that let light through, cut where half is left",
                            draft_.place);
         gap("blend-as-mask");
         material_.alpha = static_cast<float>(alpha);
-        if (alpha < 1 || is_cut) material_.alpha_cutoff = .5f;
+        material_.alpha_cutoff = .5f;
     }
 
     void physical() {
@@ -248,8 +255,7 @@ private:
         const vec3 f0 = fraction(draft_.specular.value_or(dvec3(0)));
         const double shininess = draft_.shininess.value_or(100);
         const bool is_sharp = shininess >= 100;
-        constexpr float kLeast = .2f; // of a mirror, which is numbered
-        if (kind_ != 5 && is_sharp && std::max({f0.x, f0.y, f0.z}) >= kLeast) {
+        if (kind_ != 5 && is_sharp && largest_channel(f0) >= kLeastMirrorF0) {
             material_.mirror = true, material_.reflectance = f0;
             return;
         }

@@ -1,7 +1,9 @@
 #include "core/text.hpp"
 #include "scene/obj_text.hpp"
 #include "scene/transform.hpp"
+#include "scene/wishes.hpp"
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -91,7 +93,10 @@ void add_remark(Remarks& remarks, const Line& line, Account& account) {
     check(!list.empty(), Failure::bad_data, line.where(), ": ", in_quotes(line.keyword),
           " wants a name, found none");
     if (line.keyword == "#exposure") {
-        remarks.exposure = numbers(line, list, 0, 1)[0];
+        const double stops = numbers(line, list, 0, 1)[0];
+        check(std::abs(stops) <= kMostStops, Failure::bad_data, line.where(), ": exposure wants ",
+              -kMostStops, " to ", kMostStops, ", found ", stops);
+        remarks.exposure = stops;
         return;
     }
     const std::string name(list[0]);

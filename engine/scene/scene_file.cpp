@@ -18,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMost = 1e30;      // of what a light is multiplied with
-constexpr double kMostTurn = 36000; // degrees
-constexpr double kMostStops = 64;
-
 /// What a key takes and how it is written; the table is the format.
 struct Key {
     const char* name;
@@ -107,7 +103,7 @@ const std::array<Key, 12> kKeys{
       [](const Wishes& wishes) { return json_of(wishes.environment); }},
      {"environment_scale",
       [](const Item& file, const Json& value, Wishes& wishes) {
-          wishes.environment_scale = number_of(file, value, "environment_scale", 0, kMost);
+          wishes.environment_scale = number_of(file, value, "environment_scale", 0, kMostScale);
       },
       [](const Wishes& wishes) { return json_of(wishes.environment_scale); }},
      {"environment_rotate",
@@ -118,7 +114,7 @@ const std::array<Key, 12> kKeys{
       [](const Wishes& wishes) { return json_of(wishes.environment_rotation); }},
      {"ambient",
       [](const Item& file, const Json& value, Wishes& wishes) {
-          wishes.ambient = number_of(file, value, "ambient", 0, kMost);
+          wishes.ambient = number_of(file, value, "ambient", 0, kMostScale);
       },
       [](const Wishes& wishes) { return json_of(wishes.ambient); }},
      {"exposure",

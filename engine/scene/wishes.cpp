@@ -33,8 +33,8 @@ std::vector<std::string> names_of(const Scene& scene, const Object& object) {
     return names;
 }
 
-/// Indices of the objects that a pattern means. Throws `usage`.
-std::vector<std::size_t> objects_of(const Scene& scene, const std::string& option,
+/// Indices of the objects that a pattern means.
+std::vector<std::size_t> objects_of(const Scene& scene, const SaidBy& by,
                                     const std::string& pattern) {
     std::vector<std::size_t> found;
     std::vector<std::string> known;
@@ -55,8 +55,8 @@ std::vector<std::size_t> objects_of(const Scene& scene, const std::string& optio
         list += (i ? ", " : "") + in_quotes(known[i]);
     if (known.size() > kMostListed)
         list += " and " + std::to_string(known.size() - kMostListed) + " more";
-    fail(Failure::usage, option, " ", in_quotes(pattern),
-         ": matches no object or material of scene ", in_quotes(scene.name), "; it has: ", list,
+    fail(by.failure, by.where, " ", in_quotes(pattern), ": matches no object or material of scene ",
+         in_quotes(scene.name), "; it has: ", list,
          nearest.empty() ? "" : " (did you mean " + in_quotes(nearest) + "?)");
 }
 
@@ -78,18 +78,24 @@ void repaint(Scene& scene, const std::vector<std::size_t>& objects, Change&& cha
 }
 
 void make_mirrors(Scene& scene, const MirrorWish& wish) {
-    repaint(scene, objects_of(scene, "--mirror", wish.pattern), [&](Material& material) {
+    repaint(scene, objects_of(scene, {"--mirror"}, wish.pattern), [&](Material& material) {
         material = {.name = material.name, .mirror = true, .reflectance = wish.reflectance};
     });
 }
 
-void make_lights(Scene& scene, const std::string& pattern) {
-    std::vector<std::size_t> objects = objects_of(scene, "--light", pattern);
+/// Those of them that emit light.
+std::vector<std::size_t> glowing_of(const Scene& scene, const SaidBy& by,
+                                    const std::string& pattern) {
+    std::vector<std::size_t> objects = objects_of(scene, by, pattern);
     std::erase_if(
         objects, [&](std::size_t i) { return !glows(scene.materials[scene.objects[i].material]); });
-    check(!objects.empty(), Failure::usage, "--light ", in_quotes(pattern),
+    check(!objects.empty(), by.failure, by.where, " ", in_quotes(pattern),
           ": wanted something that emits light, found objects that do not");
-    repaint(scene, objects, [](Material& material) {
+    return objects;
+}
+
+void make_lights(Scene& scene, const std::string& pattern) {
+    repaint(scene, glowing_of(scene, {"--light"}, pattern), [](Material& material) {
         material.light = material.emission;
         if (material.emission_texture) *material.light *= mean_texel(*material.emission_texture);
     });
@@ -99,6 +105,10 @@ void make_lights(Scene& scene, const std::string& pattern) {
 
 Wishes over(const Wishes& stronger, const Wishes& weaker) {
     Wishes both = weaker;
+    for (const MirrorWish& wish : stronger.mirrors)
+        std::erase_if(both.mirrors,
+                      [&](const MirrorWish& other) { return other.pattern == wish.pattern; });
+    for (const std::string& pattern : stronger.lights) std::erase(both.lights, pattern);
     both.mirrors.insert(both.mirrors.end(), stronger.mirrors.begin(), stronger.mirrors.end());
     both.lights.insert(both.lights.end(), stronger.lights.begin(), stronger.lights.end());
     put_over(both.mirror_max_roughness, stronger.mirror_max_roughness);
@@ -171,6 +181,13 @@ std::string pattern_of(const std::string& name) {
     if (pattern.find('=') != pattern.npos)
         pattern += "=1"; // or its end might read as a reflectance
     return pattern;
+}
+
+void check_patterns(const Scene& scene, const Wishes& wishes, const std::string& file) {
+    for (const MirrorWish& wish : wishes.mirrors)
+        objects_of(scene, {file + ": mirrors", Failure::bad_data}, wish.pattern);
+    for (const std::string& pattern : wishes.lights)
+        glowing_of(scene, {file + ": lights", Failure::bad_data}, pattern);
 }
 
 void apply(Scene& scene, const Wishes& wishes) {

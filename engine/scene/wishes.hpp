@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/said_by.hpp"
 #include "scene/scene.hpp"
 
 #include <memory>
@@ -24,6 +25,10 @@ struct ExposureWish {
 
 enum class Up { y, z };
 
+inline constexpr double kMostStops = 64;   ///< of exposure, either way: 2^64 is finite
+inline constexpr double kMostTurn = 36000; ///< degrees that an environment is turned, either way
+inline constexpr double kMostScale = 1e30; ///< of what light is multiplied with
+
 /// Each as the user gave it; what is empty was not said.
 struct Wishes {
     std::vector<MirrorWish> mirrors; ///< a later one wins
@@ -40,7 +45,8 @@ struct Wishes {
     bool operator==(const Wishes&) const = default;
 };
 
-/// Both, `stronger` where both say something; its mirrors and lights come after the others.
+/// Both, `stronger` where both say something; its mirrors and lights come after the others,
+/// each pattern once.
 Wishes over(const Wishes& stronger, const Wishes& weaker);
 
 /// Whether a whole name is the pattern, or what the pattern (fnmatch: * ? [...]) stands for; case
@@ -55,6 +61,10 @@ MirrorWish read_mirror_wish(const std::string& option, const std::string& text);
 /// shows as '?', of a long one the first 60 bytes.
 std::string pattern_of(const std::string& name);
 
+/// Throws as the file's, naming it and the key, for a pattern of mirrors or lights that `apply`
+/// would not take.
+void check_patterns(const Scene& scene, const Wishes& wishes, const std::string& file);
+
 /// Applies mirrors, lights, roughness and dielectrics, turns the scene, and finds its mirrors anew
 /// (classify.hpp). What names a picture is left to app/wanted.hpp. Throws `usage`, with the nearest
 /// names, for a pattern without a match.
@@ -63,8 +73,9 @@ void apply(Scene& scene, const Wishes& wishes);
 /// Turns a scene whose up is +z so that it is +y: (x, y, z) becomes (x, z, -y), exactly.
 void turn_z_up(Scene& scene);
 
-/// Leaves `most` lights, the strongest at the centre of the bounds, at rest; what a mesh that is
-/// left out emits is seen, but lights nothing. Adds the gap "lights-left-out".
+/// Leaves `most` lights, the strongest at the centre of the bounds, at rest, of a mesh that lights
+/// from several places some of them; what is left out is seen, but lights nothing. Adds the gap
+/// "lights-left-out".
 void leave_out_lights(Scene& scene, std::size_t most);
 
 } // namespace catoptric::scene

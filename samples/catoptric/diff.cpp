@@ -111,7 +111,7 @@ void add_diff(CommandLine& program) {
     const auto options = std::make_shared<Options>();
     Verb& verb = program.add("diff", "how far two pictures are apart");
     verb.examples(kExamples);
-    verb.argument("A", "picture, .exr or .png", options->a, Verb::Need::required);
+    verb.argument("A", "picture, .exr, .hdr or .png", options->a, Verb::Need::required);
     verb.argument("B", "picture of the same size", options->b, Verb::Need::required);
     verb.option("--mask", "M", "PNG of the same size: pixels that are not black count",
                 options->mask);

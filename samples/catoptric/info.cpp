@@ -41,7 +41,7 @@ InfoFacts gather(const std::string& device) {
     facts.features = {{"techniques", techniques},
                       {"scenes", scenes},
                       {"scene_files", {"glb", "gltf", "obj"}},
-                      {"picture_files", {"exr", "png"}},
+                      {"picture_files", {"exr", "hdr", "png"}},
                       {"models", {"everything", "required"}},
                       {"timings", {"isolated", "pipelined"}}};
     return facts;
@@ -85,7 +85,8 @@ std::optional<double> exposure_of(app::Request& request, const Options& options)
 
 /// What was asked for, with what was added.
 void write_scene_file(const Options& options, const app::Wanted& wanted,
-                      const scene::Scene& scene) {
+                      const app::Request& request) {
+    const scene::Scene& scene = request.scene;
     check(wanted.is_file, Failure::usage,
           "--write: wanted a scene's file, beside which to write, found the built-in ",
           in_quotes(scene.name));
@@ -97,6 +98,7 @@ void write_scene_file(const Options& options, const app::Wanted& wanted,
     scene::Wishes wishes = wanted.wishes;
     if (!wishes.environment)
         wishes.environment = scene.environment && scene.environment->studio ? "studio" : "none";
+    if (wanted.is_camera_seeded) wishes.camera = request.camera.name; // numbers
     write_file(path, scene::scene_file_text(wishes, options.common.scene));
     note(options.common.manners, "written: " + path.string());
 }
@@ -104,7 +106,7 @@ void write_scene_file(const Options& options, const app::Wanted& wanted,
 int about_scene(const Options& options) {
     Asked asked = make_asked(options.common);
     app::Request& request = asked.request;
-    if (options.writes) write_scene_file(options, asked.wanted, request.scene);
+    if (options.writes) write_scene_file(options, asked.wanted, request);
     SceneWords words{.info = app::scene_info(request)};
     words.auto_exposure = request.auto_exposure;
     words.exposure = exposure_of(request, options);

@@ -16,7 +16,6 @@ namespace catoptric::cli {
 namespace {
 
 constexpr std::int64_t kMostFrames = 1'000'000;
-constexpr double kMostStops = 64; // 2^64 is far beyond every picture, and finite
 
 const std::string kCommonGroup = "Common options";
 const std::string kMannersGroup = "Output";
@@ -66,10 +65,8 @@ void add_choices(Verb& verb, Common& common) {
 }
 
 scene::Camera choose_camera(const Common& common, app::Wanted& wanted) {
-    const scene::Scene& scene = wanted.scene;
-    const auto is_called_so = [](const scene::Camera& camera) { return camera.name == "seeded"; };
-    if (wanted.wishes.camera == "seeded" && std::ranges::none_of(scene.cameras, is_called_so)) {
-        scene::Camera camera = app::seeded_camera(scene, common.time, common.seed);
+    if (wanted.is_camera_seeded) {
+        scene::Camera camera = app::seeded_camera(wanted.scene, common.time, common.seed);
         note(common.manners,
              "camera drawn from seed " + std::to_string(common.seed) + ": " + camera.name);
         return camera;
@@ -88,7 +85,7 @@ void warn_of_no_mirror(const scene::Scene& scene) {
 } // namespace
 
 double parse_stops(const std::string& text) {
-    return parse_real("--exposure", text, -kMostStops, kMostStops);
+    return parse_real("--exposure", text, -scene::kMostStops, scene::kMostStops);
 }
 
 void add_manners(Verb& verb, Manners& manners) {

@@ -8,8 +8,6 @@ namespace catoptric::cli {
 namespace {
 
 const std::string kSceneGroup = "The scene";
-constexpr double kMostScale = 1e30;
-constexpr double kMostTurn = 36000; // degrees
 
 void add_surfaces(Verb& verb, scene::Wishes& wishes) {
     const auto mirror = [&](const std::string& text) {
@@ -35,20 +33,20 @@ void add_surfaces(Verb& verb, scene::Wishes& wishes) {
 
 void add_surroundings(Verb& verb, scene::Wishes& wishes) {
     verb.option("--environment", "E",
-                "what is seen where the scene ends, and lights it: FILE.exr or FILE.hdr "
+                "what is seen where the scene ends, and lights it: FILE.exr, .hdr or .png "
                 "(equirectangular), studio or none (none; studio for a file without a light)",
                 [&](const std::string& text) {
                     check(!text.empty(), Failure::usage,
-                          "--environment: wanted FILE.exr, FILE.hdr, studio or none, found ''");
+                          "--environment: wanted FILE.exr, .hdr or .png, studio or none, found ''");
                     wishes.environment = text;
                 });
     verb.option("--environment-scale", "S", "times its light (1)", [&](const std::string& text) {
-        wishes.environment_scale = parse_real("--environment-scale", text, 0, kMostScale);
+        wishes.environment_scale = parse_real("--environment-scale", text, 0, scene::kMostScale);
     });
     verb.option("--environment-rotate", "DEG", "turns it, from -z towards +x (0)",
                 [&](const std::string& text) {
                     wishes.environment_rotation = parse_real("--environment-rotate", text,
-                                                             -kMostTurn, kMostTurn);
+                                                             -scene::kMostTurn, scene::kMostTurn);
                 });
     verb.option(
         "--ambient", "A", "light that every surface gets, at least 0 (0.05; 0 in an environment)",

@@ -128,6 +128,18 @@ TEST_F(Wishes, WhatIsWrittenBesideIsRead) {
     EXPECT_EQ(cli(without).exit_code, 0);
 }
 
+TEST_F(Wishes, ACameraThatWasDrawnIsWrittenInNumbers) {
+    const Words words{"--mirror", "tin", "--camera", "seeded", "--seed", "5"};
+    Words write_it{"info", "x.obj", "--write"};
+    write_it.insert(write_it.end(), words.begin(), words.end());
+    EXPECT_EQ(cli(write_it).exit_code, 0);
+    const json written = json::parse(read("x.obj.catoptric.json"));
+    EXPECT_EQ(written["camera"], info()["camera"]["name"]);
+    Words drawn = words;
+    drawn.emplace_back("--no-scene-file");
+    EXPECT_EQ(info()["camera"], info(drawn)["camera"]);
+}
+
 TEST_F(Wishes, OutputsMayNotReplaceTheSceneFile) {
     write("x.obj.catoptric.json", "{}");
     expect_refused(quick({"render", "x.obj", "--technique", "raytrace", "-o", "y.png", "--quiet",

@@ -215,10 +215,11 @@ TEST(SharpSurfaces, ReflectBySchlick) {
         vec3 colour;
         float metallic;
         vec3 f0;
+        bool away = false; ///< of one side, which is seen from behind
     };
     for (const Case& each :
-         {Case{{.8f, .5f, .2f}, 1, vec3(.04f)}, Case{{.8f, .5f, .2f}, 0, vec3(.25f)},
-          Case{{.6f, .6f, .6f}, .5f, {.1f, .2f, .3f}}}) {
+         {Case{{.8f, .5f, .2f}, 1, vec3(.04f)}, Case{{.8f, .5f, .2f}, 1, vec3(.04f), true},
+          Case{{.8f, .5f, .2f}, 0, vec3(.25f)}, Case{{.6f, .6f, .6f}, .5f, {.1f, .2f, .3f}}}) {
         scene::Scene scene = test::furnace(1);
         scene.objects.pop_back();           // its ball
         scene.materials[0].light = vec3(0); // they shine, and light nothing
@@ -227,7 +228,9 @@ TEST(SharpSurfaces, ReflectBySchlick) {
                                                              .metallic = each.metallic,
                                                              .roughness = .1f,
                                                              .dielectric_f0 = each.f0});
-        test::add_quad(scene, "floor", floor, {-4, -2, -5}, {-4, -2, 5}, {4, -2, 5}, {4, -2, -5});
+        const double left = each.away ? 4 : -4;
+        test::add_quad(scene, "floor", floor, {left, -2, -5}, {left, -2, 5}, {-left, -2, 5},
+                       {-left, -2, -5});
         scene.objects.back().mirror = true;
         scene.cameras.front() = {
             .eye = {0, 0, -4}, .target = {0, -2, 0}, .vertical_fov_degrees = 60};
@@ -258,8 +261,30 @@ TEST(SharpSurfaces, ReflectBySchlick) {
                     }
                 }
             EXPECT_GT(seen, 200);
-            EXPECT_LE(off, 1e-3) << technique << ' ' << each.metallic;
+            EXPECT_LE(off, 1e-3) << technique << ' ' << each.metallic << ' ' << each.away;
         }
+    }
+}
+
+/// A mirror that glows shows its own light: seen by the eye, and by a mirror before it. Tilted, it
+/// reflects only the dark.
+TEST(GlowingMirror, ShowsItsOwnLight) {
+    const vec3 glow(.25f, .5f, 1);
+    for (const bool in_mirror : {false, true}) {
+        scene::Scene scene = showing(
+            square({0, 0}, {1, 1}),
+            {.emission = in_mirror ? vec3(0) : glow, .mirror = true, .reflectance = vec3(1)});
+        if (in_mirror)
+            test::add_quad(scene, "behind the eye",
+                           test::add_material(
+                               scene, {.emission = glow, .mirror = true, .reflectance = vec3(.5f)}),
+                           {-12, -4, 3}, {-12, 12, 19}, {13, 12, 19}, {13, -4, 3});
+        for (const char* technique : {"raytrace", "reuse:face=64", "secant:face=64,continue=4",
+                                      "hybrid:face=64,continue=4"})
+            EXPECT_LE(farthest(test::render(scene, technique, {16, 16}, 3).hdr,
+                               [&](dvec2) { return dvec3(glow); }),
+                      in_mirror ? 2e-3 : 1e-6)
+                << technique << ' ' << in_mirror;
     }
 }
 

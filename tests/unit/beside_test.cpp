@@ -72,6 +72,22 @@ TEST_F(Beside, ItIsPartOfTheHashAndCanBeLeftOut) {
     }
 }
 
+TEST_F(Beside, AnIndexCountsInTheOrderOfTheScene) {
+    const std::string scene = write("x.obj", kDark + kCamera +
+                                                 "# catoptric camera d 0 0 6 0 0 0 0 1 0 40\n" +
+                                                 "# catoptric camera e 0 0 7 0 0 0 0 1 0 40\n");
+    for (const auto& [index, name] : {std::pair("0", "c"), {"1", "d"}, {"2", "e"}}) {
+        write("x.obj.catoptric.json", std::string("{\"camera\": \"") + index + "\"}");
+        app::Wanted found = app::load_wanted(scene, {});
+        EXPECT_EQ(app::camera_of(found, 1).name, name);
+        EXPECT_EQ(found.scene.cameras.front().name, name);
+        Wishes wishes;
+        wishes.camera = "1";
+        app::Wanted other = app::load_wanted(scene, {.wishes = wishes});
+        EXPECT_EQ(app::camera_of(other, 1).name, "d");
+    }
+}
+
 TEST_F(Beside, TheCommandLineWins) {
     Wishes wishes;
     wishes.exposure = ExposureWish{2};
@@ -107,6 +123,43 @@ TEST_F(Beside, WhatCannotBeNamesFileAndKey) {
     EXPECT_THAT(
         test::refusal(Failure::missing_input, [&] { load(R"({"environment": "gone.exr"})"); }),
         HasSubstr("x.obj.catoptric.json: environment: 'gone.exr' is not there"));
+}
+
+/// What only the scene tells.
+TEST_F(Beside, WhatTheSceneHasNotNamesFileAndKey) {
+    const struct {
+        const char *text, *wanted;
+    } cases[] = {{R"({"mirrors": ["thing", "nope"]})", "mirrors 'nope': matches no object"},
+                 {R"({"lights": ["nope"]})", "lights 'nope': matches no object"},
+                 {R"({"lights": ["thing"]})", "lights 'thing': wanted something that emits light"},
+                 {R"({"camera": "d"})", "camera: scene 'x' has no camera 'd'"},
+                 {R"({"camera": ""})", "camera: scene 'x' has no camera ''"},
+                 {R"({"camera": "1,2:0,0,0:30"})", "camera: wanted a point X,Y,Z, found '1,2'"},
+                 {R"({"animation": "walk"})", "x.obj has no animation 'walk': wanted one of none"},
+                 {R"({"environment": "none", "environment_scale": 2})",
+                  "environment_scale: wanted an environment, found none; say \"environment\""}};
+    for (const auto& [text, wanted] : cases) {
+        const std::string said = refused(text);
+        EXPECT_THAT(said, HasSubstr("x.obj.catoptric.json: ")) << text;
+        EXPECT_THAT(said, HasSubstr(wanted)) << text;
+        EXPECT_EQ(said.find("--"), said.npos) << said;
+    }
+    Wishes none;
+    none.environment = "none";
+    EXPECT_EQ(load(R"({"environment": "studio", "environment_scale": 2})", none).scene.environment,
+              nullptr);
+}
+
+TEST_F(Beside, OnlyAFileOfAnimationsHasOneToChoose) {
+    Wishes walk;
+    walk.animation = "walk";
+    const std::string path = write("x.obj", kDark);
+    for (const std::string& scene : {path, std::string("cornell-mirrors")})
+        EXPECT_THAT(
+            test::refusal(Failure::usage, [&] { app::load_wanted(scene, {.wishes = walk}); }),
+            HasSubstr("--animation: " + scene + " has no animation 'walk': wanted one of none"));
+    walk.animation = "none";
+    EXPECT_NO_THROW(app::load_wanted(path, {.wishes = walk}));
 }
 
 TEST_F(Beside, WhatIsWrittenIsReadAgain) {

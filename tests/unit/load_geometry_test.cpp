@@ -116,6 +116,10 @@ TEST_F(LoadGeometry, StridedAndQuantised) {
         {"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uv}};
     EXPECT_THAT(refused("y.glb", gltf.glb()),
                 HasSubstr("POSITION: wanted floats, found component type 5122"));
+    gltf.root["accessors"][positions]["normalized"] = true;
+    EXPECT_THAT(refused("y.glb", gltf.glb()),
+                HasSubstr("POSITION: wanted floats, found component type 5122"));
+    gltf.root["accessors"][positions]["normalized"] = false;
     gltf.root["extensionsUsed"] = {"KHR_mesh_quantization"};
     const Scene scene = scene_of(gltf);
     EXPECT_THAT(triangles(scene), ElementsAre(std::array{kA, dvec3(100, 0, 0), dvec3(0, -200, 0)}));
@@ -191,6 +195,15 @@ TEST_F(LoadGeometry, MorphTargetsAtTheirDefaultWeights) {
     const dvec3 up(0, 0, 3);
     EXPECT_THAT(triangles(scene), ElementsAre(std::array{kA + up, kB + up, kC + up}));
     EXPECT_EQ(scene.gaps.at(0).id, "morph");
+    // A node's own weigh in place of the mesh's; nodes of the same weights share.
+    gltf.root["nodes"] = {
+        {{"mesh", 0}}, {{"mesh", 0}, {"weights", {0, 1}}}, {{"mesh", 0}, {"weights", {0, 1}}}};
+    gltf.root["scenes"][0]["nodes"] = {0, 1, 2};
+    const Scene nodes = scene_of(gltf);
+    const dvec3 own(0, 0, 4);
+    EXPECT_EQ(nodes.meshes.size(), 2u);
+    const std::array moved{kA + own, kB + own, kC + own};
+    EXPECT_THAT(triangles(nodes), ElementsAre(std::array{kA + up, kB + up, kC + up}, moved, moved));
 }
 
 TEST_F(LoadGeometry, SkinsStandAsTheirJointsDo) {

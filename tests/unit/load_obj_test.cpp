@@ -1,5 +1,6 @@
 // Surfaces and texture coordinates of .obj and .mtl (scene.md, "Files").
 #include "scene/image_file.hpp"
+#include "support/refusal.hpp"
 #include "unit/load_fixture.hpp"
 
 #include <cmath>
@@ -137,6 +138,24 @@ TEST_F(LoadObj, GlassAndWhatIsCut) {
     EXPECT_THAT(ids(thin), ElementsAre("blend-as-mask"));
     EXPECT_EQ(material_of("Tr .25\nNi 1\n").alpha, .75f);
     EXPECT_FALSE(is_masked(material_of("d 1\nNi 1.5\n")));
+    // A mask of its own is not read: nothing is cut.
+    write("p.png", png_of(kPicture)), write("q.png", png_of(kPicture));
+    const Scene other = scene_of("map_Kd p.png\nmap_d q.png\n");
+    EXPECT_FALSE(is_masked(other.materials[0]));
+    EXPECT_THAT(ids(other), testing::Contains("material-extension"));
+    EXPECT_THAT(ids(other), testing::Not(testing::Contains("blend-as-mask")));
+}
+
+TEST_F(LoadObj, KindsAreWholeNumbers) {
+    write("m.mtl", "newmtl a\nillum 10\n");
+    write("x.obj", "mtllib m.mtl\nusemtl a\n" + kTriangle + "f 1 2 3\n");
+    EXPECT_NO_THROW(load((folder / "x.obj").string()));
+    for (const char* kind : {"1e300", "-1", "11", "2.5"}) {
+        write("m.mtl", std::string("newmtl a\nillum ") + kind + "\n");
+        EXPECT_THAT(test::refusal(Failure::bad_data, [&] { load((folder / "x.obj").string()); }),
+                    HasSubstr("m.mtl:2: 'illum' wants a whole number from 0 to 10, found "))
+            << kind;
+    }
 }
 
 TEST_F(LoadObj, MissingMaterialsAreGrey) {

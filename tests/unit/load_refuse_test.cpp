@@ -379,6 +379,13 @@ TEST_F(LoadRefuses, SurfacesAndPictures) {
         HasSubstr("images[0]: cannot be decoded"));
 }
 
+TEST_F(LoadRefuses, ExposuresBeyondEveryPicture) {
+    EXPECT_THAT(broken("/scenes/0/extras", Json{{"catoptric", {{"exposure", 65}}}}),
+                HasSubstr("exposure: wanted -64 to 64, found 65"));
+    EXPECT_THAT(refused("x.obj", "# catoptric exposure -1e9\n"),
+                HasSubstr("x.obj:1: exposure wants -64 to 64, found -1e+09"));
+}
+
 TEST_F(LoadRefuses, ContainersThatLie) {
     const std::string whole = small().glb();
     const auto with = [&](std::size_t at, std::uint32_t word) {

@@ -1,6 +1,7 @@
 // Surfaces of glTF: what a material and its textures become, factor by factor.
 #include "core/image_codec.hpp"
 #include "scene/image_file.hpp"
+#include "support/refusal.hpp"
 #include "unit/load_fixture.hpp"
 
 #include <cmath>
@@ -78,6 +79,17 @@ TEST_F(LoadSurface, FactorsAndSides) {
         {{"pbrMetallicRoughness", {{"metallicFactor", 7}, {"baseColorFactor", {2, -1, 0, 9}}}}});
     EXPECT_EQ(out_of_range.metallic, 1);
     EXPECT_EQ(out_of_range.albedo, vec3(1, 0, 0));
+}
+
+TEST_F(LoadSurface, APerfectMetalKeepsTheColoursOfItsVertices) {
+    Gltf gltf = with({{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0}}}});
+    EXPECT_TRUE(scene_of(gltf).materials[0].mirror);
+    const std::size_t colours = gltf.add<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}, "VEC3", 5126);
+    gltf.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colours;
+    const Scene scene = scene_of(gltf);
+    EXPECT_FALSE(scene.materials[0].mirror);
+    EXPECT_EQ(scene.materials[0].metallic, 1);
+    EXPECT_EQ(scene.meshes[0].colours.size(), 3u);
 }
 
 TEST_F(LoadSurface, DielectricsByExtension) {
@@ -203,6 +215,20 @@ TEST_F(LoadSurface, GreyPicturesAndSmallerOnes) {
     EXPECT_THAT(texels({{3, 1}, 1, {}}, grey), ElementsAre(0xff000000, 0xff646464, 0xffffffff));
     EXPECT_THAT(texels({{2, 1}, 2, {}}, two), ElementsAre(0x140a0a0a, 0x281e1e1e));
     EXPECT_EQ(decode_image("neither", "x.txt", "x", account), nullptr);
+}
+
+TEST_F(LoadSurface, SidesOfPicturesFitSixteenBits) {
+    Account account({});
+    const auto decode = [&](uvec2 size) {
+        const Image image{.size = size, .texels = std::vector<std::uint32_t>(size.x * size.y)};
+        return decode_image(png_of(image), "", "x", account)->size;
+    };
+    EXPECT_EQ(decode({65535, 1}), uvec2(65535, 1));
+    EXPECT_THAT(test::refusal(Failure::bad_data,
+                              [&] {
+                                  decode({1, 65536});
+                              }),
+                HasSubstr("x: wanted sides of at most 65535 texels, found 1x65536"));
 }
 
 TEST_F(LoadSurface, MissingPicturesAreAGapAndTheFactorStays) {

@@ -87,6 +87,13 @@ TEST(MirrorWish, ALaterOneWins) {
     EXPECT_EQ(of(scene, 0).reflectance, vec3(.5f));
 }
 
+TEST(Over, SaysEachPatternOnce) {
+    const Wishes both = over({.mirrors = {{"a", vec3(1)}}, .lights = {"l"}},
+                             {.mirrors = {{"a", vec3(.5f)}, {"b", vec3(1)}}, .lights = {"l", "k"}});
+    EXPECT_EQ(both.mirrors, (std::vector<MirrorWish>{{"b", vec3(1)}, {"a", vec3(1)}}));
+    EXPECT_THAT(both.lights, ElementsAre("k", "l"));
+}
+
 TEST(MirrorOptions, CanBePastedAndMeanThatObject) {
     Scene scene = room();
     scene.objects[1].name = "it's a * [1]=2";
@@ -195,6 +202,40 @@ TEST(LeaveOutLights, KeepsTheStrongestAtTheCentre) {
     EXPECT_EQ(of(scene, 3).light, vec3(0)) << "the far small lamp glows, and lights nothing";
     EXPECT_EQ(of(scene, 3).emission, vec3(1e-6f));
     EXPECT_EQ(scene.gaps[0].first, "object 'lamp'");
+}
+
+/// Twenty lit boards in one mesh, each farther than the one before.
+TEST(LeaveOutLights, OfOneMeshTheStrongestPartsStay) {
+    Scene scene{.name = "chandelier", .materials = {{.name = "glass", .emission = vec3(1)}}};
+    Mesh boards{.name = "boards"};
+    for (std::uint32_t i = 0; i < 20; ++i) {
+        const double z = .1 + i * i;
+        for (const dvec3& corner : {dvec3(0, 0, z), dvec3(1, 0, z), dvec3(0, 1, z)})
+            boards.positions.push_back(corner), boards.normals.emplace_back(0, 0, 1);
+        boards.triangles.push_back(uvec3(0, 1, 2) + 3 * i);
+    }
+    scene.materials[0].two_sided = true;
+    scene.meshes = {boards};
+    scene.objects = {{.name = "lamp"}};
+    const std::vector<PointLight> all = lights(scene);
+    const double centre = bounds(scene).centre().z;
+    leave_out_lights(scene, 16);
+    const std::vector<PointLight> kept = lights(scene);
+    ASSERT_EQ(kept.size(), 16u);
+    double farthest = 0;
+    for (const PointLight& light : kept)
+        farthest = std::max(farthest, std::abs(light.position.z - centre));
+    EXPECT_EQ(std::ranges::count_if(all,
+                                    [&](const PointLight& light) {
+                                        return std::abs(light.position.z - centre) <= farthest;
+                                    }),
+              16)
+        << "the nearest ones";
+    ASSERT_EQ(scene.objects.size(), 2u);
+    EXPECT_EQ(scene.meshes[scene.objects[0].mesh].triangles.size(), 16u);
+    EXPECT_EQ(scene.meshes[scene.objects[1].mesh].triangles.size(), 4u) << "seen, and dark";
+    EXPECT_EQ(of(scene, 1).emission, vec3(1));
+    EXPECT_EQ(scene.gaps.at(0).first, "object 'lamp', 4 of its 20 parts");
 }
 
 TEST(CameraNamed, OrthographicInNumbers) {
