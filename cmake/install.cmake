@@ -7,7 +7,7 @@ install(TARGETS catoptric catoptric_cli EXPORT catoptricTargets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
 # Headers that need neither Vulkan, the shaders' folder nor the JSON library.
-foreach(name core scene measure report app)
+foreach(name core scene require measure report app)
     install(DIRECTORY engine/${name}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/catoptric/${name}
         FILES_MATCHING PATTERN "*.hpp" PATTERN "shader_math.hpp" EXCLUDE PATTERN "json.hpp" EXCLUDE PATTERN "gltf_*.hpp" EXCLUDE PATTERN "obj_text.hpp" EXCLUDE)
 endforeach()

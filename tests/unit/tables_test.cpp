@@ -131,7 +131,8 @@ TEST(Tables, ASceneThatNobodyListsIsFoundByName) {
 TEST(Tables, ATechniqueThatNobodyListsIsFoundAndCompared) {
     EXPECT_EQ(app::parse_technique("testonly:much=3").settings[0].number, 3.0);
     EXPECT_EQ(app::techniques().back().name, "testonly");
-    const std::vector<std::string> rows = app::default_techniques({.scene = scene::cornell_mirrors()});
+    const std::vector<std::string> rows = app::default_techniques(
+        {.scene = scene::cornell_mirrors()});
     EXPECT_THAT(rows, Contains("testonly:much=2"));
     EXPECT_THAT(rows, Contains("naive:bounces=0"));
 }
