@@ -82,6 +82,7 @@ Request request_for(const Request& base, const History& history) {
     request.frames = 1;
     request.warmup = history.is_settled ? kSettled : base.total() - 1;
     request.techniques = {history.technique};
+    request.model = Modelling::required; // the same pictures, of which nobody asks the time
     return request;
 }
 
