@@ -15,7 +15,7 @@ constexpr std::array<const char*, 3> kSets{"a", "b", "aside"};
 constexpr std::uint64_t kCleared = 1; // the drawing of a face that holds nothing
 
 /// A mirror that is not captured is one without a capture, unless that would leave none.
-std::vector<CaptureOptions> required_options(std::vector<CaptureOptions> options,
+std::vector<CaptureOptions> required_options(const std::vector<CaptureOptions>& options,
                                              const require::Model& model) {
     std::vector<CaptureOptions> required = options;
     for (std::size_t mirror = 0; mirror < options.size(); ++mirror)
@@ -204,7 +204,7 @@ Feeding feed_all(graph::Graph& graph, const FrameInputs& inputs, const std::stri
 }
 
 Feeding feed_required(graph::Graph& graph, const FrameInputs& inputs, const std::string& name,
-                      std::vector<CaptureOptions> options, const require::Model& model,
+                      const std::vector<CaptureOptions>& options, const require::Model& model,
                       const std::shared_ptr<KeptCaptures>& before, Comparisons* comparisons) {
     const std::size_t mirrors = options.size();
     const bool follows = before && before->options.size() == mirrors;

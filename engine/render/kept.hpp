@@ -104,7 +104,7 @@ Feeding feed_all(graph::Graph& graph, const FrameInputs& inputs, const std::stri
 /// null where the frame is beside the sequence, and so tells the next one nothing.
 /// O(mirrors seen by mirrors).
 Feeding feed_required(graph::Graph& graph, const FrameInputs& inputs, const std::string& name,
-                      std::vector<CaptureOptions> options, const require::Model& model,
+                      const std::vector<CaptureOptions>& options, const require::Model& model,
                       const std::shared_ptr<KeptCaptures>& before, Comparisons* comparisons);
 
 /// After the captures are drawn: declares the pass that tells which of those that were to be
