@@ -46,15 +46,7 @@ public:
           judge_(session_, truths_, request_.base, request_.watcher) {
         if (request_.base.techniques.empty())
             request_.base.techniques = default_techniques(request_.base);
-        check_rows(request_.base.techniques); // before any work
-        for (const std::string& text : request_.base.techniques)
-            if (const reflect::Plan plan = read_plan(text); !plan.is_auto)
-                reflect::assign(plan, mirror_names(request_.base.scene));
-        check_has_mirror(request_.base.scene);
-        check_rounds(request_.rounds);
-        if (request_.causes) check_explains(request_.reference);
-        check(!request_.both_models || !request_.together, Failure::usage,
-              "--model both and --together: rows of one frame have one model");
+        check_asked(request_); // before any work
         comparison_.views = drawn_views(request_.base, request_.views);
     }
 

@@ -43,6 +43,10 @@ void check_explains(const std::string& reference);
 /// Throws `usage` for rows that are unknown or, with the same settings, asked for twice.
 void check_rows(const std::vector<std::string>& techniques);
 
+/// All of these, plans that do not fit the mirrors, and rows that are asked for in both models and
+/// in one frame.
+void check_asked(const CompareRequest& request);
+
 /// Renders every row and the reference, measures speed in rounds and error. A row with `samples` is
 /// judged against the reference at as many samples. What ends the run early (a signal, a lost
 /// device, no memory, `on_finished_row`) is in `stopped` of the rows so far, or thrown where there

@@ -62,4 +62,16 @@ void check_explains(const std::string& reference) {
           ", whose rays tell causes apart, found '", reference, "'");
 }
 
+void check_asked(const CompareRequest& request) {
+    check_rows(request.base.techniques);
+    for (const std::string& text : request.base.techniques)
+        if (const reflect::Plan plan = read_plan(text); !plan.is_auto)
+            reflect::assign(plan, mirror_names(request.base.scene));
+    check_has_mirror(request.base.scene);
+    check_rounds(request.rounds);
+    if (request.causes) check_explains(request.reference);
+    check(!request.both_models || !request.together, Failure::usage,
+          "--model both and --together: rows of one frame have one model");
+}
+
 } // namespace catoptric::app
