@@ -12,9 +12,6 @@ layout(set = 0, binding = 20) uniform sampler2D mirrored;
 
 void main() {
     vec3 facet = cross(dFdx(from_eye), dFdy(from_eye));
-#ifdef PEEL
-    if (is_peeled()) discard;
-#endif
     leave_out_what_is_cut();
     vec3 n = normalize(normal);
     Surface surface = surface_here(n, facet);
