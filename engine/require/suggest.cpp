@@ -98,18 +98,19 @@ Choice choice_of(const Question& question, const Picture& picture, const scene::
     return by_shape(question, object);
 }
 
-/// "1,3=planar *=hybrid": what is not hybrid by its numbers.
-std::string plan_of(const std::map<std::string, std::vector<std::size_t>>& mirrors) {
-    if (mirrors.empty()) return "hybrid";
+/// "1,3=planar *=hybrid": what is not `rest` by its numbers.
+std::string plan_of(const std::map<std::string, std::vector<std::size_t>>& mirrors,
+                    const std::string& rest) {
+    if (mirrors.empty()) return rest;
     if (mirrors.size() == 1) return mirrors.begin()->first;
     std::string plan;
     for (const auto& [technique, numbers] : mirrors) {
-        if (technique == "hybrid") continue;
+        if (technique == rest) continue;
         for (const std::size_t number : numbers)
             plan += (number == numbers.front() ? "" : ",") + std::to_string(number);
         plan += "=" + technique + " ";
     }
-    if (mirrors.contains("hybrid")) return plan + "*=hybrid";
+    if (mirrors.contains(rest)) return plan + "*=" + rest;
     plan.pop_back();
     return plan;
 }
@@ -122,13 +123,17 @@ Suggestion suggest(const Question& question) {
     Suggestion suggestion;
     std::map<std::string, std::vector<std::size_t>> of_technique;
     const std::vector<std::size_t> mirrors = scene::mirrors(question.now);
+    // By itself it asks the captures of all mirrors, which then have to be made.
+    const bool all_seen = std::ranges::all_of(model.mirrors, &MirrorNeeds::is_seen);
+    const std::string hybrid = all_seen ? "hybrid" : "hybrid:captures=own";
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
-        const auto [technique, reason] = choice_of(
-            question, picture, question.now.objects[mirrors[i]], model.mirrors[i]);
+        auto [technique, reason] = choice_of(question, picture, question.now.objects[mirrors[i]],
+                                             model.mirrors[i]);
+        if (technique == "hybrid") technique = hybrid;
         of_technique[technique].push_back(i + 1);
         suggestion.reasons.push_back(technique + ": " + reason);
     }
-    suggestion.plan = plan_of(of_technique);
+    suggestion.plan = plan_of(of_technique, hybrid);
     return suggestion;
 }
 

@@ -25,8 +25,9 @@ struct Suggestion {
 
 /// By shape and by size in this picture: what is seen in other mirrors alone, or is small there:
 /// `reuse` with small faces; flat (scene::flat_tolerance): `planar`; a true sphere: `secant`;
-/// anything else `hybrid`. O(n log n) in the mirrors' triangles, kMostFacings for one that is
-/// neither.
+/// anything else `hybrid`, which asks
+/// no captures but its own where some mirror is not seen. O(n log n) in the mirrors' triangles,
+/// kMostFacings for one that is neither.
 Suggestion suggest(const Question& question);
 
 } // namespace catoptric::require

@@ -36,6 +36,8 @@ std::string techniques_text(const std::vector<app::TechniqueInfo>& techniques) {
         text += fmt::format("{:<12} {}\n", technique.name, technique.summary);
         for (const app::Knob& knob : technique.knobs) text += knob_text(knob);
     }
+    text += fmt::format("{:<12} {}\n", "auto",
+                        "Draws each mirror with what suits it in the picture, and says why.");
     return text;
 }
 

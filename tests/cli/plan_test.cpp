@@ -40,6 +40,33 @@ TEST_F(Cli, PlanIsReadBackFromRenderAsItWasDrawn) {
     EXPECT_EQ(Json::parse(again.out)["mean"], document["mean"]);
 }
 
+/// What a scene suggests is read back mirror by mirror, with reasons, and is a plan itself.
+TEST_F(Cli, AutoIsReadBackAsThePlanThatItIs) {
+    const Words size{"--size", "48x48", "--frames", "1", "--warmup", "1", "--json"};
+    const auto render = [&](Words words) {
+        words.insert(words.end(), size.begin(), size.end());
+        const test::Ended ended = cli(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return Json::parse(ended.out);
+    };
+    const Json document = render({"render", "gallery", "--technique", "auto", "-o", "a.exr"});
+    EXPECT_EQ(document["technique"], "auto");
+    const Json& plan = document["plan"];
+    ASSERT_EQ(plan.size(), 16u);
+    std::string rules;
+    for (const Json& entry : plan) {
+        const std::string technique = entry["technique"], why = entry["why"];
+        EXPECT_TRUE(why.starts_with(technique)) << why;
+        rules += std::to_string(entry["mirror"].get<int>()) + "=" + technique +
+                 (technique == "reuse" ? ":face=64" : "") + " ";
+    }
+    EXPECT_EQ(plan[12]["name"], "left panel");
+    render({"render", "gallery", "--plan", rules, "-o", "b.exr"});
+    EXPECT_EQ(read("a.exr"), read("b.exr"));
+    const test::Ended list = cli({"list", "techniques"});
+    EXPECT_NE(list.out.find("\nauto  "), std::string::npos);
+}
+
 TEST_F(Cli, PlansAreRowsOfACompare) {
     std::ofstream(folder / "mixed.json") << R"([{"mirror": "ball1,2", "technique": "reuse:face=16"},
                {"mirror": "*", "technique": "raytrace:capture=none"}])";

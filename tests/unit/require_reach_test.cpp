@@ -115,6 +115,16 @@ TEST(RequireSuggest, APlanForEachBuiltInScene) {
     EXPECT_EQ(plan(scene::courtyard()), "2=secant *=hybrid");
 }
 
+// Whoever asks all captures would have those made that nobody sees.
+TEST(RequireSuggest, AsksNoCaptureOfAMirrorThatNobodySees) {
+    scene::Scene scene = test::hall();
+    EXPECT_EQ(suggest({scene, scene.cameras[0]}).plan, "3=planar 1=secant *=hybrid");
+    const std::size_t mirror = scene.objects.back().material;
+    test::add_ball(scene, "outside", mirror, {0, 0, 9}, .5, 2);
+    EXPECT_FALSE(required({scene, scene.cameras[0]}).mirrors[3].is_seen);
+    EXPECT_EQ(suggest({scene, scene.cameras[0]}).plan, "3=planar 1,4=secant *=hybrid:captures=own");
+}
+
 TEST(RequireSuggest, SaysWhy) {
     scene::Scene scene = test::hall();
     const std::size_t mirror = scene.objects.back().material;
