@@ -133,6 +133,7 @@ private:
         FrameSpec spec = request_.base;
         spec.techniques = {technique};
         spec.time = seconds;
+        spec.model = Modelling::required; // the same pictures, of which nobody asks the time
         const Frame made = session_.frame(spec);
         request_.watcher.frame(++frames_done_, frames_expected_);
         return made;

@@ -2,6 +2,8 @@
 // with and without validation.
 #include "faults/faults.hpp"
 
+#include <utility>
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -14,10 +16,13 @@ TEST_F(SameBytes, PicturesOfEveryTechnique) {
     const nlohmann::json list = nlohmann::json::parse(
         cli({"list", "techniques", "--json"}).out)["techniques"];
     for (const auto& technique : list) {
-        const auto has_face = [](const auto& knob) { return knob["name"] == "face"; };
-        const bool captures = std::any_of(technique["knobs"].begin(), technique["knobs"].end(),
-                                          has_face);
-        words.push_back(technique["name"].get<std::string>() + (captures ? ":face=64" : ""));
+        std::string row = technique["name"].get<std::string>();
+        char separator = ':';
+        for (const auto& knob : technique["knobs"])
+            for (const std::string edge : {"face", "shadow_map"})
+                if (knob["name"] == edge)
+                    row += std::exchange(separator, ',') + edge + (edge == "face" ? "=64" : "=256");
+        words.push_back(row);
     }
 
     struct Way {

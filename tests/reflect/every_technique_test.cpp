@@ -97,8 +97,11 @@ TEST_P(EveryTechnique, RendersTheSceneAsOftenAsItsRowSays) {
                                                     std::vector<std::string>(balls, "ball")),
                                     std::vector<std::optional<scene::Flat>>(balls), 0)
                         .choices.front();
-                const app::Part part = test::render(test::room(mirrors, lights), text, {16, 16});
-                EXPECT_EQ(part.scene_passes,
+                const app::Request asked = test::request(test::room(mirrors, lights), {text},
+                                                         {16, 16});
+                const auto plan = nlohmann::json::parse(
+                    app::Session(test::engine(), asked.scene).plan(asked, app::PlanFormat::json));
+                EXPECT_EQ(plan.at("scene_passes"),
                           choice.technique->scene_passes(mirrors, lights, choice.settings))
                     << text << " with " << mirrors << " mirrors and " << lights << " lights";
             }
