@@ -198,13 +198,15 @@ private:
     void measure_round(int round) {
         measure_clear(round);
         const std::vector<std::vector<std::string>> all = lanes();
-        for (std::size_t lane = 0; lane < all.size(); ++lane) {
+        // There and back: no row always follows the same one, whose work may still be felt.
+        for (std::size_t place = 0; place < all.size(); ++place) {
+            const std::size_t lane = round % 2 == 0 ? place : all.size() - 1 - place;
             const auto rounds = static_cast<std::size_t>(comparison_.rounds);
             std::string row = request_.together ? "all rows in one frame" : all[lane].front();
             if (request_.both_models) row += ", model " + name_of(models_[lane]);
             request_.watcher.row(row + ", round " + std::to_string(round + 1) + " of " +
                                      std::to_string(comparison_.rounds),
-                                 static_cast<std::size_t>(round) * all.size() + lane,
+                                 static_cast<std::size_t>(round) * all.size() + place,
                                  rounds * all.size());
             measure(lane, all[lane], round);
         }

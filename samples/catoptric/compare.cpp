@@ -71,6 +71,8 @@ app::CompareRequest make_compare_request(const Options& options, const std::stri
     Common common = options.common;
     common.scene = scene;
     request.base = make_request(common, app::check_has_mirror);
+    const bool keeps = common.both_models || request.base.model == app::Modelling::required;
+    if (keeps && !common.animate && !common.warmup) request.base.warmup = app::Request().total();
     request.base.techniques = options.techniques;
     request.both_models = options.common.both_models;
     request.reference = options.common.reference;

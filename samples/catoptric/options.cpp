@@ -24,10 +24,13 @@ void add_numbers(Verb& verb, Common& common) {
     verb.option("--frames", "N", "measured frames, at least 1 (20)", [&](const std::string& text) {
         common.frames = static_cast<int>(parse_whole("--frames", text, 1, kMostFrames));
     });
-    verb.option("--warmup", "N", "frames before them, not measured (8)",
-                [&](const std::string& text) {
-                    common.warmup = static_cast<int>(parse_whole("--warmup", text, 0, kMostFrames));
-                });
+    verb.option(
+        "--warmup", "N",
+        "frames before them, not measured (8; 28 in compare --model required or both, where "
+        "a still scene comes to rest)",
+        [&](const std::string& text) {
+            common.warmup = static_cast<int>(parse_whole("--warmup", text, 0, kMostFrames));
+        });
     verb.flag("--animate", "frame k at --time + (k-1)/60 s; otherwise all frames at --time",
               common.animate);
 }
