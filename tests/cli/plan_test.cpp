@@ -107,11 +107,12 @@ TEST_F(Cli, PicturesOfWhatIsRequiredAreThoseOfEverything) {
 
 TEST_F(Cli, CompareShowsRowsWithBothModels) {
     const test::Ended ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames", "6",
-                                   "--warmup", "20", "--model", "both", "--techniques",
-                                   "parallax:face=16", "raytrace", "--json"});
+                                   "--model", "both", "--techniques", "parallax:face=16",
+                                   "raytrace", "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const Json document = Json::parse(ended.out);
     EXPECT_EQ(document["model"], "both");
+    EXPECT_EQ(document["warmup"], 28) << "until what is kept comes to rest";
     const Json& rows = document["rows"];
     ASSERT_EQ(rows.size(), 4u);
     for (std::size_t i = 0; i < rows.size(); ++i)

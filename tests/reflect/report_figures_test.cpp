@@ -316,4 +316,20 @@ TEST(ReportFigures, TogetherARowCostsItsOwnPasses) {
     }
 }
 
+/// So that no row always follows the same one.
+TEST(Rounds, GoThereAndBack) {
+    app::CompareRequest request = asked({"reuse:face=16,shadow_map=16", "raytrace:depth=1"});
+    std::vector<std::string> measured;
+    request.watcher.on_row = [&](const std::string& label, std::size_t, std::size_t) {
+        if (label.find(", round ") != std::string::npos)
+            measured.push_back(label.substr(0, label.find(':')));
+    };
+    const report::Comparison found = app::compare(test::engine(), request);
+    ASSERT_EQ(measured.size(), 2 * kRounds.size());
+    for (std::size_t i = 0; i < measured.size(); ++i)
+        EXPECT_EQ(measured[i], i % 4 == 0 || i % 4 == 3 ? "reuse" : "raytrace") << i;
+    EXPECT_EQ(found.rows[0].technique, "reuse");
+    EXPECT_EQ(found.rows[1].technique, "raytrace");
+}
+
 } // namespace
