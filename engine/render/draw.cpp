@@ -39,7 +39,7 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
     scene.bind_vertices(commands, object);
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
-        while (end < layers && may_meet(scene.views()[first_view + end], range.bounds)) ++end;
+        while (end < layers && may_meet(scene.views()[first_view + end], range)) ++end;
         if (end > layer) commands.draw(range.first_index, range.index_count, layer, end - layer);
         layer = end + 1;
     }

@@ -198,6 +198,20 @@ Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces space
     return geometry;
 }
 
+/// Of a sphere around the middle of its bounds that holds the object.
+float radius_of(const Geometry& geometry, const DrawRange& range) {
+    constexpr float kRoom = 1 + 0x1p-20f;
+    if (range.bounds.empty()) return 0;
+    if (range.own) return kRoom * length(range.bounds.extent()) / 2;
+    const vec3 middle = range.bounds.centre();
+    float squared = 0;
+    for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
+        const vec3 from = geometry.vertices[range.first_vertex + i].position - middle;
+        squared = std::max(squared, dot(from, from));
+    }
+    return kRoom * std::sqrt(squared);
+}
+
 bool changes_space(const Geometry& geometry, const scene::Scene& now, const Space& space,
                    std::size_t object) {
     if (geometry.spaces == Spaces::one) return false;
@@ -220,6 +234,7 @@ bool move_object(Geometry& geometry, const scene::Scene& now, const Space& space
     } else {
         move_flat(geometry, now, space, index);
     }
+    range.radius = radius_of(geometry, range);
     range.flipped = !(glm::determinant(dmat3(object.world_from_object)) > 0);
     check_reach(range.bounds, object.name);
     if (!range.shares) store_indices(geometry, now.meshes[object.mesh], range);

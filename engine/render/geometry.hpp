@@ -23,6 +23,7 @@ struct DrawRange {
     std::uint32_t first_vertex = 0;
     std::uint32_t vertex_count = 0;
     Bounds<float> bounds; ///< scene units
+    float radius = 0;     ///< around the middle of the bounds, of all vertices; roundings included
     bool mirror = false;
     bool casts_shadow = true; ///< a light's own mesh does not: it would hide the light
     bool seen_by_camera = true;

@@ -49,6 +49,11 @@ public:
             const std::vector<CaptureOptions>& layout, const KeptCaptures* before, bool compares)
         : scene_(scene), model_(model), layout_(layout), before_(before), compares_(compares) {
         if (before) changed_ = changed(*before);
+        Stamp lit;
+        for (std::uint32_t light = 0; light < scene.light_count(); ++light)
+            for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
+                lit.add(scene.views()[scene.shadow_view(light) + face]);
+        shadow_views_ = lit.value();
     }
 
     bool was_there(std::uint32_t mirror) const {
@@ -78,7 +83,7 @@ private:
         std::vector<std::uint32_t> seen;
         for (const std::uint32_t other : model_.mirrors[mirror].sees)
             if (layout_[other].face > 0 &&
-                may_meet(view, scene_.ranges()[scene_.mirror_object(other)].bounds))
+                may_meet(view, scene_.ranges()[scene_.mirror_object(other)]))
                 seen.push_back(other);
         return seen;
     }
@@ -87,7 +92,9 @@ private:
                     const std::vector<std::uint32_t>& seen, KeptFace& now) const {
         const require::MirrorNeeds& needs = model_.mirrors[mirror];
         Stamp shown =
-            Stamp().add(needs.stamps[face]).add(scene_.views()[scene_.capture_view(mirror) + face]);
+            Stamp(shadow_views_)
+                .add(needs.stamps[face])
+                .add(scene_.views()[scene_.capture_view(mirror) + face]);
         for (const std::uint32_t other : seen) shown.add(other);
         const std::uint64_t stamp = shown.value();
         now = was_there(mirror) ? before_->faces[mirror][face] : KeptFace();
@@ -120,6 +127,7 @@ private:
     const KeptCaptures* before_;
     bool compares_;
     std::vector<char> changed_;
+    std::uint64_t shadow_views_ = 0; ///< of all lights
 };
 
 /// Calls visit for each image of both that is there.

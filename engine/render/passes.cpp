@@ -3,6 +3,7 @@
 #include "core/half.hpp"
 #include "core/stamp.hpp"
 #include "render/draw.hpp"
+#include "render/views.hpp"
 
 #include <cmath>
 #include <limits>
@@ -20,10 +21,17 @@ using graph::Use;
 constexpr Clear kBlack{0, 0, 0, 1};
 constexpr Clear kFarthest{0, 0, 0, 0}; // reversed depth
 
-/// Neighbouring faces of a mirror's capture.
+/// Neighbouring faces of a mirror's capture, or of a light's shadow map.
 struct Faces {
-    std::uint32_t mirror = 0, first = 0, count = 6;
+    std::uint32_t owner = 0, first = 0, count = 6;
 };
+
+/// Of all six, or "NAME.FIRST-LAST".
+std::string name_of(const std::string& name, const Faces& faces) {
+    if (faces.count == 6) return name;
+    return name + "." + std::to_string(faces.first + 1) + "-" +
+           std::to_string(faces.first + faces.count);
+}
 
 /// They are cleared.
 void write_cubes(graph::PassBuilder& pass, const CaptureOptions& options, const Cubes& cubes) {
@@ -47,7 +55,7 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
     read_surroundings(pass, options.lighting, *looks);
     if (peeled) pass.reads(*peeled, Use::sampled);
     write_cubes(pass, options, cubes);
-    Drawing drawing{.first_view = inputs.scene.capture_view(faces.mirror) + faces.first,
+    Drawing drawing{.first_view = inputs.scene.capture_view(faces.owner) + faces.first,
                     .layers = faces.count,
                     .lighting = options.lighting,
                     .looks = looks,
@@ -60,7 +68,7 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
         drawing.store.emplace_back("half_step", 0.5f / 255);
     pass.writes(depth, Use::depth, kFarthest)
         .layers(faces.count)
-        .record([&scene = inputs.scene, mirror = faces.mirror, drawing = std::move(drawing),
+        .record([&scene = inputs.scene, mirror = faces.owner, drawing = std::move(drawing),
                  leaves_out = options.leaves_out_spheres](Commands& commands) {
             draw_scene(commands, scene, drawing, [&](std::size_t object) {
                 const DrawRange& range = scene.ranges()[object];
@@ -70,13 +78,6 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
             if (!drawing.peeled)
                 draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
-}
-
-/// Of all six, or "NAME.FIRST-LAST".
-std::string name_of(const std::string& name, const Faces& faces) {
-    if (faces.count == 6) return name;
-    return name + "." + std::to_string(faces.first + 1) + "-" +
-           std::to_string(faces.first + faces.count);
 }
 
 /// Faces that nobody looks at hold nothing.
@@ -89,16 +90,39 @@ void add_clear(graph::Graph& graph, const FrameInputs& inputs, const CaptureOpti
     pass.layers(faces.count).record([](Commands&) {});
 }
 
-/// Of what casts shadows, and of the views that it is drawn with.
-std::uint64_t shadow_stamp(const GpuScene& scene, const require::LightNeeds& needs,
-                           std::uint32_t light) {
+/// Of what a face of a light's shadow map may show, and of the view that it is drawn with.
+std::uint64_t shadow_stamp(const GpuScene& scene, const require::Model& model, std::uint32_t light,
+                           std::uint32_t face) {
+    const require::LightNeeds& needs = model.lights[light];
     Stamp stamp;
     stamp.add(needs.has_map);
-    if (!needs.has_map) return stamp.value();
-    stamp.add(needs.stamp);
-    for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
-        stamp.add(scene.views()[scene.shadow_view(light) + face]);
+    if (!needs.has_map || face >= scene.drawn_shadow_faces(light)) return stamp.value();
+    const shared::View& view = scene.views()[scene.shadow_view(light) + face];
+    stamp.add(needs.stamp).add(view);
+    for (const require::Caster& caster : model.casters)
+        if (may_meet(view, scene.ranges()[caster.object]))
+            stamp.add(caster.object).add(caster.stamp);
     return stamp.value();
+}
+
+/// Neighbouring faces of a light's shadow map; without a map nothing is nearer than what is lit.
+void add_shadow_faces(graph::Graph& graph, const GpuScene& scene, std::uint32_t light,
+                      const Faces& faces, bool has_map, const std::string& name, Image part) {
+    graph.pass(name, Tag::scene)
+        .writes(part, Use::depth, kFarthest)
+        .layers(faces.count)
+        .record([&scene, light, faces, has_map](Commands& commands) {
+            const std::uint32_t drawn = scene.drawn_shadow_faces(light);
+            if (!has_map || faces.first >= drawn) return;
+            scene.bind(commands);
+            for (const bool masked : {false, true})
+                draw_objects(commands, scene, {"", masked ? "masked.frag" : "", {}},
+                             scene.shadow_view(light) + faces.first,
+                             std::min(faces.count, drawn - faces.first), 0, [&](std::size_t i) {
+                                 const DrawRange& range = scene.ranges()[i];
+                                 return range.casts_shadow && range.masked == masked;
+                             });
+        });
 }
 
 /// The same looks with causes of error taken away.
@@ -129,28 +153,26 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
     const Image map = model.is_everything ? graph.image(desc) : graph.kept(desc);
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
         const bool has_map = model.is_everything || model.lights[light].has_map;
-        const Image part = map.layers(faces * light, faces);
-        if (!model.is_everything) {
-            const std::uint64_t stamp = shadow_stamp(scene, model.lights[light], light);
-            if (graph.holds(part, stamp)) continue;
-            graph.made_from(part, stamp);
-        }
         const std::string name = scene.light_count() == 1 ? "shadow"
                                                           : "shadow/" + std::to_string(light + 1);
-        graph.pass(inputs.prefix + name + suffix, Tag::scene)
-            .writes(part, Use::depth, kFarthest)
-            .layers(faces)
-            .record([&scene, light, has_map](Commands& commands) {
-                if (!has_map) return; // nothing is nearer than what is lit
-                scene.bind(commands);
-                for (const bool masked : {false, true})
-                    draw_objects(commands, scene, {"", masked ? "masked.frag" : "", {}},
-                                 scene.shadow_view(light), scene.drawn_shadow_faces(light), 0,
-                                 [&](std::size_t i) {
-                                     const DrawRange& range = scene.ranges()[i];
-                                     return range.casts_shadow && range.masked == masked;
-                                 });
-            });
+        const auto part = [&](std::uint32_t first, std::uint32_t count) {
+            return map.layers(faces * light + first, count);
+        };
+        const auto stamp = [&](std::uint32_t face) {
+            return shadow_stamp(scene, model, light, face);
+        };
+        const auto is_drawn = [&](std::uint32_t face) {
+            return face < faces &&
+                   (model.is_everything || !graph.holds(part(face, 1), stamp(face)));
+        };
+        for_each_run(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
+            const Faces run{light, first, end - first};
+            for (std::uint32_t face = first; face < end && !model.is_everything; ++face)
+                graph.made_from(part(face, 1), stamp(face));
+            const std::string text = run.count == faces ? name : name_of(name, run);
+            add_shadow_faces(graph, scene, light, run, has_map, inputs.prefix + text + suffix,
+                             part(first, run.count));
+        });
     }
     return map;
 }

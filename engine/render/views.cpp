@@ -99,6 +99,13 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
     return view;
 }
 
+namespace {
+
+/// The largest that is not above a positive number.
+float power_of_two_below(float number) { return std::exp2(std::floor(std::log2(number))); }
+
+} // namespace
+
 std::vector<shared::View> cube_views(vec3 eye, float gap) {
     return turned_cube_views(eye, vec3(0), gap);
 }
@@ -115,8 +122,9 @@ std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_fro
         view.right = world_from_cube * f32::cube_direction(face, vec3(1, 0, 0));
         view.down = world_from_cube * f32::cube_direction(face, vec3(0, 1, 0));
         view.forward = world_from_cube * f32::cube_direction(face, vec3(0, 0, 1));
-        // The nearest thing may lie in a corner, 1 / sqrt(3) of its distance along the axis.
-        view.near = std::max(kSmallestNear, 0.5f * gap);
+        // The nearest thing may lie in a corner, 1 / sqrt(3) of its distance along the axis. A power
+        // of two: while something comes nearer it seldom changes, and depths but by their exponent.
+        view.near = std::max(kSmallestNear, power_of_two_below(0.5f * gap));
         views.push_back(view);
     }
     return views;
@@ -148,6 +156,12 @@ std::array<shared::View, 2> sun_views(vec3 forward, const Bounds<float>& core,
 
 namespace {
 
+/// Of a view in perspective, through its eye: normals, of any length.
+std::array<vec3, 5> inward_planes(const shared::View& view) {
+    return {view.forward, view.forward + view.right, view.forward - view.right,
+            view.forward + view.down, view.forward - view.down};
+}
+
 /// The inside of a parallel view: between its sides and in front of its eye.
 bool may_meet_parallel(const shared::View& view, const Bounds<float>& box) {
     const auto furthest = [&](const vec3& plane) {
@@ -163,15 +177,23 @@ bool may_meet_parallel(const shared::View& view, const Bounds<float>& box) {
 
 bool may_meet(const shared::View& view, const Bounds<float>& box) {
     if (view.parallel != 0) return may_meet_parallel(view, box);
-    const std::array<vec3, 5> inward{view.forward, view.forward + view.right,
-                                     view.forward - view.right, view.forward + view.down,
-                                     view.forward - view.down};
-    for (const vec3& plane : inward) {
+    for (const vec3& plane : inward_planes(view)) {
         const vec3 furthest(plane.x > 0 ? box.hi.x : box.lo.x, plane.y > 0 ? box.hi.y : box.lo.y,
                             plane.z > 0 ? box.hi.z : box.lo.z);
         if (dot(plane, furthest - view.eye) < 0) return false;
     }
     return true;
+}
+
+bool may_meet(const shared::View& view, const DrawRange& range) {
+    constexpr float kRoom = 0x1p-20f; // of how far it is: what places and planes are rounded by
+    if (!may_meet(view, range.bounds)) return false;
+    if (view.parallel != 0) return true;
+    const vec3 towards = range.bounds.centre() - view.eye;
+    const float radius = range.radius + kRoom * (range.radius + length(towards));
+    return std::ranges::all_of(inward_planes(view), [&](const vec3& plane) {
+        return dot(plane, towards) >= -radius * length(plane);
+    });
 }
 
 } // namespace catoptric::render

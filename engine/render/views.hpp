@@ -31,5 +31,7 @@ std::array<shared::View, 2> sun_views(vec3 forward, const Bounds<float>& core,
 
 /// False when the box is certainly outside the view: all corners beyond one of its planes.
 bool may_meet(const shared::View& view, const Bounds<float>& box);
+/// The same of an object, whose bounding sphere may be outside though its box is not.
+bool may_meet(const shared::View& view, const DrawRange& range);
 
 } // namespace catoptric::render

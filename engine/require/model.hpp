@@ -40,8 +40,8 @@ struct MirrorNeeds {
     /// Of its capture, whose directions somebody may ask for.
     Faces faces = kAllFaces;
     std::uint32_t edge = 0; ///< texels along an edge that are enough; 0: as many as the row asks
-    /// Of what each face shows but for mirrors, and how it is lit: while the number stays, so do
-    /// the bytes.
+    /// Of what each face shows but for mirrors, and how it is lit: while the number and the views
+    /// of face and shadow maps stay, so do the bytes.
     std::array<std::uint64_t, 6> stamps{};
     std::vector<std::uint32_t>
         sees; ///< the other mirrors that its capture shows, from 0, ascending
@@ -49,7 +49,14 @@ struct MirrorNeeds {
 
 struct LightNeeds {
     bool has_map = true;     ///< something that is seen may lie in a shadow of its
-    std::uint64_t stamp = 0; ///< of what casts shadows: while it stays, so does the map
+    std::uint64_t stamp = 0; ///< of the light and of all that has never moved
+};
+
+/// A thing that moves and casts shadows. A face of a shadow map stays while LightNeeds::stamp, the
+/// face's view and the stamps of those that it may show do.
+struct Caster {
+    std::uint32_t object = 0;
+    std::uint64_t stamp = 0; ///< of its shape and where it is
 };
 
 /// A thing that is not done, for the user to read.
@@ -64,6 +71,7 @@ struct Model {
     bool is_everything = true;
     std::vector<MirrorNeeds> mirrors; ///< entry n-1 of mirror n
     std::vector<LightNeeds> lights;   ///< as scene::lights has them
+    std::vector<Caster> casters;
     std::vector<LeftOut> left_out;
 };
 

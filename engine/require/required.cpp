@@ -2,6 +2,7 @@
 #include "require/reach.hpp"
 #include "require/stamps.hpp"
 
+#include "core/stamp.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
@@ -86,9 +87,10 @@ Faces Requirements::Impl::faces_of(const Picture& picture, std::size_t mirror) {
 /// everything where some capture is made.
 void Requirements::Impl::find_lights(const Picture& picture) {
     model.lights.resize(world.lights().size());
+    model.casters = stamps.casters(world);
     const bool all_around = std::ranges::any_of(model.mirrors, &MirrorNeeds::is_captured);
     for (std::size_t i = 0; i < model.lights.size(); ++i) {
-        model.lights[i].stamp = stamps.of_light(world, i);
+        model.lights[i].stamp = Stamp(world.epoch()).add(i).value();
         model.lights[i].has_map = std::ranges::any_of(world.things(), [&](const Thing& thing) {
             return !thing.box.empty() &&
                    may_light(world.lights()[i], thing.box, world.rounding()) &&

@@ -16,9 +16,10 @@ inline constexpr std::size_t kMostLandings = 1 << 17;
 
 /// A face's stamp stands for: the epoch (all that has never moved, materials, environment, lights);
 /// the mirror itself, for the capture's centre; and each mover, mirrors among them, whose box may
-/// meet the face, one of whose shadows may fall on something there, or that may be next to the
-/// centre or to a light, for near planes. A shadow on a mover is told by that mover where the
-/// caster stands still. Equal stamps, equal bytes, but for what other mirrors show.
+/// meet the face or one of whose shadows may fall on something there. A shadow on a mover is told by
+/// that mover where the caster stands still. Equal stamps, equal bytes, but for what other mirrors
+/// show, as long as views do: near planes and a directional light's windows depend on the nearest
+/// and the outermost things, which those who have the views know.
 ///
 /// A capture whose mirror moved since the instant before gets one stamp of everything on all of its
 /// faces, and so do all where more than kMostPairs of things would have to be looked at.
@@ -29,29 +30,23 @@ public:
     /// Of a mirror's six faces; O(movers + landings), nothing where nothing has changed since it
     /// was asked last.
     const std::array<std::uint64_t, 6>& of_faces(const World& world, std::size_t mirror);
-    /// Of a light's shadow map: the epoch and all movers that cast shadows.
-    std::uint64_t of_light(const World& world, std::size_t light) const;
+    /// Movers that cast shadows.
+    std::vector<Caster> casters(const World& world) const;
 
 private:
     struct Faces6 {
         std::uint64_t made_at = 0; ///< value of `changes_`
-        std::uint64_t layout = 0;  ///< of which `gap` is
-        double gap = 0;            ///< to what stands still, at most
-        dvec3 centre{0};
         std::array<std::uint64_t, 6> stamps{};
     };
-    void find_everywhere(const World& world);
-    Faces look(const World& world, const Faces6& faces, std::size_t mover) const;
+    Faces look(const World& world, const dvec3& centre, std::size_t mover) const;
     void add_up(const World& world, Faces6& faces, std::size_t mirror) const;
 
     std::vector<Faces6> mirrors_;
     std::vector<Landing> landings_;
-    std::vector<bool> everywhere_; ///< movers that any face may notice
-    std::uint64_t changes_ = 1;    ///< counts instants at which something changed
-    std::uint64_t all_ = 0;        ///< of everything
+    std::uint64_t changes_ = 1; ///< counts instants at which something changed
+    std::uint64_t all_ = 0;     ///< of everything
     std::uint64_t epoch_ = 0, layout_ = 0;
     std::uint32_t shadow_edge_ = 0;
-    std::vector<double> light_gaps_;
     bool is_much_ = false;
 };
 

@@ -94,20 +94,6 @@ Wall wall_of(const Quad& corners, std::size_t object) {
     return wall;
 }
 
-double distance(const Wall& wall, const dvec3& place) {
-    const double height = wall.height(place);
-    bool is_over = true;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 4; ++i) {
-        is_over = is_over && wall.inside(i, place) >= 0;
-        const dvec3 along = wall.corners[(i + 1) % 4] - wall.corners[i];
-        const double t = dot(place - wall.corners[i], along) / dot(along, along);
-        nearest = std::min(nearest,
-                           length(place - wall.corners[i] - glm::clamp(t, 0., 1.) * along));
-    }
-    return is_over ? std::abs(height) : nearest;
-}
-
 bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
            double margin) {
     const auto [viewer_low, viewer_high] = along(wall.normal, viewer);

@@ -44,9 +44,6 @@ struct Wall {
 /// Without an area it hides nothing.
 Wall wall_of(const Quad& corners, std::size_t object);
 
-/// Distance from a place to the nearest of the wall's.
-double distance(const Wall& wall, const dvec3& place);
-
 /// Whether each segment from a place of `viewer` to one of `target` crosses the wall at least
 /// `margin` inside of its edges, its ends that far from the wall's plane on different sides.
 ///

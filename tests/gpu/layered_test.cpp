@@ -100,4 +100,42 @@ TEST(Culling, ABoxThatHoldsAVisiblePointIsNeverLeftOut) {
     EXPECT_GT(left_out, 6000u); // most boxes are seen by one or two of six faces
 }
 
+TEST(Culling, ABallWithAVisiblePointIsNeverLeftOut) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> coordinate(-1, 1), size(.05f, .5f);
+    std::normal_distribution<float> normal;
+    std::size_t left_out = 0, by_box = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const vec3 eye(coordinate(random), coordinate(random), coordinate(random));
+        const vec3 centre(coordinate(random), coordinate(random), coordinate(random));
+        render::DrawRange ball;
+        ball.radius = size(random);
+        ball.bounds = {centre - ball.radius, centre + ball.radius};
+        for (const shared::View& view : render::cube_views(eye, .01f)) {
+            by_box += !render::may_meet(view, ball.bounds);
+            if (render::may_meet(view, ball)) continue;
+            ++left_out;
+            for (int i = 0; i < 40; ++i) {
+                const vec3 out(normal(random), normal(random), normal(random));
+                const vec3 v = centre + ball.radius * normalize(out) - eye;
+                const float w = dot(view.forward, v);
+                EXPECT_FALSE(w > 0 && std::abs(dot(view.right, v)) <= w &&
+                             std::abs(dot(view.down, v)) <= w);
+            }
+        }
+    }
+    EXPECT_GT(left_out, by_box + 300);
+}
+
+TEST(NearPlanes, AreTheLargestPowersOfTwoThatCutNothingOff) {
+    for (const float gap : {1e-3f, .3f, .5f, .51f, 1.f, 3.9f, 4.f, 100.f}) {
+        const float near = render::cube_views(vec3(1, 2, 3), gap)[4].near;
+        int exponent = 0;
+        EXPECT_EQ(std::frexp(near, &exponent), .5f) << gap;
+        // What is nearest may lie in a corner, 1 / sqrt(3) of its distance along the axis.
+        EXPECT_LE(near, gap / 2) << gap;
+        EXPECT_GT(near, gap / 4) << gap;
+    }
+}
+
 } // namespace
