@@ -107,6 +107,10 @@ Plan parse_plan(std::string_view text) {
     if (text == kAuto)
         return {.label = std::string(text), .rules = {}, .is_auto = true, .reasons = {}};
     const std::string_view head = text.substr(0, text.find(':'));
+    check(head != kAuto, Failure::usage, "'", text,
+          "': wanted auto alone, which finds settings "
+          "itself, found '",
+          text.substr(kAuto.size()), "' after it");
     if (head.find('=') == std::string_view::npos)
         return {.label = std::string(text),
                 .rules = {{"*", parse_choice(text)}},

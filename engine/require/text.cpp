@@ -3,6 +3,7 @@
 #include "require/left_out.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <sstream>
 
 namespace catoptric::require {
@@ -34,6 +35,24 @@ std::string error_text(double error) {
     return text.str();
 }
 
+/// What is made once for many frames; nothing where nothing is made.
+std::string kept_text(const Model& model) {
+    std::size_t faces = 0;
+    for (const MirrorNeeds& needs : model.mirrors)
+        faces += needs.is_captured ? static_cast<std::size_t>(std::popcount(needs.faces)) : 0;
+    const auto maps = static_cast<std::size_t>(
+        std::ranges::count_if(model.lights, &LightNeeds::has_map));
+    if (model.is_everything || faces + maps == 0) return "";
+    std::ostringstream text;
+    text << "kept: " << faces << (faces == 1 ? " face" : " faces") << " of captures, " << maps
+         << (maps == 1 ? " shadow map" : " shadow maps")
+         << "\n    why: what they show stays until something in it moves, is lit in another way or "
+            "mirrors something else\n    saves: each of them in each frame in which it stays\n"
+            "    changes: no pixel; in a mirror that nobody saw before, other such mirrors appear a "
+            "bounce a frame\n";
+    return text.str();
+}
+
 } // namespace
 
 std::string to_text(const Model& model, const scene::Scene& scene) {
@@ -57,6 +76,7 @@ std::string to_text(const Model& model, const scene::Scene& scene) {
         text << "  light " << i + 1 << (name.empty() ? "" : " " + name) << ": "
              << (model.lights[i].has_map ? "a shadow map" : "no shadow map") << "\n";
     }
+    text << kept_text(model);
     text << (model.left_out.empty() ? "nothing is left out\n" : "left out\n");
     for (const LeftOut& thing : model.left_out)
         text << "  " << thing.what << "\n    why: " << thing.why << "\n    saves: " << thing.saves

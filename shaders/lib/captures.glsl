@@ -16,7 +16,9 @@ layout(set = 0, binding = 8) uniform sampler linear_texels;
 layout(set = 0, binding = 18) uniform sampler nearest_texels;
 // Uniform, not storage: a software driver reads that without a branch, and what is computed around a branch it rounds
 // otherwise than what is computed around none.
-layout(set = 0, binding = 19, scalar) uniform Captures { CaptureTable captures; };
+// The last uniform buffer of all, since Mesa 22.3's software driver writes beyond a table of its own, and crashes, where
+// what is stored or decided comes from a constant place in the fourth; places in this one are computed.
+layout(set = 0, binding = 31, scalar) uniform Captures { CaptureTable captures; };
 
 #define COLOUR_CUBES(i) samplerCubeArray(colour_cubes[i], linear_texels)
 #define DISTANCE_CUBES(i) samplerCubeArray(distance_cubes[i], linear_texels)

@@ -137,6 +137,25 @@ TEST(Plan, MirrorsThatNeverSeeEachOtherAreTheSameToTheByte) {
     }
 }
 
+/// Of a scene with a sky and textures: four uniform buffers, one more than any other.
+TEST(Plan, CapturesOfTwoEdgesUnderASky) {
+    const scene::Scene scene = scene::load("courtyard");
+    const uvec2 size{48, 48};
+    const app::Part mixed = test::render(
+        scene, "1=parallax:face=32,shadow_map=256 *=parallax:face=16,shadow_map=256", size, 2);
+    const app::Part alike = test::render(scene, "parallax:face=32,shadow_map=256", size, 2);
+    const app::Part traced = test::render(scene, "raytrace:depth=1", size);
+    std::array<std::size_t, 3> same{}, other{}; // of nothing, mirror 1 and the rest
+    for (std::size_t i = 0; i < traced.hits.size(); ++i) {
+        const std::size_t mirror = std::min(traced.hits[i] & 0xffff, 2u);
+        ++(mixed.hdr.pixels[i] == alike.hdr.pixels[i] ? same : other)[mirror];
+    }
+    EXPECT_EQ(test::nonfinite(mixed.hdr), 0u);
+    EXPECT_LE(other[0], same[0] / 20) << "outlines, of which rays and triangles may differ";
+    EXPECT_GT(same[1], 4 * other[1]) << "all but what it shows of other mirrors";
+    EXPECT_GT(other[2], same[2]) << "their captures are coarser";
+}
+
 TEST(Plan, OfOneTechniqueIsThatTechnique) {
     const scene::Scene scene = test::room(3, 1);
     for (const std::string technique : {"hybrid", "naive:bounces=2", "raytrace:shadow=map"}) {

@@ -77,6 +77,7 @@ TEST(PlanText, WhatIsWrongIsNamed) {
     expect_refused("9=reuse *=march", {"pattern '9'", "matches no mirror", "4 mirrors",
                                        "1 'left ball'", "4 'far ball'"});
     expect_refused("0=reuse *=march", {"pattern '0'"});
+    expect_refused("auto:face=64", {"'auto:face=64'", "auto alone", "found ':face=64'"});
     expect_refused("2,frnt=reuse *=march", {"pattern 'frnt'", "did you mean 'front'"});
     expect_refused("1=reuse 2=march 4=secant", {"no rule for mirror 3 'back'"});
     expect_refused("1=rouse *=march", {"no technique 'rouse'", "did you mean 'reuse'"});

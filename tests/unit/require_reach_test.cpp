@@ -13,6 +13,7 @@ using namespace catoptric::require;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 TEST(RequireFaces, OfAFlatMirrorAreThoseBeforeIt) {
     scene::Scene scene = scene::flat();
@@ -100,6 +101,11 @@ TEST(RequireLeftOut, SaysTheSameOfManyOnce) {
     const Model all = everything({scene, scene.cameras[0]});
     EXPECT_THAT(to_text(all, scene), HasSubstr("everything is required\n"));
     EXPECT_THAT(to_text(all, scene), HasSubstr("nothing is left out\n"));
+    EXPECT_THAT(to_text(all, scene), Not(HasSubstr("kept")));
+    EXPECT_THAT(to_text(model, scene), HasSubstr("kept: 0 faces of captures, 1 shadow map\n"));
+    const scene::Scene balls = scene::cornell_mirrors();
+    EXPECT_THAT(to_text(required({balls, balls.cameras[0]}), balls),
+                HasSubstr("kept: 24 faces of captures, 1 shadow map\n    why: "));
 }
 
 TEST(RequireSuggest, APlanForEachBuiltInScene) {
