@@ -44,12 +44,13 @@ std::string kept_text(const Model& model) {
         std::ranges::count_if(model.lights, &LightNeeds::has_map));
     if (model.is_everything || faces + maps == 0) return "";
     std::ostringstream text;
-    text << "kept: " << faces << (faces == 1 ? " face" : " faces") << " of captures, " << maps
-         << (maps == 1 ? " shadow map" : " shadow maps")
-         << "\n    why: what they show stays until something in it moves, is lit in another way or "
-            "mirrors something else\n    saves: each of them in each frame in which it stays\n"
-            "    changes: no pixel; in a mirror that nobody saw before, other such mirrors appear a "
-            "bounce a frame\n";
+    text
+        << "kept: " << faces << (faces == 1 ? " face" : " faces") << " of captures, " << maps
+        << (maps == 1 ? " shadow map" : " shadow maps")
+        << "\n    why: what they show stays until something in it moves, is lit in another way or "
+           "mirrors something else\n    saves: each of them in each frame in which it stays\n"
+           "    changes: no pixel; in a mirror that nobody saw before, other such mirrors appear a "
+           "bounce a frame\n";
     return text.str();
 }
 
