@@ -194,18 +194,18 @@ TEST(CausesBesideRows, ShadowMap) {
 // ... and where a thing cannot be wrong it has no part, in any company.
 TEST(Causes, WhatCannotBeWrongHasNoPart) {
     constexpr double kRounding = 1e-8;
-    const Split one_ball = split(test::room(1, 1), "parallax:face=32");
+    const Split one_ball = split(test::room(1, 1), "parallax:face=32", kSmall);
     EXPECT_NEAR(one_ball.share("mirror in mirror"), 0, kRounding);
     EXPECT_EQ(one_ball.alone("mirror in mirror"), 0);
     EXPECT_GT(one_ball.share("texels"), .01);
-    const Split in_a_box = split(test::box({}), "parallax:face=32,shadow=none");
+    const Split in_a_box = split(test::box({}), "parallax:face=32,shadow=none", kSmall);
     EXPECT_NEAR(in_a_box.share("hidden target"), 0, kRounding) << "nothing is before a wall";
     EXPECT_NEAR(in_a_box.share("shadow map"), 0, kRounding) << "what glows has no shadow";
     EXPECT_NEAR(in_a_box.share("mirror in mirror"), 0, 1e-3) << "but for facets at the outline";
     EXPECT_GT(in_a_box.share("direction"), .01);
     EXPECT_GT(in_a_box.share("texels"), .01);
     // All that is seen but mirrors glows alike.
-    const Split bright = split(test::three_balls(), "naive:bounces=1,face=64,shadow=none");
+    const Split bright = split(test::three_balls(), "naive:bounces=1,face=64,shadow=none", kSmall);
     EXPECT_NEAR(bright.share("shadow map"), 0, kRounding);
     EXPECT_GT(bright.share("mirror in mirror"), .5);
     EXPECT_NEAR(bright.find("mirror in mirror").share_first_order, 0, kRounding);
