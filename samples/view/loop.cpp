@@ -50,7 +50,8 @@ public:
 private:
     bool is_scripted() const { return options_.common.frames.has_value(); }
     uvec2 first_window() const;
-    void open();
+    enum class Scene { another, same };
+    void open(Scene scene);
     bool turn();
     void act(const Key& key);
     void carry_out(const Wants& wants);
@@ -60,6 +61,7 @@ private:
     void say(const std::string& text);
     std::string command() const;
     void next_camera(std::size_t index);
+    void tell_times() const;
     int end();
 
     Options options_;
@@ -88,7 +90,7 @@ Loop::Loop(const Options& options, const Driver& driver)
     state_.shows_panels = settings_.shows_panels, state_.flies = settings_.flies;
     state_.motion.speed = settings_.speed, state_.gain = settings_.gain;
     state_.model = request_.model;
-    open();
+    open(Scene::another);
 }
 
 /// Room for the picture and for controls beside it.
@@ -100,13 +102,13 @@ uvec2 Loop::first_window() const {
 }
 
 /// An engine, a screen and a session, for the scene as it is asked for.
-void Loop::open() {
+void Loop::open(Scene scene) {
     viewer_.reset(); // gives its surface back before another is made
     app::EngineOptions options = cli::engine_options(options_.common.device,
                                                      options_.common.validate);
     viewer_ = std::make_unique<Viewer>(window_, options, request_);
     controls_.give_font(viewer_->screen());
-    if (frame_ > 0) return; // the state is as it was
+    if (scene == Scene::same) return; // the state is as it was
     cli::introduce(viewer_->engine(), options_.common.manners);
     app::settle_exposure(viewer_->session(), request_);
     state_.camera = request_.camera;
@@ -200,8 +202,7 @@ void Loop::load(const std::string& file) try {
     options_ = std::move(other);
     request_ = std::move(request);
     state_.plan.own.clear(), state_.other.own.clear();
-    frame_ = 0;
-    open();
+    open(Scene::another);
     say("loaded: " + file);
 } catch (const Error& error) {
     if (!viewer_) throw;
@@ -226,7 +227,7 @@ void Loop::render(const Inputs& inputs, app::Overlay overlay) try {
     if (!viewer_->engine().usable()) {
         if (frame_ == 0) throw;
         cli::warn(std::string(error.what()) + "; the session is made anew");
-        open();
+        open(Scene::same);
         state_.said = std::string("the device was lost: ") + error.what();
         return;
     }
@@ -246,7 +247,7 @@ void Loop::show(const Inputs& inputs) {
     carry_out(wants);
     render(inputs, std::move(overlay));
     ++frame_;
-    if (viewer_->screen().lost()) open();
+    if (viewer_->screen().lost()) open(Scene::same);
     if (driver_.after) driver_.after({frame_, state_, *viewer_, command()});
 }
 
@@ -276,7 +277,20 @@ bool Loop::turn() {
     return !is_scripted() || frame_ < static_cast<std::size_t>(*options_.common.frames);
 }
 
+/// With -v: what the last frames took.
+void Loop::tell_times() const {
+    const Times& times = viewer_->times();
+    std::vector<Line> lines = times.passes();
+    for (const Line& line : times.host()) lines.push_back(line);
+    lines.push_back(times.gpu());
+    lines.push_back(times.frame());
+    for (const Line& line : lines)
+        cli::detail(options_.common.manners,
+                    fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
+}
+
 int Loop::end() {
+    tell_times();
     if (!options_.screenshot.empty()) viewer_->write(options_.screenshot);
     if (options_.common.validate) viewer_->engine().check_validation();
     if (is_scripted()) return 0;
