@@ -38,7 +38,6 @@ std::function<int()> parse(const std::vector<std::string>& words,
         "catoptric-view " + app::version() + " (" + app::commit() + ")", kExamples);
     const auto options = std::make_shared<Options>();
     options->words = words;
-    options->drawn.technique = "";
     cli::Verb& verb = program->whole();
     add_drawn(verb, options->drawn);
     verb.option("--screenshot", "OUT",
@@ -47,7 +46,7 @@ std::function<int()> parse(const std::vector<std::string>& words,
     add_common(verb, options->common);
     verb.does([options, run] {
         if (options->drawn.technique.empty() && options->drawn.plan.empty())
-            options->drawn.technique = "hybrid";
+            options->drawn.technique = "secant";
         options->technique = checked(options->drawn, "catoptric-view");
         check(!options->common.both_models, Failure::usage,
               "--model both: wanted everything or required, of which a picture has one");

@@ -23,7 +23,8 @@ void draw_mode(State& state) {
     const bool compares = state.mode == Mode::split || state.mode == Mode::difference;
     if (compares) {
         int against = static_cast<int>(state.against);
-        ImGui::Text("with");
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted("with");
         ImGui::SameLine();
         ImGui::RadioButton("another plan", &against, 0);
         ImGui::SameLine();
@@ -128,10 +129,10 @@ void draw_panels(State& state, const Seen& seen, uvec2 window, Wants& wants) {
         return ImGui::CollapsingHeader(name, is_open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     };
     if (section("View")) draw_mode(state);
+    if (section("Errors")) draw_error(state, seen.viewer);
     if (section("Plan")) draw_plan(state, seen);
     if (section("Motion")) draw_motion(state, seen.period);
     if (section("Times")) draw_times(seen.viewer);
-    if (section("Errors")) draw_error(state, seen.viewer);
     if (section("Left out", false)) draw_left_out(state, seen.viewer);
     if (section("Scene", false)) draw_scene(seen, wants);
     ImGui::End();

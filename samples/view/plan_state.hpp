@@ -11,7 +11,7 @@
 namespace catoptric::view {
 
 struct Drawing {
-    std::string technique = "hybrid";
+    std::string technique = "secant";
     std::map<std::string, std::string> knobs; ///< those that are not at their default
     bool operator==(const Drawing&) const = default;
 };

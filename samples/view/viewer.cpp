@@ -107,10 +107,11 @@ void Viewer::work_at_rest(const State& state) {
 
 std::shared_ptr<const measure::Picture> Viewer::canvas(const State& state) {
     if (state.mode == Mode::split || state.mode == Mode::difference) return reference_.display();
-    const bool is_made = made_ && made_mode_ == state.mode && made_cause_ == state.cause;
+    const bool is_made = made_ && made_mode_ == state.mode && made_cause_ == state.cause &&
+                         made_gain_ == state.gain;
     if (is_made) return made_;
     if (state.mode == Mode::causes && still_ < kRests) return nullptr;
-    made_mode_ = state.mode, made_cause_ = state.cause;
+    made_mode_ = state.mode, made_cause_ = state.cause, made_gain_ = state.gain;
     collect(0);
     if (state.mode == Mode::numbers) {
         made_ = std::make_shared<measure::Picture>(

@@ -70,6 +70,7 @@ private:
     std::shared_ptr<const measure::Picture> made_; ///< for `made_mode_`
     Mode made_mode_ = Mode::plan;
     std::uint32_t made_cause_ = 0;
+    int made_gain_ = 0;
     std::size_t frames_ = 0;
     int still_ = 0;          ///< frames since something changed
     bool was_moved_ = false; ///< since the last cut

@@ -2,8 +2,6 @@
 
 #include "measure/picture.hpp"
 
-#include <gtest/gtest.h>
-
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>

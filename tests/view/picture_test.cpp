@@ -28,7 +28,6 @@ TEST_F(ViewPicture, ItsPictureIsThatOfRender) {
     }
 }
 
-/// Sizes that the window has taken, and whether it was hidden meanwhile.
 /// The plan's picture and what is compared with it, as the X server has them.
 TEST_F(ViewPicture, ShowsWhatItSays) {
     std::vector<std::string> seen;
@@ -189,8 +188,5 @@ TEST_F(ViewPicture, LoadsWhatIsDropped) {
     EXPECT_EQ(said[4], "loaded: flat");
     EXPECT_EQ(scenes[4], "flat");
 }
-
-/// In mid-frame: what the user had is there in a session made anew, and the picture comes out as
-/// ever. Memory that frames took once is taken no more.
 
 } // namespace
