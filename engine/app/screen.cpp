@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 namespace catoptric::app {
@@ -19,7 +20,7 @@ std::vector<std::uint32_t> packed(const measure::Picture& display) {
     std::ranges::transform(display.pixels, words.begin(), [](const vec3& pixel) {
         std::uint32_t word = 0xFF000000;
         for (int c = 0; c < 3; ++c)
-            word |= static_cast<std::uint32_t>(std::clamp(pixel[c], 0.f, 1.f) * 255 + .5f)
+            word |= static_cast<std::uint32_t>(std::lround(std::clamp(pixel[c], 0.f, 1.f) * 255))
                     << (8 * c);
         return word;
     });

@@ -5,6 +5,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -19,9 +20,7 @@ const char* name_of(VkResult result);
 VkFormat vk_format(Format format);
 
 /// The surface that a number stands for, as window libraries hand it over.
-inline VkSurfaceKHR surface_of(std::uint64_t number) {
-    return reinterpret_cast<VkSurfaceKHR>(number);
-}
+inline VkSurfaceKHR surface_of(std::uint64_t number) { return std::bit_cast<VkSurfaceKHR>(number); }
 
 /// A device as what is made from it knows it.
 struct DeviceHandle {

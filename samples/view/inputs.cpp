@@ -15,7 +15,7 @@ constexpr double kStray = 3; // pixels: further is no click
 } // namespace
 
 const std::vector<Key>& keys() {
-    static const std::vector<Key> list{
+    static const std::vector<Key> kList{
         {GLFW_KEY_F1, Act::keys, 0, "F1", "this list"},
         {GLFW_KEY_TAB, Act::panels, 0, "Tab", "controls come and go"},
         {GLFW_KEY_SPACE, Act::pause, 0, "Space", "motion stops and goes on"},
@@ -38,7 +38,7 @@ const std::vector<Key>& keys() {
         {GLFW_KEY_L, Act::save_plan, 0, "L", "writes the plan (JSON)"},
         {GLFW_KEY_ESCAPE, Act::quit, 0, "Esc", "ends"},
     };
-    return list;
+    return kList;
 }
 
 uvec2 picture_size(uvec2 window, bool shows_panels) {

@@ -12,8 +12,8 @@ namespace catoptric::view {
 namespace {
 
 const std::vector<app::TechniqueInfo>& table() {
-    static const std::vector<app::TechniqueInfo> techniques = app::techniques();
-    return techniques;
+    static const std::vector<app::TechniqueInfo> kTechniques = app::techniques();
+    return kTechniques;
 }
 
 void draw_choice(Drawing& drawing, const app::Knob& knob) {

@@ -9,8 +9,8 @@ namespace catoptric::view {
 namespace {
 
 const std::vector<app::TechniqueInfo>& table() {
-    static const std::vector<app::TechniqueInfo> techniques = app::techniques();
-    return techniques;
+    static const std::vector<app::TechniqueInfo> kTechniques = app::techniques();
+    return kTechniques;
 }
 
 Drawing drawing_of(const std::string& technique, const std::vector<Setting>& settings) {

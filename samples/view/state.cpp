@@ -14,13 +14,13 @@ const char* name_of(Mode mode) {
 }
 
 const std::vector<Cause>& causes() {
-    static const std::vector<Cause> list{{shared::kMendDistance, "captured distance"},
-                                         {shared::kMendDirection, "looked-up direction"},
-                                         {shared::kMendHidden, "hidden surfaces"},
-                                         {shared::kMendTexels, "texels"},
-                                         {shared::kMendMirrors, "mirrors in captures"},
-                                         {shared::kMendShadows, "shadow map"}};
-    return list;
+    static const std::vector<Cause> kList{{shared::kMendDistance, "captured distance"},
+                                          {shared::kMendDirection, "looked-up direction"},
+                                          {shared::kMendHidden, "hidden surfaces"},
+                                          {shared::kMendTexels, "texels"},
+                                          {shared::kMendMirrors, "mirrors in captures"},
+                                          {shared::kMendShadows, "shadow map"}};
+    return kList;
 }
 
 bool wants_canvas(const State& state) {
