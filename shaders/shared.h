@@ -186,6 +186,27 @@ struct Counters {
     uint listed;        // of them
 };
 
+// Push constants of the pass that shows pictures in a window (engine/app/screen.cpp).
+struct Screening {
+    uvec2 size;      // of the pictures
+    uint kind;       // kShow...
+    uint from_canvas; // 1: the first picture is the canvas; 2: the second is; 3: both
+    float divider;   // of a split: the first picture is left of this pixel
+    float gain;      // of a difference
+};
+const uint kShowFirst = 0u, kShowSplit = 1u, kShowDifference = 2u;
+
+// A corner of the triangles that lie over it: controls, text.
+struct OverlayVertex {
+    vec2 position; // pixels of the window
+    vec2 uv;       // in the font's picture, 0 to 1
+    uint colour;   // r | g << 8 | b << 16 | a << 24
+};
+struct Overlaying {
+    uvec2 window; // pixels
+    uvec2 font;   // texels of its picture
+};
+
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
@@ -202,6 +223,8 @@ static_assert(sizeof(Draw) == 80);
 static_assert(sizeof(Draw) + sizeof(Placement) == 128); // what every device has
 static_assert(sizeof(Trace) == 24);
 static_assert(sizeof(Counters) == 28);
+static_assert(sizeof(Screening) == 24);
+static_assert(sizeof(OverlayVertex) == 20);
 } // namespace catoptric::shared
 #endif
 #endif

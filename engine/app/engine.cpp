@@ -16,11 +16,21 @@ DeviceInfo to_info(const gpu::DeviceInfo& info) {
     return {info.name, info.driver, info.api, info.type, info.threads, info.missing};
 }
 
+gpu::DeviceOptions to_options(const EngineOptions& options) {
+    gpu::DeviceOptions wanted{options.device, options.validate, options.layered, false,
+                              options.instance_extensions};
+    if (options.make_surface)
+        wanted.make_surface = [make = options.make_surface](auto instance) {
+            return gpu::surface_of(make(instance));
+        };
+    return wanted;
+}
+
 } // namespace
 
 Engine::Impl::Impl(const EngineOptions& options)
-    : device({options.device, options.validate, options.layered, false}),
-      pipelines(device, options.shader_variants, options.cache), info(to_info(device.info())) {}
+    : device(to_options(options)), pipelines(device, options.shader_variants, options.cache),
+      info(to_info(device.info())) {}
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 Engine::~Engine() = default;

@@ -2,7 +2,9 @@
 
 #include "core/setting.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,6 +22,11 @@ struct EngineOptions {
     std::map<std::string, std::string> shader_variants = {};
     /// A folder where compiled pipelines are kept from process to process; empty: nowhere.
     std::filesystem::path cache = {};
+    /// For a window (app/screen.hpp): the instance extensions that its system wants, and what makes
+    /// the window's surface: it is handed Vulkan's instance and returns the handle of a surface,
+    /// which is the engine's from then on. The device is one that can show pictures there.
+    std::vector<std::string> instance_extensions = {};
+    std::function<std::uint64_t(void* instance)> make_surface = {};
 };
 
 /// XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty where neither is an absolute path.
@@ -96,6 +103,7 @@ public:
     void check_validation() const;
 
 private:
+    friend class Screen;
     friend class Session;
     struct Impl;
     std::unique_ptr<Impl> impl_;

@@ -147,6 +147,11 @@ Setup Session::setup() const {
 }
 
 Frame Session::frame(const FrameSpec& spec) {
+    return submit(spec, [](FrameGraph&) { return graph::Outside{}; });
+}
+
+Frame Session::submit(const FrameSpec& spec,
+                      const std::function<graph::Outside(FrameGraph&)>& finish) {
     Impl& self = *impl_;
     check_spec(spec);
     const std::vector<reflect::Plan>& plans = self.plans_of(spec);
@@ -166,10 +171,11 @@ Frame Session::frame(const FrameSpec& spec) {
     const Clock::time_point trees = Clock::now();
     self.resident->prepare();
     const double hierarchy_ms = milliseconds_since(trees);
+    const graph::Outside outside = finish(frame);
     const graph::Ticket ticket = self.runner.submit(
         frame.graph,
         spec.timing == Timing::isolated ? graph::Timing::isolated : graph::Timing::pipelined,
-        spec.is_aside);
+        spec.is_aside, outside);
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
     if (!spec.is_aside) self.keep(frame, ticket);

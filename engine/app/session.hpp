@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,8 +19,15 @@
 namespace catoptric::render {
 struct Captured;
 } // namespace catoptric::render
+namespace catoptric::graph {
+struct Outside;
+} // namespace catoptric::graph
 
 namespace catoptric::app {
+
+class Screen;      // app/screen.hpp
+struct Showing;    // likewise
+struct FrameGraph; // internal
 
 /// isolated: passes do not overlap and their times add up. pipelined: believe the span only.
 enum class Timing { isolated, pipelined };
@@ -213,6 +221,9 @@ public:
     /// the scene is written to. Other techniques than those of the frame before, or another model,
     /// begin without history. Throws `usage` for a specification that means nothing.
     Frame frame(const FrameSpec& spec);
+    /// The same, shown in a window: of the screen's engine, which must `fit`. A frame that the
+    /// window has no image for is rendered all the same.
+    Frame show(const FrameSpec& spec, Screen& screen, const Showing& showing);
     /// Edits the scene; seen from the next frame on. History stays unless the edit changes the
     /// scene's units on the device (render::space_of): it is much larger or smaller now, or what
     /// its origin goes by stands elsewhere (an outermost object, small mirrors). Throws `usage` for
@@ -238,6 +249,8 @@ public:
 
 private:
     friend class Frame;
+    /// `finish`: adds to the frame what is not a technique's, before it is submitted.
+    Frame submit(const FrameSpec& spec, const std::function<graph::Outside(FrameGraph&)>& finish);
     struct Impl;
     std::shared_ptr<Impl> impl_;
 };

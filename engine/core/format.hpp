@@ -6,13 +6,15 @@
 namespace catoptric {
 
 /// Texel formats that the engine uses, named as in the field: channels, bits, kind.
-enum class Format { r8_unorm, rgba8_unorm, r16f, rgba16f, r32f, rgba32f, r32ui, d32f };
+/// bgra8_unorm is a window's alone: no pass but the last writes it.
+enum class Format { r8_unorm, rgba8_unorm, bgra8_unorm, r16f, rgba16f, r32f, rgba32f, r32ui, d32f };
 
 constexpr std::uint32_t bytes_per_texel(Format format) {
     switch (format) {
     case Format::r8_unorm: return 1;
     case Format::r16f: return 2;
     case Format::rgba8_unorm:
+    case Format::bgra8_unorm:
     case Format::r32f:
     case Format::r32ui:
     case Format::d32f: return 4;
@@ -26,6 +28,7 @@ constexpr std::string_view name_of(Format format) {
     switch (format) {
     case Format::r8_unorm: return "r8_unorm";
     case Format::rgba8_unorm: return "rgba8_unorm";
+    case Format::bgra8_unorm: return "bgra8_unorm";
     case Format::r16f: return "r16f";
     case Format::rgba16f: return "rgba16f";
     case Format::r32f: return "r32f";

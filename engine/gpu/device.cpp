@@ -64,7 +64,7 @@ bool any_abandoned() { return some_device_abandoned; }
 
 std::vector<DeviceInfo> list_devices() {
     bool has_debug_utils = false;
-    const VkInstance instance = make_instance(false, has_debug_utils);
+    const VkInstance instance = make_instance(false, {}, has_debug_utils);
     std::vector<DeviceInfo> list;
     try {
         list = describe_all(physical_devices(instance));
@@ -79,7 +79,7 @@ std::vector<DeviceInfo> list_devices() {
 Device::Device(const DeviceOptions& options)
     : messages_(std::make_unique<std::vector<std::string>>()) {
     try {
-        create_instance(options.validate);
+        create_instance(options);
         choose(options);
         create_device();
     } catch (...) {
@@ -100,6 +100,7 @@ void Device::close() {
     if (messenger_)
         reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
             instance_, "vkDestroyDebugUtilsMessengerEXT"))(instance_, messenger_, nullptr);
+    if (surface_) vkDestroySurfaceKHR(instance_, surface_, nullptr);
     if (instance_) vkDestroyInstance(instance_, nullptr);
 }
 
@@ -127,14 +128,18 @@ void Device::check_usable() const {
         fail(why_abandoned_->failure, "the device was given up: ", why_abandoned_->what());
 }
 
-void Device::create_instance(bool validate) {
-    instance_ = make_instance(validate, has_debug_utils_);
-    if (validate && has_debug_utils_) messenger_ = make_messenger(instance_, *messages_);
+void Device::create_instance(const DeviceOptions& options) {
+    instance_ = make_instance(options.validate, options.instance_extensions, has_debug_utils_);
+    if (options.validate && has_debug_utils_) messenger_ = make_messenger(instance_, *messages_);
+    if (options.make_surface) surface_ = options.make_surface(instance_);
 }
 
 void Device::choose(const DeviceOptions& options) {
     const std::vector<VkPhysicalDevice> devices = physical_devices(instance_);
-    const std::vector<DeviceInfo> infos = describe_all(devices);
+    std::vector<DeviceInfo> infos = describe_all(devices);
+    for (std::size_t i = 0; surface_ && i < infos.size(); ++i)
+        if (infos[i].missing.empty() && !can_show(devices[i], surface_))
+            infos[i].missing = "a way to show pictures in this window";
     std::size_t index = 0;
     if (!options.wanted.empty())
         index = find_wanted(infos, options.wanted);
@@ -187,6 +192,9 @@ void Device::create_device() {
     features.v13.shaderTerminateInvocation = true; // what `discard` is in SPIR-V for Vulkan 1.3
     features.v13.maintenance4 = true; // work-group sizes as glslang writes them for Vulkan 1.3
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
+    const char* const extension = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    create.enabledExtensionCount = surface_ ? 1 : 0;
+    create.ppEnabledExtensionNames = &extension;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
     check_begun(vkCreateDevice(physical_, &create, nullptr, &device_),

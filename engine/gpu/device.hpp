@@ -3,6 +3,7 @@
 #include "gpu/vulkan.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,9 @@ struct DeviceOptions {
     bool validate = false; ///< Khronos validation layer: core, synchronization, queue submit
     bool layered = true;   ///< false: pretend that a vertex shader cannot write gl_Layer
     bool staged = false;   ///< true: pretend that device memory cannot be mapped
+    std::vector<std::string> instance_extensions = {}; ///< that the window system wants
+    /// Makes the surface that the device is to show pictures on; empty: none.
+    std::function<VkSurfaceKHR(VkInstance)> make_surface = {};
 };
 
 /// Whether a device of this process was abandoned: its driver's threads may still be at work, and a
@@ -55,6 +59,7 @@ public:
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
     DeviceHandle handle() const { return {device_, &abandoned_}; }
     VkPhysicalDevice physical() const { return physical_; }
+    VkSurfaceKHR surface() const { return surface_; } ///< null: none was asked for
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
     bool is_cpu() const { return info_.type == "cpu"; }
@@ -107,7 +112,7 @@ public:
 
 private:
     void close();
-    void create_instance(bool validate);
+    void create_instance(const DeviceOptions& options);
     void choose(const DeviceOptions& options);
     void create_device();
     void abandon(const Error& why);
@@ -115,6 +120,7 @@ private:
     void end_one_shot(const std::string& doing);
 
     VkInstance instance_ = VK_NULL_HANDLE;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;

@@ -124,7 +124,8 @@ void check_begun(VkResult result, const std::string& doing, const char* or_else)
     check_vk(result, doing);
 }
 
-VkInstance make_instance(bool validate, bool& has_debug_utils) {
+VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_extensions,
+                         bool& has_debug_utils) {
     // Mesa's layer that puts devices in order crashes where one goes between two of its calls.
     // Unless somebody tells it which one to take, the order that is made here is enough.
     if (!std::getenv("MESA_VK_DEVICE_SELECT") && !std::getenv("DRI_PRIME"))
@@ -145,6 +146,8 @@ VkInstance make_instance(bool validate, bool& has_debug_utils) {
                       (validate &&
                        has_instance_extension(kValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
     if (has_debug_utils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+
+    for (const std::string& name : wanted_extensions) extensions.push_back(name.c_str());
 
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.pApplicationName = application.pEngineName = "catoptric";
@@ -204,6 +207,22 @@ int find_queue_family(VkPhysicalDevice device) {
         if ((families[i].queueFlags & kBoth) == kBoth && families[i].timestampValidBits > 0)
             return static_cast<int>(i);
     return -1;
+}
+
+bool can_show(VkPhysicalDevice device, VkSurfaceKHR surface) {
+    const auto extensions = list_of<VkExtensionProperties>(
+        [&](std::uint32_t* count, VkExtensionProperties* items) {
+            return vkEnumerateDeviceExtensionProperties(device, nullptr, count, items);
+        },
+        [](VkResult result) { check_vk(result, "enumerate a device's extensions"); });
+    const auto is_swapchain = [](const VkExtensionProperties& extension) {
+        return !strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    };
+    VkBool32 can = VK_FALSE;
+    const auto family = static_cast<std::uint32_t>(find_queue_family(device));
+    check_vk(vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &can),
+             "ask whether a device can show pictures in a window");
+    return can && std::ranges::any_of(extensions, is_swapchain);
 }
 
 Features::Features() {

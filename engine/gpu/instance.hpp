@@ -9,14 +9,18 @@ namespace catoptric::gpu {
 void check_begun(VkResult result, const std::string& doing, const char* or_else);
 
 /// Creates an instance, with the validation layer on request and VK_EXT_debug_utils where it
-/// exists. Throws `no_device` when no driver is installed, `exhausted` when there is no memory for
-/// one, `usage` when validation is asked for and absent.
-VkInstance make_instance(bool validate, bool& has_debug_utils);
+/// exists, and the extensions that are wanted. Throws `no_device` when no driver is installed,
+/// `exhausted` when there is no memory for one, `usage` when validation is asked for and absent.
+VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_extensions,
+                         bool& has_debug_utils);
 
 /// Physical devices in order of preference, at least one; errors as above.
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
 
 DeviceInfo describe(VkPhysicalDevice device);
+
+/// Whether the device's queue can show pictures on the surface.
+bool can_show(VkPhysicalDevice device, VkSurfaceKHR surface);
 
 /// Index of the queue family that can draw, dispatch and copy, or -1.
 int find_queue_family(VkPhysicalDevice device);

@@ -43,6 +43,7 @@ std::string name_of(const RasterState& state, const Attachments& attachments) {
                        name_of(state.features);
     for (Format format : attachments.colour) name += "/" + std::string(catoptric::name_of(format));
     if (attachments.depth) name += "/depth";
+    if (state.blended) name += "/blended";
     if (state.hidden != Winding::none)
         name += state.hidden == Winding::clockwise ? "/no clockwise" : "/no counterclockwise";
     return name;
@@ -161,8 +162,8 @@ void lay_out(const Device& device, const std::string& name, std::span<Stage> sta
 /// The fixed-function part that every raster pipeline of the engine shares.
 VkPipeline make_raster(const Device& device, VkPipelineCache cache,
                        std::span<const VkPipelineShaderStageCreateInfo> stages,
-                       const Attachments& attachments, Winding hidden, VkPipelineLayout layout,
-                       const std::string& name) {
+                       const Attachments& attachments, const RasterState& state,
+                       VkPipelineLayout layout, const std::string& name) {
     const VkVertexInputBindingDescription vertex_binding{0, sizeof(shared::Vertex),
                                                          VK_VERTEX_INPUT_RATE_VERTEX};
     const std::array<VkVertexInputAttributeDescription, 2> vertex_attributes{
@@ -183,9 +184,9 @@ VkPipeline make_raster(const Device& device, VkPipelineCache cache,
     VkPipelineRasterizationStateCreateInfo raster{
         VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
     raster.polygonMode = VK_POLYGON_MODE_FILL;
-    raster.cullMode = hidden == Winding::none ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
-    raster.frontFace = hidden == Winding::counterclockwise ? VK_FRONT_FACE_CLOCKWISE
-                                                           : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    raster.cullMode = state.hidden == Winding::none ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
+    raster.frontFace = state.hidden == Winding::counterclockwise ? VK_FRONT_FACE_CLOCKWISE
+                                                                 : VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;
     VkPipelineMultisampleStateCreateInfo samples{
         VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
@@ -196,6 +197,10 @@ VkPipeline make_raster(const Device& device, VkPipelineCache cache,
     depth.depthCompareOp = VK_COMPARE_OP_GREATER;
     VkPipelineColorBlendAttachmentState write{};
     write.colorWriteMask = 0xf;
+    write.blendEnable = state.blended;
+    write.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+    write.dstColorBlendFactor = write.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    write.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     const std::vector<VkPipelineColorBlendAttachmentState> writes(attachments.colour.size(), write);
     VkPipelineColorBlendStateCreateInfo blend{
         VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
@@ -241,8 +246,8 @@ const std::string& Pipelines::variant_of(const std::string& shader) const {
 bool Pipelines::Before::operator()(const RasterView& a, const RasterView& b) const {
     const auto first = [](const RasterView& view) {
         const auto& [state, attachments] = view;
-        return std::tie(state.hidden, attachments.depth, attachments.colour, state.fragment,
-                        state.vertex);
+        return std::tie(state.hidden, state.blended, attachments.depth, attachments.colour,
+                        state.fragment, state.vertex);
     };
     const auto order = first(a) <=> first(b);
     return order != 0 ? order < 0 : constants_before(a.first, b.first);
@@ -269,7 +274,7 @@ const Pipeline& Pipelines::raster(const RasterState& state, const Attachments& a
     std::vector<VkPipelineShaderStageCreateInfo> infos;
     for (const Stage& stage : stages) infos.push_back(stage.info());
     pipeline.pipeline = {device_.handle(), make_raster(device_, cache_.handle(), infos, attachments,
-                                                       state.hidden, pipeline.layout, name)};
+                                                       state, pipeline.layout, name)};
     device_.set_name(VK_OBJECT_TYPE_PIPELINE,
                      reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), name);
     return rasters_.emplace(Raster(state, attachments), std::move(pipeline)).first->second;

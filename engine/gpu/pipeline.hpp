@@ -25,6 +25,7 @@ struct RasterState {
     Constants constants;
     Winding hidden = Winding::none; ///< triangles that run so are left out
     Constants features = {};        ///< of the scene: a shader that has not got one does without
+    bool blended = false;           ///< over what is there, by alpha
 };
 
 struct ComputeState {

@@ -21,6 +21,10 @@ const char* name_of(VkResult result) {
     case VK_ERROR_FEATURE_NOT_PRESENT: return "VK_ERROR_FEATURE_NOT_PRESENT";
     case VK_ERROR_INCOMPATIBLE_DRIVER: return "VK_ERROR_INCOMPATIBLE_DRIVER";
     case VK_ERROR_FORMAT_NOT_SUPPORTED: return "VK_ERROR_FORMAT_NOT_SUPPORTED";
+    case VK_ERROR_SURFACE_LOST_KHR: return "VK_ERROR_SURFACE_LOST_KHR";
+    case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR: return "VK_ERROR_NATIVE_WINDOW_IN_USE_KHR";
+    case VK_ERROR_OUT_OF_DATE_KHR: return "VK_ERROR_OUT_OF_DATE_KHR";
+    case VK_SUBOPTIMAL_KHR: return "VK_SUBOPTIMAL_KHR";
     default: return "an unnamed VkResult";
     }
 }
@@ -47,6 +51,7 @@ VkFormat vk_format(Format format) {
     switch (format) {
     case Format::r8_unorm: return VK_FORMAT_R8_UNORM;
     case Format::rgba8_unorm: return VK_FORMAT_R8G8B8A8_UNORM;
+    case Format::bgra8_unorm: return VK_FORMAT_B8G8R8A8_UNORM;
     case Format::r16f: return VK_FORMAT_R16_SFLOAT;
     case Format::rgba16f: return VK_FORMAT_R16G16B16A16_SFLOAT;
     case Format::r32f: return VK_FORMAT_R32_SFLOAT;

@@ -5,6 +5,8 @@
 
 #include <vulkan/vulkan.h>
 
+#include <bit>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -16,6 +18,9 @@ void check_vk(VkResult result, const std::string& doing);
 const char* name_of(VkResult result);
 
 VkFormat vk_format(Format format);
+
+/// The surface that a number stands for, as window libraries hand it over.
+inline VkSurfaceKHR surface_of(std::uint64_t number) { return std::bit_cast<VkSurfaceKHR>(number); }
 
 /// A device as what is made from it knows it.
 struct DeviceHandle {
@@ -62,6 +67,7 @@ using UniquePipelineLayout = Unique<VkPipelineLayout, vkDestroyPipelineLayout>;
 using UniqueQueryPool = Unique<VkQueryPool, vkDestroyQueryPool>;
 using UniqueSampler = Unique<VkSampler, vkDestroySampler>;
 using UniqueSemaphore = Unique<VkSemaphore, vkDestroySemaphore>;
+using UniqueSwapchain = Unique<VkSwapchainKHR, vkDestroySwapchainKHR>;
 using UniqueShaderModule = Unique<VkShaderModule, vkDestroyShaderModule>;
 
 } // namespace catoptric::gpu

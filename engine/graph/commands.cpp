@@ -92,6 +92,12 @@ void Commands::draw(std::uint32_t first_index, std::uint32_t index_count, std::u
     vkCmdDrawIndexed(commands_, index_count, end - first, first_index, 0, first);
 }
 
+void Commands::scissor(const Area& area) {
+    const VkRect2D scissor{{static_cast<std::int32_t>(area.x), static_cast<std::int32_t>(area.y)},
+                           {area.width, area.height}};
+    vkCmdSetScissor(commands_, 0, 1, &scissor);
+}
+
 void Commands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     flush();
     vkCmdDispatch(commands_, x, y, z);

@@ -63,6 +63,8 @@ public:
     /// Draws into layers [first_layer, first_layer + layer_count) of the pass.
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
               std::uint32_t layer_count = 1);
+    /// Draws from here on change no pixel outside the area, which lies within the attachments.
+    void scissor(const Area& area);
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
     /// Group counts x, y, z are read from the buffer, which the pass declares as indirect, at
     /// `offset` bytes.

@@ -5,6 +5,7 @@
 #include "graph/stamps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 namespace catoptric::graph {
@@ -126,7 +127,7 @@ Compiled& Runner::compile(const Graph& graph) {
     return *shapes_.front();
 }
 
-Ticket Runner::submit(const Graph& graph, Timing timing, bool stays) {
+Ticket Runner::submit(const Graph& graph, Timing timing, bool stays, const Outside& outside) {
     device_.check_usable();
     const double waited_before = wait_ms_;
     Compiled& shape = compile(graph);
@@ -149,25 +150,32 @@ Ticket Runner::submit(const Graph& graph, Timing timing, bool stays) {
     times.record_ms = milliseconds_since(record_begin);
     slot.times = times;
     slot.timing = timing, slot.stays = stays;
-    submit(slot, shape);
+    submit(slot, shape, outside);
     slot.shape = shapes_.front();
     kept_.write(graph, shape);
     if (!stays) kept_.advance(shape);
     return {frame_};
 }
 
-void Runner::submit(Slot& slot, const Compiled& shape) {
+void Runner::submit(Slot& slot, const Compiled& shape, const Outside& outside) {
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot.commands;
-    VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
-    signal.semaphore = timeline_;
-    signal.value = frame_ + 1;
-    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    const auto at = [](VkSemaphore semaphore, std::uint64_t value) {
+        VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+        info.semaphore = semaphore;
+        info.value = value;
+        info.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        return info;
+    };
+    const VkSemaphoreSubmitInfo wait = at(outside.wait, 0);
+    const std::array signals{at(timeline_, frame_ + 1), at(outside.signal, 0)};
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
-    submit.signalSemaphoreInfoCount = 1;
-    submit.pSignalSemaphoreInfos = &signal;
+    submit.waitSemaphoreInfoCount = outside.wait ? 1 : 0;
+    submit.pWaitSemaphoreInfos = &wait;
+    submit.signalSemaphoreInfoCount = outside.signal ? 2 : 1;
+    submit.pSignalSemaphoreInfos = signals.data();
     slot.submitted = Clock::now();
     const VkResult result = vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE);
     if (result != VK_SUCCESS)

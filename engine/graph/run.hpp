@@ -13,6 +13,12 @@ struct Ticket {
     std::uint64_t frame = 0;
 };
 
+/// Somebody else's semaphores: the frame begins after the one and ends with the other; null: none.
+struct Outside {
+    VkSemaphore wait = VK_NULL_HANDLE;
+    VkSemaphore signal = VK_NULL_HANDLE;
+};
+
 /// Runs graphs: each shape is planned once, each frame is one command buffer and one submit, and
 /// one timeline semaphore tells when it has ended. Frames run in order, each after all of the one
 /// before. Images, memory and history stay between frames. One run of a technique = one Runner.
@@ -49,7 +55,8 @@ public:
     /// Records and submits. Waits only where all places in flight are taken, for the oldest frame.
     /// `stays`: a frame beside the sequence; the next one has the history that this one had.
     /// Throws `exhausted`; `device_lost` where it had to wait or the device refused the frame.
-    Ticket submit(const Graph& graph, Timing timing, bool stays = false);
+    Ticket submit(const Graph& graph, Timing timing, bool stays = false,
+                  const Outside& outside = {});
     /// Waits until the frame has ended; at once when that was done before. Throws `device_lost`
     /// (naming the frame's passes), and `internal` when its place was taken by a later frame.
     const FrameTimes& wait(Ticket ticket);
@@ -75,7 +82,7 @@ private:
     Compiled& compile(const Graph& graph);
     Slot& slot_of(Ticket ticket);
     std::size_t index_of(std::uint64_t frame) const { return (frame - 1) % slots_.size(); }
-    void submit(Slot& slot, const Compiled& shape);
+    void submit(Slot& slot, const Compiled& shape, const Outside& outside);
     void finish(Slot& slot);
     void finish_all();
     void let_go_of_kept();

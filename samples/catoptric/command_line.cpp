@@ -108,6 +108,13 @@ Verb& CommandLine::add(const std::string& name, const std::string& summary) {
     return *verbs_.emplace_back(std::make_unique<Verb>(*app));
 }
 
+Verb& CommandLine::whole() {
+    app_->require_subcommand(0);
+    app_->allow_extras();
+    is_whole_ = true;
+    return *verbs_.emplace_back(std::make_unique<Verb>(*app_));
+}
+
 /// The first word is a verb, or asks for help or the version.
 void CommandLine::check_verb(const std::string& word) const {
     std::vector<std::string> names;
@@ -120,12 +127,13 @@ void CommandLine::check_verb(const std::string& word) const {
 }
 
 std::function<int()> CommandLine::parse(std::vector<std::string> words) {
-    if (words.empty()) {
+    if (words.empty() && !is_whole_) {
         std::cerr << tidy(app_->help()) << std::flush;
         return [] { return static_cast<int>(Failure::usage); };
     }
-    const std::string first = words.front();
-    check_verb(first);
+    const std::string program = is_whole_ ? app_->get_name()
+                                          : app_->get_name() + " " + words.front();
+    if (!is_whole_) check_verb(words.front());
     std::ranges::reverse(words); // as CLI11 wants a vector
     try {
         app_->parse(words);
@@ -133,7 +141,7 @@ std::function<int()> CommandLine::parse(std::vector<std::string> words) {
         std::ostringstream text, ignored;
         if (app_->exit(error, text, ignored) == 0) // help or version was asked for
             return [text = tidy(text.str())] { return put(text), 0; };
-        fail(Failure::usage, error.what(), " (try 'catoptric ", first, " --help')");
+        fail(Failure::usage, error.what(), " (try '", program, " --help')");
     }
     const auto verb = std::ranges::find_if(
         verbs_, [](const std::unique_ptr<Verb>& one) { return one->app_.parsed(); });

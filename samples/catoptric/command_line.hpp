@@ -66,6 +66,8 @@ public:
 
     /// A further verb, which lives as long as this.
     Verb& add(const std::string& name, const std::string& summary);
+    /// In place of verbs: all words are options and arguments of this one.
+    Verb& whole();
 
     /// What the words after the program's name ask for, to be called: a verb's work, or printing
     /// help or version. No word prints help to stderr and returns `usage`'s exit code. Throws
@@ -77,6 +79,7 @@ private:
 
     std::unique_ptr<CLI::App> app_;
     std::vector<std::unique_ptr<Verb>> verbs_;
+    bool is_whole_ = false;
 };
 
 } // namespace catoptric::cli

@@ -26,8 +26,8 @@ Exit codes: 0 ok; 1 over a threshold; 2 usage; 65 bad input; 66 input missing; 6
 70 internal; 73 cannot create output; 74 I/O error; 75 out of memory or over a device limit;
 76 device lost; 129, 130, 143 stopped by a signal (rows so far are kept, after 75 and 76 too))";
 
-void say(const std::string& message) {
-    if (!message.empty()) std::cerr << "catoptric: " << printable(message, "\n") << std::endl;
+void say(const std::string& name, const std::string& message) {
+    if (!message.empty()) std::cerr << name << ": " << printable(message, "\n") << std::endl;
 }
 
 int run(int argc, char** argv) {
@@ -46,28 +46,32 @@ int run(int argc, char** argv) {
 }
 
 /// Runs, and says on stderr what went wrong.
-int exit_code(int argc, char** argv) {
+int exit_code(const std::string& name, const std::function<int()>& work) {
     try {
-        return run(argc, argv);
+        return work();
     } catch (const Error& error) {
-        say(error.what());
+        say(name, error.what());
         return static_cast<int>(error.failure);
     } catch (const std::bad_alloc&) {
-        say("out of memory");
+        say(name, "out of memory");
         return static_cast<int>(Failure::exhausted);
     } catch (const std::exception& error) {
-        say(std::string("internal error: ") + error.what());
+        say(name, std::string("internal error: ") + error.what());
         return static_cast<int>(Failure::internal);
     }
 }
 
 } // namespace
 
-int run_program(int argc, char** argv) {
+int run_guarded(const std::string& name, const std::function<int()>& work) {
     prepare_streams();
-    const int code = exit_code(argc, argv);
+    const int code = exit_code(name, work);
     if (app::any_abandoned()) std::_Exit(code); // nothing is taken down under a driver at work
     return code;
+}
+
+int run_program(int argc, char** argv) {
+    return run_guarded("catoptric", [&] { return run(argc, argv); });
 }
 
 } // namespace catoptric::cli

@@ -1,0 +1,68 @@
+#include "camera.hpp"
+
+#include "scene/camera_named.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace catoptric::view {
+
+namespace {
+
+constexpr double kTurn = .005;       // radians a pixel
+constexpr double kSteepest = 1.5533; // 89 degrees: up stays up
+constexpr double kNotch = .9;        // of the distance that a notch leaves
+
+/// From the eye, unit, turned by pixels of the mouse.
+dvec3 turned(const dvec3& direction, const dvec2& pixels) {
+    const double pitch = std::clamp(std::asin(std::clamp(direction.y, -1., 1.)) + kTurn * pixels.y,
+                                    -kSteepest, kSteepest);
+    const double yaw = std::atan2(direction.x, direction.z) + kTurn * pixels.x;
+    return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch)};
+}
+
+/// World units that a pixel covers at the target.
+double pixel_at(const scene::Camera& camera, double distance, double height) {
+    if (camera.orthographic_height > 0) return camera.orthographic_height / height;
+    const double half = camera.vertical_fov_degrees * std::numbers::pi / 360;
+    return 2 * distance * std::tan(half) / height;
+}
+
+} // namespace
+
+bool Moves::any() const {
+    return turned != dvec2(0) || shifted != dvec2(0) || wheel != 0 || flown != dvec3(0);
+}
+
+scene::Camera moved(const scene::Camera& camera, const Moves& moves, bool flies, double height,
+                    double reach) {
+    if (!moves.any()) return camera;
+    scene::Camera next = camera;
+    next.follows = {};
+    next.up = {0, 1, 0};
+    next.name = "moved";
+    double distance = glm::length(next.target - next.eye);
+    dvec3 forward = (next.target - next.eye) / distance;
+    if (flies) {
+        forward = turned(forward, {-moves.turned.x, -moves.turned.y});
+        next.target = next.eye + forward * distance;
+    } else {
+        forward = turned(forward, {-moves.turned.x, -moves.turned.y});
+        distance *= std::pow(kNotch, moves.wheel);
+        if (next.orthographic_height > 0) next.orthographic_height *= std::pow(kNotch, moves.wheel);
+        next.eye = next.target - forward * distance;
+    }
+    const dvec3 right = glm::normalize(glm::cross(forward, next.up)),
+                up = glm::cross(right, forward);
+    const double pixel = pixel_at(next, distance, height);
+    dvec3 shift = (-moves.shifted.x * right + moves.shifted.y * up) * pixel;
+    shift += (moves.flown.x * right + moves.flown.y * up + moves.flown.z * forward) * (reach / 3);
+    if (flies) shift += forward * (moves.wheel * reach / 20);
+    next.eye += shift, next.target += shift;
+    scene::Camera typed = scene::camera_named(scene::camera_text(next), {});
+    typed.name = next.name;
+    return typed;
+}
+
+} // namespace catoptric::view

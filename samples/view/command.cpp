@@ -1,0 +1,67 @@
+#include "command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace catoptric::view {
+
+namespace {
+
+/// What the state says, or what a picture has no use for.
+constexpr std::array<std::string_view, 12> kReplaced{
+    "--camera", "--time",   "--size",       "--technique", "--plan",   "--model",
+    "--frames", "--warmup", "--screenshot", "--exposure",  "--timing", "--progress"};
+constexpr std::array<std::string_view, 6> kFlags{"--animate", "--validate", "--json",
+                                                 "-q",        "--quiet",    "-v"};
+
+template <std::size_t N>
+bool is_one_of(const std::array<std::string_view, N>& names, std::string_view word) {
+    return std::ranges::find(names, word) != names.end();
+}
+
+} // namespace
+
+std::vector<std::string> render_words(const std::vector<std::string>& words, const State& state,
+                                      const std::string& camera, uvec2 size) {
+    std::vector<std::string> made{"render"};
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const std::string name = word.substr(0, word.find('='));
+        if (is_one_of(kFlags, word) || word == "--verbose") continue;
+        if (is_one_of(kReplaced, name)) {
+            if (name == word) ++i; // its value is the next word
+            continue;
+        }
+        made.push_back(word);
+    }
+    for (const std::string& word :
+         words_of(state.mode == Mode::answers ? with(state.plan, "show", "state") : state.plan))
+        made.push_back(word);
+    made.insert(made.end(), {"--camera", camera, "--time", fmt::format("{}", state.motion.time),
+                             "--size", fmt::format("{}x{}", size.x, size.y), "--exposure",
+                             fmt::format("{}", state.exposure), "--model",
+                             app::name_of(state.model), "-o", "view.png"});
+    return made;
+}
+
+std::string quoted(const std::string& word) {
+    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                        "0123456789_-+=:,./@%";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+std::string render_command(const std::vector<std::string>& words, const State& state,
+                           const std::string& camera, uvec2 size) {
+    std::string text = "catoptric";
+    for (const std::string& word : render_words(words, state, camera, size))
+        text += " " + quoted(word);
+    return text;
+}
+
+} // namespace catoptric::view

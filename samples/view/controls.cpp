@@ -1,0 +1,85 @@
+#include "controls.hpp"
+
+#include <algorithm>
+
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+namespace catoptric::view {
+
+namespace {
+
+/// The part of a rectangle that lies within the window; nothing: none does.
+std::optional<std::array<std::uint32_t, 4>> area_of(const ImVec4& clip, const ImVec2& size) {
+    const float left = std::max(clip.x, 0.f), top = std::max(clip.y, 0.f),
+                right = std::min(clip.z, size.x), bottom = std::min(clip.w, size.y);
+    if (right <= left || bottom <= top) return {};
+    const auto x = static_cast<std::uint32_t>(left), y = static_cast<std::uint32_t>(top);
+    return std::array{x, y, static_cast<std::uint32_t>(right) - x,
+                      static_cast<std::uint32_t>(bottom) - y};
+}
+
+} // namespace
+
+Controls::Controls(Window& window) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr; // the program's settings are its own
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    io.Fonts->Flags |= ImFontAtlasFlags_NoBakedLines;
+    ImGui::StyleColorsDark();
+    ImGui::GetStyle().WindowRounding = 0;
+    ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
+    unsigned char* texels = nullptr;
+    int width = 0, height = 0;
+    io.Fonts->GetTexDataAsAlpha8(&texels, &width, &height); // or it is refused to begin
+}
+
+Controls::~Controls() {
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Controls::give_font(app::Screen& screen) const {
+    unsigned char* texels = nullptr;
+    int width = 0, height = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
+    screen.set_font({static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)},
+                    {texels, texels + static_cast<std::ptrdiff_t>(width) * height});
+}
+
+void Controls::begin(uvec2 window) {
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::GetIO().DisplaySize = {static_cast<float>(window.x), static_cast<float>(window.y)};
+    ImGui::NewFrame();
+}
+
+app::Overlay Controls::end() {
+    ImGui::Render();
+    const ImDrawData& data = *ImGui::GetDrawData();
+    app::Overlay overlay;
+    for (int l = 0; l < data.CmdListsCount; ++l) {
+        const ImDrawList& list = *data.CmdLists[l];
+        const auto first_vertex = static_cast<std::uint32_t>(overlay.vertices.size());
+        const auto first_index = static_cast<std::uint32_t>(overlay.indices.size());
+        for (const ImDrawVert& vertex : list.VtxBuffer)
+            overlay.vertices.push_back(
+                {{vertex.pos.x, vertex.pos.y}, {vertex.uv.x, vertex.uv.y}, vertex.col});
+        std::uint32_t at = 0;
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            for (std::uint32_t i = 0; i < command.ElemCount; ++i, ++at)
+                overlay.indices.push_back(first_vertex + command.VtxOffset +
+                                          list.IdxBuffer[static_cast<int>(command.IdxOffset + i)]);
+            if (const auto area = area_of(command.ClipRect, data.DisplaySize))
+                overlay.draws.push_back(
+                    {first_index + command.IdxOffset, command.ElemCount, *area});
+        }
+    }
+    return overlay;
+}
+
+bool Controls::has_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool Controls::has_keys() const { return ImGui::GetIO().WantTextInput; }
+
+} // namespace catoptric::view

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "app/screen.hpp"
+#include "window.hpp"
+
+namespace catoptric::view {
+
+/// Dear ImGui in a window: one a process. Its triangles are drawn by Session::show.
+class Controls {
+public:
+    /// Installs its own callbacks after the window's, which it calls.
+    explicit Controls(Window& window);
+    ~Controls();
+    Controls(const Controls&) = delete;
+    Controls& operator=(const Controls&) = delete;
+
+    /// Of each new screen.
+    void give_font(app::Screen& screen) const;
+    /// Between these, ImGui:: calls make controls. `window`: as it is, pixels.
+    void begin(uvec2 window);
+    app::Overlay end();
+    /// Of the last frame: the mouse is over controls, or a text is being typed.
+    bool has_mouse() const;
+    bool has_keys() const;
+};
+
+} // namespace catoptric::view

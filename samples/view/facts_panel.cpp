@@ -1,0 +1,78 @@
+// Times of passes and of the host; the scene.
+#include "panels.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace catoptric::view {
+
+namespace {
+
+void draw_line(const Line& line, double most) {
+    std::string text = fmt::format("{:.2f} ms", line.median);
+    if (line.ci95.is_known())
+        text += fmt::format(" [{:.2f} {:.2f}]", line.ci95.low, line.ci95.high);
+    const float share = most > 0 ? static_cast<float>(line.median / most) : 0;
+    ImGui::ProgressBar(share, {190, 0}, text.c_str());
+    ImGui::SameLine();
+    ImGui::TextUnformatted(line.name.c_str());
+}
+
+void draw_lines(const std::vector<Line>& lines) {
+    double most = 0;
+    for (const Line& line : lines) most = std::max(most, line.median);
+    for (const Line& line : lines) draw_line(line, most);
+}
+
+void draw_mirror(const scene::Object& object, std::size_t number) {
+    ImGui::BulletText("mirror %zu: %s%s", number, object.name.c_str(),
+                      object.sphere ? ", a sphere" : "");
+}
+
+} // namespace
+
+void draw_times(const Viewer& viewer) {
+    const Times& times = viewer.times();
+    draw_line(times.gpu(), times.frame().median);
+    if (ImGui::TreeNodeEx("passes", ImGuiTreeNodeFlags_DefaultOpen)) {
+        draw_lines(times.passes());
+        ImGui::TreePop();
+    }
+    if (ImGui::TreeNode("host")) {
+        draw_lines(times.host());
+        ImGui::TreePop();
+    }
+    ImGui::TextDisabled("medians of %zu frames, with 95 %% intervals", times.count());
+}
+
+void draw_scene(const Seen& seen, Wants& wants) {
+    const scene::Scene& scene = seen.scene;
+    ImGui::Text("%zu objects, %zu triangles, %zu materials", scene.objects.size(),
+                scene::triangle_count(scene), scene.materials.size());
+    if (ImGui::TreeNode("objects", "objects (%zu)", scene.objects.size())) {
+        for (const scene::Object& object : scene.objects)
+            ImGui::BulletText("%s", object.name.c_str());
+        ImGui::TreePop();
+    }
+    const std::vector<std::size_t> mirrors = scene::mirrors(scene);
+    if (ImGui::TreeNode("mirrors", "mirrors (%zu)", mirrors.size())) {
+        for (std::size_t i = 0; i < mirrors.size(); ++i)
+            draw_mirror(scene.objects[mirrors[i]], i + 1);
+        ImGui::TreePop();
+    }
+    if (ImGui::TreeNode("cameras", "cameras (%zu)", scene.cameras.size())) {
+        for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+            if (ImGui::SmallButton(fmt::format("{} {}", i, scene.cameras[i].name).c_str()))
+                wants.camera = i;
+        ImGui::TreePop();
+    }
+    if (ImGui::TreeNode("gaps", "gaps (%zu)", scene.gaps.size())) {
+        for (const scene::Gap& gap : scene.gaps)
+            ImGui::BulletText("%s: %zu, first %s", gap.id.c_str(), gap.count, gap.first.c_str());
+        ImGui::TreePop();
+    }
+}
+
+} // namespace catoptric::view

@@ -1,0 +1,171 @@
+// From the window's opening to its end: what the user does changes the state, of which a frame is
+// made.
+#include "app/exposure.hpp"
+#include "catoptric/program.hpp"
+#include "catoptric/signals.hpp"
+#include "core/error.hpp"
+#include "loop_impl.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace catoptric::view {
+
+namespace {
+
+/// How far it is from one end of the scene to the other.
+double reach_of(const scene::Scene& scene) {
+    const Bounds<double> bounds = scene::bounds(scene);
+    return bounds.empty() ? 1 : std::max(glm::length(bounds.hi - bounds.lo), 1e-9);
+}
+
+} // namespace
+
+Loop::Loop(const Options& options, const Driver& driver)
+    : options_(options), driver_(driver),
+      settings_(is_scripted() ? Settings() : load_settings(settings_file())),
+      request_(ask(options).request), window_("Catoptric", first_window()), controls_(window_) {
+    state_.plan = plan_of(options.technique);
+    state_.other = plan_of("raytrace");
+    state_.shows_panels = settings_.shows_panels, state_.flies = settings_.flies;
+    state_.motion.speed = settings_.speed, state_.gain = settings_.gain;
+    state_.model = request_.model;
+    open(Scene::another);
+}
+
+/// Room for the picture and for controls beside it.
+uvec2 Loop::first_window() const {
+    const bool is_size_said = std::ranges::any_of(
+        options_.words, [](const std::string& word) { return word.starts_with("--size"); });
+    if (!is_size_said && settings_.window.x > 0) return settings_.window;
+    return options_.common.size + uvec2(settings_.shows_panels ? kPanelWidth : 0, 0);
+}
+
+/// An engine, a screen and a session, for the scene as it is asked for.
+void Loop::open(Scene scene) {
+    viewer_.reset(); // gives its surface back before another is made
+    app::EngineOptions options = cli::engine_options(options_.common.device,
+                                                     options_.common.validate);
+    viewer_ = std::make_unique<Viewer>(window_, options, request_);
+    controls_.give_font(viewer_->screen());
+    if (scene == Scene::same) return; // the state is as it was
+    cli::introduce(viewer_->engine(), options_.common.manners);
+    app::settle_exposure(viewer_->session(), request_);
+    state_.camera = request_.camera;
+    state_.exposure = request_.exposure;
+    state_.motion.time = request_.time;
+    state_.motion.plays = request_.animate;
+    reach_ = reach_of(request_.scene);
+    period_ = scene::period(request_.scene);
+    good_ = state_;
+}
+
+/// A frame of the state; where it cannot be made, the state goes back to the last one that could.
+void Loop::render(const Inputs& inputs, app::Overlay overlay) try {
+    const bool is_first = inputs.window == first_ || inputs.window == uvec2(0);
+    const uvec2 size = is_scripted() && is_first && state_.shows_panels == settings_.shows_panels
+                           ? request_.size
+                           : picture_size(last_, state_.shows_panels);
+    const bool is_seen = inputs.window != uvec2(0) && viewer_->screen().fit(inputs.window);
+    if (!is_seen && !is_scripted()) return;
+    viewer_->frame(state_, size, std::move(overlay), is_seen);
+    good_ = state_;
+    if (const std::string text = text_of(state_.plan); text != entries_of_) {
+        entries_ = state_.plan.typed.empty() ? std::vector<PlanEntry>() : viewer_->entries();
+        entries_of_ = text;
+    }
+} catch (const Error& error) {
+    if (!viewer_->engine().usable()) {
+        if (frame_ == 0) throw;
+        cli::warn(std::string(error.what()) + "; the session is made anew");
+        open(Scene::same);
+        state_.said = std::string("the device was lost: ") + error.what();
+        return;
+    }
+    const bool is_new = !(state_.plan == good_.plan && state_.other == good_.other &&
+                          state_.mode == good_.mode && state_.model == good_.model);
+    if (!is_new || frame_ == 0) throw;
+    state_.plan = good_.plan, state_.other = good_.other;
+    state_.mode = good_.mode, state_.model = good_.model;
+    say(error.what());
+}
+
+void Loop::show(const Inputs& inputs) {
+    Wants wants;
+    controls_.begin(glm::max(last_, uvec2(1)));
+    draw_panels(state_, {request_.scene, *viewer_, entries_, period_}, last_, wants);
+    app::Overlay overlay = controls_.end();
+    carry_out(wants);
+    render(inputs, std::move(overlay));
+    ++frame_;
+    if (viewer_->screen().lost()) open(Scene::same);
+    if (driver_.after) driver_.after({frame_, state_, *viewer_, command()});
+}
+
+/// One frame; false: it was the last.
+bool Loop::turn() {
+    Inputs inputs = window_.poll(last_ == uvec2(0) && !is_scripted() && frame_ > 0);
+    inputs.on_controls = controls_.has_mouse();
+    if (controls_.has_keys()) inputs.acts.clear(), inputs.flies = {};
+    if (driver_.before) driver_.before(frame_ + 1, inputs, state_, window_);
+    if (frame_ == 0) first_ = inputs.window;
+    if (inputs.window != uvec2(0)) last_ = inputs.window;
+    for (const Key& key : inputs.acts) act(key);
+    for (const std::string& file : inputs.dropped) load(file);
+    const uvec2 size = picture_size(last_, state_.shows_panels);
+    if (const auto clicked = hand_.apply(inputs, state_, size, reach_))
+        state_.chosen = viewer_->mirror_at(*clicked);
+    if (is_scripted() && state_.motion.plays)
+        state_.motion.time = request_.instant(static_cast<int>(frame_) + 1);
+    else
+        state_.motion.time = advanced(state_.motion, inputs.seconds);
+    if (ends_ || inputs.closes || cli::stop_on_signals().load() != 0) return false;
+    if (inputs.window == uvec2(0) && !is_scripted()) {
+        last_ = {0, 0}; // minimised: nothing is rendered until it comes back
+        return true;
+    }
+    show(inputs);
+    return !is_scripted() || frame_ < static_cast<std::size_t>(*options_.common.frames);
+}
+
+/// With -v: what the last frames took.
+void Loop::tell_times() const {
+    const Times& times = viewer_->times();
+    std::vector<Line> lines = times.passes();
+    for (const Line& line : times.host()) lines.push_back(line);
+    lines.push_back(times.gpu());
+    lines.push_back(times.frame());
+    for (const Line& line : lines)
+        cli::detail(options_.common.manners,
+                    fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
+}
+
+int Loop::end() {
+    tell_times();
+    if (!options_.screenshot.empty()) viewer_->write(options_.screenshot);
+    if (options_.common.validate) viewer_->engine().check_validation();
+    if (is_scripted()) return 0;
+    save_settings({last_, state_.shows_panels, state_.flies, state_.motion.speed, state_.gain},
+                  settings_file());
+    return 0;
+}
+
+int Loop::run() {
+    while (turn()) {
+    }
+    const int code = end();
+    const int signal = cli::stop_on_signals().load();
+    return signal == 0 ? code : 128 + signal;
+}
+
+int run(const Options& options, const Driver& driver) { return Loop(options, driver).run(); }
+
+int run_view(int argc, char** argv) {
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    return cli::run_guarded("catoptric-view", [&] {
+        return parse(words, [](const Options& options) { return run(options); })();
+    });
+}
+
+} // namespace catoptric::view

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "app/run.hpp"
+#include "controls.hpp"
+#include "loop.hpp"
+#include "panels.hpp"
+#include "settings.hpp"
+
+// What a window's loop is made of, for loop.cpp and acts.cpp alone.
+namespace catoptric::view {
+
+class Loop {
+public:
+    Loop(const Options& options, const Driver& driver);
+    int run();
+
+private:
+    bool is_scripted() const { return options_.common.frames.has_value(); }
+    uvec2 first_window() const;
+    enum class Scene { another, same };
+    void open(Scene scene);
+    bool turn();
+    void act(const Key& key);
+    void carry_out(const Wants& wants);
+    void load(const std::string& file);
+    void show(const Inputs& inputs);
+    void render(const Inputs& inputs, app::Overlay overlay);
+    void say(const std::string& text);
+    std::string command() const;
+    void next_camera(std::size_t index);
+    void tell_times() const;
+    int end();
+
+    Options options_;
+    const Driver& driver_;
+    Settings settings_;
+    app::Request request_;
+    State state_, good_; ///< good: of the last frame that could be rendered
+    Window window_;
+    Controls controls_;
+    std::unique_ptr<Viewer> viewer_;
+    Hand hand_;
+    std::vector<PlanEntry> entries_;
+    std::string entries_of_;
+    uvec2 first_, last_{0, 0}; ///< sizes of the window
+    std::size_t frame_ = 0;
+    double reach_ = 1, period_ = 0;
+    bool ends_ = false;
+};
+
+} // namespace catoptric::view

@@ -1,0 +1,69 @@
+#include "options.hpp"
+
+#include "app/engine.hpp"
+#include "catoptric/places.hpp"
+#include "core/error.hpp"
+
+#include <memory>
+
+namespace catoptric::view {
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  catoptric-view
+  catoptric-view gallery --technique reuse --animate
+  catoptric-view scene.glb --plan "1=planar *=hybrid"
+  catoptric-view --frames 20 --screenshot last.png
+
+F1 in the window lists keys. --frames N leaves after N frames, of which frame k is that of 'catoptric render'
+with N frames and --warmup 0; --screenshot writes the last one's picture without controls, the same bytes.)";
+
+void check_screenshot(const Options& options) {
+    if (options.screenshot.empty()) return;
+    check(options.common.frames.has_value(), Failure::usage,
+          "--screenshot is of the last frame: wanted --frames N, found none");
+    check(options.screenshot.ends_with(".exr") || options.screenshot.ends_with(".png"),
+          Failure::usage, "--screenshot: wanted a name ending in .exr or .png, found '",
+          options.screenshot, "'");
+    cli::check_file_can_be_made(options.screenshot);
+}
+
+} // namespace
+
+std::function<int()> parse(const std::vector<std::string>& words,
+                           const std::function<int(const Options&)>& run) {
+    auto program = std::make_shared<cli::CommandLine>(
+        "catoptric-view", "A scene in a window, drawn by any technique.",
+        "catoptric-view " + app::version() + " (" + app::commit() + ")", kExamples);
+    const auto options = std::make_shared<Options>();
+    options->words = words;
+    cli::Verb& verb = program->whole();
+    add_drawn(verb, options->drawn);
+    verb.option("--screenshot", "OUT",
+                "OUT.png or OUT.exr: the picture of the last of --frames, without controls",
+                options->screenshot);
+    add_common(verb, options->common);
+    verb.does([options, run] {
+        if (options->drawn.technique.empty() && options->drawn.plan.empty())
+            options->drawn.technique = "secant";
+        options->technique = checked(options->drawn, "catoptric-view");
+        check(!options->common.both_models, Failure::usage,
+              "--model both: wanted everything or required, of which a picture has one");
+        check_screenshot(*options);
+        return run(*options);
+    });
+    const std::function<int()> work = program->parse(words);
+    return [program, work] { return work(); };
+}
+
+cli::Asked ask(const Options& options) {
+    cli::Asked asked = make_asked(options.common);
+    app::Request& request = asked.request;
+    request.techniques = {options.technique};
+    request.model = options.common.model.value_or(app::Modelling::required);
+    if (!options.screenshot.empty()) cli::check_apart({options.screenshot}, request.scene.files);
+    return asked;
+}
+
+} // namespace catoptric::view

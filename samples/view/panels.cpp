@@ -1,0 +1,141 @@
+// The controls beside the picture.
+#include "panels.hpp"
+
+#include "inputs.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace catoptric::view {
+
+namespace {
+
+void draw_mode(State& state) {
+    for (int i = 0; i < kModes; ++i) {
+        const auto mode = static_cast<Mode>(i);
+        if (i % 3 != 0) ImGui::SameLine(static_cast<float>(i % 3) * 115);
+        if (ImGui::RadioButton(name_of(mode), state.mode == mode)) state.mode = mode;
+    }
+    const bool compares = state.mode == Mode::split || state.mode == Mode::difference;
+    if (compares) {
+        int against = static_cast<int>(state.against);
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted("with");
+        ImGui::SameLine();
+        ImGui::RadioButton("another plan", &against, 0);
+        ImGui::SameLine();
+        ImGui::RadioButton("the reference", &against, 1);
+        state.against = static_cast<Against>(against);
+    }
+    if (state.mode == Mode::difference || state.mode == Mode::causes) {
+        int power = std::bit_width(static_cast<unsigned>(state.gain)) - 1;
+        const std::string format = fmt::format("x{}", state.gain);
+        ImGui::SliderInt("gain", &power, 0, 6, format.c_str());
+        state.gain = 1 << power;
+    }
+    if (state.mode == Mode::causes)
+        for (const Cause& cause : causes())
+            if (ImGui::RadioButton(cause.name, state.cause == cause.bit)) state.cause = cause.bit;
+    if (state.mode == Mode::answers)
+        ImGui::TextWrapped("green: hit, red: unknown, blue: miss; of techniques that search");
+}
+
+void draw_motion(State& state, double period) {
+    if (ImGui::Button(state.motion.plays ? "pause" : "play")) state.motion.plays ^= true;
+    ImGui::SameLine();
+    if (ImGui::Button("-1/60")) state.motion.plays = false, state.motion.time -= kStep;
+    ImGui::SameLine();
+    if (ImGui::Button("+1/60")) state.motion.plays = false, state.motion.time += kStep;
+    ImGui::SameLine();
+    auto speed = static_cast<float>(state.motion.speed);
+    ImGui::SetNextItemWidth(110);
+    if (ImGui::SliderFloat("speed", &speed, -4, 4, "%.2f")) state.motion.speed = speed;
+    auto time = static_cast<float>(state.motion.time);
+    if (ImGui::SliderFloat("s", &time, 0, static_cast<float>(std::max(period, 1.)), "%.3f"))
+        state.motion.time = time, state.motion.plays = false;
+    if (period == 0) ImGui::TextDisabled("nothing moves in this scene");
+}
+
+void draw_error(State& state, const Viewer& viewer) {
+    ImGui::Checkbox("errors against the traced reference", &state.judges);
+    const int passes = viewer.reference().passes();
+    if (passes > 0) ImGui::Text("reference: %d of %d passes", passes, Reference::kMostPasses);
+    if (!viewer.error()) return;
+    const measure::Difference& error = *viewer.error();
+    ImGui::Text("mirrors: FLIP %.4f  RMSE %.4f", error.flip, error.rmse);
+    ImGui::Text("p99 %.4f  off %.2f %% of %zu pixels", error.p99, 100 * error.off, error.pixels);
+}
+
+void draw_left_out(State& state, const Viewer& viewer) {
+    int model = state.model == app::Modelling::required;
+    ImGui::RadioButton("required", &model, 1);
+    ImGui::SameLine();
+    ImGui::RadioButton("everything", &model, 0);
+    state.model = model ? app::Modelling::required : app::Modelling::everything;
+    for (const require::LeftOut& left : viewer.left_out())
+        ImGui::TextWrapped("%s: %s; saves %s", left.what.c_str(), left.why.c_str(),
+                           left.saves.c_str());
+    if (viewer.left_out().empty()) ImGui::TextDisabled("nothing is left out");
+}
+
+void draw_buttons(Wants& wants) {
+    wants.copies |= ImGui::Button("copy command");
+    ImGui::SameLine();
+    wants.writes |= ImGui::Button("screenshot");
+    ImGui::SameLine();
+    wants.saves_plan |= ImGui::Button("save plan");
+    ImGui::SameLine();
+    wants.cuts |= ImGui::Button("cut");
+}
+
+void draw_keys(uvec2 window) {
+    ImGui::SetNextWindowPos({20, 20});
+    ImGui::SetNextWindowSizeConstraints(
+        {0, 0}, {static_cast<float>(window.x), static_cast<float>(window.y)});
+    ImGui::Begin("Keys", nullptr,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+    for (const Key& key : keys()) {
+        ImGui::TextUnformatted(key.name);
+        ImGui::SameLine(70);
+        ImGui::TextUnformatted(key.does);
+    }
+    ImGui::Separator();
+    ImGui::TextUnformatted("drag: turn; right button: shift; wheel: nearer\n"
+                           "W A S D Q E: fly; click: the mirror to edit\n"
+                           "a file dropped here is loaded");
+    ImGui::End();
+}
+
+} // namespace
+
+void draw_panels(State& state, const Seen& seen, uvec2 window, Wants& wants) {
+    if (state.shows_keys) draw_keys(window);
+    if (!state.shows_panels) return;
+    ImGui::SetNextWindowPos({static_cast<float>(window.x) - kPanelWidth, 0});
+    ImGui::SetNextWindowSize({kPanelWidth, static_cast<float>(window.y)});
+    ImGui::Begin("Catoptric", nullptr,
+                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_NoTitleBar);
+    const Times& times = seen.viewer.times();
+    ImGui::Text("%s  %.1f ms a frame, %.1f FPS", seen.scene.name.c_str(), times.frame().median,
+                times.fps());
+    draw_buttons(wants);
+    if (!state.said.empty()) ImGui::TextWrapped("%s", state.said.c_str());
+    const auto section = [](const char* name, bool is_open = true) {
+        return ImGui::CollapsingHeader(name, is_open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    };
+    if (section("View")) draw_mode(state);
+    if (section("Errors")) draw_error(state, seen.viewer);
+    if (section("Plan")) draw_plan(state, seen);
+    if (section("Motion")) draw_motion(state, seen.period);
+    if (section("Times")) draw_times(seen.viewer);
+    if (section("Left out", false)) draw_left_out(state, seen.viewer);
+    if (section("Scene", false)) draw_scene(seen, wants);
+    ImGui::End();
+}
+
+} // namespace catoptric::view

@@ -1,0 +1,131 @@
+// Techniques and their knobs, from the table.
+#include "panels.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace catoptric::view {
+
+namespace {
+
+const std::vector<app::TechniqueInfo>& table() {
+    static const std::vector<app::TechniqueInfo> kTechniques = app::techniques();
+    return kTechniques;
+}
+
+void draw_choice(Drawing& drawing, const app::Knob& knob) {
+    const std::string value = value_of(drawing, knob);
+    if (!ImGui::BeginCombo(knob.name.c_str(), value.c_str())) return;
+    for (const std::string& choice : knob.choices)
+        if (ImGui::Selectable(choice.c_str(), choice == value)) set(drawing, knob, choice);
+    ImGui::EndCombo();
+}
+
+/// A number, and beside it what halves, doubles or replaces it by its word.
+void draw_number(Drawing& drawing, const app::Knob& knob) {
+    constexpr int kFew = 64;
+    const std::string text = value_of(drawing, knob);
+    const bool is_special = !knob.special.empty() && text == knob.special;
+    const int low = static_cast<int>(knob.low), high = static_cast<int>(knob.high);
+    int value = is_special ? low : std::atoi(text.c_str());
+    ImGui::PushItemWidth(110);
+    if (is_special)
+        ImGui::TextDisabled("%s: %s", knob.name.c_str(), knob.special.c_str());
+    else if (high - low <= kFew ? ImGui::SliderInt(knob.name.c_str(), &value, low, high)
+                                : ImGui::InputInt(knob.name.c_str(), &value, 0, 0,
+                                                  ImGuiInputTextFlags_EnterReturnsTrue))
+        set(drawing, knob, std::to_string(std::clamp(value, low, high)));
+    ImGui::PopItemWidth();
+    if (high - low > kFew && !is_special) {
+        ImGui::SameLine(210);
+        if (ImGui::SmallButton("/2"))
+            set(drawing, knob, std::to_string(std::clamp(value / 2, low, high)));
+        ImGui::SameLine();
+        if (ImGui::SmallButton("x2"))
+            set(drawing, knob, std::to_string(std::clamp(value * 2, low, high)));
+    }
+    if (knob.special.empty()) return;
+    ImGui::SameLine(275);
+    bool now = is_special;
+    if (ImGui::Checkbox(knob.special.c_str(), &now))
+        set(drawing, knob,
+            now                          ? knob.special
+            : knob.value == knob.special ? std::to_string(low)
+                                         : knob.value);
+}
+
+void draw_knobs(Drawing& drawing) {
+    const app::TechniqueInfo* technique = find(drawing.technique);
+    if (!technique) return;
+    for (const app::Knob& knob : technique->knobs) {
+        ImGui::PushID(knob.name.c_str());
+        if (knob.choices.empty())
+            draw_number(drawing, knob);
+        else
+            draw_choice(drawing, knob);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", knob.help.c_str());
+        ImGui::PopID();
+    }
+}
+
+void draw_technique(Drawing& drawing) {
+    if (ImGui::BeginCombo("technique", drawing.technique.c_str())) {
+        for (const app::TechniqueInfo& technique : table()) {
+            if (ImGui::Selectable(technique.name.c_str(), technique.name == drawing.technique) &&
+                technique.name != drawing.technique)
+                drawing = {technique.name, {}};
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", technique.summary.c_str());
+        }
+        ImGui::EndCombo();
+    }
+    draw_knobs(drawing);
+}
+
+void draw_one(PlanState& plan, std::uint32_t& chosen, const Seen& seen) {
+    if (!plan.typed.empty()) {
+        ImGui::TextWrapped("%s", plan.typed.c_str());
+        for (const PlanEntry& entry : seen.entries)
+            ImGui::TextWrapped("%u %s: %s (%s)", entry.mirror, entry.name.c_str(),
+                               entry.technique.c_str(), entry.why.c_str());
+        if (ImGui::SmallButton("edit it mirror by mirror")) plan = resolved(plan, seen.entries);
+        return;
+    }
+    const std::vector<std::size_t> mirrors = scene::mirrors(seen.scene);
+    const auto name = [&](std::uint32_t mirror) {
+        return mirror == 0 ? std::string("all, but those with their own")
+                           : fmt::format("mirror {}: {}{}", mirror,
+                                         seen.scene.objects[mirrors[mirror - 1]].name,
+                                         plan.own.contains(mirror) ? " *" : "");
+    };
+    chosen = std::min(chosen, static_cast<std::uint32_t>(mirrors.size()));
+    if (ImGui::BeginCombo("of", name(chosen).c_str())) {
+        for (std::uint32_t m = 0; m <= mirrors.size(); ++m)
+            if (ImGui::Selectable(name(m).c_str(), m == chosen)) chosen = m;
+        ImGui::EndCombo();
+    }
+    if (chosen == 0) return draw_technique(plan.rest);
+    const auto own = plan.own.find(chosen);
+    Drawing drawing = own == plan.own.end() ? plan.rest : own->second;
+    draw_technique(drawing);
+    if (own != plan.own.end() && ImGui::SmallButton("as all others"))
+        plan.own.erase(own);
+    else if (own != plan.own.end() || !(drawing == plan.rest))
+        plan.own[chosen] = drawing;
+}
+
+} // namespace
+
+void draw_plan(State& state, const Seen& seen) {
+    const bool has_other = (state.mode == Mode::split || state.mode == Mode::difference) &&
+                           state.against == Against::other;
+    if (!has_other) return draw_one(state.plan, state.chosen, seen);
+    if (ImGui::RadioButton("the plan", !state.edits_other)) state.edits_other = false;
+    ImGui::SameLine();
+    if (ImGui::RadioButton("the other", state.edits_other)) state.edits_other = true;
+    draw_one(state.edits_other ? state.other : state.plan, state.chosen, seen);
+}
+
+} // namespace catoptric::view

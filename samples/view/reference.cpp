@@ -1,0 +1,55 @@
+#include "reference.hpp"
+
+#include "measure/flip.hpp"
+#include "measure/masks.hpp"
+
+namespace catoptric::view {
+
+namespace {
+
+app::Part traced(app::Session& session, app::FrameSpec spec, const std::string& technique,
+                 std::uint64_t seed) {
+    spec.techniques = {technique};
+    spec.seed = seed;
+    spec.is_aside = true;
+    return session.frame(spec).read();
+}
+
+} // namespace
+
+std::vector<std::uint32_t> hits_of(app::Session& session, const app::FrameSpec& spec) {
+    return traced(session, spec, "raytrace:depth=1,shadow=none", spec.seed).hits;
+}
+
+bool Reference::advance(app::Session& session, const app::FrameSpec& spec) {
+    if (passes_ == kMostPasses) return false;
+    if (passes_ == 0) {
+        app::Part part = traced(session, spec, "raytrace:depth=16", spec.seed);
+        hits_ = std::move(part.hits);
+        centre_ = std::move(part.hdr);
+        sum_ = measure::Picture(centre_.width, centre_.height);
+        display_ = std::make_shared<measure::Picture>(std::move(part.display));
+        passes_ = 1;
+        return true;
+    }
+    const measure::Picture more = traced(session, spec, "raytrace:depth=16,samples=2",
+                                         static_cast<std::uint64_t>(passes_))
+                                      .hdr;
+    measure::Picture mean = sum_;
+    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+        sum_.pixels[i] += more.pixels[i];
+        mean.pixels[i] = sum_.pixels[i] / static_cast<float>(passes_);
+    }
+    display_ = std::make_shared<measure::Picture>(measure::to_display(mean, spec.exposure));
+    ++passes_;
+    return true;
+}
+
+measure::Difference Reference::judge(const measure::Picture& hdr, double exposure) const {
+    const std::vector<float> map = measure::flip(measure::to_display(hdr, exposure),
+                                                 measure::to_display(centre_, exposure));
+    return measure::difference(measure::exposed(hdr, exposure), measure::exposed(centre_, exposure),
+                               measure::mirrors(hits_), map);
+}
+
+} // namespace catoptric::view

@@ -1,0 +1,85 @@
+#include "state.hpp"
+
+#include "shared.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace catoptric::view {
+
+const char* name_of(Mode mode) {
+    constexpr std::array kNames{"plan", "split", "difference", "answers", "numbers", "causes"};
+    return kNames.at(static_cast<std::size_t>(mode));
+}
+
+const std::vector<Cause>& causes() {
+    static const std::vector<Cause> kList{{shared::kMendDistance, "captured distance"},
+                                          {shared::kMendDirection, "looked-up direction"},
+                                          {shared::kMendHidden, "hidden surfaces"},
+                                          {shared::kMendTexels, "texels"},
+                                          {shared::kMendMirrors, "mirrors in captures"},
+                                          {shared::kMendShadows, "shadow map"}};
+    return kList;
+}
+
+bool wants_canvas(const State& state) {
+    const bool compares = state.mode == Mode::split || state.mode == Mode::difference;
+    return state.mode == Mode::numbers || state.mode == Mode::causes ||
+           (compares && state.against == Against::reference);
+}
+
+Shown shown(const State& state) {
+    using Kind = app::Showing::Kind;
+    Shown shown{{text_of(state.plan)}, Kind::one, 0, 0};
+    switch (state.mode) {
+    case Mode::plan: break;
+    case Mode::answers: shown.techniques = {text_of(with(state.plan, "show", "state"))}; break;
+    case Mode::numbers:
+    case Mode::causes: shown.first = app::Showing::kCanvas; break;
+    case Mode::split:
+    case Mode::difference:
+        shown.kind = state.mode == Mode::split ? Kind::split : Kind::difference;
+        if (state.against == Against::reference) {
+            shown.second = app::Showing::kCanvas;
+        } else if (const std::string other = text_of(state.other); other != shown.techniques[0]) {
+            shown.techniques.push_back(other);
+            shown.second = 1;
+        }
+        break;
+    }
+    return shown;
+}
+
+double advanced(const Motion& motion, double seconds) {
+    return motion.plays ? motion.time + motion.speed * seconds : motion.time;
+}
+
+vec3 colour_of(std::uint32_t mirror) {
+    if (mirror == 0) return vec3(0);
+    // Hues a golden angle apart; every other round is paler.
+    const float hue = std::fmod(static_cast<float>(mirror - 1) * .381966f, 1.f) * 6;
+    const float low = (mirror - 1) / 8 % 2 == 0 ? .1f : .45f;
+    const auto channel = [&](float shift) {
+        const float at = std::fmod(hue + shift, 6.f);
+        return low + (1 - low) * std::clamp(std::abs(at - 3) - 1, 0.f, 1.f);
+    };
+    return {channel(0), channel(4), channel(2)};
+}
+
+measure::Picture numbers_picture(const std::vector<std::uint32_t>& hits, uvec2 size) {
+    measure::Picture picture(static_cast<int>(size.x), static_cast<int>(size.y));
+    for (std::size_t i = 0; i < std::min(hits.size(), picture.pixels.size()); ++i)
+        picture.pixels[i] = colour_of(hits[i] & 0xFFFFU);
+    return picture;
+}
+
+measure::Picture difference_picture(const measure::Picture& a, const measure::Picture& b,
+                                    float gain) {
+    measure::Picture picture(a.width, a.height);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+        picture.pixels[i] = glm::min(glm::abs(a.pixels[i] - b.pixels[i]) * gain, vec3(1));
+    return picture;
+}
+
+} // namespace catoptric::view

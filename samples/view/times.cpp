@@ -1,0 +1,60 @@
+#include "times.hpp"
+
+#include <algorithm>
+
+namespace catoptric::view {
+
+namespace {
+
+bool same_passes(const app::FrameTimes& a, const app::FrameTimes& b) {
+    return std::ranges::equal(a.passes, b.passes, {}, &app::PassTime::name, &app::PassTime::name);
+}
+
+} // namespace
+
+void Times::add(Sample sample) {
+    if (!samples_.empty() && !same_passes(samples_.back().frame, sample.frame)) samples_.clear();
+    samples_.push_back(std::move(sample));
+    if (samples_.size() > kFrames) samples_.pop_front();
+}
+
+template <typename Get>
+Line Times::line(const std::string& name, const Get& get) const {
+    std::vector<double> values;
+    for (const Sample& sample : samples_) values.push_back(get(sample));
+    if (values.empty()) return {name, 0, {}};
+    return {name, measure::percentile(values, .5), measure::median_interval(values)};
+}
+
+std::vector<Line> Times::passes() const {
+    std::vector<Line> lines;
+    for (std::size_t i = 0; !samples_.empty() && i < samples_.back().frame.passes.size(); ++i)
+        lines.push_back(line(samples_.back().frame.passes[i].name,
+                             [i](const Sample& s) { return s.frame.passes[i].ms(); }));
+    return lines;
+}
+
+std::vector<Line> Times::host() const {
+    return {line("update", [](const Sample& s) { return s.frame.host.update; }),
+            line("hierarchy", [](const Sample& s) { return s.frame.host.hierarchy; }),
+            line("compile", [](const Sample& s) { return s.frame.host.compile; }),
+            line("record", [](const Sample& s) { return s.frame.host.record; }),
+            line("host, by the clock", [](const Sample& s) { return s.host_ms; }),
+            line("acquire", [](const Sample& s) { return s.acquire_ms; }),
+            line("present", [](const Sample& s) { return s.present_ms; })};
+}
+
+Line Times::gpu() const {
+    return line("gpu", [](const Sample& s) { return s.frame.gpu_ms; });
+}
+
+Line Times::frame() const {
+    return line("frame", [](const Sample& s) { return s.frame.frame_ms(); });
+}
+
+double Times::fps() const {
+    const double ms = line("", [](const Sample& s) { return s.interval_ms; }).median;
+    return ms > 0 ? 1000 / ms : 0;
+}
+
+} // namespace catoptric::view

@@ -1,0 +1,187 @@
+#include "viewer.hpp"
+
+#include "core/stopwatch.hpp"
+#include "measure/picture_file.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace catoptric::view {
+
+namespace {
+
+constexpr std::uint32_t kInFlight = 2;
+constexpr int kRests = 3;    // frames without a change: the camera rests
+constexpr int kHidden = 4;   // frames after a cut that are not shown
+constexpr int kSettled = 12; // frames at rest after which errors are figured
+
+double now_ms() {
+    return std::chrono::duration<double, std::milli>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+bool same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
+    return a.techniques == b.techniques && a.camera == b.camera && a.size == b.size &&
+           a.time == b.time && a.exposure == b.exposure && a.model == b.model;
+}
+
+} // namespace
+
+Viewer::Viewer(Window& window, app::EngineOptions options, const app::Request& request)
+    : request_(request) {
+    window.add_to(options);
+    engine_ = std::make_unique<app::Engine>(options);
+    screen_ = std::make_unique<app::Screen>(*engine_);
+    session_ = std::make_unique<app::Session>(*engine_, request.scene, kInFlight);
+    spec_ = request;
+}
+
+Viewer::~Viewer() = default;
+
+std::vector<PlanEntry> Viewer::entries() const {
+    return last_ ? last_->read().plan : std::vector<PlanEntry>();
+}
+
+/// The oldest frames have ended: their times are known.
+void Viewer::collect(std::size_t most) {
+    while (pending_.size() > most) {
+        pending_.front().sample.frame = pending_.front().frame.times();
+        times_.add(std::move(pending_.front().sample));
+        pending_.pop_front();
+    }
+}
+
+void Viewer::cut() {
+    collect(0);
+    session_->forget();
+    was_moved_ = false;
+}
+
+/// What the state asks for becomes the specification; counts frames at rest.
+void Viewer::follow(const State& state, uvec2 size) {
+    app::FrameSpec next = spec_;
+    next.techniques = shown(state).techniques;
+    next.camera = state.camera;
+    next.size = size;
+    next.time = state.motion.time;
+    next.exposure = state.exposure;
+    next.model = state.model;
+    const bool same = same_picture(next, spec_);
+    const bool same_view = next.camera == spec_.camera && next.size == spec_.size &&
+                           next.time == spec_.time && next.exposure == spec_.exposure;
+    still_ = same ? still_ + 1 : 0;
+    if (!same_view && frames_ > 0) {
+        reference_.reset();
+        was_moved_ = true;
+    }
+    if (!same) {
+        error_.reset();
+        made_.reset();
+    }
+    spec_ = std::move(next);
+}
+
+/// Once the view comes to rest its sequence begins anew, as that of `catoptric render` does: edges
+/// that are left to the scene are those of this view, and the picture becomes the same bytes. The
+/// first frames, in which mirrors do not show each other yet, are not shown.
+void Viewer::work_at_rest(const State& state) {
+    if (still_ == kRests && was_moved_ && !state.motion.plays) {
+        cut();
+        for (int k = 0; k < kHidden; ++k) {
+            last_ = session_->frame(spec_);
+            if (!last_->remembers()) break;
+        }
+    }
+    const bool compares = (state.mode == Mode::split || state.mode == Mode::difference) &&
+                          state.against == Against::reference;
+    if (still_ >= kRests && (compares || state.judges)) {
+        collect(0); // frames beside the sequence take the places of those before
+        reference_.advance(*session_, spec_);
+    }
+    if (still_ >= kSettled && state.judges && !error_ && reference_.passes() > 0) {
+        last_ = session_->frame(spec_);
+        error_ = reference_.judge(last_->hdr(), spec_.exposure);
+    }
+}
+
+std::shared_ptr<const measure::Picture> Viewer::canvas(const State& state) {
+    if (state.mode == Mode::split || state.mode == Mode::difference) return reference_.display();
+    const bool is_made = made_ && made_mode_ == state.mode && made_cause_ == state.cause &&
+                         made_gain_ == state.gain;
+    if (is_made) return made_;
+    if (state.mode == Mode::causes && still_ < kRests) return nullptr;
+    made_mode_ = state.mode, made_cause_ = state.cause, made_gain_ = state.gain;
+    collect(0);
+    if (state.mode == Mode::numbers) {
+        made_ = std::make_shared<measure::Picture>(
+            numbers_picture(hits_of(*session_, spec_), spec_.size));
+        return made_;
+    }
+    app::FrameSpec aside = spec_;
+    aside.is_aside = true;
+    const measure::Picture as_it_is = session_->frame(aside).read().display;
+    aside.mended = state.cause;
+    made_ = std::make_shared<measure::Picture>(difference_picture(
+        as_it_is, session_->frame(aside).read().display, static_cast<float>(state.gain)));
+    return made_;
+}
+
+void Viewer::frame(const State& state, uvec2 size, app::Overlay overlay, bool is_seen) {
+    follow(state, size);
+    work_at_rest(state);
+    const Shown what = shown(state);
+    showing_ = {what.kind,
+                what.first,
+                what.second,
+                static_cast<float>(state.divider * size.x),
+                static_cast<float>(state.gain),
+                nullptr,
+                std::move(overlay)};
+    if (wants_canvas(state)) showing_.canvas = canvas(state);
+    if (!showing_.canvas) { // not there yet: the plan's picture
+        if (showing_.first == app::Showing::kCanvas) showing_.first = 0;
+        if (showing_.second == app::Showing::kCanvas) showing_.second = 0;
+    }
+    collect(kInFlight - 1);
+    const double begin = now_ms();
+    app::Frame made = is_seen ? session_->show(spec_, *screen_, showing_) : session_->frame(spec_);
+    Times::Sample sample;
+    if (is_seen)
+        sample.acquire_ms = screen_->acquire_ms(), sample.present_ms = screen_->present_ms();
+    sample.host_ms = now_ms() - begin - sample.acquire_ms - sample.present_ms;
+    sample.interval_ms = frames_ > 0 ? begin - began_ : 0;
+    began_ = begin;
+    last_ = made;
+    left_out_ = made.model().left_out;
+    pending_.push_back({std::move(made), std::move(sample)});
+    ++frames_;
+}
+
+std::uint32_t Viewer::mirror_at(uvec2 pixel) {
+    if (frames_ == 0) return 0;
+    collect(0);
+    const std::vector<std::uint32_t> hits = hits_of(*session_, spec_);
+    const std::size_t at = std::size_t{pixel.y} * spec_.size.x + pixel.x;
+    return at < hits.size() ? hits[at] & 0xFFFFU : 0;
+}
+
+void Viewer::write(const std::filesystem::path& file) const {
+    if (!last_) return;
+    if (file.extension() == ".exr") return measure::write_exr(last_->read(0).hdr, file);
+    const auto picture = [&](std::size_t part) {
+        return part == app::Showing::kCanvas ? *showing_.canvas : last_->read(part).display;
+    };
+    measure::Picture shown = picture(showing_.first);
+    if (showing_.kind == app::Showing::Kind::difference)
+        shown = difference_picture(shown, picture(showing_.second), showing_.gain);
+    if (showing_.kind == app::Showing::Kind::split) {
+        const measure::Picture right = picture(showing_.second);
+        for (int y = 0; y < shown.height; ++y)
+            for (int x = static_cast<int>(showing_.divider); x < shown.width; ++x)
+                shown.at(x, y) = right.at(x, y);
+    }
+    measure::write_png(shown, file);
+}
+
+} // namespace catoptric::view

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "app/run.hpp"
+#include "app/screen.hpp"
+#include "inputs.hpp"
+#include "reference.hpp"
+#include "times.hpp"
+#include "window.hpp"
+
+#include <deque>
+#include <filesystem>
+
+namespace catoptric::view {
+
+/// A scene on a device and its frames in a window: two on their way. What the user sees and changes
+/// is a State, which outlives this.
+class Viewer {
+public:
+    /// The request's scene, size and first instant; `font`: of overlays. Throws as Engine, Screen
+    /// and Session do.
+    Viewer(Window& window, app::EngineOptions options, const app::Request& request);
+    /// Waits for frames on their way.
+    ~Viewer();
+
+    app::Screen& screen() { return *screen_; }
+    app::Session& session() { return *session_; }
+    app::Engine& engine() { return *engine_; }
+    const Times& times() const { return times_; }
+    const Reference& reference() const { return reference_; }
+    const std::optional<measure::Difference>& error() const { return error_; }
+    /// How each mirror was drawn in the last frame, and what was left out of it.
+    std::vector<PlanEntry> entries() const;
+    const std::vector<require::LeftOut>& left_out() const { return left_out_; }
+
+    /// Renders a frame of `size` and shows it where the window can (`is_seen`). Throws `usage` for
+    /// a plan that does not fit the scene, `device_lost` and `exhausted`.
+    void frame(const State& state, uvec2 size, app::Overlay overlay, bool is_seen);
+    /// The mirror, from 1, that a pixel of the last frame shows; 0: none.
+    std::uint32_t mirror_at(uvec2 pixel);
+    void cut();
+    /// The picture of the last frame: PNG as it is shown, without overlay; EXR: linear, of the
+    /// plan.
+    void write(const std::filesystem::path& file) const;
+    app::FrameSpec spec() const { return spec_; }
+    std::size_t frames() const { return frames_; }
+
+private:
+    void follow(const State& state, uvec2 size);
+    void work_at_rest(const State& state);
+    std::shared_ptr<const measure::Picture> canvas(const State& state);
+    void collect(std::size_t most);
+
+    struct Pending {
+        app::Frame frame;
+        Times::Sample sample;
+    };
+
+    const app::Request& request_;
+    std::unique_ptr<app::Engine> engine_;
+    std::unique_ptr<app::Screen> screen_;
+    std::unique_ptr<app::Session> session_;
+    std::deque<Pending> pending_;
+    std::optional<app::Frame> last_;
+    app::Showing showing_; ///< of the last frame
+    app::FrameSpec spec_;
+    Times times_;
+    Reference reference_;
+    std::optional<measure::Difference> error_;
+    std::vector<require::LeftOut> left_out_;
+    std::shared_ptr<const measure::Picture> made_; ///< for `made_mode_`
+    Mode made_mode_ = Mode::plan;
+    std::uint32_t made_cause_ = 0;
+    int made_gain_ = 0;
+    std::size_t frames_ = 0;
+    int still_ = 0;          ///< frames since something changed
+    bool was_moved_ = false; ///< since the last cut
+    double began_ = 0;
+};
+
+} // namespace catoptric::view

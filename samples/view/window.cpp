@@ -1,0 +1,123 @@
+// The only file that names the window library's and Vulkan's types for a surface.
+#include "window.hpp"
+
+#include "core/error.hpp"
+
+#define GLFW_INCLUDE_VULKAN
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace catoptric::view {
+
+namespace {
+
+std::string last_error() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text ? text : "no reason was given";
+}
+
+std::uint64_t make_surface(GLFWwindow* window, void* instance) {
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    const VkResult result = glfwCreateWindowSurface(static_cast<VkInstance>(instance), window,
+                                                    nullptr, &surface);
+    check(result == VK_SUCCESS, Failure::no_device,
+          "the window cannot show pictures by Vulkan: ", last_error());
+    return reinterpret_cast<std::uint64_t>(surface);
+}
+
+} // namespace
+
+/// What the window library calls while events are polled.
+struct Callbacks {
+    static Inputs& of(GLFWwindow* window) {
+        return static_cast<Window*>(glfwGetWindowUserPointer(window))->gathered_;
+    }
+    static void key(GLFWwindow* window, int code, int, int action, int) {
+        if (action == GLFW_RELEASE) return;
+        for (const Key& key : keys())
+            if (key.code == code) of(window).acts.push_back(key);
+    }
+    static void scroll(GLFWwindow* window, double, double y) { of(window).wheel += y; }
+    static void drop(GLFWwindow* window, int count, const char** paths) {
+        for (int i = 0; i < count; ++i) of(window).dropped.emplace_back(paths[i]);
+    }
+};
+
+Window::Window(const std::string& title, uvec2 size) {
+    if (!glfwInit())
+        fail(Failure::no_device,
+             "no display: a window needs one (is DISPLAY set?); 'catoptric render' makes pictures "
+             "without (",
+             last_error(), ")");
+    if (!glfwVulkanSupported()) {
+        glfwTerminate();
+        fail(Failure::no_device, "this display shows no pictures by Vulkan; no driver is "
+                                 "installed: apt-get install mesa-vulkan-drivers");
+    }
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), title.c_str(),
+                               nullptr, nullptr);
+    if (!window_) {
+        const std::string why = last_error();
+        glfwTerminate();
+        fail(Failure::no_device, "no window could be opened: ", why);
+    }
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetKeyCallback(window_, Callbacks::key);
+    glfwSetScrollCallback(window_, Callbacks::scroll);
+    glfwSetDropCallback(window_, Callbacks::drop);
+    polled_ = glfwGetTime();
+}
+
+Window::~Window() {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+void Window::add_to(app::EngineOptions& options) const {
+    std::uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    options.instance_extensions.assign(names, names + count);
+    options.make_surface = [window = window_](void* instance) {
+        return make_surface(window, instance);
+    };
+}
+
+Inputs Window::poll(bool wait) {
+    constexpr double kLongest = .1; // seconds
+    if (wait)
+        glfwWaitEventsTimeout(kLongest);
+    else
+        glfwPollEvents();
+    Inputs inputs = std::exchange(gathered_, {});
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED))
+        inputs.window = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+    glfwGetCursorPos(window_, &inputs.mouse.x, &inputs.mouse.y);
+    for (int button = 0; button < 3; ++button)
+        inputs.down[static_cast<std::size_t>(button)] = glfwGetMouseButton(window_, button) ==
+                                                        GLFW_PRESS;
+    const auto axis = [&](int forwards, int backwards) {
+        return (glfwGetKey(window_, forwards) == GLFW_PRESS) -
+               (glfwGetKey(window_, backwards) == GLFW_PRESS);
+    };
+    inputs.flies = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
+                    axis(GLFW_KEY_W, GLFW_KEY_S)};
+    inputs.closes = glfwWindowShouldClose(window_) == GLFW_TRUE;
+    const double now = glfwGetTime();
+    inputs.seconds = std::min(now - std::exchange(polled_, now), kLongest);
+    return inputs;
+}
+
+void Window::resize(uvec2 size) {
+    glfwSetWindowSize(window_, static_cast<int>(size.x), static_cast<int>(size.y));
+}
+
+void Window::copy(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
+void Window::title(const std::string& text) { glfwSetWindowTitle(window_, text.c_str()); }
+
+} // namespace catoptric::view

@@ -1,0 +1,16 @@
+// A colour where the font's picture, one byte a texel, covers the pixel. Glyphs lie on whole pixels: the nearest texel.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+
+layout(push_constant, scalar) uniform Push { Overlaying overlaying; };
+layout(set = 0, binding = 21, scalar) readonly buffer Font { uint font[]; };
+layout(location = 0) in vec2 uv;
+layout(location = 1) in vec4 colour;
+layout(location = 0) out vec4 out_colour;
+
+void main() {
+    uvec2 texel = min(uvec2(max(uv, vec2(0)) * vec2(overlaying.font)), overlaying.font - 1);
+    uint at = texel.y * overlaying.font.x + texel.x;
+    out_colour = vec4(colour.rgb, colour.a * unpackUnorm4x8(font[at / 4u])[at % 4u]);
+}

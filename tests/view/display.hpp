@@ -1,0 +1,83 @@
+#pragma once
+
+#include "measure/picture.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace test {
+
+/// An X server without a screen, for as long as this lives; DISPLAY names it.
+class Display {
+public:
+    Display()
+        : folder_(std::filesystem::temp_directory_path() /
+                  ("catoptric-display-" + std::to_string(::getpid()))) {
+        std::filesystem::create_directories(folder_);
+        int ends[2];
+        if (::pipe(ends) != 0) return;
+        server_ = ::fork();
+        if (server_ == 0) {
+            const std::string number = std::to_string(ends[1]);
+            const int quiet = ::open("/dev/null", O_WRONLY);
+            ::dup2(quiet, 2);
+            ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1280x1024x24",
+                     "-fbdir", folder_.c_str(), static_cast<char*>(nullptr));
+            ::_exit(127);
+        }
+        ::close(ends[1]);
+        std::string name;
+        for (char c = 0; ::read(ends[0], &c, 1) == 1 && c != '\n';) name += c;
+        ::close(ends[0]);
+        is_there_ = !name.empty();
+        if (is_there_) ::setenv("DISPLAY", (":" + name).c_str(), 1);
+    }
+    ~Display() {
+        if (server_ <= 0) return;
+        ::kill(server_, SIGTERM);
+        ::waitpid(server_, nullptr, 0);
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    Display(const Display&) = delete;
+    Display& operator=(const Display&) = delete;
+    bool is_there() const { return is_there_; }
+
+    /// What it shows in its upper left corner, where it puts windows, from 0 to 1.
+    catoptric::measure::Picture shown(int width, int height) const {
+        std::ifstream file(folder_ / "Xvfb_screen0", std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        const auto word = [&](std::size_t at) { // of an XWD file's header, big-endian
+            std::uint32_t value = 0;
+            for (std::size_t i = 0; i < 4; ++i)
+                value = value << 8 | static_cast<unsigned char>(bytes.at(4 * at + i));
+            return value;
+        };
+        const std::size_t begin = word(0) + std::size_t{12} * word(19), row = word(12);
+        catoptric::measure::Picture picture(width, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (int c = 0; c < 3; ++c)
+                    picture.at(x, y)[c] = static_cast<float>(static_cast<unsigned char>(
+                                              bytes.at(begin + static_cast<std::size_t>(y) * row +
+                                                       4 * static_cast<std::size_t>(x) +
+                                                       static_cast<std::size_t>(2 - c)))) /
+                                          255;
+        return picture;
+    }
+
+private:
+    std::filesystem::path folder_;
+    pid_t server_ = -1;
+    bool is_there_ = false;
+};
+
+} // namespace test

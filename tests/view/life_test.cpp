@@ -1,0 +1,110 @@
+// A window is resized, minimised, closed, refused, loses its device, and runs for long: no message
+// of the validation layer, and memory stays what it was.
+#include "view/window.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::view;
+using testing::HasSubstr;
+
+/// Resident memory of this process, bytes.
+std::uint64_t resident_bytes() {
+    std::ifstream statm("/proc/self/statm");
+    std::uint64_t all = 0, resident = 0;
+    statm >> all >> resident;
+    return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+class ViewLife : public test::WindowTest {};
+
+/// Memory that frames took once is taken no more. The first test: what others gave back would hide
+/// it.
+TEST_F(ViewLife, MemoryStaysFlat) {
+    std::uint64_t early = 0, late = 0, device_early = 0, device_late = 0;
+    Driver driver;
+    driver.after = [&](const Report& report) {
+        const auto bytes = [&] {
+            return const_cast<Viewer&>(report.viewer).session().counts().memory_bytes;
+        };
+        if (report.frame == 100) early = resident_bytes(), device_early = bytes();
+        if (report.frame == 2000) late = resident_bytes(), device_late = bytes();
+    };
+    EXPECT_EQ(view({"--technique", "reuse:face=16,shadow_map=16", "--size", "32x32", "--frames",
+                    "2000", "--animate"},
+                   driver),
+              0);
+    EXPECT_EQ(device_early, device_late);
+    EXPECT_LT(late, early + (4U << 20)) << early << " bytes after 100 frames";
+}
+
+TEST_F(ViewLife, RefusesWhatItCannotDo) {
+    const auto refused = [&](const Words& words, Failure failure, const std::string& text) {
+        try {
+            view(words);
+            ADD_FAILURE() << text;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.failure, failure);
+            EXPECT_THAT(error.what(), HasSubstr(text));
+        }
+    };
+    refused({"--screenshot", path("a.png")}, Failure::usage,
+            "--screenshot is of the last frame: wanted --frames N, found none");
+    refused({"--frames", "1", "--screenshot", path("a.gif")}, Failure::usage,
+            "--screenshot: wanted a name ending in .exr or .png, found '");
+    refused({"--technique", "secand"}, Failure::usage, "did you mean 'secant'?");
+    refused({"--sise", "4x4"}, Failure::usage, "'catoptric-view' has no option '--sise'");
+    const std::string shown = std::getenv("DISPLAY");
+    ::unsetenv("DISPLAY");
+    refused({"--frames", "1"}, Failure::no_device,
+            "no display: a window needs one (is DISPLAY set?); 'catoptric render' makes pictures");
+    ::setenv("DISPLAY", shown.c_str(), 1);
+}
+
+/// 20 sizes and more; for a while there is nothing to draw on.
+TEST_F(ViewLife, IsResizedMinimisedAndClosed) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> sizes;
+    Driver driver;
+    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window& window) {
+        if (frame % 3 == 1)
+            window.resize({400 + 10 * static_cast<std::uint32_t>(frame),
+                           60 + 2 * static_cast<std::uint32_t>(frame)});
+        if (frame >= 30 && frame < 34) inputs.window = {0, 0};
+        if (frame == 40) state.shows_panels = false;
+        if (frame == 62) inputs.closes = true;
+    };
+    driver.after = [&](const Report& report) {
+        const uvec2 size = report.viewer.spec().size;
+        sizes.insert({size.x, size.y});
+        EXPECT_LT(report.frame, 62u);
+    };
+    EXPECT_EQ(
+        view({"--technique", "parallax:face=16,shadow_map=16", "--size", "48x48", "--frames", "99"},
+             driver),
+        0);
+    EXPECT_GE(sizes.size(), 20u);
+}
+
+/// In mid-frame: what the user had is there in a session made anew, and the picture comes out as
+/// ever.
+TEST_F(ViewLife, GoesOnWhenTheDeviceIsLost) {
+    const Words words{"--technique", "reuse:face=32", "--size", "64x64"};
+    test::Start lost{.command = {CATOPTRIC_VIEW},
+                     .environment = {{"VK_ADD_LAYER_PATH", CATOPTRIC_FAULTS_LAYER},
+                                     {"VK_INSTANCE_LAYERS", "VK_LAYER_CATOPTRIC_faults"},
+                                     {"CATOPTRIC_FAULT_REPORT", path("calls")},
+                                     {"CATOPTRIC_FAULT", "vkQueueSubmit2:30:-4"}},
+                     .folder = folder};
+    lost.command.insert(lost.command.end(), words.begin(), words.end());
+    lost.command.insert(lost.command.end(), {"--frames", "60", "--screenshot", "lost.png"});
+    const test::Ended ended = test::run_process(lost);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("VK_ERROR_DEVICE_LOST (-4); the session is made anew"));
+    expect_rendered("lost.png", words);
+}
+
+} // namespace

@@ -1,0 +1,192 @@
+// The window under an X server without a screen: its pictures are those of `catoptric render`, and
+// it shows them.
+#include "measure/picture_file.hpp"
+#include "scene/load.hpp"
+#include "view/window.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::view;
+using testing::HasSubstr;
+
+class ViewPicture : public test::WindowTest {};
+
+TEST_F(ViewPicture, ItsPictureIsThatOfRender) {
+    const Words words{"--technique", "reuse:face=32", "--size", "64x48", "--frames",
+                      "3",           "--animate"};
+    for (const std::string name : {"a.png", "a.exr"}) {
+        Words with = words;
+        with.insert(with.end(), {"--screenshot", path(name)});
+        EXPECT_EQ(view(with), 0);
+        Words without = words;
+        without.insert(without.end(), {"--warmup", "0"});
+        expect_rendered(name, without);
+    }
+}
+
+/// The plan's picture and what is compared with it, as the X server has them.
+TEST_F(ViewPicture, ShowsWhatItSays) {
+    std::vector<std::string> seen;
+    const auto expect_shown = [&](const Viewer& viewer, const std::string& name) {
+        viewer.write(path(name));
+        const measure::Picture written = measure::to_display(measure::read_picture(path(name)));
+        double apart = 1;
+        for (int tries = 0; tries < 100 && apart > 0; ++tries) { // the server takes its time
+            if (tries > 0) ::usleep(20000);
+            apart = 0;
+            const measure::Picture shown = display->shown(written.width, written.height);
+            for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
+                const vec3 d = glm::abs(shown.pixels[i] - written.pixels[i]);
+                const bool is_divider = name == "split.png" && i % 64 == 40;
+                if (!is_divider) apart = std::max({apart, double(d.x), double(d.y), double(d.z)});
+            }
+            if (name == "difference.png" && apart < 1.5 / 255) apart = 0; // rounded differently
+        }
+        EXPECT_EQ(apart, 0) << name;
+        seen.push_back(name);
+    };
+    Driver driver;
+    driver.before = [&](std::size_t frame, Inputs&, State& state, Window&) {
+        state.other = plan_of("parallax:face=16,shadow_map=64");
+        state.divider = 40.0 / 64;
+        state.cause = 8;
+        state.mode = static_cast<Mode>(std::min<std::size_t>(frame / 10, kModes - 1));
+        if (frame >= 60) state.mode = Mode::split, state.against = Against::reference;
+    };
+    driver.after = [&](const Report& report) {
+        if (report.frame % 10 == 9)
+            expect_shown(report.viewer, report.frame < 60
+                                            ? name_of(report.state.mode) + std::string(".png")
+                                            : "split.png");
+    };
+    EXPECT_EQ(
+        view({"--technique", "secant:face=32,shadow_map=64", "--size", "64x64", "--frames", "69"},
+             driver),
+        0);
+    EXPECT_EQ(seen.size(), 7u);
+}
+
+/// Every technique with three of its knobs turned while the window runs.
+TEST_F(ViewPicture, DrawsEveryTechniqueAndTurnsItsKnobs) {
+    std::vector<PlanState> plans;
+    for (const app::TechniqueInfo& technique : app::techniques()) {
+        PlanState plan;
+        plan.rest.technique = technique.name;
+        for (const app::Knob& knob : technique.knobs)
+            if (knob.name == "face" || knob.name == "shadow_map") set(plan.rest, knob, "16");
+        plans.push_back(plan);
+        std::size_t turned = 0;
+        for (const app::Knob& knob : technique.knobs) {
+            if (turned == 3) break;
+            if (plan.rest.knobs.contains(knob.name)) continue;
+            const std::string value = knob.choices.empty() ? std::to_string(static_cast<int>(
+                                                                 std::min(knob.low + 2, knob.high)))
+                                      : knob.choices.back() == knob.value ? knob.choices.front()
+                                                                          : knob.choices.back();
+            set(plan.rest, knob, value);
+            plans.push_back(plan);
+            ++turned;
+        }
+        EXPECT_GE(turned, 2u) << technique.name;
+    }
+    std::size_t drawn = 0;
+    Driver driver;
+    driver.before = [&](std::size_t frame, Inputs&, State& state, Window&) {
+        state.plan = plans[(frame - 1) / 2];
+    };
+    driver.after = [&](const Report& report) {
+        EXPECT_EQ(report.state.said, "") << text_of(report.state.plan);
+        drawn += report.state.plan == plans[(report.frame - 1) / 2];
+    };
+    const std::string frames = std::to_string(2 * plans.size());
+    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32", "--frames", frames}, driver),
+              0);
+    EXPECT_EQ(drawn, 2 * plans.size());
+}
+
+/// A click on a mirror chooses it, and its technique alone is edited.
+TEST_F(ViewPicture, AClickChoosesTheMirrorThere) {
+    const scene::Scene scene = scene::load("cornell-mirrors", {});
+    const std::vector<std::size_t> mirrors = scene::mirrors(scene);
+    const scene::Camera& camera = scene.cameras.front();
+    const double edge = 96;
+    const auto pixel_of = [&](std::size_t mirror) { // where the camera sees its middle
+        const dvec3 at = scene.objects[mirrors[mirror - 1]].sphere->centre - camera.eye;
+        const dvec3 forward = glm::normalize(camera.target - camera.eye),
+                    right = glm::normalize(glm::cross(forward, camera.up)),
+                    up = glm::cross(right, forward);
+        const double scale = edge / 2 / std::tan(glm::radians(camera.vertical_fov_degrees) / 2) /
+                             glm::dot(at, forward);
+        return dvec2(edge / 2 + glm::dot(at, right) * scale, edge / 2 - glm::dot(at, up) * scale);
+    };
+    Driver driver;
+    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window&) {
+        inputs.on_controls = false;
+        inputs.mouse = pixel_of(frame <= 4 ? 3 : 4);
+        inputs.down[0] = frame == 3 || frame == 6;
+        if (frame == 5) state.plan.own[state.chosen] = {"raytrace", {}};
+    };
+    driver.after = [&](const Report& report) {
+        EXPECT_EQ(report.state.chosen, report.frame < 4   ? 0u
+                                       : report.frame < 7 ? 3u
+                                                          : 4u)
+            << report.frame;
+        if (report.frame < 8) return;
+        EXPECT_THAT(report.command, HasSubstr("--plan '3=raytrace *=reuse:face=16'"));
+    };
+    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "96x96", "--frames", "8"}, driver),
+              0);
+}
+
+/// Camera, knobs and instant are changed; at rest the copied command renders the same bytes.
+TEST_F(ViewPicture, TheCopiedCommandRendersItsPicture) {
+    std::string command;
+    Driver driver;
+    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window&) {
+        inputs.on_controls = false;
+        inputs.mouse = {20. + static_cast<double>(frame), 30};
+        inputs.down[0] = frame > 2 && frame < 9;
+        inputs.wheel = frame == 10 ? 3 : 0;
+        if (frame == 5) state.motion.time = .125;
+        if (frame == 12) set(state.plan.rest, find("secant")->knobs.front(), "3");
+    };
+    driver.after = [&](const Report& report) { command = report.command; };
+    EXPECT_EQ(view({"cornell-mirrors", "--technique", "secant:face=auto", "--size", "80x64",
+                    "--mirror", "back*=.5", "--frames", "60", "--screenshot", path("shown.png")},
+                   driver),
+              0);
+    ASSERT_TRUE(command.starts_with("catoptric render cornell-mirrors --mirror 'back*=.5' "))
+        << command;
+    const test::Ended ended = test::run_process(
+        {.command = {"/bin/sh", "-c", CATOPTRIC_CLI + command.substr(9)}, .folder = folder});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_TRUE(read("shown.png") == read("view.png")) << command;
+}
+
+/// A file that is dropped is shown; one that is no scene changes nothing but what is said.
+TEST_F(ViewPicture, LoadsWhatIsDropped) {
+    write("broken.glb", "no scene");
+    Driver driver;
+    driver.before = [&](std::size_t frame, Inputs& inputs, State&, Window&) {
+        if (frame == 3) inputs.dropped = {path("broken.glb")};
+        if (frame == 5) inputs.dropped = {"flat"};
+    };
+    std::vector<std::string> said, scenes;
+    driver.after = [&](const Report& report) {
+        said.push_back(report.state.said);
+        scenes.push_back(const_cast<Viewer&>(report.viewer).session().scene().name);
+    };
+    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32", "--frames", "6"}, driver),
+              0);
+    ASSERT_GE(said.size(), 6u);
+    EXPECT_THAT(said[2], HasSubstr("broken.glb"));
+    EXPECT_EQ(scenes[3], "cornell-mirrors");
+    EXPECT_EQ(said[4], "loaded: flat");
+    EXPECT_EQ(scenes[4], "flat");
+}
+
+} // namespace

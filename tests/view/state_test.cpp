@@ -1,0 +1,212 @@
+// What the window's state stands for, without a window: plans, cameras, drags, commands, settings.
+#include "core/error.hpp"
+#include "scene/camera_named.hpp"
+#include "scene/load.hpp"
+#include "view/camera.hpp"
+#include "view/command.hpp"
+#include "view/inputs.hpp"
+#include "view/plan_state.hpp"
+#include "view/settings.hpp"
+#include "view/state.hpp"
+#include "view/times.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::view;
+using testing::ElementsAre;
+
+const app::Knob& knob(const std::string& technique, const std::string& name) {
+    return *std::ranges::find(find(technique)->knobs, name, &app::Knob::name);
+}
+
+TEST(ViewPlan, IsWhatTheCommandLineSaid) {
+    EXPECT_EQ(text_of(plan_of("secant:face=64,steps=3")), "secant:face=64,steps=3");
+    EXPECT_EQ(text_of(plan_of("reuse:face=256")), "reuse"); // which is its default
+    EXPECT_EQ(text_of(plan_of("1=planar *=reuse")), "1=planar *=reuse");
+    EXPECT_THROW(plan_of("secand"), Error);
+    EXPECT_THAT(words_of(plan_of("reuse")), ElementsAre("--technique", "reuse"));
+    EXPECT_THAT(words_of(plan_of("auto")), ElementsAre("--technique", "auto"));
+}
+
+TEST(ViewPlan, IsEditedMirrorByMirror) {
+    PlanState plan = plan_of("reuse");
+    plan.own[2] = plan.rest;
+    EXPECT_EQ(text_of(plan), "reuse"); // no other than the rest
+    plan.own[2] = {"raytrace", {}};
+    set(plan.own[2], knob("raytrace", "depth"), "3");
+    set(plan.rest, knob("reuse", "face"), "64");
+    EXPECT_EQ(text_of(plan), "2=raytrace:depth=3 *=reuse:face=64");
+    EXPECT_THAT(words_of(plan), ElementsAre("--plan", "2=raytrace:depth=3 *=reuse:face=64"));
+    set(plan.rest, knob("reuse", "face"), "256");
+    EXPECT_EQ(text_of(plan), "2=raytrace:depth=3 *=reuse");
+    EXPECT_EQ(text_of(with(plan_of("hybrid"), "show", "state")), "hybrid:show=state");
+    EXPECT_EQ(text_of(with(plan, "show", "state")), text_of(plan)); // neither has that knob
+}
+
+TEST(ViewPlan, ThatWasSuggestedBecomesOneByNumber) {
+    const std::vector<PlanEntry> drawn{
+        {1, "ball", "reuse", {{"face", "64", 64, true}, {"colour", "half", {}, false}}, "far"},
+        {2, "wall", "planar", {}, "flat"}};
+    EXPECT_EQ(text_of(resolved(plan_of("auto"), drawn)), "2=planar *=reuse:face=64");
+    EXPECT_EQ(text_of(resolved(plan_of("reuse"), drawn)), "reuse");
+}
+
+class ViewCamera : public testing::Test {
+protected:
+    scene::Camera camera{.name = "c", .eye = {0, 1, 0}, .target = {0, 1, 4}};
+    double distance(const scene::Camera& c) const { return glm::length(c.target - c.eye); }
+};
+
+TEST_F(ViewCamera, OrbitsAroundItsTarget) {
+    const scene::Camera turned = moved(camera, {.turned = {100, 40}}, false, 400, 10);
+    EXPECT_EQ(turned.target, camera.target);
+    EXPECT_NEAR(distance(turned), 4, 1e-12);
+    // The scene goes with the mouse: the eye to the picture's left, which is +x, and up.
+    EXPECT_NEAR(turned.eye.y, 1 + 4 * std::sin(.2), 1e-12);
+    EXPECT_NEAR(turned.eye.x, 4 * std::cos(.2) * std::sin(.5), 1e-12);
+    const scene::Camera above = moved(camera, {.turned = {0, 1e6}}, false, 400, 10);
+    EXPECT_LT(above.eye.y, 5); // never over the pole
+    EXPECT_NEAR(distance(moved(camera, {.wheel = 1}, false, 400, 10)), 3.6, 1e-12);
+}
+
+TEST_F(ViewCamera, Flies) {
+    const scene::Camera ahead = moved(camera, {.flown = {0, 0, 3}}, true, 400, 10);
+    EXPECT_NEAR(ahead.eye.z, 10, 1e-12); // its reach in three seconds
+    const scene::Camera turned = moved(camera, {.turned = {100, 0}}, true, 400, 10);
+    EXPECT_EQ(turned.eye, camera.eye);
+    EXPECT_LT(turned.target.x, -1); // to the right, which is -x
+}
+
+TEST_F(ViewCamera, ShiftsAPixelAPixel) {
+    const scene::Camera shifted = moved(camera, {.shifted = {400, 0}}, false, 400, 10);
+    EXPECT_NEAR(glm::length(shifted.eye - camera.eye), 8 * std::tan(glm::radians(22.5)), 1e-12);
+    EXPECT_EQ(shifted.eye - camera.eye, shifted.target - camera.target);
+}
+
+/// What is typed is the same camera, to the bit; and nothing rests where nothing was done.
+TEST_F(ViewCamera, CanBeTyped) {
+    scene::Camera c = camera;
+    EXPECT_EQ(moved(c, {}, false, 400, 10), camera);
+    for (int i = 0; i < 50; ++i) {
+        c = moved(c, {.turned = {13.3, -7.1 * (i % 3 - 1)}, .shifted = {1, 2}, .wheel = .1}, i % 2,
+                  400, 10);
+        scene::Camera typed = scene::camera_named(scene::camera_text(c), {});
+        typed.name = c.name;
+        ASSERT_EQ(typed, c);
+    }
+}
+
+TEST(ViewHand, DragsTheDividerAndClicksMirrors) {
+    State state;
+    state.camera = {.eye = {0, 1, 0}, .target = {0, 1, 4}};
+    const scene::Camera before = state.camera;
+    state.mode = Mode::split;
+    Hand hand;
+    const auto at = [&](double x, double y, bool down) {
+        Inputs inputs{.mouse = {x, y}, .down = {down}};
+        return hand.apply(inputs, state, {200, 100}, 10);
+    };
+    at(101, 50, true);
+    at(160, 20, true);
+    EXPECT_EQ(at(160, 20, false), std::nullopt);
+    EXPECT_DOUBLE_EQ(state.divider, .8);
+    EXPECT_EQ(state.camera, before);
+    at(30, 40, true);
+    EXPECT_EQ(at(31, 40, false), uvec2(30, 40)); // a click, though the hand shook
+    EXPECT_EQ(state.camera, before);
+    at(30, 40, true);
+    at(60, 40, true);
+    EXPECT_EQ(at(60, 40, false), std::nullopt);
+    EXPECT_NE(state.camera, before);
+    const scene::Camera turned = state.camera;
+    at(250, 40, true); // on controls
+    at(20, 40, true);
+    EXPECT_EQ(at(20, 40, false), std::nullopt);
+    EXPECT_EQ(state.camera, turned);
+}
+
+TEST(ViewState, SaysWhatIsRenderedAndShown) {
+    State state;
+    state.plan = plan_of("hybrid"), state.other = plan_of("reuse");
+    EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid"));
+    state.mode = Mode::split;
+    EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid", "reuse"));
+    EXPECT_EQ(shown(state).second, 1u);
+    state.other = state.plan; // which a frame refuses twice
+    EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid"));
+    state.against = Against::reference;
+    EXPECT_EQ(shown(state).second, app::Showing::kCanvas);
+    EXPECT_TRUE(wants_canvas(state));
+    state.mode = Mode::answers;
+    EXPECT_THAT(shown(state).techniques, ElementsAre("hybrid:show=state"));
+    EXPECT_FALSE(wants_canvas(state));
+}
+
+TEST(ViewState, ColoursTellMirrorsApart) {
+    std::set<std::tuple<int, int, int>> colours;
+    for (std::uint32_t mirror = 0; mirror <= 16; ++mirror) {
+        const glm::ivec3 c(colour_of(mirror) * 16.f);
+        colours.insert({c.x, c.y, c.z});
+    }
+    EXPECT_EQ(colours.size(), 17u);
+    const measure::Picture picture = numbers_picture({0, 1U | 3U << 16U}, {2, 1});
+    EXPECT_EQ(picture.at(0, 0), vec3(0));
+    EXPECT_EQ(picture.at(1, 0), colour_of(1));
+}
+
+TEST(ViewMotion, Advances) {
+    EXPECT_EQ(advanced({.time = 2}, .5), 2);
+    EXPECT_EQ(advanced({.time = 2, .plays = true, .speed = -2}, .5), 1);
+}
+
+TEST(ViewCommand, KeepsWhatSaysHowTheSceneIsRead) {
+    State state;
+    state.plan = plan_of("1=planar *=reuse");
+    state.motion.time = .25, state.exposure = -1;
+    const std::vector<std::string> words{
+        "hall of mirrors.glb", "--mirror",      "wall*=.9", "--size=9x9", "--technique", "reuse",
+        "--animate",           "--environment", "studio",   "--frames",   "9",           "-q"};
+    EXPECT_EQ(
+        render_command(words, state, "0,1,2:3,4,5:40", {64, 48}),
+        "catoptric render 'hall of mirrors.glb' --mirror 'wall*=.9' --environment studio --plan "
+        "'1=planar *=reuse' --camera 0,1,2:3,4,5:40 --time 0.25 --size 64x48 --exposure -1 --model "
+        "required -o view.png");
+    EXPECT_EQ(quoted("it's"), "'it'\\''s'");
+    EXPECT_EQ(quoted(""), "''");
+}
+
+TEST(ViewSettings, AreReadAsTheyWereWritten) {
+    const Settings settings{
+        .window = {800, 600}, .shows_panels = false, .flies = true, .speed = -.5, .gain = 16};
+    EXPECT_EQ(settings_of(text_of(settings)), settings);
+    for (const char* text :
+         {"", "[]", "{\"width\": -4, \"height\": 5}", "{\"gain\": 3}", "{\"speed\": \"x\"}",
+          "{\"speed\": 1e999, \"panels\": 7}", "{\"width\": 99999, \"height\": 3}"})
+        EXPECT_EQ(settings_of(text), Settings()) << text;
+}
+
+TEST(ViewTimes, AreMediansOfFramesWithTheSamePasses) {
+    Times times;
+    const auto sample = [](double ms) {
+        Times::Sample s;
+        s.frame.passes = {{"view", 0, ms}};
+        s.interval_ms = 20;
+        return s;
+    };
+    for (const double ms : {1., 5., 2., 3., 4., 6., 7.}) times.add(sample(ms));
+    EXPECT_EQ(times.passes().at(0).median, 4);
+    EXPECT_EQ(times.passes().at(0).ci95.low, 1);
+    EXPECT_EQ(times.fps(), 50);
+    Times::Sample other = sample(9);
+    other.frame.passes[0].name = "trace";
+    times.add(other);
+    EXPECT_EQ(times.count(), 1u);
+}
+
+} // namespace
