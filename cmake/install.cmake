@@ -9,7 +9,7 @@ install(TARGETS catoptric catoptric_cli EXPORT catoptricTargets
 # The public headers. Programs include those that lie in catoptric/ itself; the others are what these are made of. They
 # name each other by relative paths, which are the same here and installed (docs/design.md).
 set(headers
-    compare.hpp error.hpp picture.hpp report.hpp scene.hpp session.hpp technique.hpp
+    compare.hpp embed.hpp error.hpp picture.hpp report.hpp scene.hpp session.hpp technique.hpp
     core/error.hpp core/export.hpp core/math.hpp core/mirror_id.hpp core/plan_entry.hpp core/setting.hpp
     scene/budget.hpp scene/build.hpp scene/edit.hpp scene/environment.hpp scene/gap.hpp scene/load.hpp
     scene/material.hpp scene/motion.hpp scene/said_by.hpp scene/scene.hpp scene/shapes.hpp scene/texture.hpp
@@ -18,7 +18,8 @@ set(headers
     measure/lag.hpp measure/light_edges.hpp measure/lookup.hpp measure/picture.hpp measure/picture_file.hpp
     measure/statistics.hpp
     report/comparison.hpp report/write.hpp
-    app/compare.hpp app/engine.hpp app/run.hpp app/session.hpp app/technique.hpp app/watcher.hpp)
+    app/compare.hpp app/engine.hpp app/run.hpp app/session.hpp app/technique.hpp app/watcher.hpp
+    embed/embed.hpp)
 foreach(header IN LISTS headers)
     get_filename_component(folder ${header} DIRECTORY)
     install(FILES engine/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/catoptric/${folder})

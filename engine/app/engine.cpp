@@ -18,11 +18,12 @@ DeviceInfo to_info(const gpu::DeviceInfo& info) {
 
 } // namespace
 
-Engine::Impl::Impl(const EngineOptions& options)
-    : device({options.device, options.validate, options.layered, false}),
+Engine::Impl::Impl(const EngineOptions& options, const std::optional<gpu::GivenDevice>& given)
+    : device({options.device, options.validate, options.layered, false, given}),
       pipelines(device, options.shader_variants, options.cache), info(to_info(device.info())) {}
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Engine::Engine(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Engine::~Engine() = default;
 
 const DeviceInfo& Engine::device() const { return impl_->info; }

@@ -98,7 +98,9 @@ public:
 
 private:
     friend class Session;
+    friend struct Embedding;
     struct Impl;
+    explicit Engine(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
 

@@ -147,6 +147,10 @@ Setup Session::setup() const {
 }
 
 Frame Session::frame(const FrameSpec& spec) {
+    return submit(spec, [](FrameGraph&) {});
+}
+
+Frame Session::submit(const FrameSpec& spec, const std::function<void(FrameGraph&)>& finish) {
     Impl& self = *impl_;
     check_spec(spec);
     const std::vector<reflect::Plan>& plans = self.plans_of(spec);
@@ -166,6 +170,7 @@ Frame Session::frame(const FrameSpec& spec) {
     const Clock::time_point trees = Clock::now();
     self.resident->prepare();
     const double hierarchy_ms = milliseconds_since(trees);
+    finish(frame);
     const graph::Ticket ticket = self.runner.submit(
         frame.graph,
         spec.timing == Timing::isolated ? graph::Timing::isolated : graph::Timing::pipelined,

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,8 @@ struct Captured;
 } // namespace catoptric::render
 
 namespace catoptric::app {
+
+struct FrameGraph; // internal
 
 /// isolated: passes do not overlap and their times add up. pipelined: believe the span only.
 enum class Timing { isolated, pipelined };
@@ -239,6 +242,9 @@ public:
 
 private:
     friend class Frame;
+    friend struct Embedding;
+    /// `finish` adds to the frame what is no technique's, before it is submitted.
+    Frame submit(const FrameSpec& spec, const std::function<void(FrameGraph&)>& finish);
     struct Impl;
     std::shared_ptr<Impl> impl_;
 };

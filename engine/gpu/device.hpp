@@ -24,11 +24,21 @@ struct DeviceInfo {
 /// Throws `Failure::no_device` saying what to install when there is no driver.
 std::vector<DeviceInfo> list_devices();
 
+/// Somebody else's, made with Features::switch_on; all of it outlives the Device.
+struct GivenDevice {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t queue_family = 0; ///< graphics, compute and copies, with timestamps
+};
+
 struct DeviceOptions {
     std::string wanted; ///< index into list_devices(), or part of a name; empty = the first usable
     bool validate = false; ///< Khronos validation layer: core, synchronization, queue submit
     bool layered = true;   ///< false: pretend that a vertex shader cannot write gl_Layer
     bool staged = false;   ///< true: pretend that device memory cannot be mapped
+    std::optional<GivenDevice> given = {}; ///< in place of one of its own
 };
 
 /// Whether a device of this process was abandoned: its driver's threads may still be at work, and a
@@ -109,7 +119,10 @@ private:
     void close();
     void create_instance(bool validate);
     void choose(const DeviceOptions& options);
+    void adopt(const GivenDevice& given);
+    void look_at(const DeviceOptions& options);
     void create_device();
+    void make_pool();
     void abandon(const Error& why);
     void begin_one_shot(const std::string& doing);
     void end_one_shot(const std::string& doing);
@@ -129,6 +142,7 @@ private:
     bool doubles_ = false;
     bool staged_ = false;
     bool has_debug_utils_ = false;
+    bool is_given_ = false;
     bool abandoned_ = false;
     std::optional<Error> why_abandoned_;
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name_ = nullptr;

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "app/engine_impl.hpp"
+#include "app/frame_graph.hpp"
+#include "app/session.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace catoptric::app {
+
+/// The way in for embed/: an engine on a given device, and frames with something added.
+struct Embedding {
+    static Engine make(const EngineOptions& options, const gpu::GivenDevice& given) {
+        return Engine(std::make_unique<Engine::Impl>(options, given));
+    }
+    static Frame submit(Session& session, const FrameSpec& spec,
+                        const std::function<void(FrameGraph&)>& finish) {
+        return session.submit(spec, finish);
+    }
+};
+
+} // namespace catoptric::app
