@@ -12,7 +12,7 @@ namespace catoptric::app {
 /// The way in for embed/: an engine on a given device, and frames with something added.
 struct Embedding {
     static Engine make(const EngineOptions& options, const gpu::GivenDevice& given) {
-        return Engine(std::make_unique<Engine::Impl>(options, given));
+        return Engine(options, given);
     }
     static Frame submit(Session& session, const FrameSpec& spec,
                         const std::function<void(FrameGraph&)>& finish) {

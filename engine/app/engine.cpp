@@ -23,7 +23,8 @@ Engine::Impl::Impl(const EngineOptions& options, const std::optional<gpu::GivenD
       pipelines(device, options.shader_variants, options.cache), info(to_info(device.info())) {}
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
-Engine::Engine(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Engine::Engine(const EngineOptions& options, const gpu::GivenDevice& given)
+    : impl_(std::make_unique<Impl>(options, given)) {}
 Engine::~Engine() = default;
 
 const DeviceInfo& Engine::device() const { return impl_->info; }

@@ -9,6 +9,10 @@
 #include <string>
 #include <vector>
 
+namespace catoptric::gpu {
+struct GivenDevice; // internal
+} // namespace catoptric::gpu
+
 /// The engine as a program or a library uses it. No Vulkan name is needed to include this.
 namespace catoptric::app {
 
@@ -100,7 +104,7 @@ private:
     friend class Session;
     friend struct Embedding;
     struct Impl;
-    explicit Engine(std::unique_ptr<Impl> impl);
+    Engine(const EngineOptions& options, const gpu::GivenDevice& given);
     std::unique_ptr<Impl> impl_;
 };
 
