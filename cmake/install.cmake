@@ -1,22 +1,38 @@
-# cmake --install: the library, its public headers, the program, and find_package(catoptric).
+# cmake --install: the library, its public headers, the program, and find_package(catoptric) with what shaders of
+# techniques from outside include.
 include(CMakePackageConfigHelpers)
 
-set_target_properties(catoptric_cli PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 install(TARGETS catoptric catoptric_cli EXPORT catoptricTargets
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
-# Headers that need neither Vulkan, the shaders' folder nor the JSON library.
-foreach(name core scene require measure report app)
-    install(DIRECTORY engine/${name}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/catoptric/${name}
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "shader_math.hpp" EXCLUDE PATTERN "json.hpp" EXCLUDE PATTERN "gltf_*.hpp" EXCLUDE PATTERN "obj_text.hpp" EXCLUDE)
+# The public headers. Programs include those that lie in catoptric/ itself; the others are what these are made of. They
+# name each other by relative paths, which are the same here and installed (docs/design.md).
+set(headers
+    compare.hpp embed.hpp error.hpp picture.hpp report.hpp scene.hpp session.hpp technique.hpp
+    core/error.hpp core/export.hpp core/math.hpp core/mirror_id.hpp core/plan_entry.hpp core/setting.hpp
+    scene/budget.hpp scene/build.hpp scene/edit.hpp scene/environment.hpp scene/gap.hpp scene/load.hpp
+    scene/material.hpp scene/motion.hpp scene/said_by.hpp scene/scene.hpp scene/shapes.hpp scene/texture.hpp
+    require/model.hpp
+    measure/causes.hpp measure/comparison.hpp measure/difference.hpp measure/flip.hpp measure/interval.hpp
+    measure/lag.hpp measure/light_edges.hpp measure/lookup.hpp measure/picture.hpp measure/picture_file.hpp
+    measure/statistics.hpp
+    report/comparison.hpp report/write.hpp
+    app/compare.hpp app/engine.hpp app/run.hpp app/session.hpp app/technique.hpp app/watcher.hpp
+    embed/embed.hpp)
+foreach(header IN LISTS headers)
+    get_filename_component(folder ${header} DIRECTORY)
+    install(FILES engine/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/catoptric/${folder})
 endforeach()
+set(CATOPTRIC_SHADER_DESTINATION ${CMAKE_INSTALL_DATADIR}/catoptric/shaders)
+install(DIRECTORY shaders/lib DESTINATION ${CATOPTRIC_SHADER_DESTINATION})
+install(FILES shaders/shared.h DESTINATION ${CATOPTRIC_SHADER_DESTINATION})
 install(DIRECTORY samples/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/catoptric)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/catoptric)
 install(EXPORT catoptricTargets NAMESPACE catoptric:: DESTINATION ${package_folder})
 configure_package_config_file(cmake/catoptricConfig.cmake.in ${PROJECT_BINARY_DIR}/catoptricConfig.cmake
-    INSTALL_DESTINATION ${package_folder})
+    INSTALL_DESTINATION ${package_folder} PATH_VARS CATOPTRIC_SHADER_DESTINATION)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/catoptricConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/catoptricConfig.cmake ${PROJECT_BINARY_DIR}/catoptricConfigVersion.cmake
-    DESTINATION ${package_folder})
+    cmake/catoptric_shader.cmake DESTINATION ${package_folder})

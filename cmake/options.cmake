@@ -11,9 +11,11 @@ if(CATOPTRIC_SANITIZE)
     add_library(catoptric_sanitizer_support OBJECT ${PROJECT_SOURCE_DIR}/cmake/sanitizer_support.cpp)
 endif()
 
-# program(TARGET): what every executable of this tree links.
+# program(TARGET): what every executable of this tree links: the engine's object files, hidden parts and all.
 function(program target)
-    target_link_libraries(${target} PRIVATE catoptric catoptric_options catoptric_warnings)
+    get_property(layers GLOBAL PROPERTY CATOPTRIC_LAYERS)
+    list(TRANSFORM layers PREPEND catoptric_)
+    target_link_libraries(${target} PRIVATE ${layers} catoptric_options catoptric_warnings)
     if(CATOPTRIC_SANITIZE)
         target_link_libraries(${target} PRIVATE catoptric_sanitizer_support)
     endif()

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "app/run.hpp"
-#include "app/watcher.hpp"
-#include "report/comparison.hpp"
+#include "../core/export.hpp"
+#include "../report/comparison.hpp"
+#include "run.hpp"
+#include "watcher.hpp"
 
 namespace catoptric::app {
 
@@ -31,26 +32,26 @@ struct CompareRequest {
 
 /// The rows that each technique of the table names for itself (reflect::Technique::compared), and
 /// `auto`, but those that fit no mirror of the scene as `base` shows it.
-std::vector<std::string> default_techniques(const Request& base);
+CATOPTRIC_API std::vector<std::string> default_techniques(const Request& base);
 /// Throws `bad_data`, saying how to make one, where a scene has no mirror.
-void check_has_mirror(const scene::Scene& scene);
+CATOPTRIC_API void check_has_mirror(const scene::Scene& scene);
 
 /// Throws `usage` for fewer than bound a median.
-void check_rounds(int rounds);
+CATOPTRIC_API void check_rounds(int rounds);
 /// Throws `usage` for a reference other than the default one, by its settings: what is mended is
 /// its own.
-void check_explains(const std::string& reference);
+CATOPTRIC_API void check_explains(const std::string& reference);
 /// Throws `usage` for rows that are unknown or, with the same settings, asked for twice.
-void check_rows(const std::vector<std::string>& techniques);
+CATOPTRIC_API void check_rows(const std::vector<std::string>& techniques);
 
 /// All of these, plans that do not fit the mirrors, and rows that are asked for in both models and
 /// in one frame.
-void check_asked(const CompareRequest& request);
+CATOPTRIC_API void check_asked(const CompareRequest& request);
 
 /// Renders every row and the reference, measures speed in rounds and error. A row with `samples` is
 /// judged against the reference at as many samples. What ends the run early (a signal, a lost
 /// device, no memory, `on_finished_row`) is in `stopped` of the rows so far, or thrown where there
 /// is none and it was no signal.
-report::Comparison compare(Engine& engine, const CompareRequest& request);
+CATOPTRIC_API report::Comparison compare(Engine& engine, const CompareRequest& request);
 
 } // namespace catoptric::app

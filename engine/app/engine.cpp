@@ -16,9 +16,11 @@ DeviceInfo to_info(const gpu::DeviceInfo& info) {
     return {info.name, info.driver, info.api, info.type, info.threads, info.missing};
 }
 
-gpu::DeviceOptions to_options(const EngineOptions& options) {
+gpu::DeviceOptions to_options(const EngineOptions& options,
+                              const std::optional<gpu::GivenDevice>& given) {
     gpu::DeviceOptions wanted{options.device, options.validate, options.layered, false,
                               options.instance_extensions};
+    wanted.given = given;
     if (options.make_surface)
         wanted.make_surface = [make = options.make_surface](auto instance) {
             return gpu::surface_of(make(instance));
@@ -28,11 +30,13 @@ gpu::DeviceOptions to_options(const EngineOptions& options) {
 
 } // namespace
 
-Engine::Impl::Impl(const EngineOptions& options)
-    : device(to_options(options)), pipelines(device, options.shader_variants, options.cache),
+Engine::Impl::Impl(const EngineOptions& options, const std::optional<gpu::GivenDevice>& given)
+    : device(to_options(options, given)), pipelines(device, options.shader_variants, options.cache),
       info(to_info(device.info())) {}
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Engine::Engine(const EngineOptions& options, const gpu::GivenDevice& given)
+    : impl_(std::make_unique<Impl>(options, given)) {}
 Engine::~Engine() = default;
 
 const DeviceInfo& Engine::device() const { return impl_->info; }

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/setting.hpp"
+#include "../core/export.hpp"
+#include "../core/setting.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -9,6 +10,10 @@
 #include <memory>
 #include <string>
 #include <vector>
+
+namespace catoptric::gpu {
+struct GivenDevice; // internal
+} // namespace catoptric::gpu
 
 /// The engine as a program or a library uses it. No Vulkan name is needed to include this.
 namespace catoptric::app {
@@ -30,7 +35,7 @@ struct EngineOptions {
 };
 
 /// XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty where neither is an absolute path.
-std::filesystem::path cache_folder();
+CATOPTRIC_API std::filesystem::path cache_folder();
 
 struct Knob {
     std::string name, help;
@@ -44,29 +49,29 @@ struct TechniqueInfo {
     std::vector<Knob> knobs;
 };
 /// Every technique in the table's order.
-std::vector<TechniqueInfo> techniques();
+CATOPTRIC_API std::vector<TechniqueInfo> techniques();
 
 /// Checks "name[:knob=value,...]"; throws `Failure::usage` with the nearest name.
 struct TechniqueChoice {
     std::string technique, label, file_name;
     std::vector<Setting> settings; ///< all knobs
 };
-TechniqueChoice parse_technique(const std::string& text);
+CATOPTRIC_API TechniqueChoice parse_technique(const std::string& text);
 
 struct DeviceInfo {
     std::string name, driver, api, type;
     int threads = 0;
     std::string missing; ///< what the engine needs and it lacks; empty = usable
 };
-std::vector<DeviceInfo> devices();
+CATOPTRIC_API std::vector<DeviceInfo> devices();
 
-std::string version(); ///< "0.1.0"
-std::string commit();  ///< abbreviated, "unknown" outside a checkout
+CATOPTRIC_API std::string version(); ///< "0.1.0"
+CATOPTRIC_API std::string commit();  ///< abbreviated, "unknown" outside a checkout
 
 /// Whether an Engine of this process had to give up its device (Engine::usable). Its driver's
 /// threads may still be at work, and to take the program down under them can crash: such a program
 /// ends with std::_Exit.
-bool any_abandoned();
+CATOPTRIC_API bool any_abandoned();
 
 /// What an engine has compiled so far. A software driver compiles more of a pipeline within the
 /// frame that first uses it.
@@ -86,26 +91,28 @@ enum class CacheUse { none, made, used };
 /// validation layer is to watch.
 class Engine {
 public:
-    explicit Engine(const EngineOptions& options);
-    ~Engine();
+    CATOPTRIC_API explicit Engine(const EngineOptions& options);
+    CATOPTRIC_API ~Engine();
 
     /// False once the device was lost or could not be waited for, which threw `device_lost` or
     /// `exhausted`. Then all that needs the device throws the same again, and what the driver may
     /// still use is never freed. Another Engine can be made.
-    bool usable() const;
+    CATOPTRIC_API bool usable() const;
 
-    const DeviceInfo& device() const;
+    CATOPTRIC_API const DeviceInfo& device() const;
     /// What its user should know: a cache that cannot be used. Empty where all is well.
-    const std::string& warning() const;
-    Compiled compiled() const;
-    CacheUse cache_use() const;
+    CATOPTRIC_API const std::string& warning() const;
+    CATOPTRIC_API Compiled compiled() const;
+    CATOPTRIC_API CacheUse cache_use() const;
     /// Throws `internal` with the first message of the validation layer, when there is any.
-    void check_validation() const;
+    CATOPTRIC_API void check_validation() const;
 
 private:
     friend class Screen;
     friend class Session;
+    friend struct Embedding;
     struct Impl;
+    Engine(const EngineOptions& options, const gpu::GivenDevice& given);
     std::unique_ptr<Impl> impl_;
 };
 

@@ -4,11 +4,14 @@
 #include "gpu/device.hpp"
 #include "gpu/pipeline.hpp"
 
+#include <optional>
+
 namespace catoptric::app {
 
 /// What sessions share.
 struct Engine::Impl {
-    explicit Impl(const EngineOptions& options);
+    explicit Impl(const EngineOptions& options,
+                  const std::optional<gpu::GivenDevice>& given = std::nullopt);
     gpu::Device device;
     gpu::Pipelines pipelines;
     DeviceInfo info;

@@ -5,6 +5,7 @@
 #include "graph/run.hpp"
 #include "reflect/frame.hpp"
 
+#include <memory>
 #include <vector>
 
 /// A frame between its specification and what is read of it. Internal: names Vulkan.
@@ -22,6 +23,7 @@ struct Declared {
 struct FrameGraph {
     graph::Graph graph;
     std::vector<Declared> parts;
+    std::shared_ptr<graph::Physical> target; ///< of an embedder; may be none
 };
 
 /// Throws `usage` for none, for an unknown one and for one that is there twice.

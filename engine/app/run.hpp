@@ -1,7 +1,8 @@
 #pragma once
 
-#include "app/session.hpp"
-#include "app/watcher.hpp"
+#include "../core/export.hpp"
+#include "session.hpp"
+#include "watcher.hpp"
 
 #include <vector>
 
@@ -36,10 +37,10 @@ struct Result {
 class Frames {
 public:
     /// Throws `usage`. The session shows the request's scene; both must outlive this.
-    Frames(Session& session, const Request& request);
+    CATOPTRIC_API Frames(Session& session, const Request& request);
 
     /// Renders the next one; false after the last.
-    bool next();
+    CATOPTRIC_API bool next();
     /// Other frames may follow in the session until the next call of `next`, which goes on as if
     /// there had been none. What is not read of the last frame by then is lost.
     void set_aside() { aside_.emplace(session_.set_aside()); }
@@ -48,7 +49,7 @@ public:
     bool settled() const { return settled_; }
     const std::vector<FrameTimes>& times() const { return times_; } ///< of the measured ones so far
     /// What there is after the frame that was rendered last.
-    Result result() const;
+    CATOPTRIC_API Result result() const;
 
 private:
     Session& session_;
@@ -62,8 +63,8 @@ private:
 };
 
 /// All frames of a request in a session of its scene. The watcher is told of each and may end them.
-Result run(Session& session, const Request& request, const Watcher& watcher = {});
+CATOPTRIC_API Result run(Session& session, const Request& request, const Watcher& watcher = {});
 /// The same in a session of its own.
-Result run(Engine& engine, const Request& request);
+CATOPTRIC_API Result run(Engine& engine, const Request& request);
 
 } // namespace catoptric::app

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "app/engine.hpp"
-#include "core/math.hpp"
-#include "core/plan_entry.hpp"
-#include "measure/picture.hpp"
-#include "require/model.hpp"
-#include "scene/edit.hpp"
-#include "scene/scene.hpp"
+#include "../core/export.hpp"
+#include "../core/math.hpp"
+#include "../core/plan_entry.hpp"
+#include "../measure/picture.hpp"
+#include "../require/model.hpp"
+#include "../scene/edit.hpp"
+#include "../scene/scene.hpp"
+#include "engine.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +37,7 @@ enum class Timing { isolated, pipelined };
 /// what the picture needs (require/model.hpp), with the same picture where nothing else is said.
 enum class Modelling { everything, required };
 /// "everything", "required"
-std::string name_of(Modelling modelling);
+CATOPTRIC_API std::string name_of(Modelling modelling);
 
 /// What one frame shows and how it is made.
 struct FrameSpec {
@@ -143,24 +144,24 @@ struct Part {
 class Frame {
 public:
     /// Waits for the device; stay with this value from then on.
-    const FrameTimes& times() const;
+    CATOPTRIC_API const FrameTimes& times() const;
     /// Techniques in it.
-    std::size_t size() const;
+    CATOPTRIC_API std::size_t size() const;
     /// Whether a technique shows what the frame before left.
-    bool remembers(std::size_t part = 0) const;
+    CATOPTRIC_API bool remembers(std::size_t part = 0) const;
     /// What was rendered, and what was left out.
-    const require::Model& model() const;
+    CATOPTRIC_API const require::Model& model() const;
     /// Linear radiance; the cheapest thing to read.
-    measure::Picture hdr(std::size_t part = 0) const;
+    CATOPTRIC_API measure::Picture hdr(std::size_t part = 0) const;
     /// Everything that one technique made.
-    Part read(std::size_t part = 0) const;
-    std::vector<Part> read_all() const;
+    CATOPTRIC_API Part read(std::size_t part = 0) const;
+    CATOPTRIC_API std::vector<Part> read_all() const;
     /// Colours and distances around every mirror, of a technique that keeps both; with
     /// `with_captures`, else `internal`.
     render::Captured captures(std::size_t part = 0) const;
     /// All that the next frame can see of this one, and the linear pictures, as bytes: a still
     /// scene whose frames agree in it changes no more. Empty where nothing is remembered.
-    std::vector<std::byte> state() const;
+    CATOPTRIC_API std::vector<std::byte> state() const;
 
 private:
     friend class Session;
@@ -187,9 +188,9 @@ struct Counts {
 /// Only the session that gave it takes it back; the engine must outlive it.
 class Sequence {
 public:
-    Sequence(Sequence&&) noexcept;
-    Sequence& operator=(Sequence&&) noexcept;
-    ~Sequence();
+    CATOPTRIC_API Sequence(Sequence&&) noexcept;
+    CATOPTRIC_API Sequence& operator=(Sequence&&) noexcept;
+    CATOPTRIC_API ~Sequence();
 
 private:
     friend class Session;
@@ -211,44 +212,46 @@ class Session {
 public:
     /// The scene at rest. `in_flight`: frames, 1 to 3, that may be under way before the oldest is
     /// waited for. Throws `exhausted` where the scene is beyond what the device allows.
-    Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight = 1);
-    ~Session();
+    CATOPTRIC_API Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight = 1);
+    CATOPTRIC_API ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    const scene::Scene& scene() const;
+    CATOPTRIC_API const scene::Scene& scene() const;
     /// Submits a frame. Waits where all places in flight are taken, and for the frame before where
     /// the scene is written to. Other techniques than those of the frame before, or another model,
     /// begin without history. Throws `usage` for a specification that means nothing.
-    Frame frame(const FrameSpec& spec);
-    /// The same, shown in a window: of the screen's engine, which must `fit`. A frame that the
+    CATOPTRIC_API Frame frame(const FrameSpec& spec);
+    /// The same, shown in a window (not for programs outside yet): of the screen's engine, which
+    /// must `fit`. A frame that the
     /// window has no image for is rendered all the same.
     Frame show(const FrameSpec& spec, Screen& screen, const Showing& showing);
     /// Edits the scene; seen from the next frame on. History stays unless the edit changes the
     /// scene's units on the device (render::space_of): it is much larger or smaller now, or what
     /// its origin goes by stands elsewhere (an outermost object, small mirrors). Throws `usage` for
     /// an object or material that is not there.
-    void change(const scene::Edit& edit);
+    CATOPTRIC_API void change(const scene::Edit& edit);
     /// A cut: the next frame begins without history.
-    void forget();
+    CATOPTRIC_API void forget();
     /// A cut, after which `resume` can go on from here. Waits for what is in flight.
-    Sequence set_aside();
+    CATOPTRIC_API Sequence set_aside();
     /// The next frame follows the last one of a sequence that was set aside; the one so far is
     /// forgotten. Where the scene's units changed in between (see change) it begins without
     /// history.
-    void resume(Sequence sequence);
+    CATOPTRIC_API void resume(Sequence sequence);
     /// The plan of a frame that has a frame before it, written out; with Modelling::required, of a
     /// still scene whose captures change no more.
-    std::string plan(const FrameSpec& spec, PlanFormat format);
+    CATOPTRIC_API std::string plan(const FrameSpec& spec, PlanFormat format);
     /// A frame that clears the cubes of every mirror, 256 texels an edge, and draws nothing: what
     /// any capture costs before it shows something. History stays.
-    FrameTimes clear_cubes();
-    Counts counts() const;
+    CATOPTRIC_API FrameTimes clear_cubes();
+    CATOPTRIC_API Counts counts() const;
     /// Of the scene as it is resident now.
-    Setup setup() const;
+    CATOPTRIC_API Setup setup() const;
 
 private:
     friend class Frame;
+    friend struct Embedding;
     /// `finish`: adds to the frame what is not a technique's, before it is submitted.
     Frame submit(const FrameSpec& spec, const std::function<graph::Outside(FrameGraph&)>& finish);
     struct Impl;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "export.hpp"
+
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -23,28 +25,48 @@ enum class Failure {
     terminated = 143,  ///< SIGTERM
 };
 
-/// Thrown by `check` and `fail`. `what()` says what, where, wanted and found.
-class Error : public std::runtime_error {
-public:
-    Error(Failure why, const std::string& message) : std::runtime_error(message), failure(why) {}
-    Failure failure;
-};
-
 /// Whether a signal asked for it.
 constexpr bool is_stop(Failure failure) {
     return failure == Failure::hangup || failure == Failure::interrupted ||
            failure == Failure::terminated;
 }
 
-/// Throws `Error` with the parts streamed one after the other.
+/// What everything that fails throws: one of the types below, by its `failure`. `what()` says what,
+/// where, wanted and found.
+class CATOPTRIC_API Error : public std::runtime_error {
+public:
+    Error(Failure why, const std::string& message) : std::runtime_error(message), failure(why) {}
+    Failure failure;
+};
+
+/// Of one kind of failure, for who catches only that.
+template <Failure kind>
+class CATOPTRIC_API ErrorOf : public Error {
+public:
+    explicit ErrorOf(const std::string& message) : Error(kind, message) {}
+};
+using UsageError = ErrorOf<Failure::usage>;
+using BadData = ErrorOf<Failure::bad_data>;
+using MissingInput = ErrorOf<Failure::missing_input>;
+using NoDevice = ErrorOf<Failure::no_device>;
+using InternalError = ErrorOf<Failure::internal>;
+using CannotCreate = ErrorOf<Failure::cannot_create>;
+using IoError = ErrorOf<Failure::io>;
+using Exhausted = ErrorOf<Failure::exhausted>;
+using DeviceLost = ErrorOf<Failure::device_lost>;
+
+/// Throws what has this failure's type; `Error` itself where a signal or a threshold ends things.
+[[noreturn]] CATOPTRIC_API void throw_error(Failure failure, const std::string& message);
+
+/// The same with the parts streamed one after the other.
 template <typename... Parts>
 [[noreturn]] void fail(Failure failure, const Parts&... parts) {
     std::ostringstream text;
     (text << ... << parts);
-    throw Error(failure, text.str());
+    throw_error(failure, text.str());
 }
 
-/// Throws `Error(failure)` with the streamed parts unless `ok`.
+/// Fails with the streamed parts unless `ok`.
 template <typename... Parts>
 void check(bool ok, Failure failure, const Parts&... parts) {
     if (!ok) fail(failure, parts...);

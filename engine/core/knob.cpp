@@ -93,9 +93,11 @@ void Settings::set(std::string_view owner, std::string_view name, std::string_vi
                               (knob.special.empty() ? "" : " or " + std::string(knob.special));
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    check(error == std::errc{} && end == text.data() + text.size() && value == std::floor(value),
-          Failure::usage, "knob '", name, "' of '", owner, "' takes a whole number from ", range,
-          ", not '", text, "'", did_you_mean(text, std::vector{std::string(knob.special)}));
+    check(error == std::errc{} && end == text.data() + text.size() &&
+              (knob.is_real || value == std::floor(value)),
+          Failure::usage, "knob '", name, "' of '", owner, "' takes a ",
+          knob.is_real ? "" : "whole ", "number from ", range, ", not '", text, "'",
+          did_you_mean(text, std::vector{std::string(knob.special)}));
     check(value >= knob.low && value <= knob.high, Failure::usage, "knob '", name, "' of '", owner,
           "' takes ", range, ", not ", text);
     values_[index(name)] = value;

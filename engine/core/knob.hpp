@@ -20,7 +20,8 @@ struct Knob {
     double value = 0; ///< default; for a choice the index into `choices`
     std::span<const std::string_view> choices = {}; ///< names, when the knob is a choice
     std::string_view special =
-        {}; ///< a word allowed in place of the number, as "auto"; empty: none
+        {};               ///< a word allowed in place of the number, as "auto"; empty: none
+    bool is_real = false; ///< else it is a whole number
 };
 
 /// A value for each of a technique's knobs.

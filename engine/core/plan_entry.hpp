@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/setting.hpp"
+#include "setting.hpp"
 
 #include <cstdint>
 #include <string>

@@ -79,9 +79,13 @@ std::vector<DeviceInfo> list_devices() {
 Device::Device(const DeviceOptions& options)
     : messages_(std::make_unique<std::vector<std::string>>()) {
     try {
-        create_instance(options);
-        choose(options);
-        create_device();
+        if (options.given)
+            adopt(*options.given);
+        else
+            create_instance(options), choose(options);
+        look_at(options);
+        if (!options.given) create_device();
+        make_pool();
     } catch (...) {
         close();
         throw;
@@ -96,6 +100,7 @@ void Device::close() {
         return;
     }
     one_shot_pool_ = {};
+    if (is_given_) return;
     if (device_) vkDestroyDevice(device_, nullptr);
     if (messenger_)
         reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
@@ -152,6 +157,22 @@ void Device::choose(const DeviceOptions& options) {
           "' lacks ", infos[index].missing);
     physical_ = devices[index];
     info_ = infos[index];
+    queue_family_ = static_cast<std::uint32_t>(find_queue_family(physical_));
+}
+
+void Device::adopt(const GivenDevice& given) {
+    is_given_ = true;
+    instance_ = given.instance, physical_ = given.physical, device_ = given.device;
+    queue_ = given.queue, queue_family_ = given.queue_family;
+    check(instance_ && physical_ && device_ && queue_, Failure::usage,
+          "a given device wants an instance, a physical device, a device and a queue");
+    info_ = describe(physical_);
+    check(info_.missing.empty(), Failure::no_device, "the given device '", info_.name, "' lacks ",
+          info_.missing);
+}
+
+/// What the physical device allows and has.
+void Device::look_at(const DeviceOptions& options) {
     staged_ = options.staged;
     VkPhysicalDeviceMaintenance3Properties pieces{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
@@ -164,33 +185,22 @@ void Device::choose(const DeviceOptions& options) {
     vkGetPhysicalDeviceFeatures2(physical_, &has.core);
     layered_ = options.layered && has.v12.shaderOutputLayer;
     doubles_ = has.core.features.shaderFloat64;
-}
-
-void Device::create_device() {
-    queue_family_ = static_cast<std::uint32_t>(find_queue_family(physical_));
     std::uint32_t count = queue_family_ + 1;
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+    check(count > queue_family_, Failure::usage, "device '", info_.name, "' has ", count,
+          " queue families, number ", queue_family_, " was given");
     timestamp_bits_ = families[queue_family_].timestampValidBits;
+}
 
+void Device::create_device() {
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueFamilyIndex = queue_family_;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
     Features features;
-    features.core.features.imageCubeArray = true;
-    features.core.features.fragmentStoresAndAtomics = true;
-    features.core.features.shaderClipDistance = true;
-    features.core.features.shaderFloat64 = doubles_;
-    features.v12.scalarBlockLayout = true;
-    features.v12.timelineSemaphore = true;
-    features.v12.hostQueryReset = true;
-    features.v12.shaderOutputLayer = layered_;
-    features.v13.dynamicRendering = true;
-    features.v13.synchronization2 = true;
-    features.v13.shaderTerminateInvocation = true; // what `discard` is in SPIR-V for Vulkan 1.3
-    features.v13.maintenance4 = true; // work-group sizes as glslang writes them for Vulkan 1.3
+    features.switch_on(physical_);
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     const char* const extension = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     create.enabledExtensionCount = surface_ ? 1 : 0;
@@ -203,7 +213,9 @@ void Device::create_device() {
     if (has_debug_utils_)
         set_object_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
             vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
+}
 
+void Device::make_pool() {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = queue_family_;

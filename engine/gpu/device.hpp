@@ -25,6 +25,15 @@ struct DeviceInfo {
 /// Throws `Failure::no_device` saying what to install when there is no driver.
 std::vector<DeviceInfo> list_devices();
 
+/// Somebody else's, made with Features::switch_on; all of it outlives the Device.
+struct GivenDevice {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t queue_family = 0; ///< graphics, compute and copies, with timestamps
+};
+
 struct DeviceOptions {
     std::string wanted; ///< index into list_devices(), or part of a name; empty = the first usable
     bool validate = false; ///< Khronos validation layer: core, synchronization, queue submit
@@ -33,6 +42,7 @@ struct DeviceOptions {
     std::vector<std::string> instance_extensions = {}; ///< that the window system wants
     /// Makes the surface that the device is to show pictures on; empty: none.
     std::function<VkSurfaceKHR(VkInstance)> make_surface = {};
+    std::optional<GivenDevice> given = {}; ///< in place of one of its own
 };
 
 /// Whether a device of this process was abandoned: its driver's threads may still be at work, and a
@@ -114,7 +124,10 @@ private:
     void close();
     void create_instance(const DeviceOptions& options);
     void choose(const DeviceOptions& options);
+    void adopt(const GivenDevice& given);
+    void look_at(const DeviceOptions& options);
     void create_device();
+    void make_pool();
     void abandon(const Error& why);
     void begin_one_shot(const std::string& doing);
     void end_one_shot(const std::string& doing);
@@ -135,6 +148,7 @@ private:
     bool doubles_ = false;
     bool staged_ = false;
     bool has_debug_utils_ = false;
+    bool is_given_ = false;
     bool abandoned_ = false;
     std::optional<Error> why_abandoned_;
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name_ = nullptr;

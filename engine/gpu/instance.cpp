@@ -225,6 +225,23 @@ bool can_show(VkPhysicalDevice device, VkSurfaceKHR surface) {
     return can && std::ranges::any_of(extensions, is_swapchain);
 }
 
+void Features::switch_on(VkPhysicalDevice device) {
+    Features has;
+    vkGetPhysicalDeviceFeatures2(device, &has.core);
+    core.features.imageCubeArray = true;
+    core.features.fragmentStoresAndAtomics = true;
+    core.features.shaderClipDistance = true;
+    core.features.shaderFloat64 = has.core.features.shaderFloat64;
+    v12.scalarBlockLayout = true;
+    v12.timelineSemaphore = true;
+    v12.hostQueryReset = true;
+    v12.shaderOutputLayer = has.v12.shaderOutputLayer;
+    v13.dynamicRendering = true;
+    v13.synchronization2 = true;
+    v13.shaderTerminateInvocation = true; // what `discard` is in SPIR-V for Vulkan 1.3
+    v13.maintenance4 = true;              // work-group sizes as glslang writes them for Vulkan 1.3
+}
+
 Features::Features() {
     core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     v11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES;

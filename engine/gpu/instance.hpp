@@ -28,6 +28,8 @@ int find_queue_family(VkPhysicalDevice device);
 /// The features that the engine switches on, as one chain; not copyable (it points into itself).
 struct Features {
     Features();
+    /// Switches them on; of those that not every device has, what this one has.
+    void switch_on(VkPhysicalDevice device);
     Features(const Features&) = delete;
     Features& operator=(const Features&) = delete;
     /// Names of the required ones that `device` lacks, comma-separated.

@@ -199,10 +199,31 @@ private:
 
 } // namespace
 
-const EmbeddedShader& find_shader(std::string_view name) {
+namespace {
+
+std::map<std::string_view, EmbeddedShader>& added() {
+    static std::map<std::string_view, EmbeddedShader> shaders; // filled while the program starts
+    return shaders;
+}
+
+const EmbeddedShader* find(std::string_view name) {
     const auto shaders = embedded_shaders();
     const auto found = std::ranges::find(shaders, name, &EmbeddedShader::name);
-    check(found != shaders.end(), Failure::internal, "there is no shader '", name, "'");
+    if (found != shaders.end()) return &*found;
+    const auto other = added().find(name);
+    return other == added().end() ? nullptr : &other->second;
+}
+
+} // namespace
+
+void add_shader(const EmbeddedShader& shader) {
+    check(!find(shader.name), Failure::usage, "there is a shader '", shader.name, "' already");
+    added().emplace(shader.name, shader);
+}
+
+const EmbeddedShader& find_shader(std::string_view name) {
+    const EmbeddedShader* found = find(name);
+    check(found, Failure::internal, "there is no shader '", name, "'");
     return *found;
 }
 

@@ -14,7 +14,10 @@ struct EmbeddedShader {
     std::span<const std::uint32_t> words;
 };
 std::span<const EmbeddedShader> embedded_shaders();
-/// Throws `Failure::internal` for a name that was not compiled in.
+/// Adds one of a program's own, before anything uses the table; name and words stay the caller's.
+/// Throws `Failure::usage` for a name that is taken.
+void add_shader(const EmbeddedShader& shader);
+/// Of both kinds. Throws `Failure::internal` for a name that there is not.
 const EmbeddedShader& find_shader(std::string_view name);
 
 enum class BindingKind {

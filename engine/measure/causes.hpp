@@ -1,6 +1,7 @@
 #pragma once
 
-#include "measure/picture.hpp"
+#include "../core/export.hpp"
+#include "picture.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -48,13 +49,13 @@ struct PixelCause {
 };
 
 /// Places of the mirrors' pixels in the picture, ascending.
-std::vector<std::size_t> mirror_pixels(std::span<const std::uint32_t> hits);
+CATOPTRIC_API std::vector<std::size_t> mirror_pixels(std::span<const std::uint32_t> hits);
 
 /// Sums what is known of each of `mirror_pixels(hits)`: the row's squared error `whole`, which the
 /// parts of `causes` add up to, the last of them being what nothing explains. Pixels that are not
 /// finite in one of them are left out, as in `difference`. `off`, of the whole picture, says which
 /// to name in `largest`.
-Causes sum_up(std::span<const std::uint32_t> hits, const Mask& off, std::span<const double> whole,
-              const std::vector<PixelCause>& causes);
+CATOPTRIC_API Causes sum_up(std::span<const std::uint32_t> hits, const Mask& off,
+                            std::span<const double> whole, const std::vector<PixelCause>& causes);
 
 } // namespace catoptric::measure

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "core/error.hpp"
-#include "core/plan_entry.hpp"
-#include "measure/causes.hpp"
-#include "measure/difference.hpp"
-#include "measure/lag.hpp"
-#include "measure/light_edges.hpp"
-#include "measure/lookup.hpp"
-#include "measure/picture.hpp"
-#include "measure/statistics.hpp"
+#include "../core/error.hpp"
+#include "../core/plan_entry.hpp"
+#include "causes.hpp"
+#include "difference.hpp"
+#include "lag.hpp"
+#include "light_edges.hpp"
+#include "lookup.hpp"
+#include "picture.hpp"
+#include "statistics.hpp"
 
 #include <cmath>
 #include <cstdint>

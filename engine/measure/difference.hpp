@@ -1,6 +1,7 @@
 #pragma once
 
-#include "measure/picture.hpp"
+#include "../core/export.hpp"
+#include "picture.hpp"
 
 #include <cstddef>
 #include <limits>
@@ -37,8 +38,8 @@ struct Difference {
 
 /// `flip_map` is `flip` of the two whole pictures as displayed: computed once, averaged over each
 /// mask. Symmetric in a and b. Pictures, mask or map of different sizes: `Failure::bad_data`.
-Difference difference(const Picture& a, const Picture& b, const Mask& mask,
-                      std::span<const float> flip_map);
+CATOPTRIC_API Difference difference(const Picture& a, const Picture& b, const Mask& mask,
+                                    std::span<const float> flip_map);
 
 /// Whether values are averaged as they are or clamped to [0,1] first.
 enum class Range { unclamped, clamped };
@@ -51,6 +52,6 @@ struct Mean {
 
 /// Over the pixels that count; NaN when none does. A NaN or (unclamped) infinite pixel makes the
 /// mean so, too.
-Mean mean_of(const Picture& picture, Range range, const Mask& mask = {});
+CATOPTRIC_API Mean mean_of(const Picture& picture, Range range, const Mask& mask = {});
 
 } // namespace catoptric::measure

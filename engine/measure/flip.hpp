@@ -1,6 +1,7 @@
 #pragma once
 
-#include "measure/picture.hpp"
+#include "../core/export.hpp"
+#include "picture.hpp"
 
 #include <span>
 #include <vector>
@@ -14,10 +15,10 @@ namespace catoptric::measure {
 /// 67 is a 4K screen 0.7 m wide seen from 0.7 m.
 /// Pictures of different or no size are refused (`Failure::bad_data`). Works in double, on every
 /// core; costs about 0.6 us (one core) and 150 bytes a pixel at 67 pixels per degree.
-std::vector<float> flip(const Picture& a_display, const Picture& b_display,
-                        double pixels_per_degree = 67);
+CATOPTRIC_API std::vector<float> flip(const Picture& a_display, const Picture& b_display,
+                                      double pixels_per_degree = 67);
 
 /// Mean of a FLIP map over the pixels that count; NaN when none does.
-double flip_mean(std::span<const float> flip_map, const Mask& mask = {});
+CATOPTRIC_API double flip_mean(std::span<const float> flip_map, const Mask& mask = {});
 
 } // namespace catoptric::measure

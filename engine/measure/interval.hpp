@@ -1,5 +1,7 @@
 #pragma once
 
+#include "../core/export.hpp"
+
 #include <cmath>
 #include <limits>
 #include <span>
@@ -23,11 +25,11 @@ struct Interval {
 /// P(Binomial(n, 1/2) < k) <= 2.5 % (David and Nagaraja, Order Statistics, 7.1). 6 to 8 values:
 /// their range (96.9 % for 6). Unknown for fewer than `kFewest` and where one is NaN. Costs
 /// O(n log n).
-Interval median_interval(std::span<const double> values);
+CATOPTRIC_API Interval median_interval(std::span<const double> values);
 
 /// Of the ratio a[i]/b[i], pair by pair, and of the difference a[i]-b[i]. Lists of different
 /// lengths: only as many pairs as the shorter one has.
-Interval ratio_interval(std::span<const double> a, std::span<const double> b);
-Interval difference_interval(std::span<const double> a, std::span<const double> b);
+CATOPTRIC_API Interval ratio_interval(std::span<const double> a, std::span<const double> b);
+CATOPTRIC_API Interval difference_interval(std::span<const double> a, std::span<const double> b);
 
 } // namespace catoptric::measure

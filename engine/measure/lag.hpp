@@ -1,6 +1,7 @@
 #pragma once
 
-#include "measure/difference.hpp"
+#include "../core/export.hpp"
+#include "difference.hpp"
 
 #include <optional>
 #include <string>
@@ -53,12 +54,13 @@ struct Lag {
 };
 
 /// A figure of every instant; NaN at those that see no mirror.
-std::vector<double> figures_of(const std::vector<Difference>& errors, double Difference::*figure);
+CATOPTRIC_API std::vector<double> figures_of(const std::vector<Difference>& errors,
+                                             double Difference::*figure);
 /// Over the instants that see a mirror; NaN where none does.
-double mean_of(const std::vector<Difference>& errors, double Difference::*figure);
-double percentile_of(const std::vector<Difference>& errors, double Difference::*figure,
-                     double fraction);
+CATOPTRIC_API double mean_of(const std::vector<Difference>& errors, double Difference::*figure);
+CATOPTRIC_API double percentile_of(const std::vector<Difference>& errors,
+                                   double Difference::*figure, double fraction);
 /// The instant of the largest FLIP, seconds; NaN where there is none.
-double worst_instant(const Lag& lag, const LagAtSpeed& at);
+CATOPTRIC_API double worst_instant(const Lag& lag, const LagAtSpeed& at);
 
 } // namespace catoptric::measure

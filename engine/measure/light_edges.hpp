@@ -1,6 +1,7 @@
 #pragma once
 
-#include "measure/difference.hpp"
+#include "../core/export.hpp"
+#include "difference.hpp"
 
 namespace catoptric::measure {
 
@@ -16,6 +17,6 @@ struct LightEdges {
 
 /// Of the row's difference over the pixels at light edges, and over all other mirror pixels. Where
 /// neither has a finite pixel, every figure is NaN.
-LightEdges light_edges(const Difference& there, const Difference& elsewhere);
+CATOPTRIC_API LightEdges light_edges(const Difference& there, const Difference& elsewhere);
 
 } // namespace catoptric::measure

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/math.hpp"
+#include "../core/export.hpp"
+#include "../core/math.hpp"
 
 #include <cstddef>
 #include <span>
@@ -25,10 +26,10 @@ struct LookupError {
 };
 
 /// All zero for an empty list.
-LookupError lookup_error(std::span<const LookedUp> pixels);
+CATOPTRIC_API LookupError lookup_error(std::span<const LookedUp> pixels);
 
 /// Angle between two directions in degrees; exact for small angles too (no acos of a cosine near
 /// 1).
-double angle_degrees(const dvec3& a, const dvec3& b);
+CATOPTRIC_API double angle_degrees(const dvec3& a, const dvec3& b);
 
 } // namespace catoptric::measure

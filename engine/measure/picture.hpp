@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/math.hpp"
+#include "../core/export.hpp"
+#include "../core/math.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,11 +34,11 @@ private:
 using Mask = std::vector<std::uint8_t>;
 
 /// Times 2^stops: what errors are figured on. 0 stops leave every bit as it is.
-vec3 exposed(const vec3& pixel, double exposure_stops);
-Picture exposed(Picture picture, double exposure_stops);
+CATOPTRIC_API vec3 exposed(const vec3& pixel, double exposure_stops);
+CATOPTRIC_API Picture exposed(Picture picture, double exposure_stops);
 
 /// What the screen shows: `picture` times 2^exposure_stops, clamped to [0,1], sRGB curve, rounded
 /// to 8 bits; values in [0,1] again (multiples of 1/255). NaN becomes 0.
-Picture to_display(const Picture& picture, double exposure_stops = 0);
+CATOPTRIC_API Picture to_display(const Picture& picture, double exposure_stops = 0);
 
 } // namespace catoptric::measure

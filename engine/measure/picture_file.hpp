@@ -1,6 +1,7 @@
 #pragma once
 
-#include "measure/picture.hpp"
+#include "../core/export.hpp"
+#include "picture.hpp"
 
 #include <filesystem>
 #include <string>
@@ -12,21 +13,21 @@ namespace catoptric::measure {
 /// Linear light from an OpenEXR (half or float, taken as it is, infinities and NaN included), a
 /// Radiance .hdr or a PNG (8 or 16 bit, always decoded with the sRGB curve, whatever its gamma
 /// chunk says). Grey becomes RGB; alpha and further channels are left out.
-Picture read_picture(const std::filesystem::path& path);
+CATOPTRIC_API Picture read_picture(const std::filesystem::path& path);
 
 /// A mask from a PNG: a pixel counts (255) if a colour channel is not zero; alpha does not matter.
 /// `width` and `height` are those of the pictures it is for; another size is `bad_data`.
-Mask read_mask(const std::filesystem::path& path, int width, int height);
+CATOPTRIC_API Mask read_mask(const std::filesystem::path& path, int width, int height);
 
 /// OpenEXR: 32-bit float R, G, B, every value bit-exact. The same picture gives the same bytes at
 /// all times (the date in the header is fixed).
-std::string exr_bytes(const Picture& picture);
+CATOPTRIC_API std::string exr_bytes(const Picture& picture);
 /// PNG: 8 bits a channel, of values already as the screen shows them (see `to_display`); others are
 /// clamped to [0,1], NaN to 0. The same picture gives the same bytes.
-std::string png_bytes(const Picture& display);
+CATOPTRIC_API std::string png_bytes(const Picture& display);
 
 /// The bytes above, put into place whole or not at all.
-void write_exr(const Picture& picture, const std::filesystem::path& path);
-void write_png(const Picture& display, const std::filesystem::path& path);
+CATOPTRIC_API void write_exr(const Picture& picture, const std::filesystem::path& path);
+CATOPTRIC_API void write_png(const Picture& display, const std::filesystem::path& path);
 
 } // namespace catoptric::measure

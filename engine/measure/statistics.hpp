@@ -1,6 +1,7 @@
 #pragma once
 
-#include "measure/interval.hpp"
+#include "../core/export.hpp"
+#include "interval.hpp"
 
 #include <cstddef>
 #include <span>
@@ -21,12 +22,12 @@ struct Summary {
 };
 
 /// Refuses an empty list and one with a NaN or infinity in it (`Failure::internal`).
-Summary summarise(std::span<const double> samples);
+CATOPTRIC_API Summary summarise(std::span<const double> samples);
 /// The same for what was measured in rounds, each with at least one sample.
-Summary summarise(std::span<const std::vector<double>> rounds);
+CATOPTRIC_API Summary summarise(std::span<const std::vector<double>> rounds);
 
 /// The value below which `fraction` (0..1) of the values lie, linear between the two nearest ranks:
 /// position fraction * (n - 1) of the sorted list. Refuses an empty list. Costs O(n).
-double percentile(std::vector<double> values, double fraction);
+CATOPTRIC_API double percentile(std::vector<double> values, double fraction);
 
 } // namespace catoptric::measure

@@ -52,4 +52,18 @@ render::MirrorLook look_into(const Surroundings& around, std::string fragment,
     return look;
 }
 
+render::MirrorLook look_of_search(const Technique& technique, const Surroundings& around,
+                                  const Settings& settings) {
+    render::MirrorLook look = look_into(around, technique.search, settings);
+    for (const Knob& knob : technique.knobs) {
+        if (std::ranges::find(kSearchKnobs, knob.name, &Knob::name) != kSearchKnobs.end()) continue;
+        const double value = settings.number(knob.name);
+        if (knob.is_real)
+            look.constants.emplace_back(knob.name, static_cast<float>(value));
+        else
+            look.constants.emplace_back(knob.name, static_cast<std::uint32_t>(value));
+    }
+    return look;
+}
+
 } // namespace catoptric::reflect

@@ -62,38 +62,39 @@ inline constexpr std::array<std::string_view, 2> kMirrorsChoices{"captured", "le
 inline constexpr std::array<std::string_view, 3> kShowChoices{"colour", "state", "residual"};
 
 /// Knobs of every search, after its own.
+inline constexpr std::array kSearchKnobs{
+    kFace,
+    kColour,
+    kDistance,
+    kRange,
+    kContinue,
+    Knob{.name = "lookup",
+         .help = "mix the colours of four texels, or only of those that show one object",
+         .high = 1,
+         .value = 1,
+         .choices = kLookupChoices},
+    Knob{.name = "captures",
+         .help = "captures asked where the search knows no answer: the mirror's own, or then the "
+                 "others",
+         .high = 1,
+         .choices = kCapturesChoices},
+    Knob{.name = "mirrors",
+         .help = "left_out: captures without mirrors that are exact spheres, which rays are "
+                 "followed through anyway",
+         .high = 1,
+         .choices = kMirrorsChoices},
+    Knob{.name = "show",
+         .help = "what mirrors show: their colour, whether the search ended in a hit (green), "
+                 "unknown (red) or a miss (blue), or its residual",
+         .high = 2,
+         .choices = kShowChoices},
+    kShadow,
+    kShadowMapEdge};
+
 template <std::size_t N>
-constexpr std::array<Knob, N + 11> search_knobs(const std::array<Knob, N>& own) {
-    const std::array<Knob, 11> shared{
-        kFace,
-        kColour,
-        kDistance,
-        kRange,
-        kContinue,
-        Knob{.name = "lookup",
-             .help = "mix the colours of four texels, or only of those that show one object",
-             .high = 1,
-             .value = 1,
-             .choices = kLookupChoices},
-        Knob{.name = "captures",
-             .help = "captures asked where the search knows no answer: the mirror's own, or then "
-                     "the others",
-             .high = 1,
-             .choices = kCapturesChoices},
-        Knob{.name = "mirrors",
-             .help = "left_out: captures without mirrors that are exact spheres, which rays are "
-                     "followed through anyway",
-             .high = 1,
-             .choices = kMirrorsChoices},
-        Knob{.name = "show",
-             .help = "what mirrors show: their colour, whether the search ended in a hit (green), "
-                     "unknown (red) or a miss (blue), or its residual",
-             .high = 2,
-             .choices = kShowChoices},
-        kShadow,
-        kShadowMapEdge};
-    std::array<Knob, N + 11> knobs{};
-    std::ranges::copy(shared, std::ranges::copy(own, knobs.begin()).out);
+constexpr std::array<Knob, N + kSearchKnobs.size()> search_knobs(const std::array<Knob, N>& own) {
+    std::array<Knob, N + kSearchKnobs.size()> knobs{};
+    std::ranges::copy(kSearchKnobs, std::ranges::copy(own, knobs.begin()).out);
     return knobs;
 }
 
@@ -110,6 +111,10 @@ bool visits_others(const Settings& settings);
 /// `continue`.
 render::MirrorLook look_into(const Surroundings& around, std::string fragment,
                              const Settings& settings);
+
+/// The look of a Technique::search: the knobs that are its own are the shader's constants.
+render::MirrorLook look_of_search(const Technique& technique, const Surroundings& around,
+                                  const Settings& settings);
 
 /// R = N + 2 with one light.
 inline int feedback_passes(int mirrors, int lights, const Settings& settings) {

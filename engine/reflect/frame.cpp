@@ -182,9 +182,11 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
         render::FrameInputs own = inputs;
         if (is_mixed) own.prefix += choices[i].file_name() + "/";
         const Settings& settings = choices[i].settings;
-        Look look = choices[i].technique->look(
-            graph, own, settings,
-            {outputs.captures, maps.of(map_edge(settings)), mirrors_of(i, assignment)});
+        const Technique& technique = *choices[i].technique;
+        const Surroundings around{outputs.captures, maps.of(map_edge(settings)),
+                                  mirrors_of(i, assignment)};
+        Look look = technique.search ? Look{look_of_search(technique, around, settings), {}}
+                                     : technique.look(graph, own, settings, around);
         if (look.tracer) {
             tracers.push_back(*look.tracer);
             look.mirror.constants.emplace_back("tracer",

@@ -13,14 +13,6 @@ constexpr auto kKnobs = search_knobs(
                     .high = 256,
                     .value = 16}});
 
-Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-          const Surroundings& around) {
-    Look look{look_into(around, "reflect/march.frag", settings), {}};
-    look.mirror.constants.emplace_back("steps",
-                                       static_cast<std::uint32_t>(settings.integer("steps")));
-    return look;
-}
-
 constexpr std::string_view kCompared[] = {"march"};
 
 constexpr Technique kMarch{
@@ -33,7 +25,7 @@ constexpr Technique kMarch{
     .scene_passes = feedback_passes,
     .capture = capture_options,
     .in_captures = "reflect/parallax.frag",
-    .look = look};
+    .search = "reflect/march.frag"};
 const Registered kRow{kMarch};
 
 } // namespace

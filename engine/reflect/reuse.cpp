@@ -20,10 +20,7 @@ constexpr Technique kReuse{
     .scene_passes = feedback_passes,
     .capture = capture_options,
     .in_captures = kFragment,
-    .look = [](graph::Graph&, const render::FrameInputs&, const Settings& settings,
-               const Surroundings& around) {
-        return Look{look_into(around, kFragment, settings), {}};
-    }};
+    .search = kFragment};
 const Registered kRow{kReuse};
 
 } // namespace

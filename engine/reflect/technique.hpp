@@ -55,6 +55,9 @@ struct Technique {
                                       const Settings& settings) = nullptr;
     const char* in_captures = nullptr; ///< path of a fragment shader
     bool reads_whole_cubes = false;    ///< whatever directions its mirrors ask for
+    /// Path of a fragment shader that looks into the captures and needs nothing else: `look` is
+    /// null then (reflect/captures.hpp, look_of_search).
+    const char* search = nullptr;
     /// How its mirrors are drawn; declares what passes that takes.
     Look (*look)(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
                  const Surroundings& around) = nullptr;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measure/comparison.hpp"
+#include "../measure/comparison.hpp"
 
 // What `compare` found is data of measure/; this layer writes it and speaks of it by short names.
 namespace catoptric::report {

@@ -2,6 +2,7 @@
 
 #include "report/comparison.hpp"
 #include "report/encoded.hpp"
+#include "report/write.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -11,28 +12,13 @@
 
 namespace catoptric::report {
 
-/// report.json: schema "catoptric/compare/1".
-std::string to_json(const Comparison& comparison);
-/// rows.csv: one line a row, header first (RFC 4180). The last field of each says what an
-/// incomplete run lacks; without a row one line holds nothing else.
-std::string to_csv(const Comparison& comparison);
 /// The same of several, under one header.
 std::string to_csv(const std::vector<const Comparison*>& comparisons);
-/// report.md: the seed report's Table 1 beside ours, errors, what is dominated, and what to make of
-/// its guesses.
-std::string to_markdown(const Comparison& comparison);
-/// report.html: one self-contained page, table and pictures (data: URIs) side by side, no script.
-std::string to_html(const Comparison& comparison);
-
-/// Makes `folder` with its parents; folders that are there are taken. For before long work, whose
-/// results would have no place. Throws `cannot_create`.
-void create_folder(const std::filesystem::path& folder);
-
-/// Puts what there is into a folder, made as above: report.json, report.md, report.html, rows.csv,
-/// images/<row>.png and .exr, images/<row>-error.png and images/reference.png; of rows with causes
-/// images/causes-<row>.png, with drawn views images/worst-<row>.png. Written again and again as
-/// rows are added: pictures only where they are others than before, all else anew, every file put
-/// into place whole.
+/// Puts what there is into a folder, made as create_folder does: report.json, report.md,
+/// report.html, rows.csv, images/<row>.png and .exr, images/<row>-error.png and
+/// images/reference.png; of rows with causes images/causes-<row>.png, with drawn views
+/// images/worst-<row>.png. Written again and again as rows are added: pictures only where they are
+/// others than before, all else anew, every file put into place whole.
 class Writer {
 public:
     explicit Writer(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -94,8 +80,5 @@ private:
 /// it; `folder`: Comparison::images.
 std::vector<std::filesystem::path> files_of(const std::vector<std::string>& images,
                                             const std::string& folder = {});
-
-/// All of it once.
-void write(const Comparison& comparison, const std::filesystem::path& folder);
 
 } // namespace catoptric::report

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "core/mirror_id.hpp"
-#include "scene/scene.hpp"
+#include "../core/export.hpp"
+#include "../core/mirror_id.hpp"
+#include "../scene/scene.hpp"
 
 #include <array>
 #include <cstdint>
@@ -76,24 +77,24 @@ struct Model {
 };
 
 /// Nothing is left out and nothing kept.
-Model everything(const Question& question);
+CATOPTRIC_API Model everything(const Question& question);
 /// Only what the picture requires; with one stamp for everything, since nothing is known of what
 /// moves. O(vertices): for many pictures of one scene take Requirements.
-Model required(const Question& question);
+CATOPTRIC_API Model required(const Question& question);
 
 /// The same for picture after picture of one scene, whose meshes stay. Stamps are told apart by
 /// what moves, and equal ones stand for equal bytes within one object of this class.
 class Requirements {
 public:
     /// The scene at rest, motions with it. O(vertices), texels of images.
-    explicit Requirements(const scene::Scene& rest);
-    ~Requirements();
-    Requirements(Requirements&&) noexcept;
-    Requirements& operator=(Requirements&&) noexcept;
+    CATOPTRIC_API explicit Requirements(const scene::Scene& rest);
+    CATOPTRIC_API ~Requirements();
+    CATOPTRIC_API Requirements(Requirements&&) noexcept;
+    CATOPTRIC_API Requirements& operator=(Requirements&&) noexcept;
 
     /// O(objects) where nothing has changed, else with mirrors * (walls + movers + their shadows)
     /// (docs/require.md has figures). The model is this object's, until it is asked again.
-    const Model& of(const Question& question);
+    CATOPTRIC_API const Model& of(const Question& question);
 
 private:
     struct Impl;
@@ -102,6 +103,6 @@ private:
 
 /// What the model says, a line for each mirror and light, then what was left out and why.
 /// `scene`: for names.
-std::string to_text(const Model& model, const scene::Scene& scene);
+CATOPTRIC_API std::string to_text(const Model& model, const scene::Scene& scene);
 
 } // namespace catoptric::require

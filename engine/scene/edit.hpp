@@ -1,6 +1,7 @@
 #pragma once
 
-#include "scene/scene.hpp"
+#include "../core/export.hpp"
+#include "scene.hpp"
 
 #include <variant>
 
@@ -36,6 +37,6 @@ inline Edit set_material(std::size_t material, Material value) {
 
 /// Throws `Failure::usage` naming an index that is not there or a transform that is no place, and
 /// then leaves the scene as it was.
-void apply(Scene& scene, const Edit& edit);
+CATOPTRIC_API void apply(Scene& scene, const Edit& edit);
 
 } // namespace catoptric::scene

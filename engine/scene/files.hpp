@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/budget.hpp"
+#include "scene/account.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "../core/export.hpp"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,9 +20,9 @@ struct Gap {
 };
 
 /// Adds to the scene's gap of this id, or a new one.
-void add_gap(std::vector<Gap>& gaps, const std::string& id, const std::string& first,
-             std::uint64_t count = 1);
-void add_material_gap(std::vector<Gap>& gaps, const std::string& id, const std::string& first,
-                      std::size_t material);
+CATOPTRIC_API void add_gap(std::vector<Gap>& gaps, const std::string& id, const std::string& first,
+                           std::uint64_t count = 1);
+CATOPTRIC_API void add_material_gap(std::vector<Gap>& gaps, const std::string& id,
+                                    const std::string& first, std::size_t material);
 
 } // namespace catoptric::scene

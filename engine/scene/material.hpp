@@ -1,6 +1,7 @@
 #pragma once
 
-#include "scene/texture.hpp"
+#include "../core/export.hpp"
+#include "texture.hpp"
 
 #include <optional>
 
@@ -40,12 +41,12 @@ struct Material {
 
 /// Whether the surface is only there from its front, for eyes and rays that see: `front_only`, or
 /// a light that shines to one side. All but a light casts its shadow from both sides.
-bool is_one_sided(const Material& material);
+CATOPTRIC_API bool is_one_sided(const Material& material);
 /// Whether it can be seen by its own light.
-bool glows(const Material& material);
+CATOPTRIC_API bool glows(const Material& material);
 /// What it lights others with, radiance; 0: nothing.
-vec3 light_of(const Material& material);
+CATOPTRIC_API vec3 light_of(const Material& material);
 /// Whether some of it may be cut out.
-bool is_masked(const Material& material);
+CATOPTRIC_API bool is_masked(const Material& material);
 
 } // namespace catoptric::scene

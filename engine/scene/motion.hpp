@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/math.hpp"
+#include "../core/export.hpp"
+#include "../core/math.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -67,12 +68,12 @@ struct Follows {
 using Motion = std::variant<std::monostate, Harmonic, Keyframes, Follows>;
 
 /// The keys with their places and tangents as the world has them, relative to the object's rest.
-Keys in_the_world(const Keyframes& motion);
+CATOPTRIC_API Keys in_the_world(const Keyframes& motion);
 
 /// World from each of the rig's nodes. Throws nothing; costs a few hundred operations a node.
-std::vector<dmat4> world_from_nodes(const Rig& rig, double seconds);
+CATOPTRIC_API std::vector<dmat4> world_from_nodes(const Rig& rig, double seconds);
 
 /// Seconds: of a motion its period, or the time of its last key; 0: it stands still.
-double period_of(const Motion& motion);
+CATOPTRIC_API double period_of(const Motion& motion);
 
 } // namespace catoptric::scene

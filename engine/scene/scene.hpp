@@ -1,10 +1,11 @@
 #pragma once
 
-#include "core/math.hpp"
-#include "scene/environment.hpp"
-#include "scene/gap.hpp"
-#include "scene/material.hpp"
-#include "scene/motion.hpp"
+#include "../core/export.hpp"
+#include "../core/math.hpp"
+#include "environment.hpp"
+#include "gap.hpp"
+#include "material.hpp"
+#include "motion.hpp"
 
 #include <array>
 #include <filesystem>
@@ -105,40 +106,40 @@ struct Scene {
 /// The scene as it stands `seconds` after its start: every motion applied to the transforms (and
 /// to the exact spheres), cameras and lights without a surface too, none left. Pure. A time that is
 /// not finite is `Failure::usage`.
-Scene at(const Scene& scene, double seconds);
+CATOPTRIC_API Scene at(const Scene& scene, double seconds);
 /// The same of one camera.
-Camera camera_at(const Camera& camera, double seconds);
+CATOPTRIC_API Camera camera_at(const Camera& camera, double seconds);
 
 /// True when some object, light or camera moves.
-bool is_animated(const Scene& scene);
+CATOPTRIC_API bool is_animated(const Scene& scene);
 /// The longest period of all motions, seconds; 0 when nothing moves.
-double period(const Scene& scene);
+CATOPTRIC_API double period(const Scene& scene);
 
 /// Whether the object is a mirror: numbered, captured, counted.
-bool is_mirror(const Scene& scene, const Object& object);
+CATOPTRIC_API bool is_mirror(const Scene& scene, const Object& object);
 /// Indices into Scene::objects of the mirrors, in file order; mirror n (from 1) is entry n-1.
-std::vector<std::size_t> mirrors(const Scene& scene);
+CATOPTRIC_API std::vector<std::size_t> mirrors(const Scene& scene);
 
 /// One light for each connected component of each mesh that lights, in file order, then the others.
 /// Vertices
 /// connect through a shared index or an identical position (which then counts once in the mean);
 /// triangles without area, and vertices that only they use, contribute nothing.
-std::vector<PointLight> lights(const Scene& scene);
+CATOPTRIC_API std::vector<PointLight> lights(const Scene& scene);
 
 /// World-space bounds, at rest, of one object's triangles or of everything; empty for nothing.
-Bounds<double> bounds(const Scene& scene, const Object& object);
-Bounds<double> bounds(const Scene& scene);
+CATOPTRIC_API Bounds<double> bounds(const Scene& scene, const Object& object);
+CATOPTRIC_API Bounds<double> bounds(const Scene& scene);
 
-std::size_t triangle_count(const Scene& scene);
+CATOPTRIC_API std::size_t triangle_count(const Scene& scene);
 
 /// Where a file has no camera: a three-quarter view of the centre of the bounds at rest, from the
 /// front right and above (30 degrees, 20 degrees), vertical field of view 40 degrees, as near as
 /// the bounds' eight corners lie within 90 % of the height and width of a picture `aspect` times as
 /// wide as it is high. Rounded to about a millionth of its distance, so that it can be typed.
-Camera default_camera(const Scene& scene, double aspect = 1);
+CATOPTRIC_API Camera default_camera(const Scene& scene, double aspect = 1);
 
 /// 64-bit FNV-1a over names, geometry, materials, motion and cameras as 16 hex digits. The scene's
 /// own name, its warnings and its files do not count: a copied file has the same hash.
-std::string hash(const Scene& scene);
+CATOPTRIC_API std::string hash(const Scene& scene);
 
 } // namespace catoptric::scene

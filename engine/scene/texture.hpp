@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/math.hpp"
+#include "../core/math.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -1,34 +1,32 @@
-// The engine as a library: the built-in scene, one technique, one picture.
-#include <catoptric/app/run.hpp>
-#include <catoptric/measure/difference.hpp>
-#include <catoptric/measure/picture_file.hpp>
-#include <catoptric/measure/statistics.hpp>
-#include <catoptric/scene/load.hpp>
+// The engine as a library: a built-in scene, one technique, one picture.
+#include <catoptric/error.hpp>
+#include <catoptric/picture.hpp>
+#include <catoptric/scene.hpp>
+#include <catoptric/session.hpp>
 
 #include <cstdio>
-#include <exception>
 
 using namespace catoptric;
 
 int main() try {
-    app::Request request;
-    request.scene = scene::load("cornell-mirrors");
-    request.camera = request.scene.cameras.front();
-    request.techniques = {"parallax"};
-    request.size = {256, 256};
-
+    const scene::Scene scene = scene::load("cornell-mirrors");
     app::Engine engine({});
-    const app::Result result = app::run(engine, request);
+    app::Session session(engine, scene);
 
-    std::vector<double> gpu_ms;
-    for (const app::FrameTimes& frame : result.frames) gpu_ms.push_back(frame.gpu_ms);
-    const app::Part& part = result.parts.front();
-    const measure::Mean mean = measure::mean_of(part.hdr, measure::Range::clamped);
-    std::printf("%s on %s: mean %.4f, %.2f ms a frame\n", part.label.c_str(),
-                engine.device().name.c_str(), mean.all, measure::summarise(gpu_ms).median);
+    const app::FrameSpec spec{
+        .techniques = {"parallax"}, .camera = scene.cameras.front(), .size = {256, 256}};
+    // Mirrors show each other's last captures: each frame adds a bounce.
+    for (int bounce = 0; bounce < 7; ++bounce) session.frame(spec).times();
+    const app::Frame frame = session.frame(spec);
 
-    measure::write_png(part.display, "hello.png");
+    const measure::Picture hdr = frame.hdr();
+    std::printf("%s: mean %.4f, %.2f ms\n", engine.device().name.c_str(),
+                measure::mean_of(hdr, measure::Range::clamped).all, frame.times().gpu_ms);
+    measure::write_png(measure::to_display(hdr), "hello.png");
     return 0;
+} catch (const NoDevice& error) {
+    std::fprintf(stderr, "hello_mirror: no Vulkan device that will do: %s\n", error.what());
+    return 69;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "hello_mirror: %s\n", error.what());
     return 1;

@@ -44,7 +44,7 @@ Function find_in(VkInstance instance, const char* function) {
 std::unique_ptr<RayQueryDevice> RayQueryDevice::open(std::string& reason) {
     std::unique_ptr<RayQueryDevice> result(new RayQueryDevice);
     bool has_debug_utils = false;
-    result->instance_ = gpu::make_instance(true, has_debug_utils);
+    result->instance_ = gpu::make_instance(true, {}, has_debug_utils);
     if (has_debug_utils) result->make_messenger();
     for (VkPhysicalDevice device : gpu::physical_devices(result->instance_)) {
         const gpu::DeviceInfo info = gpu::describe(device);

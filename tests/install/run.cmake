@@ -1,18 +1,61 @@
-# cmake -DBUILD=... -DSOURCE=... -DWORK=... -P run.cmake: installs into an empty prefix, builds the
-# outside project against it and runs what came out.
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -P run.cmake: installs into an empty prefix, builds the outside project
+# against it, each of the installed headers alone, and the samples; runs what came out.
 cmake_policy(VERSION 3.25)
 function(step)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
     if(code)
         message(FATAL_ERROR "${ARGN}\nfailed (${code}):\n${out}")
     endif()
+    message("${out}")
     set(output "${out}" PARENT_SCOPE)
 endfunction()
 
+if(NOT LAUNCHER) # no compiler cache
+    set(LAUNCHER "")
+endif()
+set(samples hello_mirror own_geometry own_technique live_loop embedded)
 file(REMOVE_RECURSE ${WORK})
-file(COPY ${SOURCE}/tests/install/CMakeLists.txt ${SOURCE}/samples/hello_mirror/hello_mirror.cpp DESTINATION ${WORK}/outside)
+file(COPY ${SOURCE}/tests/install/CMakeLists.txt DESTINATION ${WORK}/outside)
+foreach(sample IN LISTS samples)
+    file(GLOB files ${SOURCE}/samples/${sample}/*)
+    file(COPY ${files} DESTINATION ${WORK}/outside)
+endforeach()
+
+# What docs/library.md shows of code is this code.
+file(GLOB files ${WORK}/outside/*)
+set(code "")
+foreach(file IN LISTS files)
+    file(READ ${file} text)
+    string(APPEND code "${text}")
+endforeach()
+file(READ ${SOURCE}/docs/library.md rest)
+set(blocks 0)
+while(rest MATCHES "\n```(cpp|cmake|glsl)\n")
+    string(FIND "${rest}" "${CMAKE_MATCH_0}" begin)
+    string(LENGTH "${CMAKE_MATCH_0}" length)
+    math(EXPR begin "${begin} + ${length}")
+    string(SUBSTRING "${rest}" ${begin} -1 rest)
+    string(FIND "${rest}" "\n```" end)
+    string(SUBSTRING "${rest}" 0 ${end} block)
+    string(SUBSTRING "${rest}" ${end} -1 rest)
+    string(SUBSTRING "${rest}" 4 -1 rest)
+    string(FIND "${code}" "${block}" found)
+    if(found EQUAL -1)
+        message(FATAL_ERROR "docs/library.md shows code that is in no sample:\n${block}")
+    endif()
+    math(EXPR blocks "${blocks} + 1")
+endwhile()
+if(blocks LESS 4)
+    message(FATAL_ERROR "docs/library.md shows ${blocks} blocks of code, wanted at least 4")
+endif()
+
 step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-step(${CMAKE_COMMAND} -S ${WORK}/outside -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix "-DCMAKE_CXX_FLAGS=${FLAGS}")
+file(GLOB library ${WORK}/prefix/lib*/libcatoptric.so ${WORK}/prefix/lib/*/libcatoptric.so)
+if(NOT FLAGS) # sanitizers export much
+    step(${SOURCE}/tests/install/exports.sh ${library} ${WORK}/prefix/include)
+endif()
+step(${CMAKE_COMMAND} -S ${WORK}/outside -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    "-DCMAKE_CXX_FLAGS=${FLAGS}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}")
 step(${CMAKE_COMMAND} --build ${WORK}/build)
 # An outside program has not this tree's leak suppressions (cmake/sanitizer_support.cpp), and the driver
 # leaks: with sanitizers everything but leaks is watched here.
@@ -20,9 +63,28 @@ set(environment)
 if(FLAGS)
     set(environment ASAN_OPTIONS=detect_leaks=0)
 endif()
-step(${CMAKE_COMMAND} -E env ${environment} ${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/build/hello_mirror)
-message("${output}")
-if(NOT EXISTS ${WORK}/hello.png)
-    message(FATAL_ERROR "hello_mirror wrote no hello.png")
+foreach(sample IN LISTS samples)
+    if(sample STREQUAL embedded) # which has an instance of its own: the layer that watches it writes to stdout
+        list(APPEND environment VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation
+            VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT:VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT)
+    endif()
+    step(${CMAKE_COMMAND} -E env ${environment} ${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/build/${sample})
+    if(output MATCHES "VUID|Validation (Error|Warning)|SYNC-HAZARD")
+        message(FATAL_ERROR "${sample}: the validation layer has something to say")
+    endif()
+endforeach()
+foreach(file hello.png waves.png waves.glb live.png embedded.png own_technique/report.html own_technique/report.json)
+    if(NOT EXISTS ${WORK}/${file})
+        message(FATAL_ERROR "the samples wrote no ${file}")
+    endif()
+endforeach()
+# With amount=1, and without what parallax has not, the sample's technique is parallax.
+set(images ${WORK}/own_technique/images)
+step(${CMAKE_COMMAND} -E compare_files ${images}/blend-amount1-face64-continue0-lookupbilinear.exr
+    ${images}/parallax-face64.exr)
+execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${images}/blend-face64.exr ${images}/parallax-face64.exr
+    RESULT_VARIABLE differs ERROR_QUIET)
+if(NOT differs)
+    message(FATAL_ERROR "blend with amount=0.5 shows what parallax shows: its constant does not reach the shader")
 endif()
 step(${WORK}/prefix/bin/catoptric --version)

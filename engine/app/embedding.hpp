@@ -1,0 +1,26 @@
+#pragma once
+
+#include "app/engine_impl.hpp"
+#include "app/frame_graph.hpp"
+#include "app/session.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace catoptric::app {
+
+/// The way in for embed/: an engine on a given device, and frames with something added.
+struct Embedding {
+    static Engine make(const EngineOptions& options, const gpu::GivenDevice& given) {
+        return Engine(options, given);
+    }
+    static Frame submit(Session& session, const FrameSpec& spec,
+                        const std::function<void(FrameGraph&)>& finish) {
+        return session.submit(spec, [&](FrameGraph& frame) {
+            finish(frame);
+            return graph::Outside{};
+        });
+    }
+};
+
+} // namespace catoptric::app

@@ -1,0 +1,87 @@
+#include "app/technique.hpp"
+
+#include "core/error.hpp"
+#include "gpu/shader.hpp"
+#include "reflect/captures.hpp"
+
+#include <algorithm>
+#include <deque>
+
+namespace catoptric::app {
+
+namespace {
+
+/// What a row of the table points into.
+struct Kept {
+    Search search;
+    std::vector<Knob> knobs;
+    std::vector<std::string_view> compared;
+    reflect::Technique row;
+};
+
+bool is_word(const std::string& name) {
+    const auto fits = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    };
+    return !name.empty() && std::ranges::all_of(name, fits);
+}
+
+void check_search(const Search& search) {
+    check(is_word(search.name), Failure::usage, "technique '", search.name,
+          "': wanted a name of small letters, digits and '_'");
+    for (const reflect::Technique* row : reflect::techniques())
+        check(row->name != search.name, Failure::usage, "there is a technique '", search.name,
+              "' already");
+    for (const SearchKnob& knob : search.knobs)
+        check(knob.low <= knob.value && knob.value <= knob.high, Failure::usage, "technique '",
+              search.name, "': knob '", knob.name, "': wanted a value from ", knob.low, " to ",
+              knob.high, ", found ", knob.value);
+}
+
+/// The search's own knobs, then those that all searches have.
+std::vector<Knob> knobs_of(const Search& search) {
+    std::vector<Knob> knobs;
+    const auto add = [&](const Knob& knob) {
+        check(std::ranges::find(knobs, knob.name, &Knob::name) == knobs.end(), Failure::usage,
+              "technique '", search.name, "' has two knobs '", knob.name, "'");
+        knobs.push_back(knob);
+    };
+    for (const SearchKnob& own : search.knobs)
+        add({.name = own.name,
+             .help = own.help,
+             .low = own.low,
+             .high = own.high,
+             .value = own.value,
+             .is_real = own.is_real});
+    std::ranges::for_each(reflect::kSearchKnobs, add);
+    return knobs;
+}
+
+} // namespace
+
+RegisteredShaders::RegisteredShaders(std::span<const Shader> builds) {
+    for (const Shader& build : builds) gpu::add_shader({build.name, build.words});
+}
+
+void add_search(Search search) {
+    static std::deque<Kept> all; // rows must stay where they are
+    check_search(search);
+    static_cast<void>(knobs_of(search)); // throws before anything is kept
+    Kept& row = all.emplace_back();
+    row.search = std::move(search);
+    row.knobs = knobs_of(row.search);
+    if (row.search.compared.empty()) row.search.compared.push_back(row.search.name);
+    row.compared.assign(row.search.compared.begin(), row.search.compared.end());
+    row.row = {.name = row.search.name,
+               .summary = row.search.summary,
+               .order = row.search.order,
+               .knobs = row.knobs,
+               .compared = row.compared,
+               .scene_passes = reflect::feedback_passes,
+               .capture = reflect::capture_options,
+               .in_captures = "reflect/parallax.frag",
+               .search = row.search.shader.c_str()};
+    reflect::Registered{row.row};
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,66 @@
+#include "embed/embed.hpp"
+
+#include "app/embedding.hpp"
+#include "core/error.hpp"
+#include "gpu/instance.hpp"
+#include "graph/physical.hpp"
+
+namespace catoptric::embed {
+
+namespace {
+
+graph::Use use_of(VkImageLayout layout) {
+    switch (layout) {
+    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL: return graph::Use::sampled;
+    case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL: return graph::Use::copy_from;
+    case VK_IMAGE_LAYOUT_GENERAL: return graph::Use::storage_read;
+    case VK_IMAGE_LAYOUT_PRESENT_SRC_KHR: return graph::Use::present;
+    default:
+        fail(Failure::usage,
+             "a target is left in the layout SHADER_READ_ONLY_OPTIMAL, "
+             "TRANSFER_SRC_OPTIMAL, GENERAL or PRESENT_SRC_KHR, not in number ",
+             static_cast<int>(layout));
+    }
+}
+
+/// The frame's last pass: what the screen shows, byte for byte.
+void add_copy(app::FrameGraph& frame, const Target& target, uvec2 size) {
+    const graph::ImageDesc desc{
+        .name = "target", .format = Format::rgba8_unorm, .width = size.x, .height = size.y};
+    frame.target = std::make_shared<graph::Physical>(graph::adopt(desc, target.image));
+    const graph::Image display = frame.parts.front().display;
+    const graph::Image image = frame.graph.import(desc, frame.target.get(), std::nullopt,
+                                                  use_of(target.leaves));
+    frame.graph.pass("target")
+        .reads(display, graph::Use::copy_from)
+        .writes(image, graph::Use::copy_to)
+        .record([=](graph::Commands& commands) { commands.copy(display, image); });
+}
+
+} // namespace
+
+Features::Features(VkPhysicalDevice device) {
+    const gpu::DeviceInfo info = gpu::describe(device);
+    check(info.missing.empty(), Failure::no_device, "device '", info.name, "' lacks ",
+          info.missing);
+    gpu::Features wanted;
+    wanted.switch_on(device);
+    core = wanted.core, v11 = wanted.v11, v12 = wanted.v12, v13 = wanted.v13;
+    core.pNext = &v11, v11.pNext = &v12, v12.pNext = &v13, v13.pNext = nullptr;
+}
+
+app::Engine make_engine(const Device& device, const app::EngineOptions& options) {
+    return app::Embedding::make(options, {device.instance, device.physical, device.device,
+                                          device.queue, device.queue_family});
+}
+
+app::Frame frame_into(app::Session& session, const app::FrameSpec& spec, const Target& target) {
+    check(spec.techniques.size() == 1, Failure::usage, "a target shows one technique, not ",
+          spec.techniques.size());
+    check(target.image != VK_NULL_HANDLE, Failure::usage, "a target wants an image");
+    static_cast<void>(use_of(target.leaves)); // before any work
+    return app::Embedding::submit(
+        session, spec, [&](app::FrameGraph& frame) { add_copy(frame, target, spec.size); });
+}
+
+} // namespace catoptric::embed

@@ -1,0 +1,4 @@
+#pragma once
+
+/// What the library throws.
+#include "core/error.hpp"

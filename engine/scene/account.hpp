@@ -1,0 +1,65 @@
+#pragma once
+
+#include "core/error.hpp"
+#include "scene/budget.hpp"
+
+#include <cstdint>
+#include <string_view>
+
+/// What a file has asked for so far, of what it may.
+namespace catoptric::scene {
+
+/// One of the totals while a file is loaded.
+class Total {
+public:
+    Total(std::string_view what, std::uint64_t budget) : what_(what), budget_(budget) {}
+
+    /// Throws `bad_data` with the parts of `place` when the sum would go over the budget.
+    template <typename... Parts>
+    void add(std::uint64_t amount, const Parts&... place) {
+        if (amount > budget_ - spent_)
+            fail(Failure::bad_data, place..., ": wanted at most ", budget_, " ", what_,
+                 ", the budget of a scene, found ", amount > ~spent_ ? ~0ull : spent_ + amount);
+        spent_ += amount;
+    }
+
+private:
+    std::string_view what_;
+    std::uint64_t budget_;
+    std::uint64_t spent_ = 0; ///< at most `budget_`
+};
+
+/// All of them.
+struct Account {
+    explicit Account(const Budget& of) : budget(of) {}
+
+    const Budget budget;
+    Total file_bytes{"bytes in its files", budget.file_bytes};
+    Total files{"names of files", budget.files};
+    Total json_bytes{"bytes of JSON", budget.json_bytes};
+    Total json_memory{"bytes of memory for its JSON", budget.json_memory};
+    Total positions{"positions", budget.vertices};
+    Total normals{"normals", budget.vertices};
+    Total attributes{"texture coordinates, colours and weights", 4 * budget.vertices};
+    Total mesh_vertices{"vertices in meshes", budget.vertices};
+    Total shown_vertices{"vertices shown by objects", budget.shown};
+    Total mesh_triangles{"triangles in meshes", budget.triangles};
+    Total shown_triangles{"triangles shown by objects", budget.shown};
+    Total nodes{"nodes", budget.objects};
+    Total meshes{"meshes", budget.objects};
+    Total primitives{"primitives", budget.objects};
+    Total materials{"materials", budget.objects};
+    Total remarks{"objects named by comments", budget.objects};
+    Total cameras{"cameras", budget.objects};
+    Total channels{"animation channels", budget.objects};
+    Total objects{"objects", budget.objects};
+    Total keys{"keys of animations", budget.keys};
+    Total key_times{"times of keys", budget.keys};
+    Total key_values{"values of keys", 3 * budget.keys};
+    Total name_bytes{"bytes of names", budget.name_bytes};
+    Total texels{"texels in pictures", budget.texels};
+    Total made_bytes{"bytes of sparse accessors", budget.made_bytes};
+    Total cuts{"comparisons to cut concave polygons", budget.cuts};
+};
+
+} // namespace catoptric::scene

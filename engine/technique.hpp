@@ -1,0 +1,4 @@
+#pragma once
+
+/// Techniques of a program's own.
+#include "app/technique.hpp"

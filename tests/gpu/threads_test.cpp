@@ -1,0 +1,38 @@
+// Engines know nothing of each other: two threads with one each show what one thread shows.
+#include "app/session.hpp"
+#include "scene/load.hpp"
+
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace {
+
+using namespace catoptric;
+
+measure::Picture picture(app::Engine& engine, const scene::Scene& scene) {
+    app::Session session(engine, scene);
+    measure::Picture last;
+    for (const char* technique : {"parallax:face=64", "secant:face=64", "parallax:face=64"})
+        last = session
+                   .frame({.techniques = {technique},
+                           .camera = scene.cameras.front(),
+                           .size = {48, 48}})
+                   .hdr();
+    return last;
+}
+
+TEST(Threads, EachHasAnEngine) {
+    const scene::Scene scene = scene::cornell_mirrors();
+    app::Engine one({}), other({});
+    const measure::Picture truth = picture(one, scene);
+    for (int round = 0; round < 3; ++round) {
+        measure::Picture here, there;
+        std::thread thread([&] { there = picture(other, scene); });
+        here = picture(one, scene);
+        thread.join();
+        EXPECT_TRUE(here.pixels == truth.pixels);
+        EXPECT_TRUE(there.pixels == truth.pixels);
+    }
+}
+
+} // namespace

@@ -1,0 +1,87 @@
+// Techniques that a program adds (app/technique.hpp), without a device; tests/install draws with
+// one.
+#include "app/compare.hpp"
+#include "app/engine.hpp"
+#include "app/technique.hpp"
+#include "core/error.hpp"
+#include "scene/load.hpp"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace catoptric;
+using testing::Contains;
+using testing::HasSubstr;
+
+const app::RegisteredSearch kFound{
+    {.name = "test_search",
+     .summary = "For a test.",
+     .shader = "test_search.frag",
+     .knobs = {{.name = "much", .help = "how much", .high = 2, .value = .5, .is_real = true}},
+     .compared = {"test_search", "test_search:much=2"}}};
+
+std::string refused(app::Search search) {
+    try {
+        app::add_search(std::move(search));
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+TEST(Search, IsAtHomeInTheTable) {
+    const app::TechniqueChoice choice = app::parse_technique("test_search:much=1.5,face=64");
+    EXPECT_EQ(choice.settings.front().number, 1.5);
+    EXPECT_EQ(choice.settings.size(), app::parse_technique("secant").settings.size());
+    const scene::Scene room = scene::cornell_mirrors();
+    EXPECT_THAT(app::default_techniques({.scene = room}), Contains("test_search:much=2"));
+    try {
+        app::parse_technique("test_search:much=some");
+        FAIL();
+    } catch (const UsageError& error) {
+        EXPECT_STREQ(error.what(),
+                     "knob 'much' of 'test_search' takes a number from 0 to 2, not 'some'");
+    }
+}
+
+TEST(Search, WhatIsWrongWithOneIsSaid) {
+    EXPECT_THAT(refused({.name = "Two words"}),
+                HasSubstr("'Two words': wanted a name of small letters, digits and '_'"));
+    EXPECT_THAT(refused({.name = "secant"}), HasSubstr("there is a technique 'secant' already"));
+    EXPECT_THAT(refused({.name = "twice", .knobs = {{.name = "face"}}}),
+                HasSubstr("technique 'twice' has two knobs 'face'"));
+    EXPECT_THAT(refused({.name = "outside", .knobs = {{.name = "a", .high = 1, .value = 2}}}),
+                HasSubstr("knob 'a': wanted a value from 0 to 1, found 2"));
+    EXPECT_THROW(app::parse_technique("twice"), UsageError) << "refused ones are not added";
+}
+
+TEST(Search, ShadersHaveOneOwnerEach) {
+    const std::uint32_t words[] = {1};
+    const app::Shader taken[] = {{"reflect/secant.frag", words}};
+    try {
+        app::RegisteredShaders{taken};
+        FAIL();
+    } catch (const UsageError& error) {
+        EXPECT_STREQ(error.what(), "there is a shader 'reflect/secant.frag' already");
+    }
+}
+
+TEST(Errors, HaveATypeForEachKind) {
+    EXPECT_THROW(fail(Failure::bad_data, "x"), BadData);
+    EXPECT_THROW(fail(Failure::missing_input, "x"), MissingInput);
+    EXPECT_THROW(fail(Failure::no_device, "x"), NoDevice);
+    EXPECT_THROW(fail(Failure::internal, "x"), InternalError);
+    EXPECT_THROW(fail(Failure::cannot_create, "x"), CannotCreate);
+    EXPECT_THROW(fail(Failure::io, "x"), IoError);
+    EXPECT_THROW(fail(Failure::exhausted, "x"), Exhausted);
+    EXPECT_THROW(fail(Failure::device_lost, "x"), DeviceLost);
+    try {
+        fail(Failure::terminated, "stopped by ", 15);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::terminated);
+        EXPECT_STREQ(error.what(), "stopped by 15");
+    }
+}
+
+} // namespace
