@@ -91,10 +91,9 @@ private:
     FaceWork decide(std::uint32_t mirror, std::uint32_t face,
                     const std::vector<std::uint32_t>& seen, KeptFace& now) const {
         const require::MirrorNeeds& needs = model_.mirrors[mirror];
-        Stamp shown =
-            Stamp(shadow_views_)
-                .add(needs.stamps[face])
-                .add(scene_.views()[scene_.capture_view(mirror) + face]);
+        Stamp shown = Stamp(shadow_views_)
+                          .add(needs.stamps[face])
+                          .add(scene_.views()[scene_.capture_view(mirror) + face]);
         for (const std::uint32_t other : seen) shown.add(other);
         const std::uint64_t stamp = shown.value();
         now = was_there(mirror) ? before_->faces[mirror][face] : KeptFace();

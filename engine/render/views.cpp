@@ -122,8 +122,9 @@ std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_fro
         view.right = world_from_cube * f32::cube_direction(face, vec3(1, 0, 0));
         view.down = world_from_cube * f32::cube_direction(face, vec3(0, 1, 0));
         view.forward = world_from_cube * f32::cube_direction(face, vec3(0, 0, 1));
-        // The nearest thing may lie in a corner, 1 / sqrt(3) of its distance along the axis. A power
-        // of two: while something comes nearer it seldom changes, and depths but by their exponent.
+        // The nearest thing may lie in a corner, 1 / sqrt(3) of its distance along the axis. A
+        // power of two: while something comes nearer it seldom changes, and depths but by their
+        // exponent.
         view.near = std::max(kSmallestNear, power_of_two_below(0.5f * gap));
         views.push_back(view);
     }
