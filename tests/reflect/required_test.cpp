@@ -253,9 +253,9 @@ TEST(RequiredFrames, FollowWhateverHappens) {
         frames(2);
         pair.change(scene::set_material(3, lit));
         frames(1);
-        for (const auto& [name, by] : {std::pair{"partition", dvec3(0, 0, .8)},
-                                       std::pair{"ball", dvec3(.4, .1, 0)},
-                                       std::pair{"block", dvec3(0, -.2, .5)}})
+        for (const auto& [name, by] :
+             {std::pair{"partition", dvec3(0, 0, .8)}, std::pair{"ball", dvec3(.4, .1, 0)},
+              std::pair{"block", dvec3(0, -.2, .5)}})
             for (int k = 0; k < 3; ++k) { // begins to move, goes on
                 const std::size_t moved = object(name, 0);
                 dmat4 to = pair.scene().objects[moved].world_from_object;
