@@ -59,6 +59,17 @@ Faces faces_with(const Bounds<double>& box) {
     return faces;
 }
 
+Faces faces_with(const dvec3& centre, double radius) {
+    Faces faces = 0;
+    for (int face = 0; face < 6; ++face) {
+        const double ahead = face % 2 == 0 ? centre[face / 2] : -centre[face / 2];
+        const double aside = std::max(std::abs(centre[(face / 2 + 1) % 3]),
+                                      std::abs(centre[(face / 2 + 2) % 3]));
+        if (ahead - aside >= -std::sqrt(2.0) * radius) faces |= static_cast<Faces>(1 << face);
+    }
+    return faces;
+}
+
 Faces faces_with(const Bounds<double>& a, const Bounds<double>& b) {
     Faces faces = 0;
     for (int face = 0; face < 6; ++face) {

@@ -34,6 +34,9 @@ private:
 /// between it and its neighbours. Half of an empty box's infinities: none.
 Faces faces_with(const Bounds<double>& box);
 
+/// Those that may hold some of a ball.
+Faces faces_with(const dvec3& centre, double radius);
+
 /// Those that may hold some of hull(a, b).
 Faces faces_with(const Bounds<double>& a, const Bounds<double>& b);
 

@@ -44,7 +44,9 @@ void Stamps::follow(const World& world, std::uint32_t shadow_edge) {
 Faces Stamps::look(const World& world, const dvec3& centre, std::size_t mover) const {
     const Thing& thing = world.things()[mover];
     if (thing.box.empty()) return 0;
-    return may_be_small(world, thing) ? kAllFaces : faces_with(seen_from(centre, thing.box));
+    return may_be_small(world, thing) ? kAllFaces
+                                      : faces_with(seen_from(centre, thing.box)) &
+                                            faces_with(thing.middle - centre, thing.radius);
 }
 
 const std::array<std::uint64_t, 6>& Stamps::of_faces(const World& world, std::size_t mirror) {

@@ -5,6 +5,7 @@
 #include "scene/transform.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace catoptric::require {
 
@@ -14,6 +15,10 @@ MeshFacts facts_of(const scene::Mesh& mesh) {
     MeshFacts facts;
     for (const uvec3& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i) facts.box.add(mesh.positions[triangle[i]]);
+    for (const uvec3& triangle : mesh.triangles)
+        for (int i = 0; i < 3; ++i)
+            facts.radius = std::max(facts.radius,
+                                    length(mesh.positions[triangle[i]] - facts.box.centre()));
     facts.stamp = stamp_of(mesh);
     facts.quads = quads_of(mesh);
     facts.flat_normal = flat_normal(mesh);
@@ -27,6 +32,16 @@ Bounds<double> moved(const Bounds<double>& box, const dmat4& place) {
         for (const dvec3& corner : corners_of(box))
             result.add(scene::transform_point(place, corner));
     return result;
+}
+
+/// Of a length: the spectral norm is at most the root of the largest sum of a row of M^T M.
+double stretch_at_most(const dmat3& m) {
+    const dmat3 square = transpose(m) * m;
+    double most = 0;
+    for (int i = 0; i < 3; ++i)
+        most = std::max(most,
+                        std::abs(square[i].x) + std::abs(square[i].y) + std::abs(square[i].z));
+    return std::sqrt(most);
 }
 
 Bounds<double> shifted(const Bounds<double>& box, const dvec3& offset) {
@@ -123,6 +138,9 @@ void World::move(const scene::Scene& now, std::size_t index) {
     const dvec3 away = thing.tight.empty() ? dvec3(0) : abs(thing.tight.centre() - middle_);
     const double room = rounding_ + kRounding * std::max({away.x, away.y, away.z});
     thing.box = {thing.tight.lo - room, thing.tight.hi + room};
+    const MeshFacts& mesh = meshes_[thing.mesh];
+    if (!mesh.box.empty()) thing.middle = scene::transform_point(thing.place, mesh.box.centre());
+    thing.radius = mesh.radius * stretch_at_most(dmat3(thing.place)) + 2 * room;
     Stamp stamp;
     stamp.add(index).add(meshes_[thing.mesh].stamp).add(thing.material).add(thing.place);
     if (thing.sphere) stamp.add(thing.sphere->centre).add(thing.sphere->radius);

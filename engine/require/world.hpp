@@ -22,6 +22,7 @@ inline constexpr double kLeastWall = 1e-3;
 /// What does not depend on where an object is.
 struct MeshFacts {
     Bounds<double> box; ///< in the mesh's own space
+    double radius = 0;  ///< of all that is drawn, around the middle of `box`
     std::uint64_t stamp = 0;
     std::vector<Quad> quads;
     dvec3 flat_normal{0}; ///< of a flat one (require/reach.hpp)
@@ -37,6 +38,8 @@ struct Thing {
     Bounds<double> tight_rest; ///< of its vertices
     Bounds<double> tight;      ///< now; of a turned mover that is no mirror a larger box
     Bounds<double> box;        ///< `tight` with room for roundings; empty: it has no triangle
+    dvec3 middle{0};           ///< of a sphere that holds it
+    double radius = 0;         ///< of that, with room for roundings
     std::uint64_t stamp = 0;   ///< of its mesh, place, sphere and material
 };
 
