@@ -1,12 +1,11 @@
 #include "gpu/pipeline.hpp"
 
 #include "core/stopwatch.hpp"
-#include "gpu/specialise.hpp"
+#include "gpu/stage.hpp"
 #include "shared.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <tuple>
 
@@ -26,10 +25,6 @@ VkDescriptorType descriptor_type(BindingKind kind) {
 }
 
 namespace {
-
-std::uint32_t bits_of(const std::variant<std::uint32_t, float>& value) {
-    return std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value);
-}
 
 std::string name_of(const Constants& constants) {
     std::string name;
@@ -61,46 +56,6 @@ bool constants_before(const State& a, const State& b) {
     if (before(a.constants, b.constants)) return true;
     return !before(b.constants, a.constants) && before(a.features, b.features);
 }
-
-/// One stage: its module, which must outlive the create call.
-struct Stage {
-    Stage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
-          const Constants& constants, const Constants& features)
-        : bit(stage) {
-        const EmbeddedShader& shader = find_shader(name);
-        reflection = reflect(name, shader.words);
-        check(!reflection.doubles || device.doubles(), Failure::no_device, "shader '", name,
-              "' computes with doubles, which device '", device.info().name, "' cannot");
-        std::map<std::uint32_t, std::uint32_t> values;
-        for (const Constants* list : {&constants, &features})
-            for (const auto& [constant, value] : *list)
-                if (const Constant* known = find(constant)) values[known->id] = bits_of(value);
-        const std::vector<std::uint32_t> words = specialise(name, shader.words, values);
-        VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-        create.codeSize = words.size() * sizeof(std::uint32_t);
-        create.pCode = words.data();
-        VkShaderModule handle = VK_NULL_HANDLE;
-        check_vk(vkCreateShaderModule(device.handle(), &create, nullptr, &handle),
-                 "load shader '" + name + "'");
-        module = {device.handle(), handle};
-    }
-    VkPipelineShaderStageCreateInfo info() const {
-        VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
-        stage.stage = bit;
-        stage.module = module;
-        stage.pName = "main";
-        return stage;
-    }
-    /// Null: it has no such constant.
-    const Constant* find(const std::string& constant) const {
-        const auto found = std::ranges::find(reflection.constants, constant, &Constant::name);
-        return found == reflection.constants.end() ? nullptr : &*found;
-    }
-
-    VkShaderStageFlagBits bit;
-    Reflection reflection;
-    UniqueShaderModule module;
-};
 
 void check_images(const Device& device, const std::string& name,
                   const std::vector<Binding>& bindings) {

@@ -1,0 +1,30 @@
+#include "gpu/stage.hpp"
+
+#include "gpu/specialise.hpp"
+
+#include <map>
+
+namespace catoptric::gpu {
+
+Stage::Stage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
+             const Constants& constants, const Constants& features)
+    : bit(stage) {
+    const EmbeddedShader& shader = find_shader(name);
+    reflection = reflect(name, shader.words);
+    check(!reflection.doubles || device.doubles(), Failure::no_device, "shader '", name,
+          "' computes with doubles, which device '", device.info().name, "' cannot");
+    std::map<std::uint32_t, std::uint32_t> values;
+    for (const Constants* list : {&constants, &features})
+        for (const auto& [constant, value] : *list)
+            if (const Constant* known = find(constant)) values[known->id] = bits_of(value);
+    const std::vector<std::uint32_t> words = specialise(name, shader.words, values);
+    VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    create.codeSize = words.size() * sizeof(std::uint32_t);
+    create.pCode = words.data();
+    VkShaderModule handle = VK_NULL_HANDLE;
+    check_vk(vkCreateShaderModule(device.handle(), &create, nullptr, &handle),
+             "load shader '" + name + "'");
+    module = {device.handle(), handle};
+}
+
+} // namespace catoptric::gpu

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "gpu/pipeline.hpp"
+
+#include <algorithm>
+#include <bit>
+
+/// A shader on its way into a pipeline.
+namespace catoptric::gpu {
+
+/// As shaders are given them.
+inline std::uint32_t bits_of(const std::variant<std::uint32_t, float>& value) {
+    return std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value);
+}
+
+/// One stage: its module, which must outlive the create call.
+struct Stage {
+    Stage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
+          const Constants& constants, const Constants& features);
+    VkPipelineShaderStageCreateInfo info() const {
+        VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+        stage.stage = bit;
+        stage.module = module;
+        stage.pName = "main";
+        return stage;
+    }
+    /// Null: it has no such constant.
+    const Constant* find(const std::string& constant) const {
+        const auto found = std::ranges::find(reflection.constants, constant, &Constant::name);
+        return found == reflection.constants.end() ? nullptr : &*found;
+    }
+
+    VkShaderStageFlagBits bit;
+    Reflection reflection;
+    UniqueShaderModule module;
+};
+
+} // namespace catoptric::gpu
