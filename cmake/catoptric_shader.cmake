@@ -1,13 +1,14 @@
 # catoptric_shader(TARGET FILE): compiles the fragment shader of a technique of the target's own (catoptric::app::Search,
 # docs/library.md), in every build that the engine may ask for, and makes it part of the target under FILE's name without folders.
 # It may include lib/*.glsl, shared.h, and files beside it. The target is a program or a shared library: of a static one a
-# linker would leave out what nobody calls. CATOPTRIC_SHADERS: the folder with lib/ and shared.h.
+# linker would leave out what nobody calls. CATOPTRIC_SHADERS, a global property: the folder with lib/ and shared.h.
 
 function(catoptric_shader target file)
     find_program(CATOPTRIC_GLSLANG glslangValidator)
     if(NOT CATOPTRIC_GLSLANG)
         message(FATAL_ERROR "catoptric_shader needs glslangValidator (Debian: apt install glslang-tools)")
     endif()
+    get_property(shaders GLOBAL PROPERTY CATOPTRIC_SHADERS)
     get_filename_component(source ${file} ABSOLUTE)
     get_filename_component(folder ${source} DIRECTORY)
     set(made ${CMAKE_CURRENT_BINARY_DIR}/${target}_shaders/${file})
@@ -41,7 +42,7 @@ function(catoptric_shader target file)
             endif()
             set(header ${made}/spirv_${build}.h)
             add_custom_command(OUTPUT ${header}
-                COMMAND ${CATOPTRIC_GLSLANG} --quiet -V --target-env vulkan1.3 ${defines} -I${CATOPTRIC_SHADERS} -I${folder}
+                COMMAND ${CATOPTRIC_GLSLANG} --quiet -V --target-env vulkan1.3 ${defines} -I${shaders} -I${folder}
                         --vn spirv_${build} --depfile ${header}.d -o ${header} ${source}
                 MAIN_DEPENDENCY ${source} DEPFILE ${header}.d COMMENT "SPIR-V ${name}" VERBATIM)
             list(APPEND headers ${header})

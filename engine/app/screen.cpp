@@ -98,6 +98,8 @@ Frame Session::show(const FrameSpec& spec, Screen& screen, const Showing& showin
     Screen::Impl::Slot& slot = onto.slots[index];
     if (slot.runner == &runner && !runner.has_ended(slot.ticket)) runner.wait(slot.ticket);
     std::optional<std::uint32_t> image;
+    onto.fits =
+        false; // where the frame is refused, its image is only given back by making all anew
     Frame frame = submit(spec, [&](FrameGraph& graph) {
         image = onto.acquire();
         if (!image) return graph::Outside{};

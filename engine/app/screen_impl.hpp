@@ -8,7 +8,7 @@
 
 #include <array>
 
-// What a screen is made of, for screen.cpp and show.cpp alone.
+// What a screen is made of, for screen.cpp alone.
 namespace catoptric::app {
 
 struct Screen::Impl {

@@ -123,7 +123,9 @@ void Session::Impl::keep(const FrameGraph& frame, graph::Ticket ticket) {
     kept.clear();
     for (const Declared& part : frame.parts) {
         kept.push_back(part.outputs.kept);
-        if (kept.back()) kept.back()->frame = ticket.frame;
+        if (!kept.back()) continue;
+        kept.back()->frame = ticket.frame;
+        comparisons.used(kept.back()->differing, ticket.frame);
     }
 }
 

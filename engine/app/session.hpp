@@ -157,7 +157,7 @@ public:
     CATOPTRIC_API Part read(std::size_t part = 0) const;
     CATOPTRIC_API std::vector<Part> read_all() const;
     /// Colours and distances around every mirror, of a technique that keeps both; with
-    /// `with_captures`, else `internal`.
+    /// `with_captures`, else `internal`. Not for programs outside.
     render::Captured captures(std::size_t part = 0) const;
     /// All that the next frame can see of this one, and the linear pictures, as bytes: a still
     /// scene whose frames agree in it changes no more. Empty where nothing is remembered.

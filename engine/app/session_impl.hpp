@@ -29,8 +29,9 @@ struct Session::Impl {
     Impl(Engine::Impl& shared, scene::Scene at_rest, std::uint32_t in_flight)
         : engine(shared), scene(std::move(at_rest)),
           resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
-          comparisons(shared.device), runner(shared.device, shared.pipelines, in_flight),
-          read_by(in_flight, 0) {
+          comparisons(shared.device,
+                      [this](std::uint64_t frame) { return runner.has_ended({frame}); }),
+          runner(shared.device, shared.pipelines, in_flight), read_by(in_flight, 0) {
         mirrors = mirror_names(scene);
     }
 

@@ -3,9 +3,12 @@
 #include "core/error.hpp"
 #include "gpu/shader.hpp"
 #include "reflect/captures.hpp"
+#include "reflect/plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
+#include <limits>
 
 namespace catoptric::app {
 
@@ -32,10 +35,26 @@ void check_search(const Search& search) {
     for (const reflect::Technique* row : reflect::techniques())
         check(row->name != search.name, Failure::usage, "there is a technique '", search.name,
               "' already");
-    for (const SearchKnob& knob : search.knobs)
+    check(search.name != reflect::kAuto, Failure::usage, "'", search.name,
+          "' is what the requirements suggest, and no name of a technique");
+    for (const std::string& row : search.compared)
+        check(row == search.name || row.starts_with(search.name + ":"), Failure::usage,
+              "technique '", search.name, "': wanted rows of its own to compare, found '", row,
+              "'");
+    for (const SearchKnob& knob : search.knobs) {
+        check(is_word(knob.name), Failure::usage, "technique '", search.name, "': knob '",
+              knob.name, "': wanted a name of small letters, digits and '_'");
+        const double most = std::numeric_limits<std::uint32_t>::max();
+        check(knob.is_real ||
+                  (knob.low >= 0 && knob.high <= most && knob.value == std::floor(knob.value)),
+              Failure::usage, "technique '", search.name, "': knob '", knob.name,
+              "': wanted whole numbers from 0 to ", std::numeric_limits<std::uint32_t>::max(),
+              ", found ", knob.low, " to ", knob.high, " and ", knob.value,
+              "; is_real allows others");
         check(knob.low <= knob.value && knob.value <= knob.high, Failure::usage, "technique '",
               search.name, "': knob '", knob.name, "': wanted a value from ", knob.low, " to ",
               knob.high, ", found ", knob.value);
+    }
 }
 
 /// The search's own knobs, then those that all searches have.
@@ -80,6 +99,7 @@ void add_search(Search search) {
                .scene_passes = reflect::feedback_passes,
                .capture = reflect::capture_options,
                .in_captures = "reflect/parallax.frag",
+               .reads_whole_cubes = true, // nobody knows where it looks
                .search = row.search.shader.c_str()};
     reflect::Registered{row.row};
 }

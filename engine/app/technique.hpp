@@ -18,7 +18,9 @@ struct Shader {
     std::string_view name;
     std::span<const std::uint32_t> words;
 };
-/// A namespace-scope object makes the builds known. Throws `usage` for a name that is taken.
+/// A namespace-scope object makes the builds known. Throws `usage` for a name that is taken; at
+/// namespace scope, where nobody can catch it, that ends the program, so give files names of their
+/// own.
 struct RegisteredShaders {
     CATOPTRIC_API explicit RegisteredShaders(std::span<const Shader> builds);
 };
@@ -44,8 +46,8 @@ struct Search {
 };
 
 /// Puts the search into the table of techniques: wherever one may be named it may be from then on.
-/// Throws `usage` for a name that is no such word or is taken, and for knobs that are not within
-/// their range or have a name that is taken.
+/// Throws `usage` for a name that is no such word or is taken, for knobs that are not within their
+/// range, not whole where they must be or have a name that is taken, and for rows of others.
 CATOPTRIC_API void add_search(Search search);
 /// The same as a namespace-scope object.
 struct RegisteredSearch {

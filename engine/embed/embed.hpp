@@ -51,8 +51,10 @@ struct Target {
 };
 /// Session::frame of one technique, which also writes what the screen shows into the image. All
 /// work that was submitted to the queue before has ended when it does, and what is submitted
-/// afterwards sees the picture, without a semaphore. The image must live until the frame has ended
-/// (Frame::times). Throws `usage` for several techniques, no image, and another layout.
+/// afterwards sees the picture, without a semaphore. Acquiring and presenting a swapchain's image
+/// are no such work: wait for the one in a submit of your own before, signal for the other in one
+/// after. The image must live until the frame has ended (Frame::times). Throws `usage` for several
+/// techniques, no image, and another layout.
 CATOPTRIC_API app::Frame frame_into(app::Session& session, const app::FrameSpec& spec,
                                     const Target& target);
 

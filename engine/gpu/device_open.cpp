@@ -129,6 +129,12 @@ void Device::look_at(const DeviceOptions& options) {
     check(count > queue_family_, Failure::usage, "device '", info_.name, "' has ", count,
           " queue families, number ", queue_family_, " was given");
     timestamp_bits_ = families[queue_family_].timestampValidBits;
+    constexpr VkQueueFlags kWorks = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    check((families[queue_family_].queueFlags & kWorks) == kWorks && timestamp_bits_ > 0,
+          Failure::usage, "device '", info_.name,
+          "': wanted a queue family that draws, dispatches "
+          "and has timestamps, found number ",
+          queue_family_, ", which does not");
 }
 
 void Device::create_device() {

@@ -20,7 +20,6 @@ public:
     /// Images of this size, or of the one that the window system demands.
     /// False: the window has no pixels now (it is minimised), or is gone: `lost`.
     bool make(uvec2 size);
-    bool is_made() const { return !images_.empty(); }
     /// The surface went away with its window: only another device with another surface helps.
     bool lost() const { return lost_; }
     Format format() const { return format_; }

@@ -86,13 +86,22 @@ struct Feeding {
 /// Where comparisons write what they found; of one session.
 class Comparisons {
 public:
-    explicit Comparisons(gpu::Device& device) : device_(device) {}
-    /// A buffer of zeros that nobody else has, a word a mirror.
+    /// `has_ended`: asked with the numbers of frames.
+    Comparisons(gpu::Device& device, std::function<bool(std::uint64_t)> has_ended)
+        : device_(device), has_ended_(std::move(has_ended)) {}
+    /// A buffer of zeros that neither host nor device has, a word a mirror.
     std::shared_ptr<gpu::Buffer> buffer(std::size_t mirrors);
+    /// The frame was submitted that writes to it; null: none does.
+    void used(const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame);
 
 private:
+    struct Entry {
+        std::shared_ptr<gpu::Buffer> buffer; ///< free where nobody else holds it
+        std::uint64_t frame = 0;             ///< that wrote to it last
+    };
     gpu::Device& device_;
-    std::vector<std::shared_ptr<gpu::Buffer>> buffers_; ///< free where nobody else holds one
+    std::function<bool(std::uint64_t)> has_ended_;
+    std::vector<Entry> entries_;
 };
 
 /// Everything anew in each frame, beside last frame's: declares both.

@@ -42,16 +42,25 @@ void find_unchanged(KeptCaptures& captures) {
 
 std::shared_ptr<gpu::Buffer> Comparisons::buffer(std::size_t mirrors) {
     const std::vector<std::uint32_t> zeros(mirrors, 0);
-    const auto fits = [&](const std::shared_ptr<gpu::Buffer>& buffer) {
-        return buffer.use_count() == 1 && buffer->bytes() >= sizeof(std::uint32_t) * mirrors;
+    // Who discards a frame lets go of its buffer while the device may still write to it.
+    const auto fits = [&](const Entry& entry) {
+        return entry.buffer.use_count() == 1 && has_ended_(entry.frame) &&
+               entry.buffer->bytes() >= sizeof(std::uint32_t) * mirrors;
     };
-    auto found = std::ranges::find_if(buffers_, fits);
-    if (found == buffers_.end())
-        found = buffers_.insert(found, std::make_shared<gpu::Buffer>(
-                                           device_, "differing", sizeof(std::uint32_t) * mirrors,
-                                           gpu::BufferUse::read_back));
-    (*found)->write(std::span<const std::uint32_t>(zeros));
-    return *found;
+    auto found = std::ranges::find_if(entries_, fits);
+    if (found == entries_.end())
+        found = entries_.insert(found, {std::make_shared<gpu::Buffer>(
+                                            device_, "differing", sizeof(std::uint32_t) * mirrors,
+                                            gpu::BufferUse::read_back),
+                                        0});
+    found->buffer->write(std::span<const std::uint32_t>(zeros));
+    return found->buffer;
+}
+
+void Comparisons::used(const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame) {
+    const auto is_it = [&](const Entry& entry) { return entry.buffer == buffer; };
+    const auto found = std::ranges::find_if(entries_, is_it);
+    if (found != entries_.end()) found->frame = frame;
 }
 
 void add_comparison(graph::Graph& graph, const FrameInputs& inputs, const Feeding& feeding) {

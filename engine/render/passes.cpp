@@ -5,6 +5,7 @@
 #include "render/draw.hpp"
 #include "render/views.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -158,17 +159,17 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
         const auto part = [&](std::uint32_t first, std::uint32_t count) {
             return map.layers(faces * light + first, count);
         };
-        const auto stamp = [&](std::uint32_t face) {
-            return shadow_stamp(scene, model, light, face);
-        };
+        std::array<std::uint64_t, 6> stamps{};
+        for (std::uint32_t face = 0; face < faces && !model.is_everything; ++face)
+            stamps[face] = shadow_stamp(scene, model, light, face);
         const auto is_drawn = [&](std::uint32_t face) {
             return face < faces &&
-                   (model.is_everything || !graph.holds(part(face, 1), stamp(face)));
+                   (model.is_everything || !graph.holds(part(face, 1), stamps[face]));
         };
         for_each_run(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
             const Faces run{light, first, end - first};
             for (std::uint32_t face = first; face < end && !model.is_everything; ++face)
-                graph.made_from(part(face, 1), stamp(face));
+                graph.made_from(part(face, 1), stamps[face]);
             const std::string text = run.count == faces ? name : name_of(name, run);
             add_shadow_faces(graph, scene, light, run, has_map, inputs.prefix + text + suffix,
                              part(first, run.count));

@@ -102,7 +102,7 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
 namespace {
 
 /// The largest that is not above a positive number.
-float power_of_two_below(float number) { return std::exp2(std::floor(std::log2(number))); }
+float power_of_two_below(float number) { return std::ldexp(1.0f, std::ilogb(number)); }
 
 } // namespace
 

@@ -15,11 +15,11 @@ inline constexpr double kSmall = 0x1p-12;
 inline constexpr std::size_t kMostLandings = 1 << 17;
 
 /// A face's stamp stands for: the epoch (all that has never moved, materials, environment, lights);
-/// the mirror itself, for the capture's centre; and each mover, mirrors among them, whose box may
-/// meet the face or one of whose shadows may fall on something there. A shadow on a mover is told
-/// by that mover where the caster stands still. Equal stamps, equal bytes, but for what other
-/// mirrors show, as long as views do: near planes and a directional light's windows depend on the
-/// nearest and the outermost things, which those who have the views know.
+/// the mirror itself, for the capture's centre; and each mover, mirrors among them, whose box and
+/// ball may meet the face or one of whose shadows may fall on something there. A shadow on a mover
+/// is told by that mover where the caster stands still. Equal stamps, equal bytes, but for what
+/// other mirrors show, as long as views do: near planes and a directional light's windows depend on
+/// the nearest and the outermost things, which those who have the views know.
 ///
 /// A capture whose mirror moved since the instant before gets one stamp of everything on all of its
 /// faces, and so do all where more than kMostPairs of things would have to be looked at.

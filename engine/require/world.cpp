@@ -15,10 +15,10 @@ MeshFacts facts_of(const scene::Mesh& mesh) {
     MeshFacts facts;
     for (const uvec3& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i) facts.box.add(mesh.positions[triangle[i]]);
+    const dvec3 middle = facts.box.centre();
     for (const uvec3& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i)
-            facts.radius = std::max(facts.radius,
-                                    length(mesh.positions[triangle[i]] - facts.box.centre()));
+            facts.radius = std::max(facts.radius, length(mesh.positions[triangle[i]] - middle));
     facts.stamp = stamp_of(mesh);
     facts.quads = quads_of(mesh);
     facts.flat_normal = flat_normal(mesh);

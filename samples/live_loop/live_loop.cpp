@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <deque>
 
 using namespace catoptric;
@@ -55,6 +56,8 @@ int main() try {
     for (int attempt = 0;; ++attempt) try {
             app::Engine engine({});
             live(engine, 30);
+            std::fflush(stdout);
+            if (app::any_abandoned()) std::_Exit(0); // a lost device's driver may be at work
             return 0;
         } catch (const DeviceLost& error) { // begin anew, once
             if (attempt > 0) throw;

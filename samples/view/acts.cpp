@@ -12,19 +12,40 @@ namespace catoptric::view {
 
 namespace {
 
-/// As --camera takes it: in numbers, or the scene's own where numbers do not say all.
+/// As --camera takes it: in numbers, or the scene's own where numbers do not say all, by a name
+/// that no other has, since a scene file may order them otherwise.
 std::string camera_word(const scene::Scene& scene, const scene::Camera& camera) {
+    std::string text = scene::camera_text(camera);
+    try {
+        scene::Camera typed = scene::camera_named(text, {});
+        typed.name = camera.name;
+        if (typed == camera) return text;
+    } catch (const Error&) { // out of what may be typed
+    }
     const auto own = std::ranges::find(scene.cameras, camera);
-    return own == scene.cameras.end() ? scene::camera_text(camera)
-                                      : std::to_string(own - scene.cameras.begin());
+    if (own == scene.cameras.end()) return text;
+    const bool is_known = !own->name.empty() &&
+                          std::ranges::count(scene.cameras, own->name, &scene::Camera::name) == 1;
+    return is_known ? own->name : std::to_string(own - scene.cameras.begin());
 }
 
-/// "view-1.png", or the first number that is free.
-std::filesystem::path free_name(const std::string& stem, const std::string& extension) {
+/// "view-1", or the first number of which there is no file with any of the extensions.
+std::filesystem::path free_name(const std::string& stem,
+                                const std::vector<std::string>& extensions) {
     for (int i = 1;; ++i) {
-        std::filesystem::path path = stem + "-" + std::to_string(i) + extension;
-        if (!std::filesystem::exists(path)) return path;
+        const std::string name = stem + "-" + std::to_string(i);
+        const auto exists = [&](const std::string& extension) {
+            std::error_code error; // what cannot be looked at is told when it is written
+            return std::filesystem::exists(name + extension, error);
+        };
+        if (std::ranges::none_of(extensions, exists)) return name;
     }
+}
+
+/// What a plan says of another scene: nothing of its mirrors.
+PlanState without_mirrors(PlanState plan) {
+    plan.own.clear();
+    return plan.typed.empty() || plan.typed == "auto" ? plan : PlanState{};
 }
 
 } // namespace
@@ -84,38 +105,45 @@ void Loop::carry_out(const Wants& wants) try {
         say("copied: " + command());
     }
     if (wants.writes) {
-        const std::filesystem::path png = free_name("view", ".png");
-        std::filesystem::path exr = png;
-        viewer_->write(png);
-        viewer_->write(exr.replace_extension(".exr"));
-        say("written: " + png.string() + ", " + exr.string());
+        const std::string name = free_name("view", {".png", ".exr"});
+        viewer_->write(name + ".png");
+        viewer_->write(name + ".exr");
+        say("written: " + name + ".png, " + name + ".exr");
     }
     if (wants.saves_plan) {
-        const std::filesystem::path file = free_name("view-plan", ".json");
-        write_file(file, json_of(resolved(state_.plan, entries_)));
-        say("written: " + file.string());
+        const PlanState plan = resolved(state_.plan, entries_);
+        check(plan.typed.empty(), Failure::usage, "a plan is saved once it was drawn");
+        const std::string file = free_name("view-plan", {".json"}).string() + ".json";
+        write_file(file, json_of(plan));
+        say("written: " + file);
     }
 } catch (const Error& error) {
     if (!viewer_->engine().usable()) throw;
     say(error.what());
 }
 
-/// Another scene in place of this one; where it cannot be read, this one stays.
-void Loop::load(const std::string& file) try {
-    Options other = options_;
-    other.common.scene = file;
-    other.common.wishes = {};
-    other.words = {file};
-    app::Request request = ask(other).request;
-    viewer_.reset(); // refers to the request
-    options_ = std::move(other);
-    request_ = std::move(request);
-    state_.plan.own.clear(), state_.other.own.clear();
-    open(Scene::another);
-    say("loaded: " + file);
-} catch (const Error& error) {
-    if (!viewer_) throw;
-    say(error.what());
+/// Another scene in place of this one; where it cannot be read or held, this one stays.
+void Loop::load(const std::string& file) {
+    const Options options = options_;
+    const app::Request request = request_;
+    const State state = state_;
+    try {
+        const cli::Common defaults;
+        cli::Common& common = options_.common;
+        common.scene = file, common.wishes = {};
+        common.root = defaults.root, common.seed = defaults.seed;
+        common.use_scene_file = defaults.use_scene_file;
+        options_.words = {file};
+        request_ = ask(options_).request;
+        state_.plan = without_mirrors(state_.plan), state_.other = without_mirrors(state_.other);
+        open(Scene::another);
+        say("loaded: " + file);
+    } catch (const Error& error) {
+        const bool is_open = viewer_ != nullptr && viewer_->engine().usable();
+        options_ = options, request_ = request, state_ = state;
+        if (!is_open) open(Scene::same);
+        say(error.what());
+    }
 }
 
 } // namespace catoptric::view

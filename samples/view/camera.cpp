@@ -1,5 +1,6 @@
 #include "camera.hpp"
 
+#include "core/error.hpp"
 #include "scene/camera_named.hpp"
 
 #include <algorithm>
@@ -60,9 +61,13 @@ scene::Camera moved(const scene::Camera& camera, const Moves& moves, bool flies,
     shift += (moves.flown.x * right + moves.flown.y * up + moves.flown.z * forward) * (reach / 3);
     if (flies) shift += forward * (moves.wheel * reach / 20);
     next.eye += shift, next.target += shift;
-    scene::Camera typed = scene::camera_named(scene::camera_text(next), {});
-    typed.name = next.name;
-    return typed;
+    try {
+        scene::Camera typed = scene::camera_named(scene::camera_text(next), {});
+        typed.name = next.name;
+        return typed;
+    } catch (const Error&) { // nearer, farther or wider than a camera may be
+        return camera;
+    }
 }
 
 } // namespace catoptric::view

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace catoptric::view {
 
@@ -45,6 +46,7 @@ uvec2 Loop::first_window() const {
 /// An engine, a screen and a session, for the scene as it is asked for.
 void Loop::open(Scene scene) {
     viewer_.reset(); // gives its surface back before another is made
+    entries_of_.clear();
     app::EngineOptions options = cli::engine_options(options_.common.device,
                                                      options_.common.validate);
     viewer_ = std::make_unique<Viewer>(window_, options, request_);
@@ -61,8 +63,8 @@ void Loop::open(Scene scene) {
     good_ = state_;
 }
 
-/// A frame of the state; where it cannot be made, the state goes back to the last one that could.
-void Loop::render(const Inputs& inputs, app::Overlay overlay) try {
+/// A frame of the state.
+void Loop::render(const Inputs& inputs, app::Overlay overlay) {
     const bool is_first = inputs.window == first_ || inputs.window == uvec2(0);
     const uvec2 size = is_scripted() && is_first && state_.shows_panels == settings_.shows_panels
                            ? request_.size
@@ -70,25 +72,36 @@ void Loop::render(const Inputs& inputs, app::Overlay overlay) try {
     const bool is_seen = inputs.window != uvec2(0) && viewer_->screen().fit(inputs.window);
     if (!is_seen && !is_scripted()) return;
     viewer_->frame(state_, size, std::move(overlay), is_seen);
-    good_ = state_;
-    if (const std::string text = text_of(state_.plan); text != entries_of_) {
+    good_ = state_, losses_ = 0;
+    const std::string text = text_of(state_.plan) + " " + std::to_string(viewer_->cuts());
+    if (text != entries_of_) { // what is suggested may be another plan after each cut
         entries_ = state_.plan.typed.empty() ? std::vector<PlanEntry>() : viewer_->entries();
         entries_of_ = text;
     }
-} catch (const Error& error) {
-    if (!viewer_->engine().usable()) {
-        if (frame_ == 0) throw;
-        cli::warn(std::string(error.what()) + "; the session is made anew");
-        open(Scene::same);
-        state_.said = std::string("the device was lost: ") + error.what();
-        return;
+}
+
+/// After a frame that was refused, back to what the last good one was made of; after a lost device
+/// an engine, a screen and a session made anew. Called while `error` is handled, and throws it
+/// again where neither helps.
+void Loop::recover(const Error& error) {
+    constexpr int kMostLosses = 2; // without a frame between
+    const auto asked = [](const State& state) {
+        return std::tie(state.plan, state.other, state.mode, state.model, state.camera,
+                        state.motion.time);
+    };
+    const bool is_lost = !viewer_->engine().usable();
+    losses_ += is_lost;
+    const bool is_new = asked(state_) != asked(good_);
+    if (frame_ == 0 || losses_ > kMostLosses || (!is_lost && !is_new)) throw;
+    if (!is_lost || losses_ > 1) { // one loss may be chance
+        state_.plan = good_.plan, state_.other = good_.other;
+        state_.mode = good_.mode, state_.model = good_.model;
+        state_.camera = good_.camera, state_.motion.time = good_.motion.time;
     }
-    const bool is_new = !(state_.plan == good_.plan && state_.other == good_.other &&
-                          state_.mode == good_.mode && state_.model == good_.model);
-    if (!is_new || frame_ == 0) throw;
-    state_.plan = good_.plan, state_.other = good_.other;
-    state_.mode = good_.mode, state_.model = good_.model;
-    say(error.what());
+    if (!is_lost) return say(error.what());
+    cli::warn(std::string(error.what()) + "; the session is made anew");
+    open(Scene::same);
+    state_.said = std::string("the device was lost: ") + error.what();
 }
 
 void Loop::show(const Inputs& inputs) {
@@ -103,8 +116,8 @@ void Loop::show(const Inputs& inputs) {
     if (driver_.after) driver_.after({frame_, state_, *viewer_, command()});
 }
 
-/// One frame; false: it was the last.
-bool Loop::turn() {
+/// One frame, or none where it was refused; false: it was the last.
+bool Loop::turn() try {
     Inputs inputs = window_.poll(last_ == uvec2(0) && !is_scripted() && frame_ > 0);
     inputs.on_controls = controls_.has_mouse();
     if (controls_.has_keys()) inputs.acts.clear(), inputs.flies = {};
@@ -127,6 +140,9 @@ bool Loop::turn() {
     }
     show(inputs);
     return !is_scripted() || frame_ < static_cast<std::size_t>(*options_.common.frames);
+} catch (const Error& error) {
+    recover(error);
+    return true;
 }
 
 /// With -v: what the last frames took.
@@ -146,8 +162,12 @@ int Loop::end() {
     if (!options_.screenshot.empty()) viewer_->write(options_.screenshot);
     if (options_.common.validate) viewer_->engine().check_validation();
     if (is_scripted()) return 0;
-    save_settings({last_, state_.shows_panels, state_.flies, state_.motion.speed, state_.gain},
-                  settings_file());
+    try {
+        save_settings({last_, state_.shows_panels, state_.flies, state_.motion.speed, state_.gain},
+                      settings_file());
+    } catch (const Error& error) { // no reason for a session to have failed
+        cli::warn(error.what());
+    }
     return 0;
 }
 

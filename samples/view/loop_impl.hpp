@@ -25,6 +25,7 @@ private:
     void load(const std::string& file);
     void show(const Inputs& inputs);
     void render(const Inputs& inputs, app::Overlay overlay);
+    void recover(const Error& error);
     void say(const std::string& text);
     std::string command() const;
     void next_camera(std::size_t index);
@@ -44,6 +45,7 @@ private:
     std::string entries_of_;
     uvec2 first_, last_{0, 0}; ///< sizes of the window
     std::size_t frame_ = 0;
+    int losses_ = 0; ///< of the device since a frame was rendered
     double reach_ = 1, period_ = 0;
     bool ends_ = false;
 };

@@ -34,14 +34,17 @@ void draw_mode(State& state) {
     if (state.mode == Mode::difference || state.mode == Mode::causes) {
         int power = std::bit_width(static_cast<unsigned>(state.gain)) - 1;
         const std::string format = fmt::format("x{}", state.gain);
-        ImGui::SliderInt("gain", &power, 0, 6, format.c_str());
+        ImGui::SliderInt("gain", &power, 0, 6, format.c_str(), ImGuiSliderFlags_AlwaysClamp);
         state.gain = 1 << power;
     }
     if (state.mode == Mode::causes)
         for (const Cause& cause : causes())
             if (ImGui::RadioButton(cause.name, state.cause == cause.bit)) state.cause = cause.bit;
     if (state.mode == Mode::answers)
-        ImGui::TextWrapped("green: hit, red: unknown, blue: miss; of techniques that search");
+        ImGui::TextWrapped(state.plan.typed.empty()
+                               ? "green: hit, red: unknown, blue: miss; of techniques that search"
+                               : "a plan that was typed shows its colours: edit it mirror by "
+                                 "mirror first");
 }
 
 void draw_motion(State& state, double period) {
@@ -53,9 +56,11 @@ void draw_motion(State& state, double period) {
     ImGui::SameLine();
     auto speed = static_cast<float>(state.motion.speed);
     ImGui::SetNextItemWidth(110);
-    if (ImGui::SliderFloat("speed", &speed, -4, 4, "%.2f")) state.motion.speed = speed;
+    if (ImGui::SliderFloat("speed", &speed, -4, 4, "%.2f", ImGuiSliderFlags_AlwaysClamp))
+        state.motion.speed = speed;
     auto time = static_cast<float>(state.motion.time);
-    if (ImGui::SliderFloat("s", &time, 0, static_cast<float>(std::max(period, 1.)), "%.3f"))
+    if (ImGui::SliderFloat("s", &time, 0, static_cast<float>(std::max(period, 1.)), "%.3f",
+                           ImGuiSliderFlags_AlwaysClamp))
         state.motion.time = time, state.motion.plays = false;
     if (period == 0) ImGui::TextDisabled("nothing moves in this scene");
 }

@@ -28,7 +28,6 @@ public:
         double host_ms = 0, acquire_ms = 0, present_ms = 0, interval_ms = 0;
     };
     void add(Sample sample);
-    void clear() { samples_.clear(); }
     std::size_t count() const { return samples_.size(); }
     std::vector<Line> passes() const;
     /// What the host did, its parts first.

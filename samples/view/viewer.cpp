@@ -1,5 +1,6 @@
 #include "viewer.hpp"
 
+#include "core/error.hpp"
 #include "core/stopwatch.hpp"
 #include "measure/picture_file.hpp"
 
@@ -56,6 +57,7 @@ void Viewer::cut() {
     collect(0);
     session_->forget();
     was_moved_ = false;
+    ++cuts_;
 }
 
 /// What the state asks for becomes the specification; counts frames at rest.
@@ -86,7 +88,7 @@ void Viewer::follow(const State& state, uvec2 size) {
 /// that are left to the scene are those of this view, and the picture becomes the same bytes. The
 /// first frames, in which mirrors do not show each other yet, are not shown.
 void Viewer::work_at_rest(const State& state) {
-    if (still_ == kRests && was_moved_ && !state.motion.plays) {
+    if (still_ >= kRests && was_moved_ && !state.motion.plays) {
         cut();
         for (int k = 0; k < kHidden; ++k) {
             last_ = session_->frame(spec_);
@@ -99,7 +101,9 @@ void Viewer::work_at_rest(const State& state) {
         collect(0); // frames beside the sequence take the places of those before
         reference_.advance(*session_, spec_);
     }
-    if (still_ >= kSettled && state.judges && !error_ && reference_.passes() > 0) {
+    // What a search says of itself is no picture to be judged.
+    if (still_ >= kSettled && state.judges && state.mode != Mode::answers && !error_ &&
+        reference_.passes() > 0) {
         last_ = session_->frame(spec_);
         error_ = reference_.judge(last_->hdr(), spec_.exposure);
     }
@@ -167,7 +171,7 @@ std::uint32_t Viewer::mirror_at(uvec2 pixel) {
 }
 
 void Viewer::write(const std::filesystem::path& file) const {
-    if (!last_) return;
+    check(last_.has_value(), Failure::usage, "there is no frame yet to be written");
     if (file.extension() == ".exr") return measure::write_exr(last_->read(0).hdr, file);
     const auto picture = [&](std::size_t part) {
         return part == app::Showing::kCanvas ? *showing_.canvas : last_->read(part).display;

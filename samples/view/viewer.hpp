@@ -43,6 +43,7 @@ public:
     void write(const std::filesystem::path& file) const;
     app::FrameSpec spec() const { return spec_; }
     std::size_t frames() const { return frames_; }
+    std::size_t cuts() const { return cuts_; }
 
 private:
     void follow(const State& state, uvec2 size);
@@ -71,7 +72,7 @@ private:
     Mode made_mode_ = Mode::plan;
     std::uint32_t made_cause_ = 0;
     int made_gain_ = 0;
-    std::size_t frames_ = 0;
+    std::size_t frames_ = 0, cuts_ = 0;
     int still_ = 0;          ///< frames since something changed
     bool was_moved_ = false; ///< since the last cut
     double began_ = 0;

@@ -37,8 +37,12 @@ struct Callbacks {
     }
     static void key(GLFWwindow* window, int code, int, int action, int) {
         if (action == GLFW_RELEASE) return;
+        const auto repeats = [](const Key& key) {
+            return key.act == Act::step || key.act == Act::back;
+        };
         for (const Key& key : keys())
-            if (key.code == code) of(window).acts.push_back(key);
+            if (key.code == code && (action == GLFW_PRESS || repeats(key)))
+                of(window).acts.push_back(key);
     }
     static void scroll(GLFWwindow* window, double, double y) { of(window).wheel += y; }
     static void drop(GLFWwindow* window, int count, const char** paths) {

@@ -49,7 +49,8 @@ protected:
     test::Bench& bench_ = test::bench();
     scene::Scene room_ = test::room(3, 2);
     render::GpuScene scene_{bench_.device, room_};
-    render::Comparisons comparisons_{bench_.device};
+    render::Comparisons comparisons_{
+        bench_.device, [this](std::uint64_t frame) { return runner_.has_ended({frame}); }};
     graph::Runner runner_{bench_.device, bench_.pipelines};
     require::Model model_;
     std::shared_ptr<render::KeptCaptures> kept_;

@@ -53,6 +53,15 @@ TEST(Search, WhatIsWrongWithOneIsSaid) {
                 HasSubstr("technique 'twice' has two knobs 'face'"));
     EXPECT_THAT(refused({.name = "outside", .knobs = {{.name = "a", .high = 1, .value = 2}}}),
                 HasSubstr("knob 'a': wanted a value from 0 to 1, found 2"));
+    EXPECT_THAT(refused({.name = "auto"}), HasSubstr("'auto' is what the requirements suggest"));
+    EXPECT_THAT(refused({.name = "outside", .compared = {"outsid:face=4"}}),
+                HasSubstr("wanted rows of its own to compare, found 'outsid:face=4'"));
+    EXPECT_THAT(refused({.name = "outside", .knobs = {{.name = "a=b"}}}),
+                HasSubstr("knob 'a=b': wanted a name of small letters, digits and '_'"));
+    EXPECT_THAT(refused({.name = "outside", .knobs = {{.name = "a", .value = .5}}}),
+                HasSubstr("wanted whole numbers from 0 to 4294967295, found 0 to 1 and 0.5"));
+    EXPECT_THAT(refused({.name = "outside", .knobs = {{.name = "a", .low = -1}}}),
+                HasSubstr("found -1 to 1 and 0; is_real allows others"));
     EXPECT_THROW(app::parse_technique("twice"), UsageError) << "refused ones are not added";
 }
 

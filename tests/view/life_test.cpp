@@ -89,6 +89,24 @@ TEST_F(ViewLife, IsResizedMinimisedAndClosed) {
     EXPECT_GE(sizes.size(), 20u);
 }
 
+/// A plan that the device has no memory for, again and again: each time the one before comes back,
+/// and no image of the window is kept.
+TEST_F(ViewLife, GoesBackToThePlanBefore) {
+    int refused = 0;
+    Driver driver;
+    driver.before = [&](std::size_t frame, Inputs&, State& state, Window&) {
+        if (!state.said.empty()) ++refused, state.said.clear();
+        if (frame % 2 == 0 && refused < static_cast<int>(frame) / 2)
+            state.plan = plan_of("secant:face=16384");
+    };
+    driver.after = [&](const Report& report) {
+        EXPECT_EQ(text_of(report.state.plan), "reuse:face=16");
+    };
+    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32", "--frames", "12"}, driver),
+              0);
+    EXPECT_EQ(refused, 6);
+}
+
 /// In mid-frame: what the user had is there in a session made anew, and the picture comes out as
 /// ever.
 TEST_F(ViewLife, GoesOnWhenTheDeviceIsLost) {

@@ -187,6 +187,12 @@ TEST_F(ViewPicture, LoadsWhatIsDropped) {
     EXPECT_EQ(scenes[3], "cornell-mirrors");
     EXPECT_EQ(said[4], "loaded: flat");
     EXPECT_EQ(scenes[4], "flat");
+    // A plan for mirrors that the other scene has not.
+    EXPECT_EQ(
+        view({"--plan", "ball1=reuse:face=16 *=secant:face=16", "--size", "32x32", "--frames", "6"},
+             driver),
+        0);
+    EXPECT_EQ(scenes.back(), "flat");
 }
 
 } // namespace

@@ -102,6 +102,17 @@ TEST_F(ViewCamera, CanBeTyped) {
     }
 }
 
+/// However far the wheel is turned, and whatever a scene file's camera is like.
+TEST_F(ViewCamera, StaysOneThatMayBe) {
+    for (const double wheel : {1e3, -1e5}) {
+        scene::Camera c = camera;
+        for (int i = 0; i < 10; ++i) c = moved(c, {.wheel = wheel}, false, 400, 10);
+        EXPECT_NO_THROW(static_cast<void>(scene::camera_named(scene::camera_text(c), {})));
+    }
+    camera.vertical_fov_degrees = 179.9; // more than may be typed
+    EXPECT_EQ(moved(camera, {.turned = {9, 9}}, false, 400, 10), camera);
+}
+
 TEST(ViewHand, DragsTheDividerAndClicksMirrors) {
     State state;
     state.camera = {.eye = {0, 1, 0}, .target = {0, 1, 4}};
