@@ -90,7 +90,7 @@ Choice by_shape(const Question& question, const scene::Object& object) {
 Choice choice_of(const Question& question, const Picture& picture, const scene::Object& object,
                  const MirrorNeeds& needs) {
     const std::string cheapest = "reuse:face=" + std::to_string(kSmallFace);
-    if (needs.seen_in) return {cheapest, "the camera sees it in other mirrors alone"};
+    if (needs.seen_in) return {cheapest, "only other mirrors have it in their view"};
     if (!needs.is_seen) return by_shape(question, object);
     const double pixels = pixels_of(picture, scene::bounds(question.now, object), question.size);
     if (pixels <= kFewPixels)

@@ -187,7 +187,7 @@ TEST_F(Cli, GraphInThreeFormats) {
 
 TEST_F(Cli, GraphSaysWhatAPictureRequires) {
     const std::string text = cli({"graph", "flat", "--why"}).out;
-    EXPECT_THAT(text, testing::HasSubstr("mirror 1 'mirror': seen by the camera; captured, faces "
+    EXPECT_THAT(text, testing::HasSubstr("mirror 1 'mirror': in the camera's view; captured, faces "
                                          "+X -X +Y -Y -Z, no other mirror in it"));
     EXPECT_THAT(text, testing::HasSubstr("face +Z of the capture of mirror 1 'mirror'"));
     EXPECT_THAT(text, testing::HasSubstr("changes: no pixel"));
