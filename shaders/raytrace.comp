@@ -32,7 +32,8 @@ layout(set = 0, binding = HITS_BINDING, r32ui) writeonly uniform uimage2D hits;
 bool has_pixel(out uvec2 pixel) {
     uint across = (trace.size.x + 7u) / 8u;
     uint group = work_group();
-    pixel = uvec2(group % across, group / across) * 8u + gl_LocalInvocationID.xy;
+    uint i = gl_LocalInvocationIndex; // eight that run together are a block of 4x2 pixels
+    pixel = uvec2(group % across, group / across) * 8u + uvec2(i & 3u | i >> 1 & 4u, i >> 2 & 1u | i >> 3 & 6u);
     return all(lessThan(pixel, trace.size));
 }
 void keep_hits(uvec2 pixel, uint met) { imageStore(hits, ivec2(pixel), uvec4(met)); }

@@ -5,7 +5,8 @@
 // rays pass through. TRACE_IS_THERE(stored triangle, object, barycentric): false where one of
 // kBvhMasked is cut out.
 // What makes it fast on a processor: uniform texel buffers, the stack in shared memory, lanes that
-// diverge. NAIVE is what one would write first, kept for the benchmark that shows it: storage
+// diverge, and loops that ask at their end whether to go on: a software driver, which jumps nowhere but at a loop's end,
+// computes the body of one that asks first once more than needed. NAIVE is what one would write first, kept for the benchmark that shows it: storage
 // buffers, the stack in a private array.
 #ifndef CATOPTRIC_TRACE_GLSL
 #define CATOPTRIC_TRACE_GLSL
@@ -190,19 +191,21 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
     uint child = kBvhRoot;
     while (child != kBvhNothing && trace_steps < kMaxTraceSteps) {
         // Down to a leaf. A child that is not met leaves `child` for the next on the stack.
-        while (bvh_is_inner(child) && trace_steps < kMaxTraceSteps) {
-            uint second;
-            trace_node(bvh_index(child), walked.boxes, best.t, child, second);
-            ++trace_steps;
-            if (second != kBvhNothing) {
-                STACK(waiting) = second;
-                ++waiting;
+        do {
+            if (bvh_is_inner(child)) {
+                uint second;
+                trace_node(bvh_index(child), walked.boxes, best.t, child, second);
+                ++trace_steps;
+                if (second != kBvhNothing) {
+                    STACK(waiting) = second;
+                    ++waiting;
+                }
+                if (child == kBvhNothing && waiting > 0u) {
+                    --waiting;
+                    child = STACK(waiting);
+                }
             }
-            if (child == kBvhNothing && waiting > 0u) {
-                --waiting;
-                child = STACK(waiting);
-            }
-        }
+        } while (bvh_is_inner(child) && trace_steps < kMaxTraceSteps);
         uint first = bvh_index(child);
         uint count = bvh_count(child);
         uint i = 0u;
@@ -226,11 +229,13 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
             ++trace_steps;
             count = 0u;
         }
-        while (i < count) {
-            trace_triangle(first + i, walked, skipped_flags, best, found);
-            ++trace_steps;
-            ++i;
-        }
+        do {
+            if (i < count) {
+                trace_triangle(first + i, walked, skipped_flags, best, found);
+                ++trace_steps;
+                ++i;
+            }
+        } while (i < count);
         // Out of steps, or stopped by the driver: one of the two loops has work left.
         if (!enters && (bvh_is_inner(child) || i < count)) break;
         if (enters) continue;
