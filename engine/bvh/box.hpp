@@ -23,6 +23,18 @@ inline float pad_of(const Box& box, const Box& core) {
            f32::largest(max(abs(box.lo - middle), abs(box.hi - middle))); // twice: roundings here
 }
 
+/// Of a triangle, or of a ball with what its test's roundings reach out of it.
+inline Box box_of(const vec3& a, const vec3& b, const vec3& c, std::uint32_t flags) {
+    Box box;
+    if ((flags & kBall) != 0) {
+        const float reach = b.x + f32::gamma_bound(16) * (b.x + f32::largest(abs(a)));
+        box.add(a - reach), box.add(a + reach);
+    } else {
+        box.add(a), box.add(b), box.add(c);
+    }
+    return box;
+}
+
 inline bool is_finite(const Triangle& t) {
     return f32::is_finite(t.a) && f32::is_finite(t.b) && f32::is_finite(t.c);
 }

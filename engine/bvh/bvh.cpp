@@ -99,7 +99,7 @@ std::vector<Reference> references(std::span<const Triangle> triangles) {
         const Triangle& t = triangles[i];
         if (!is_finite(t)) continue;
         Reference r{.box = {}, .centre = {}, .triangle = static_cast<std::uint32_t>(i)};
-        r.box.add(t.a), r.box.add(t.b), r.box.add(t.c);
+        r.box = box_of(t.a, t.b, t.c, t.flags);
         r.centre = r.box.lo * 0.5f + r.box.hi * 0.5f; // the sum itself may overflow
         result.push_back(r);
     }

@@ -12,7 +12,7 @@ namespace catoptric::bvh {
 struct Triangle {
     vec3 a{0}, b{0}, c{0};
     std::uint32_t object = 0; ///< below 2^29; comes back with a hit
-    std::uint32_t flags = 0;  ///< kHidden | kShadowless | kSphere | kOneSided | kMasked
+    std::uint32_t flags = 0;  ///< kHidden | kShadowless | kSphere | kOneSided | kMasked | kBall
 };
 
 inline constexpr std::uint32_t kHidden = f32::kBvhHidden;         ///< camera rays pass through
@@ -20,8 +20,15 @@ inline constexpr std::uint32_t kShadowless = f32::kBvhShadowless; ///< shadow ra
 inline constexpr std::uint32_t kSphere = f32::kBvhSphere;         ///< stands for an exact sphere
 inline constexpr std::uint32_t kOneSided = f32::kBvhOneSided; ///< where skipped: met in front alone
 inline constexpr std::uint32_t kMasked = f32::kBvhMasked;     ///< parts of it may be cut out
+inline constexpr std::uint32_t kBall = f32::kBvhBall;         ///< no triangle: see `ball`
 inline constexpr std::uint32_t kMaxDepth = f32::kBvhMaxDepth;
 inline constexpr std::uint32_t kMaxLeaf = 4; ///< triangles in a leaf
+
+/// A sphere in a triangle's place, for walks that know balls (TRACE_BALLS of
+/// shaders/lib/trace.glsl).
+inline Triangle ball(const vec3& centre, float radius, std::uint32_t object, std::uint32_t flags) {
+    return {centre, vec3(radius, 0, 0), vec3(0), object, flags | kBall};
+}
 
 /// The two arrays that the device reads as they stand.
 ///
@@ -37,8 +44,8 @@ inline constexpr std::uint32_t kMaxLeaf = 4; ///< triangles in a leaf
 ///   An absent child has the empty box (lo = +inf, hi = -inf) and the word kBvhNothing.
 ///
 /// `triangles`, three vec4 each, in the order of the leaves:
-///                        a.xyz, object index
-///                        b.xyz, original triangle number
+///                        a.xyz, object index               (of a ball: its centre)
+///                        b.xyz, original triangle number   (its radius, 0, 0)
 ///                        c.xyz, flags
 ///
 /// Words. Bit 31 is clear, bit 30 set and bit 29 clear or followed by clear ones, so that no word,

@@ -41,6 +41,7 @@ using f32::box_ray, f64::box_ray;
 using f32::is_from_behind, f64::is_from_behind;
 using f32::own_ray, f64::own_ray;
 using f32::ray_shear, f64::ray_shear;
+using f32::sphere_test, f64::sphere_test;
 using f32::triangle_test, f64::triangle_test;
 
 template <typename Real>
@@ -89,9 +90,14 @@ struct Search {
             return;
         Real t;
         Vec<Real> weights;
-        if (!triangle_test(corner<Real>(texel[0]), corner<Real>(texel[1]), corner<Real>(texel[2]),
-                           ray.origin, shear, t, weights))
+        if ((flags & f32::kBvhBall) != 0) {
+            if (!sphere_test(corner<Real>(texel[0]), Real{texel[1].x}, ray, Real{f32::kLargest}, t))
+                return;
+            weights = {1, 0, 0};
+        } else if (!triangle_test(corner<Real>(texel[0]), corner<Real>(texel[1]),
+                                  corner<Real>(texel[2]), ray.origin, shear, t, weights)) {
             return;
+        }
         if (t < t_max || (best && t == t_max && triangle < best->triangle)) {
             t_max = t;
             best = Hit<Real>{t,        barycentric(weights),

@@ -8,10 +8,8 @@ namespace catoptric::bvh {
 
 namespace {
 
-Box corner_bounds(const vec4* corners) {
-    Box box;
-    for (int i = 0; i < 3; ++i) box.add(vec3(corners[i]));
-    return box;
+Box bounds_of(const vec4* stored) {
+    return box_of(vec3(stored[0]), vec3(stored[1]), vec3(stored[2]), number_of(stored[2].w));
 }
 
 /// Box of what a child's word stands for, from corners and nodes below it.
@@ -24,7 +22,7 @@ Box child_bounds(const Bvh& bvh, std::uint32_t child, const Box& core) {
         return box;
     }
     for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
-        Box triangle = corner_bounds(&bvh.triangles[3 * std::size_t{f32::bvh_index(child) + i}]);
+        Box triangle = bounds_of(&bvh.triangles[3 * std::size_t{f32::bvh_index(child) + i}]);
         const float pad = pad_of(triangle, core);
         triangle.lo -= pad, triangle.hi += pad;
         box.add(triangle);
@@ -47,7 +45,7 @@ void refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& c
     Box slack = core;
     if (slack.empty())
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3)
-            slack.add(corner_bounds(&bvh.triangles[i]));
+            slack.add(bounds_of(&bvh.triangles[i]));
     // A node comes before what is below it.
     for (std::size_t node = node_count(bvh); node-- > 1;) {
         vec4* texel = &bvh.nodes[4 * node];

@@ -50,10 +50,14 @@ gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, 
             scene.features()};
 }
 
+render::Spheres spheres_of(const Tracer& tracer) {
+    return tracer.exact_spheres ? render::Spheres::exact : render::Spheres::mesh;
+}
+
 /// What the body of a tracing pass binds.
 void bind(graph::Commands& commands, const render::GpuScene& scene, const Tracer& tracer) {
     scene.bind(commands);
-    scene.bind_tracing(commands);
+    scene.bind_tracing(commands, spheres_of(tracer));
     if (tracer.shadow == Tracer::Shadow::map)
         commands.bind("shadow_map", *tracer.lighting.shadow_map, graph::Filter::compare);
 }
@@ -120,7 +124,7 @@ Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const 
     graph.pass(inputs.prefix + "raytrace/reset")
         .writes(traced.counters, Use::copy_to)
         .record([=](graph::Commands& commands) { commands.fill(traced.counters, 0); });
-    inputs.scene.want_tracing();
+    inputs.scene.want_tracing(spheres_of(tracer));
     graph::PassBuilder pass = graph.pass(inputs.prefix + "raytrace");
     if (tracer.shadow == Tracer::Shadow::map) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
     pass.writes(traced.hdr, Use::storage_write)
@@ -144,7 +148,7 @@ graph::Buffer add_listed(graph::Graph& graph, const render::FrameInputs& inputs,
                          const Tracer& tracer, std::uint32_t number, const render::View& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
     const List list = add_list(graph, inputs, suffix, number, view);
-    inputs.scene.want_tracing();
+    inputs.scene.want_tracing(spheres_of(tracer));
     graph::PassBuilder pass = graph.pass(inputs.prefix + "trace" + suffix);
     if (tracer.shadow == Tracer::Shadow::map) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
     pass.reads(list.arguments, Use::indirect)

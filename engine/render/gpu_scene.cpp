@@ -83,7 +83,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
                       double ambient, std::size_t slot) {
     update_ms_ = 0, hierarchy_ms_before_ = tracing_->ms();
     const Stopwatch watch(update_ms_);
-    slot_ = slot, wants_tracing_ = false;
+    slot_ = slot, wants_tracing_ = {};
     const Changes changes = seen_.take_over(now, !complete_);
     complete_ = false; // until the end: whatever throws, the next update starts anew
     if (changes.layout)
@@ -262,12 +262,14 @@ void GpuScene::prepare() const {
         view_buffer_.set(views_);
         uploads_ += view_buffer_.write(device_, slot_);
     }
-    if (wants_tracing_) tracing_->prepare(device_, geometry_, slot_);
+    for (const Spheres spheres : {Spheres::mesh, Spheres::exact})
+        if (wants_tracing_[static_cast<std::size_t>(spheres)])
+            tracing_->prepare(device_, geometry_, surfaces_, spheres, slot_);
 }
 
-void GpuScene::bind_tracing(graph::Commands& commands) const {
-    tracing_->prepare(device_, geometry_, slot_);
-    tracing_->bind(commands, slot_);
+void GpuScene::bind_tracing(graph::Commands& commands, Spheres spheres) const {
+    tracing_->prepare(device_, geometry_, surfaces_, spheres, slot_);
+    tracing_->bind(commands, spheres, slot_);
 }
 
 } // namespace catoptric::render

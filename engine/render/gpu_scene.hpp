@@ -105,12 +105,14 @@ public:
     void bind_vertices(graph::Commands& commands, std::size_t object) const;
 
     /// Said by a pass that traces, when it is declared.
-    void want_tracing() const { wants_tracing_ = true; }
+    void want_tracing(Spheres spheres = Spheres::mesh) const {
+        wants_tracing_[static_cast<std::size_t>(spheres)] = true;
+    }
     /// After the frame's passes are declared: writes the views that were added; makes the hierarchy
     /// if one of them wants it and it is not up to date.
     void prepare() const;
     /// Binds the hierarchy; makes it first where nobody has prepared it.
-    void bind_tracing(graph::Commands& commands) const;
+    void bind_tracing(graph::Commands& commands, Spheres spheres = Spheres::mesh) const;
 
     /// Milliseconds of the host since this update began.
     double update_ms() const { return update_ms_; }
@@ -170,7 +172,7 @@ private:
     Details details_;
     Sky sky_;
     std::unique_ptr<Tracing> tracing_;
-    mutable bool wants_tracing_ = false;
+    mutable std::array<bool, 2> wants_tracing_{}; ///< by Spheres
 };
 
 } // namespace catoptric::render

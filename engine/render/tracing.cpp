@@ -4,7 +4,9 @@
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace catoptric::render {
 
@@ -47,29 +49,49 @@ bool is_own_storage(const Geometry& geometry, std::size_t object) {
     return geometry.ranges[object].own && geometry.ranges[object].storage == object;
 }
 
+/// The same list with a ball in place of the triangles of each thing in scene units that stands for
+/// an exact sphere: where the first was. The others are no triangles.
+std::vector<bvh::Triangle> with_balls(std::span<const bvh::Triangle> flat, const Geometry& geometry,
+                                      std::span<const shared::Surface> surfaces) {
+    std::vector<bvh::Triangle> triangles(flat.begin(), flat.end());
+    const bvh::Triangle nothing{.a = vec3(std::numeric_limits<float>::quiet_NaN())};
+    for (std::uint32_t i = 0; i < geometry.ranges.size(); ++i) {
+        const DrawRange& range = geometry.ranges[i];
+        if (!range.exact_sphere || range.own || range.index_count == 0) continue;
+        const auto own = std::span(triangles).subspan(range.first_index / 3, range.index_count / 3);
+        std::ranges::fill(own, nothing);
+        own.front() = bvh::ball(surfaces[i].centre, surfaces[i].radius, i,
+                                flags_of(range) & (bvh::kHidden | bvh::kShadowless));
+    }
+    return triangles;
+}
+
 } // namespace
 
 Tracing::Tracing(std::size_t slots)
-    : nodes_buffer_("bvh_nodes", gpu::BufferUse::texels, slots),
-      triangles_buffer_("bvh_triangles", gpu::BufferUse::texels, slots),
+    : hierarchies_{Hierarchy(slots), Hierarchy(slots)},
       normals_buffer_("normals", gpu::BufferUse::texels, slots) {}
 
 void Tracing::lay_out() {
-    laid_out_ = false;
+    ++version_.layouts;
+    is_read_ = false;
     moved_.clear();
 }
 
-void Tracing::build(const Geometry& geometry) {
-    tree_ = bvh::build(std::span(triangles_).first(geometry.flat_indices / 3), geometry.core);
-    cost_when_built_ = bvh::cost(tree_);
+void Tracing::build(Hierarchy& hierarchy, const Geometry& geometry,
+                    std::span<const bvh::Triangle> flat) {
+    hierarchy.tree = bvh::build(flat, geometry.core);
+    hierarchy.cost_when_built = bvh::cost(hierarchy.tree);
     ++built_;
 }
 
-void Tracing::refit(const Geometry& geometry) {
-    bvh::refit(tree_, std::span(triangles_).first(geometry.flat_indices / 3), geometry.core);
+void Tracing::refit(Hierarchy& hierarchy, const Geometry& geometry,
+                    std::span<const bvh::Triangle> flat) {
+    bvh::refit(hierarchy.tree, flat, geometry.core);
     ++refitted_;
     // Written so that a NaN builds too.
-    if (!(bvh::cost(tree_) <= kWorstRefit * cost_when_built_)) build(geometry);
+    if (!(bvh::cost(hierarchy.tree) <= kWorstRefit * hierarchy.cost_when_built))
+        build(hierarchy, geometry, flat);
 }
 
 void Tracing::build_own(const Geometry& geometry, std::size_t object) {
@@ -79,20 +101,35 @@ void Tracing::build_own(const Geometry& geometry, std::size_t object) {
     renumber(tree, range.first_index / 3);
 }
 
-/// Does what the moves since the last time ask for.
-void Tracing::follow(const Geometry& geometry) {
-    bool flat = false;
-    for (const auto& [object, vertices] : moved_) {
-        const bool own = geometry.ranges[object].own.has_value();
-        if (vertices) read_object(geometry, object, triangles_, normals_);
-        if (vertices && own) build_own(geometry, object);
-        flat = flat || !own;
+/// Takes over what was laid out or has moved.
+void Tracing::read(const Geometry& geometry) {
+    if (!is_read_) {
+        triangles_.resize(geometry.indices.size() / 3);
+        normals_.resize(geometry.indices.size());
+        own_trees_.clear();
+        for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
+            if (geometry.ranges[i].storage == i) read_object(geometry, i, triangles_, normals_);
+        for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
+            if (is_own_storage(geometry, i)) build_own(geometry, i);
+        normals_buffer_.set(normals_);
+    } else if (!moved_.empty()) {
+        ++version_.moves;
+        bool flat = false;
+        for (const auto& [object, vertices] : moved_) {
+            const bool own = geometry.ranges[object].own.has_value();
+            if (vertices) read_object(geometry, object, triangles_, normals_);
+            if (vertices && own) build_own(geometry, object);
+            flat = flat || !own;
+        }
+        if (flat) ++version_.flat_moves;
+        normals_buffer_.set(normals_);
     }
-    if (flat) refit(geometry);
+    is_read_ = true;
+    moved_.clear();
 }
 
 /// Puts together what the device walks.
-void Tracing::fill(const Geometry& geometry) {
+void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry) const {
     std::vector<bvh::Instance> instances;
     auto next = static_cast<std::uint32_t>(triangles_.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
@@ -106,47 +143,51 @@ void Tracing::fill(const Geometry& geometry) {
     }
     check(next <= f32::kBvhIdMask, Failure::exhausted, "rays tell ", f32::kBvhIdMask,
           " triangles apart, the scene shows ", next);
-    const bvh::Bvh whole = instances.empty() ? bvh::Bvh() : bvh::assemble(tree_, instances);
-    const bvh::Bvh& shown = instances.empty() ? tree_ : whole;
-    nodes_buffer_.set(shown.nodes);
-    triangles_buffer_.set(shown.triangles);
-    normals_buffer_.set(normals_);
+    const bvh::Bvh whole = instances.empty() ? bvh::Bvh()
+                                             : bvh::assemble(hierarchy.tree, instances);
+    const bvh::Bvh& shown = instances.empty() ? hierarchy.tree : whole;
+    hierarchy.nodes.set(shown.nodes);
+    hierarchy.triangles.set(shown.triangles);
 }
 
-void Tracing::bring_up_to_date(const Geometry& geometry) {
-    if (!laid_out_) {
-        triangles_.resize(geometry.indices.size() / 3);
-        normals_.resize(geometry.indices.size());
-        own_trees_.clear();
-        for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
-            if (geometry.ranges[i].storage == i) read_object(geometry, i, triangles_, normals_);
-        for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
-            if (is_own_storage(geometry, i)) build_own(geometry, i);
-        build(geometry);
-        fill(geometry);
-    } else if (!moved_.empty()) {
-        follow(geometry);
-        fill(geometry);
-    }
-    laid_out_ = true;
-    moved_.clear();
+/// `flat`: the triangles and balls in scene units.
+void Tracing::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
+                               std::span<const bvh::Triangle> flat) {
+    if (hierarchy.seen.layouts != version_.layouts)
+        build(hierarchy, geometry, flat);
+    else if (hierarchy.seen.flat_moves != version_.flat_moves)
+        refit(hierarchy, geometry, flat);
+    fill(hierarchy, geometry);
+    hierarchy.seen = version_;
 }
 
-void Tracing::prepare(gpu::Device& device, const Geometry& geometry, std::size_t slot) {
+void Tracing::prepare(gpu::Device& device, const Geometry& geometry,
+                      std::span<const shared::Surface> surfaces, Spheres spheres,
+                      std::size_t slot) {
     const Stopwatch watch(ms_);
     const bool is_first = built_ == 0;
-    bring_up_to_date(geometry);
+    read(geometry);
+    Hierarchy& hierarchy = of(spheres);
+    if (hierarchy.seen != version_) {
+        const std::size_t count = geometry.flat_indices / 3;
+        if (spheres == Spheres::mesh)
+            bring_up_to_date(hierarchy, geometry, std::span(triangles_).first(count));
+        else
+            bring_up_to_date(hierarchy, geometry,
+                             with_balls(std::span(triangles_).first(count), geometry, surfaces));
+    }
     const double build_ms = watch.ms();
-    for (Resident* buffer : {&nodes_buffer_, &triangles_buffer_, &normals_buffer_})
+    for (Resident* buffer : {&hierarchy.nodes, &hierarchy.triangles, &normals_buffer_})
         writes_ += buffer->write(device, slot);
     if (is_first) first_build_ms_ = build_ms, first_write_ms_ = watch.ms() - build_ms;
 }
 
-void Tracing::bind(graph::Commands& commands, std::size_t slot) const {
-    commands.bind("bvh_nodes", nodes_buffer_.at(slot));
-    commands.bind("BvhNodes", nodes_buffer_.at(slot));
-    commands.bind("bvh_triangles", triangles_buffer_.at(slot));
-    commands.bind("BvhTriangles", triangles_buffer_.at(slot));
+void Tracing::bind(graph::Commands& commands, Spheres spheres, std::size_t slot) const {
+    const Hierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
+    commands.bind("bvh_nodes", hierarchy.nodes.at(slot));
+    commands.bind("BvhNodes", hierarchy.nodes.at(slot));
+    commands.bind("bvh_triangles", hierarchy.triangles.at(slot));
+    commands.bind("BvhTriangles", hierarchy.triangles.at(slot));
     commands.bind("normals", normals_buffer_.at(slot));
     commands.bind("Normals", normals_buffer_.at(slot));
 }

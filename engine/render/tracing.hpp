@@ -5,8 +5,10 @@
 #include "render/geometry.hpp"
 #include "render/resident.hpp"
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace catoptric::render {
@@ -14,7 +16,11 @@ namespace catoptric::render {
 /// A refitted hierarchy is built anew once its cost (bvh::cost) is this many times what it was.
 inline constexpr double kWorstRefit = 2;
 
-/// The hierarchy that rays walk, made when somebody asks for it: built once for a layout of
+/// What rays meet of a thing that stands for an exact sphere: its triangles, or a ball in their
+/// place. Each has a hierarchy of its own.
+enum class Spheres { mesh, exact };
+
+/// The hierarchies that rays walk, each made when somebody asks for it: built once for a layout of
 /// objects, refitted where objects have moved since.
 class Tracing {
 public:
@@ -24,10 +30,11 @@ public:
     void lay_out();
     /// `vertices`: these changed, not only where an object's own space stands.
     void move(std::size_t object, bool vertices) { moved_.push_back({object, vertices}); }
-    /// Brings the hierarchy up to date for slot `slot`; nothing to do where nothing has changed
-    /// since. Building is O(n log^2 n), refitting O(n).
-    void prepare(gpu::Device& device, const Geometry& geometry, std::size_t slot);
-    void bind(graph::Commands& commands, std::size_t slot) const;
+    /// Brings a hierarchy up to date for slot `slot`; nothing to do where nothing has changed
+    /// since. `surfaces`: of each object, scene units. Building is O(n log^2 n), refitting O(n).
+    void prepare(gpu::Device& device, const Geometry& geometry,
+                 std::span<const shared::Surface> surfaces, Spheres spheres, std::size_t slot);
+    void bind(graph::Commands& commands, Spheres spheres, std::size_t slot) const;
 
     std::size_t built() const { return built_; }
     std::size_t refitted() const { return refitted_; }
@@ -43,21 +50,37 @@ private:
         std::size_t object;
         bool vertices;
     };
-    void bring_up_to_date(const Geometry& geometry);
-    void build(const Geometry& geometry);
-    void refit(const Geometry& geometry);
+    /// What changed so far: a hierarchy that has seen less is behind.
+    struct Version {
+        std::size_t layouts = 0, flat_moves = 0, moves = 0;
+        friend bool operator==(const Version&, const Version&) = default;
+    };
+    struct Hierarchy {
+        explicit Hierarchy(std::size_t slots)
+            : nodes("bvh_nodes", gpu::BufferUse::texels, slots),
+              triangles("bvh_triangles", gpu::BufferUse::texels, slots) {}
+        bvh::Bvh tree; ///< of what is in scene units
+        double cost_when_built = 0;
+        Version seen;
+        Resident nodes, triangles;
+    };
+    Hierarchy& of(Spheres spheres) { return hierarchies_[static_cast<std::size_t>(spheres)]; }
+    void read(const Geometry& geometry);
+    void bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
+                          std::span<const bvh::Triangle> flat);
+    void build(Hierarchy& hierarchy, const Geometry& geometry, std::span<const bvh::Triangle> flat);
+    void refit(Hierarchy& hierarchy, const Geometry& geometry, std::span<const bvh::Triangle> flat);
     void build_own(const Geometry& geometry, std::size_t object);
-    void follow(const Geometry& geometry);
-    void fill(const Geometry& geometry);
+    void fill(Hierarchy& hierarchy, const Geometry& geometry) const;
 
     std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
     std::vector<vec4> normals_;
-    bvh::Bvh tree_;                             ///< of what is in scene units
     std::map<std::size_t, bvh::Bvh> own_trees_; ///< by the object whose vertices they are
-    double cost_when_built_ = 0;
-    bool laid_out_ = false;
-    std::vector<Move> moved_; ///< since the hierarchy was made
-    Resident nodes_buffer_, triangles_buffer_, normals_buffer_;
+    Version version_{1, 0, 0};
+    bool is_read_ = false;    ///< this layout
+    std::vector<Move> moved_; ///< since the triangles were read
+    std::array<Hierarchy, 2> hierarchies_;
+    Resident normals_buffer_;
     std::size_t built_ = 0, refitted_ = 0, writes_ = 0;
     double ms_ = 0, first_build_ms_ = 0, first_write_ms_ = 0;
 };

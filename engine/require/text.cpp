@@ -18,8 +18,9 @@ std::string numbers_of(const std::vector<std::uint32_t>& mirrors) {
 
 std::string needs_text(const MirrorNeeds& needs) {
     if (!needs.is_captured) return "not seen";
-    std::string text = needs.seen_in ? "in the view of mirror " + std::to_string(needs.seen_in.number())
-                                     : "in the camera's view";
+    std::string text = needs.seen_in
+                           ? "in the view of mirror " + std::to_string(needs.seen_in.number())
+                           : "in the camera's view";
     text += "; captured, ";
     text += needs.faces == kAllFaces ? "six faces" : "faces " + names_of(needs.faces);
     if (needs.edge > 0) text += " of " + std::to_string(needs.edge) + " texels an edge";

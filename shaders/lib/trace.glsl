@@ -2,7 +2,7 @@
 // The including shader defines BVH_NODES_BINDING and BVH_TRIANGLES_BINDING (set 0), and
 // TRACE_LOCAL_SIZE where its work group has not 64 invocations.
 // TRACE_PRIVATE_STACK: for stages that have no shared memory. TRACE_SEES(object): false for objects that
-// rays pass through. TRACE_IS_THERE(stored triangle, object, barycentric): false where one of
+// rays pass through. TRACE_BALLS: whether the hierarchy may hold some. TRACE_IS_THERE(stored triangle, object, barycentric): false where one of
 // kBvhMasked is cut out.
 // What makes it fast on a processor: uniform texel buffers, the stack in shared memory, lanes that
 // diverge, and loops that ask at their end whether to go on: a software driver, which jumps nowhere but at a loop's end,
@@ -20,6 +20,9 @@
 #endif
 #ifndef TRACE_SEES
 #define TRACE_SEES(object) true
+#endif
+#ifndef TRACE_BALLS
+#define TRACE_BALLS false
 #endif
 #ifdef NAIVE
 #define TRACE_PRIVATE_STACK
@@ -95,7 +98,11 @@ void triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
     c = TRIANGLE_TEXEL(3u * place + 2u).xyz;
 }
 
-// One triangle against the best hit so far; of equal t the lowest original number wins.
+bool meets_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) {
+    return keeps(kStableSphere) ? sphere_test(centre, radius, ray, t_max, t) : plain_sphere_test(centre, radius, ray, t_max, t);
+}
+
+// One triangle or ball against the best hit so far; of equal t the lowest original number wins.
 void trace_triangle(uint place, Walked walked, uint skipped_flags, inout Hit best, inout bool found) {
     Ray ray = walked.ray;
     vec4 a = TRIANGLE_TEXEL(3u * place);
@@ -108,6 +115,10 @@ void trace_triangle(uint place, Walked walked, uint skipped_flags, inout Hit bes
     uint triangle = floatBitsToUint(b.w) & kBvhIdMask;
     uint object = floatBitsToUint(a.w) & kBvhIdMask;
     uint flags = floatBitsToUint(c.w);
+    if (TRACE_BALLS && (flags & kBvhBall) != 0u) {
+        hit = meets_sphere(a.xyz, b.x, ray, kLargest, t);
+        weights = vec3(1, 0, 0);
+    }
     if (own_spaces != 0u && walked.record != 0u) {
         triangle += walked.shift;
         object = walked.object;

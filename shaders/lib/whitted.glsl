@@ -34,6 +34,8 @@ bool is_there(uint triangle, uint object, vec3 barycentric) {
     return !is_cut_out(object, has_attributes(object) ? attribute_at(3u * triangle, barycentric) : kNoAttribute);
 }
 #define TRACE_IS_THERE(triangle, object, barycentric) is_there(triangle, object, barycentric)
+layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
+#define TRACE_BALLS (exact_spheres != 0u)
 
 #include "lib/trace.glsl"
 #ifdef SHADOW_MAP
@@ -45,7 +47,6 @@ bool is_there(uint triangle, uint object, vec3 barycentric) {
 
 layout(constant_id = MAX_DEPTH_CONSTANT) const uint max_depth = 8u;
 layout(constant_id = SHADOW_CONSTANT) const uint shadow = 2u; // kShadowNone, kShadowMap, kShadowRay
-layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
 #ifndef SHADOW_BY // what shadows are made by, where that changes
 #define SHADOW_BY shadow
 #endif
@@ -68,25 +69,9 @@ struct Point {
 };
 Point point; // what is being shaded
 
-// Triangles that stand for an exact sphere are passed by when spheres are exact.
+// When spheres are exact, meshes that stand for one are passed by: in a space of their own the walk knows the sphere,
+// and in the scene's a ball is in their place.
 uint passed_by() { return exact_spheres != 0u ? kBvhSphere : 0u; }
-
-bool meets_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) {
-    return keeps(kStableSphere) ? sphere_test(centre, radius, ray, t_max, t) : plain_sphere_test(centre, radius, ray, t_max, t);
-}
-
-bool nearest_sphere(Ray ray, inout float t, out uint object) {
-    bool found = false;
-    for (uint i = 0u; i < frame.value.object_count; ++i) {
-        float t_sphere;
-        if (surfaces[i].radius > 0.0 && meets_sphere(surfaces[i].centre, surfaces[i].radius, ray, t, t_sphere)) {
-            t = t_sphere;
-            object = i;
-            found = true;
-        }
-    }
-    return found;
-}
 
 // From the own space in which it was found.
 void put_into_scene(inout Point p, uint record) {
@@ -178,15 +163,8 @@ bool trace_ray(Ray ray, uint skipped, out Point p) {
     Hit hit;
     vec3 low = trace_low;
     bool found = closest_hit(ray, kLargest, skipped | kBvhOneSided | passed_by(), hit);
-    if (exact_spheres != 0u) {
-        float t = found ? hit.t : kLargest;
-        uint object = 0u;
-        if (nearest_sphere(ray, t, object)) {
-            p = on_sphere(ray, t, object);
-            return true;
-        }
-    }
     if (found && own_spaces != 0u && hit.place == kOnSphere) p = on_own_sphere(ray, low, hit);
+    else if (found && exact_spheres != 0u && surfaces[hit.object].radius > 0.0) p = on_sphere(ray, hit.t, hit.object);
     else if (found) p = on_triangle(hit);
     return found;
 }
@@ -221,9 +199,7 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
         ray.direction = direction;
         t = kLargest;
     }
-    if (any_hit(ray, t, kBvhShadowless | passed_by())) return 0.0;
-    uint object;
-    return exact_spheres != 0u && nearest_sphere(ray, t, object) ? 0.0 : 1.0;
+    return any_hit(ray, t, kBvhShadowless | passed_by()) ? 0.0 : 1.0;
 }
 #include "lib/lighting.glsl"
 

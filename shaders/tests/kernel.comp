@@ -4,6 +4,9 @@
 #extension GL_GOOGLE_include_directive : require
 #define BVH_NODES_BINDING 0
 #define BVH_TRIANGLES_BINDING 1
+#include "lib/constants.glsl"
+layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
+#define TRACE_BALLS (exact_spheres != 0u)
 #include "lib/trace.glsl"
 
 layout(local_size_x = TRACE_LOCAL_SIZE) in;

@@ -95,11 +95,18 @@ private:
         gpu::Constants constants = rules;
         const bool own_spaces = hierarchy_.nodes[2].x > 0; // bvh/two_level.hpp
         constants.emplace_back("own_spaces", own_spaces ? 1u : 0u);
+        constants.emplace_back("exact_spheres", has_balls() ? 1u : 0u);
         upload(bench().device, lows_, "lows",
                lows.empty() ? std::vector<vec4>(rays.size(), vec4(0)) : lows,
                gpu::BufferUse::plain);
         return run<KernelHit>("tests/kernel.comp", constants, "Rays", rays, "Hits",
                               std::array{size_of(rays), skipped, occluded});
+    }
+
+    bool has_balls() const {
+        for (std::size_t i = 2; i < hierarchy_.triangles.size(); i += 3)
+            if ((bvh::number_of(hierarchy_.triangles[i].w) & bvh::kBall) != 0) return true;
+        return false;
     }
 
     template <typename In>

@@ -13,6 +13,7 @@ const uint kBvhShadowless = 2u;      // flag: shadow rays pass through (a light'
 const uint kBvhSphere = 4u;          // flag: stands for an exact sphere
 const uint kBvhOneSided = 8u;        // flag: rays that see pass through from behind
 const uint kBvhMasked = 16u;         // flag: parts of it may be cut out
+const uint kBvhBall = 32u;           // flag: no triangle but a sphere: a is its centre, b.x its radius
 
 const uint kBvhEnters = 5u;          // in place of a triangle count: a thing in its own space, recorded at that node
 const uint kBvhReturns = 0x70000000u; // on the stack: the way back from there

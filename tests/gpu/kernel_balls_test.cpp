@@ -1,0 +1,114 @@
+// Balls among the triangles of a hierarchy: met as exact spheres, on the device and in its mirror.
+#include "support/kernel.hpp"
+#include "support/numbers.hpp"
+
+namespace {
+
+using namespace catoptric;
+using test::Kernel;
+using test::KernelHit;
+using test::KernelRay;
+
+constexpr std::uint32_t kHalf = 150; ///< of the drawn things; as many are balls
+
+/// Triangles and balls in turn, in a cube of edge 2; some balls are hidden, some far off or large.
+std::vector<bvh::Triangle> drawn(test::Numbers& numbers) {
+    std::vector<bvh::Triangle> things;
+    for (std::uint32_t i = 0; i < 2 * kHalf; ++i) {
+        const vec3 place = numbers.in_cube();
+        if (i % 2 == 0) {
+            things.push_back(
+                {place, place + .3f * numbers.in_cube(), place + .3f * numbers.in_cube(), i});
+            continue;
+        }
+        const float radius = i % 10 == 1 ? 3.0f : .01f + .1f * std::abs(numbers.in_cube().x);
+        things.push_back(bvh::ball(i % 14 == 1 ? 50.0f * place : place, radius, i,
+                                   i % 6 == 1 ? bvh::kHidden : 0));
+    }
+    return things;
+}
+
+/// From anywhere, in any direction; every fourth grazes a ball.
+std::vector<KernelRay> rays_among(std::span<const bvh::Triangle> things, test::Numbers& numbers) {
+    std::vector<KernelRay> rays(6000);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        KernelRay& ray = rays[i];
+        ray.origin = 2.0f * numbers.in_cube();
+        ray.direction = numbers.in_cube();
+        if (i % 4 != 0) continue;
+        const bvh::Triangle& ball = things[2 * numbers.below(kHalf) + 1];
+        const vec3 to = ball.a - ray.origin, beside = glm::cross(to, ray.direction);
+        ray.direction = to + ball.b.x / glm::length(beside) * beside;
+    }
+    return rays;
+}
+
+/// What a ray meets first, without a hierarchy.
+KernelHit nearest(std::span<const bvh::Triangle> things, const KernelRay& from,
+                  std::uint32_t skipped) {
+    const f32::Ray ray{from.origin, from.direction, 0};
+    const f32::RayShear shear = f32::ray_shear(from.direction);
+    KernelHit best;
+    best.t = from.t_max;
+    for (std::uint32_t i = 0; i < things.size(); ++i) {
+        const bvh::Triangle& thing = things[i];
+        float t;
+        vec3 weights(1, 0, 0);
+        const bool meets = (thing.flags & bvh::kBall) != 0
+                               ? f32::sphere_test(thing.a, thing.b.x, ray, f32::kLargest, t)
+                               : f32::triangle_test(thing.a, thing.b, thing.c, ray.origin, shear, t,
+                                                    weights);
+        if (!meets || (thing.flags & skipped) != 0 || t >= best.t) continue;
+        best = {t, f32::barycentric(weights), i, thing.object, 1, 0};
+    }
+    return best.found() ? best : KernelHit();
+}
+
+void expect_nearest(Kernel& kernel, std::span<const bvh::Triangle> things,
+                    const std::vector<KernelRay>& rays) {
+    for (const std::uint32_t skipped : {0u, bvh::kHidden}) {
+        const std::vector<KernelHit> hits = kernel.closest(rays, skipped),
+                                     shadows = kernel.any(rays, skipped);
+        EXPECT_EQ(test::differences(kernel, rays, hits, skipped), 0u);
+        std::size_t others = 0, on_balls = 0, other_shadows = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const KernelHit wanted = nearest(things, rays[i], skipped);
+            on_balls += wanted.found() && wanted.object % 2 == 1;
+            other_shadows += shadows[i].found() != wanted.found();
+            if (!test::same(hits[i], wanted) && others++ == 0)
+                ADD_FAILURE() << "ray " << i << ", " << test::text(rays[i])
+                              << "\n  with a tree: " << test::text(hits[i])
+                              << "\n  without: " << test::text(wanted);
+        }
+        EXPECT_EQ(others, 0u);
+        EXPECT_EQ(other_shadows, 0u);
+        EXPECT_GT(on_balls, rays.size() / 4);
+    }
+}
+
+TEST(KernelBalls, AreMetWhereTheirSpheresAre) {
+    test::Numbers numbers(51);
+    const std::vector<bvh::Triangle> things = drawn(numbers);
+    Kernel kernel(things);
+    expect_nearest(kernel, things, rays_among(things, numbers));
+}
+
+/// Moved and grown, in the same tree.
+TEST(KernelBalls, AreMetInARefittedTree) {
+    test::Numbers numbers(52);
+    std::vector<bvh::Triangle> things = drawn(numbers);
+    bvh::Bvh tree = bvh::build(things);
+    for (bvh::Triangle& thing : things) {
+        const vec3 by = .2f * numbers.in_cube();
+        thing.a += by;
+        if ((thing.flags & bvh::kBall) != 0)
+            thing.b.x *= 1.5f;
+        else
+            thing.b += by, thing.c += by;
+    }
+    bvh::refit(tree, things);
+    Kernel kernel(std::move(tree));
+    expect_nearest(kernel, things, rays_among(things, numbers));
+}
+
+} // namespace
