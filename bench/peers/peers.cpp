@@ -35,6 +35,8 @@ struct Pair {
 constexpr Pair kPairs[] = {{"mesh", "raytrace:depth=4", false},
                            {"exact", "raytrace:depth=4,sphere=exact", true}};
 constexpr int kWidths[] = {1, 8, 16};
+/// Rows of ours beside which Embree's single rays are only a unit of time.
+constexpr const char* kOthers[] = {"parallax:face=64", "parallax", "parallax:face=512"};
 
 std::size_t other_pixels(const measure::Picture& ours, const peers::Traced& theirs) {
     std::size_t count = 0;
@@ -71,17 +73,16 @@ bool check_pictures(app::Session& session, app::Request request, const Pair& pai
     return same;
 }
 
-void print(const std::vector<Benchmark>& list, const char* what, double millions) {
-    for (const Benchmark& benchmark : list) {
-        const double ms = measure::percentile(costs_of(benchmark, Cost::real_time), .5);
-        std::printf("%-16s %9.2f ms %9.2f ms of processors %8.2f M%s/s", benchmark.name.c_str(), ms,
-                    measure::percentile(costs_of(benchmark, Cost::cpu_time), .5),
-                    1e3 * millions / ms, what);
-        if (benchmark.rounds.front().cycles)
-            std::printf(" %9.1f Mcycles",
-                        measure::percentile(costs_of(benchmark, Cost::cycles), .5) / 1e6);
-        std::printf("\n");
-    }
+/// `millions`: of what an iteration does; 0: not said.
+void print(const Benchmark& benchmark, const char* what, double millions) {
+    const double ms = measure::percentile(costs_of(benchmark, Cost::real_time), .5);
+    std::printf("%-18s %9.2f ms %9.2f ms of processors", benchmark.name.c_str(), ms,
+                measure::percentile(costs_of(benchmark, Cost::cpu_time), .5));
+    if (benchmark.rounds.front().cycles)
+        std::printf(" %9.1f Mcycles",
+                    measure::percentile(costs_of(benchmark, Cost::cycles), .5) / 1e6);
+    if (millions > 0) std::printf(" %8.2f M%s/s", 1e3 * millions / ms, what);
+    std::printf("\n");
 }
 
 const Benchmark& named(const std::vector<Benchmark>& list, const std::string& name) {
@@ -93,7 +94,7 @@ void print_ratio(const Benchmark& a, const Benchmark& b) {
     const measure::Ratio ratio = measure::ratio_of(costs_of(a, cost), costs_of(b, cost));
     const measure::Ratio real = measure::ratio_of(costs_of(a, Cost::real_time),
                                                   costs_of(b, Cost::real_time));
-    std::printf("%-14s / %-16s %6.3f [%.3f - %.3f] of %s, %6.3f [%.3f - %.3f] on the clock\n",
+    std::printf("%-17s / %-15s %6.3f [%.3f - %.3f] of %s, %6.3f [%.3f - %.3f] on the clock\n",
                 a.name.c_str(), b.name.c_str(), ratio.median, ratio.ci95.low, ratio.ci95.high,
                 measure::name_of(cost).c_str(), real.median, real.ci95.low, real.ci95.high);
 }
@@ -129,15 +130,23 @@ bool compare_frames(const app::UsageMeter& meter, const peers::EmbreeDevice& dev
                 peer_name(pair, width), [peer, width, threads] { peer->trace(width, threads); },
                 kWarmup));
     }
+    for (const char* technique : kOthers) {
+        request.techniques = {technique};
+        subjects.push_back(app::frame_subject(session, request, iterations));
+        subjects.back().name = technique, subjects.back().caller.clear();
+    }
     const std::vector<Benchmark> list = app::measure_rounds(
         subjects, meter, {.iterations = iterations, .rounds = rounds, .watcher = {}});
     std::printf("\n");
-    print(list, "rays", rays / 1e6);
+    for (const Benchmark& benchmark : list)
+        print(benchmark, "rays", benchmark.name.starts_with("parallax") ? 0 : rays / 1e6);
     std::printf("\n");
     for (const Pair& pair : kPairs)
         for (const int width : kWidths)
             print_ratio(named(list, our_name(pair)), named(list, peer_name(pair, width)));
     print_ratio(named(list, "ours/exact"), named(list, "ours/mesh"));
+    for (const char* technique : kOthers)
+        print_ratio(named(list, technique), named(list, peer_name(kPairs[0], 1)));
     return same;
 }
 
@@ -159,7 +168,8 @@ void compare_builds(const app::UsageMeter& meter, const peers::EmbreeDevice& dev
         meter, {.iterations = rounds, .rounds = rounds, .watcher = {}});
     rtcReleaseGeometry(geometry);
     std::printf("\n%zu triangles\n", triangles.size());
-    print(list, "triangles", static_cast<double>(triangles.size()) / 1e6);
+    for (const Benchmark& benchmark : list)
+        print(benchmark, "triangles", static_cast<double>(triangles.size()) / 1e6);
     print_ratio(list[0], list[1]);
 }
 

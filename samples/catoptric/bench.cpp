@@ -156,17 +156,26 @@ int measure(const Options& options) {
     return 0;
 }
 
-/// What both were measured on, said where it differs.
-void warn_of_difference(const measure::BenchmarkRun& before, const measure::BenchmarkRun& after) {
+/// Why a difference may not be the program's.
+void warn_of_circumstances(const measure::BenchmarkRun& before,
+                           const measure::BenchmarkRun& after) {
     if (before.device.name != after.device.name || before.device.driver != after.device.driver)
         warn("the devices differ: " + before.device.name + ", " + before.device.driver + " and " +
              after.device.name + ", " + after.device.driver);
+    if (before.noisy.value_or(false) || after.noisy.value_or(false))
+        warn("others were at work beside what was measured; times are not to be trusted");
 }
 
 int judge(const Options& options, const measure::BenchmarkRun& before,
           const measure::BenchmarkRun& after) {
-    warn_of_difference(before, after);
+    warn_of_circumstances(before, after);
     const measure::Changes changes = measure::compare(before, after);
+    if (options.against.empty() &&
+        std::ranges::any_of(changes.list, [](const measure::Change& change) {
+            return change.cost != measure::Cost::cycles;
+        }))
+        warn("the files hold times, not cycles: what the machine did otherwise when the second was "
+             "measured is in the ratios; --against measures two programs in turn");
     put_result(options, report::to_json(changes), changes_table(changes));
     const std::string slower = slower_text(changes);
     check(slower.empty(), Failure::threshold, "slower: ", slower);
