@@ -25,15 +25,16 @@ class Block {
 
 public:
     Block(const Whitted& scene, RayCounts& rays, std::vector<Vector>& pixels)
-        : scene_(scene), rays_(rays), pixels_(pixels) {}
+        : scene_(scene), rays_(rays), pixels_(pixels) {
+        rtcInitIntersectContext(&context_);
+        // Reflected packets fall apart little here: it is .9 of the time with the other hint.
+        context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    }
 
     void trace(int left, int top) {
         start(left, top);
         for (int bounce = 0; any(active_); ++bounce) {
             count(bounce == 0 ? rays_.primary : rays_.mirror, active_);
-            rtcInitIntersectContext(&context_);
-            context_.flags = bounce == 0 ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                         : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
             meet();
             if (any(diffuse_)) shade();
             if (bounce == scene_.depth || !any(active_)) break;
