@@ -85,6 +85,12 @@ TEST_F(Cli, BenchSaysWhatIsWrong) {
         {"good.json: cannot be written: it is the same file as good.json, which is compared"});
     expect_refused({"bench", "-o", "none/out.json", "--techniques", "reuse"}, 73,
                    {"none/out.json: cannot be created: there is no folder"});
+    write("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect_refused(
+        {"bench", "room.obj", "-o", "room.obj", "--quiet", "--techniques", "raytrace", "--mirror",
+         "*"},
+        2,
+        {"room.obj: cannot be written: it is the same file as ", ", which the scene is read from"});
     expect_refused({"bench", "--techniques", "reuse", "flat"}, 2,
                    {"--techniques: wanted a technique, found the scene 'flat'"});
     expect_refused({"bench", "--techniques", "reuse", "reuse"}, 2,
