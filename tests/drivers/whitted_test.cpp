@@ -10,7 +10,6 @@ namespace {
 using namespace catoptric;
 
 constexpr uvec2 kSize{128, 128};
-constexpr int kDepth = 4;
 /// Linear radiance of about 1: what some reflections make of roundings.
 constexpr float kSame = 1e-3F;
 
@@ -23,11 +22,13 @@ std::size_t other_pixels(const measure::Picture& a, const std::vector<peers::Vec
     return count;
 }
 
-void expect_the_same(const std::string& technique, bool exact) {
+void expect_the_same(int depth, bool exact) {
+    const std::string technique = "raytrace:depth=" + std::to_string(depth) +
+                                  (exact ? ",sphere=exact" : "");
     const app::Request asked = test::request(scene::cornell_mirrors(), {technique}, kSize);
     const app::Part ours = std::move(app::run(test::engine(), asked).parts.front());
     const peers::EmbreeDevice device;
-    const peers::PeerScene peer(device, asked, kDepth, exact);
+    const peers::PeerScene peer(device, asked, depth, exact);
     for (const int width : {1, 8, 16}) {
         const peers::Traced theirs = peer.trace(width, 2);
         EXPECT_EQ(other_pixels(ours.hdr, theirs.pixels), 0U) << technique << ", " << width;
@@ -37,8 +38,12 @@ void expect_the_same(const std::string& technique, bool exact) {
     }
 }
 
-TEST(Whitted, MeshesAsEmbreeSeesThem) { expect_the_same("raytrace:depth=4", false); }
+TEST(Whitted, MeshesAsEmbreeSeesThem) {
+    for (const int depth : {1, 4}) expect_the_same(depth, false);
+}
 
-TEST(Whitted, SpheresAsEmbreeSeesThem) { expect_the_same("raytrace:depth=4,sphere=exact", true); }
+TEST(Whitted, SpheresAsEmbreeSeesThem) {
+    for (const int depth : {1, 4}) expect_the_same(depth, true);
+}
 
 } // namespace
