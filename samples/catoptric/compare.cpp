@@ -7,7 +7,6 @@
 #include "places.hpp"
 #include "progress.hpp"
 #include "report/report.hpp"
-#include "scene/load.hpp"
 #include "table.hpp"
 #include "verbs.hpp"
 
@@ -41,14 +40,6 @@ struct Options {
     int views = 1;
     std::vector<std::string> command;
 };
-
-/// The list takes every word that follows it, a scene too.
-void check_no_scene(const std::string& text) {
-    bool scene = text.ends_with(".glb") || text.ends_with(".gltf") || text.ends_with(".obj");
-    for (const scene::BuiltIn& built_in : scene::built_in_scenes()) scene |= built_in.name == text;
-    check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
-          "'; SCENE comes before --techniques");
-}
 
 /// 1, or as many as bound a median.
 int parse_views(const std::string& text) {
@@ -87,7 +78,7 @@ app::CompareRequest make_compare_request(const Options& options, const std::stri
 
 /// All of them before any work, so that the last one's fault is known at once.
 std::vector<app::CompareRequest> make_compare_requests(const Options& options) {
-    for (const std::string& text : options.techniques) check_no_scene(text);
+    check_no_scene(options.techniques);
     app::check_rows(options.techniques);
     if (options.causes) app::check_explains(options.common.reference);
     std::vector<app::CompareRequest> requests;

@@ -134,6 +134,16 @@ void require_given(bool given, const std::string& verb, const std::string& optio
     check(given, Failure::usage, "'", verb, "' needs ", option, ": ", what);
 }
 
+void check_no_scene(const std::vector<std::string>& techniques) {
+    for (const std::string& text : techniques) {
+        bool scene = text.ends_with(".glb") || text.ends_with(".gltf") || text.ends_with(".obj");
+        for (const scene::BuiltIn& built_in : scene::built_in_scenes())
+            scene |= built_in.name == text;
+        check(!scene, Failure::usage, "--techniques: wanted a technique, found the scene '", text,
+              "'; SCENE comes before --techniques");
+    }
+}
+
 Asked make_asked(const Common& common, const std::function<void(const scene::Scene&)>& check) {
     Asked asked;
     app::Request& request = asked.request;

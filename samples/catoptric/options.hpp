@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace catoptric::cli {
 
@@ -49,6 +50,9 @@ double parse_stops(const std::string& text);
 /// Throws `usage` saying that `verb` needs `option`, unless it was given.
 void require_given(bool given, const std::string& verb, const std::string& option,
                    const std::string& what);
+
+/// Throws `usage` for a scene in the list of --techniques, which takes every word that follows it.
+void check_no_scene(const std::vector<std::string>& techniques);
 
 /// Scene, camera and numbers as the engine takes them, without techniques. What the loader had to
 /// say and what was added goes to stderr.

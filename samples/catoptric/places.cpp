@@ -45,16 +45,16 @@ private:
 
 } // namespace
 
-void check_apart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+void check_apart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs,
+                 const std::string& read) {
     Files files;
     for (const fs::path& input : inputs) files.add({input, true});
     for (const fs::path& output : outputs) {
         if (const Files::File* same = files.find(output)) {
-            check(same->path != output, Failure::usage, output.string(),
+            check(same->is_input || same->path != output, Failure::usage, output.string(),
                   ": wanted one output in a place, found two");
             fail(Failure::usage, output.string(), ": cannot be written: it is the same file as ",
-                 same->path.string(),
-                 same->is_input ? ", which the scene is read from" : ", which is written too");
+                 same->path.string(), same->is_input ? read : ", which is written too");
         }
         files.add({output, false});
     }

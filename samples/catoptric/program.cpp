@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
     add_compare(program, words);
     add_render(program);
     add_stress(program, words);
+    add_bench(program, words);
     add_diff(program);
     add_graph(program);
     add_list(program);

@@ -4,14 +4,13 @@
 //   catoptric_bench rules [ROUNDS]  what each rule of robustness costs: the table of
 //   docs/robustness.md
 //   catoptric_bench repeats TIMES ROW ROW...   how often a comparison says that rows are apart
-#include "app/run.hpp"
+#include "app/bench_subjects.hpp"
 #include "measure/statistics.hpp"
 #include "render/nearest.hpp"
 #include "repeats.hpp"
 #include "scene/load.hpp"
 #include "scene/repair.hpp"
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -27,13 +26,20 @@ struct Side {
     std::string technique;
 };
 
-double one_frame_ms(Side& side, const app::Request& base) {
-    app::Request request = base;
+app::Subject frames_of(const Side& side, app::Request request, int rounds) {
     request.techniques = {side.technique};
+    const auto session = std::make_shared<app::Session>(side.engine, request.scene);
+    app::Subject subject = app::frame_subject(session, request, rounds * request.frames);
+    subject.name = side.name; // two engines may draw the same
+    subject.caller.clear();
+    return subject;
+}
+
+std::vector<double> gpu_ms(const measure::Benchmark& benchmark) {
     std::vector<double> samples;
-    for (const app::FrameTimes& frame : app::run(side.engine, request).frames)
-        samples.push_back(frame.gpu_ms);
-    return measure::summarise(samples).median;
+    for (const measure::BenchmarkRound& round : benchmark.rounds)
+        samples.push_back(round.counters.at("gpu_ms"));
+    return samples;
 }
 
 /// Milliseconds of each side, and the first by the second, pair by pair.
@@ -41,17 +47,19 @@ struct Pairs {
     measure::Summary a, b, ratio;
 };
 
-Pairs run_pairs(Side& a, Side& b, const app::Request& base, int rounds) {
-    std::vector<double> a_ms, b_ms, ratios;
-    for (int i = 0; i < rounds; ++i) {
-        a_ms.push_back(one_frame_ms(a, base));
-        b_ms.push_back(one_frame_ms(b, base));
-        ratios.push_back(a_ms.back() / b_ms.back());
-    }
+Pairs run_pairs(const Side& a, const Side& b, const app::Request& base, int rounds) {
+    const app::UsageMeter meter(app::UsageMeter::Of::process);
+    const std::vector<measure::Benchmark> found = app::measure_rounds(
+        {frames_of(a, base, rounds), frames_of(b, base, rounds)}, meter,
+        {.iterations = rounds * base.frames, .rounds = rounds, .watcher = {}});
+    const std::vector<double> a_ms = gpu_ms(found[0]), b_ms = gpu_ms(found[1]);
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < a_ms.size(); ++i) ratios.push_back(a_ms[i] / b_ms[i]);
     return {measure::summarise(a_ms), measure::summarise(b_ms), measure::summarise(ratios)};
 }
 
-void compare(const char* title, Side& a, Side& b, const app::Request& base, int rounds) {
+void compare(const char* title, const Side& a, const Side& b, const app::Request& base,
+             int rounds) {
     const Pairs pairs = run_pairs(a, b, base, rounds);
     std::printf("%s\n  %-28s %8.2f ms\n  %-28s %8.2f ms\n  ratio %.3f [%.3f, %.3f] over %d pairs\n",
                 title, a.name, pairs.a.median, b.name, pairs.b.median, pairs.ratio.median,
@@ -75,18 +83,40 @@ void compare_shapes(const app::Request& base, int rounds) {
             base, rounds);
 }
 
-/// Median milliseconds of some work on the processor.
-template <typename Work>
-double cpu_ms(int rounds, Work&& work) {
-    std::vector<double> samples;
-    for (int i = 0; i < rounds; ++i) {
-        const auto begin = std::chrono::steady_clock::now();
-        work();
-        samples.push_back(
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-                .count());
+/// Rules of which the processor's time is all there is to tell.
+void compare_processor_rules(const app::Request& base) {
+    constexpr int kTimes = 25;
+    const render::Space space = render::space_of(base.scene);
+    const render::Geometry geometry = render::make_geometry(base.scene, space);
+    render::Nearest nearest;
+    nearest.lay_out(geometry);
+    volatile float kept = 0; // or the compiler would not look for it
+    const std::vector<app::Subject> subjects{
+        app::subject_of("near planes from the nearest gap | frame",
+                        [&] {
+                            for (int i = 0; i < 6; ++i) // camera, four captures, light
+                                kept = nearest.distance(
+                                    geometry, dvec3(0.1 * i),
+                                    [](std::size_t, const render::DrawRange&) { return false; });
+                        }),
+        app::subject_of("centre and scale in doubles, then floats | frame",
+                        [&] {
+                            kept = render::make_geometry(base.scene, render::space_of(base.scene))
+                                       .vertices.front()
+                                       .position.x;
+                        }),
+        app::subject_of("areas and normals of meshes | load", [&] {
+            for (scene::Mesh mesh : base.scene.meshes) scene::repair(mesh);
+        })};
+    const app::UsageMeter meter(app::UsageMeter::Of::process);
+    std::printf("\n| On the processor, always | ms | when |\n|---|---:|---|\n");
+    for (const measure::Benchmark& found : app::measure_rounds(
+             subjects, meter, {.iterations = kTimes, .rounds = kTimes, .watcher = {}})) {
+        const double ms = measure::percentile(costs_of(found, measure::Cost::real_time), .5);
+        const std::size_t bar = found.name.find('|');
+        std::printf("| %s| %.3f |%s |\n", found.name.substr(0, bar).c_str(), ms,
+                    found.name.substr(bar + 1).c_str());
     }
-    return measure::summarise(samples).median;
 }
 
 /// Rules that a row can leave out, in the device's time of a frame; then those on the processor,
@@ -121,29 +151,7 @@ void compare_rules(const app::Request& base, int rounds) {
                     pairs.ratio.p05, pairs.ratio.p95);
         std::fflush(stdout);
     }
-    constexpr int kTimes = 25;
-    const render::Space space = render::space_of(base.scene);
-    const render::Geometry geometry = render::make_geometry(base.scene, space);
-    render::Nearest nearest;
-    nearest.lay_out(geometry);
-    volatile float kept = 0; // or the compiler would not look for it
-    const auto gaps = [&] {
-        // Camera, four captures, light.
-        for (int i = 0; i < 6; ++i)
-            kept = nearest.distance(geometry, dvec3(0.1 * i),
-                                    [](std::size_t, const render::DrawRange&) { return false; });
-    };
-    std::printf("\n| On the processor, always | ms | when |\n|---|---:|---|\n");
-    std::printf("| near planes from the nearest gap | %.3f | frame |\n", cpu_ms(kTimes, gaps));
-    std::printf("| centre and scale in doubles, then floats | %.3f | frame |\n",
-                cpu_ms(kTimes, [&] {
-                    kept = render::make_geometry(base.scene, render::space_of(base.scene))
-                               .vertices.front()
-                               .position.x;
-                }));
-    std::printf("| areas and normals of meshes | %.3f | load |\n", cpu_ms(kTimes, [&] {
-                    for (scene::Mesh mesh : base.scene.meshes) scene::repair(mesh);
-                }));
+    compare_processor_rules(base);
 }
 
 } // namespace

@@ -1,0 +1,171 @@
+#include "app/bench.hpp"
+
+#include "app/engine.hpp"
+#include "app/processor.hpp"
+#include "app/row_run.hpp"
+#include "core/error.hpp"
+#include "core/stopwatch.hpp"
+
+#include <ctime>
+#include <set>
+#include <thread>
+#include <utility>
+
+namespace catoptric::app {
+
+namespace {
+
+using measure::Benchmark;
+using measure::BenchmarkRound;
+
+/// What a round's iterations took together.
+struct Sums {
+    double real_ms = 0, host_ms = 0;
+    Usage process, caller;
+    std::map<std::string, double> counters;
+
+    void add(const Iteration& iteration) {
+        host_ms += iteration.host_ms;
+        for (const auto& [name, value] : iteration.counters) counters[name] += value;
+    }
+};
+
+BenchmarkRound shared_out(int iterations, double real_ms, const Usage& usage) {
+    const double count = iterations;
+    const auto each = [&](const std::optional<double>& sum) {
+        return sum ? std::optional(*sum / count) : std::nullopt;
+    };
+    return {.iterations = static_cast<std::uint64_t>(iterations),
+            .real_ms = real_ms / count,
+            .cpu_ms = usage.cpu_ms / count,
+            .cycles = each(usage.cycles),
+            .instructions = each(usage.instructions),
+            .counters = {}};
+}
+
+class Bench {
+public:
+    Bench(const std::vector<Subject>& subjects, const UsageMeter& meter,
+          const BenchOptions& options)
+        : subjects_(subjects), meter_(meter), options_(options),
+          rounds_(rounds_of(options.iterations, options.rounds)) {
+        std::set<std::string> names;
+        for (const Subject& subject : subjects) {
+            check(names.insert(subject.name).second, Failure::usage, "benchmark '", subject.name,
+                  "' is asked for twice");
+            list_.push_back({subject.name, {}});
+            callers_.push_back({subject.caller, {}});
+        }
+    }
+
+    std::vector<Benchmark> run() {
+        for (std::size_t i = 0; i < subjects_.size(); ++i) warm_up(i);
+        const HeldThreads held;
+        for (int round = 0; round < rounds_; ++round)
+            for (std::size_t place = 0; place < subjects_.size(); ++place)
+                // There and back: none always follows the same one, whose work may still be felt.
+                measure(round % 2 == 0 ? place : subjects_.size() - 1 - place, round);
+        for (Benchmark& caller : callers_)
+            if (!caller.name.empty()) list_.push_back(std::move(caller));
+        return std::move(list_);
+    }
+
+private:
+    void tell(std::size_t index, const std::string& doing) const {
+        const std::size_t steps = subjects_.size() * (static_cast<std::size_t>(rounds_) + 1);
+        options_.watcher.row(subjects_[index].name + doing, done_, steps);
+    }
+
+    void end(const Subject& subject) {
+        if (subject.leave) subject.leave();
+        ++done_;
+    }
+
+    void warm_up(std::size_t index) {
+        const Subject& subject = subjects_[index];
+        tell(index, ", warm-up");
+        for (int k = 1; k <= subject.warmup; ++k) {
+            subject.work();
+            options_.watcher.frame(k, subject.warmup);
+        }
+        end(subject);
+    }
+
+    void measure(std::size_t index, int round) {
+        const Subject& subject = subjects_[index];
+        tell(index, ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
+        const int iterations = frames_of_round(options_.iterations, rounds_, round);
+        Sums sums;
+        const Usage process = meter_.read(), caller = caller_meter_.read();
+        {
+            const Stopwatch watch(sums.real_ms);
+            for (int k = 0; k < iterations; ++k) sums.add(subject.work());
+        }
+        sums.caller = caller_meter_.read() - caller, sums.process = meter_.read() - process;
+        keep(index, iterations, sums);
+        end(subject);
+        options_.watcher.frame(iterations, iterations);
+    }
+
+    void keep(std::size_t index, int iterations, const Sums& sums) {
+        BenchmarkRound round = shared_out(iterations, sums.real_ms, sums.process);
+        for (const auto& [name, sum] : sums.counters) round.counters[name] = sum / iterations;
+        list_[index].rounds.push_back(std::move(round));
+        callers_[index].rounds.push_back(shared_out(iterations, sums.host_ms, sums.caller));
+    }
+
+    const std::vector<Subject>& subjects_;
+    const UsageMeter& meter_;
+    const UsageMeter caller_meter_{UsageMeter::Of::caller};
+    const BenchOptions& options_;
+    int rounds_;
+    std::size_t done_ = 0;
+    std::vector<Benchmark> list_, callers_;
+};
+
+std::string date() {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    ::localtime_r(&now, &local);
+    char text[32];
+    return {text, std::strftime(text, sizeof text, "%FT%T%z", &local)};
+}
+
+} // namespace
+
+Subject subject_of(std::string name, std::function<void()> work, int warmup) {
+    return {.name = std::move(name),
+            .work =
+                [work = std::move(work)] {
+                    work();
+                    return Iteration();
+                },
+            .warmup = warmup,
+            .leave = {},
+            .caller = {}};
+}
+
+std::vector<measure::Benchmark> measure_rounds(const std::vector<Subject>& subjects,
+                                               const UsageMeter& meter,
+                                               const BenchOptions& options) {
+    return Bench(subjects, meter, options).run();
+}
+
+measure::BenchmarkRun bench(const std::vector<Subject>& subjects, const UsageMeter& meter,
+                            const BenchOptions& options, const measure::DeviceFacts& device,
+                            std::vector<std::string> command) {
+    measure::BenchmarkRun run;
+    run.version = version(), run.commit = commit(), run.date = date();
+    run.command = std::move(command);
+    run.device = device;
+    run.processors = static_cast<int>(std::thread::hardware_concurrency());
+    run.uncounted = meter.uncounted();
+    run.load = machine_load();
+    const std::optional<ProcessorUse> before = processor_use();
+    run.benchmarks = measure_rounds(subjects, meter, options);
+    if (const std::optional<ProcessorUse> after = processor_use(); before && after)
+        run.noisy = is_noisy(waited_share(waiting_between(*before, *after)));
+    return run;
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,83 @@
+#include "app/bench_subjects.hpp"
+
+#include "app/rays.hpp"
+#include "core/error.hpp"
+
+#include <optional>
+#include <utility>
+
+namespace catoptric::app {
+
+namespace {
+
+/// Frames of one technique, whose history goes on from round to round as if nothing ran between.
+class FrameWork {
+public:
+    FrameWork(std::shared_ptr<Session> session, Request request)
+        : session_(std::move(session)), request_(std::move(request)) {}
+
+    Iteration next() {
+        if (!frames_) frames_.emplace(*session_, request_); // a cut, so not before its turn
+        check(frames_->next(), Failure::internal, "a benchmark went on after its last frame");
+        const FrameTimes& times = frames_->frame().times();
+        Iteration iteration{times.host.sum(),
+                            {{"gpu_ms", times.gpu_ms}, {"record_ms", times.record_ms}}};
+        if (rays_) iteration.counters["rays"] = *rays_;
+        return iteration;
+    }
+
+    void leave() {
+        if (!frames_) return;
+        if (!is_read_)
+            if (const auto rays = frames_->frame().read().rays)
+                rays_ = static_cast<double>(rays->primary + rays->mirror + rays->shadow);
+        is_read_ = true;
+        frames_->set_aside();
+    }
+
+private:
+    std::shared_ptr<Session> session_;
+    Request request_;
+    std::optional<Frames> frames_;
+    bool is_read_ = false;
+    std::optional<double> rays_;
+};
+
+} // namespace
+
+Subject session_subject(Engine& engine, const scene::Scene& scene) {
+    return subject_of("session/" + scene.name,
+                      [&engine, scene] { const Session session(engine, scene); });
+}
+
+Subject hierarchy_subject(const scene::Scene& scene) {
+    const auto geometry = std::make_shared<render::Geometry>(
+        render::make_geometry(scene::at(scene, 0), render::space_of(scene)));
+    const auto triangles = static_cast<double>(geometry->indices.size() / 3);
+    return {.name = "hierarchy/" + scene.name,
+            .work =
+                [geometry, triangles] {
+                    hierarchy_without(*geometry, geometry->ranges.size());
+                    return Iteration{0, {{"triangles", triangles}}};
+                },
+            .warmup = 1,
+            .leave = {},
+            .caller = {}};
+}
+
+Subject frame_subject(std::shared_ptr<Session> session, Request request, int iterations) {
+    const std::string place = request.scene.name + "/" + std::to_string(request.size.x) + "x" +
+                              std::to_string(request.size.y) + "/" +
+                              parse_technique(request.techniques.front()).label;
+    const int warmup = request.warmup;
+    request.frames = iterations;
+    request.scene = scene::Scene(); // the session has it
+    const auto work = std::make_shared<FrameWork>(std::move(session), std::move(request));
+    return {.name = "frame/" + place,
+            .work = [work] { return work->next(); },
+            .warmup = warmup,
+            .leave = [work] { work->leave(); },
+            .caller = "host/" + place};
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,253 @@
+// catoptric bench: what frames, and what comes before them, cost; beside another run or build.
+#include "app/bench_subjects.hpp"
+#include "app/compare.hpp"
+#include "bench_against.hpp"
+#include "bench_table.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "options.hpp"
+#include "parse.hpp"
+#include "places.hpp"
+#include "progress.hpp"
+#include "report/benchmarks.hpp"
+#include "verbs.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+namespace catoptric::cli {
+
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  catoptric bench -o now.json
+  catoptric bench --techniques raytrace:depth=4 parallax:face=512 --rounds 12
+  catoptric bench scene.glb --size 256x256 --json > scene.json
+  catoptric bench --compare before.json now.json
+  catoptric bench --against ../before/build/release/catoptric --techniques raytrace
+
+SCENE comes before --techniques. frame/...: a frame, with all threads; host/...: what the calling thread does for it;
+load/, session/, hierarchy/: the scene made or read, put on the device, its tree built.
+Cycles are of user mode. Where the system does not count them (perf_event), processor time takes their place.
+Exit code 1 where --compare or --against finds something slower: the interval of the ratio lies above 1.)";
+
+/// What is measured of a scene where nothing is asked for.
+const std::vector<std::string> kTechniques{"raytrace:depth=4",
+                                           "raytrace:depth=4,sphere=exact",
+                                           "parallax:face=64",
+                                           "parallax",
+                                           "parallax:face=512",
+                                           "secant",
+                                           "march",
+                                           "pyramid",
+                                           "layered",
+                                           "hybrid"};
+constexpr const char* kFlatScene = "flat"; // `planar` needs a flat mirror
+constexpr const char* kFlatTechnique = "planar";
+
+struct Options {
+    Common common; ///< of every scene
+    std::vector<std::string> scenes;
+    std::vector<std::string> techniques;
+    std::string output;
+    int rounds = app::kRounds;
+    std::vector<std::string> before_and_after; ///< files to compare
+    std::string against;                       ///< another build
+    std::vector<std::string> command;
+};
+
+/// A scene, and what is measured of it.
+struct SceneAsked {
+    Common common;
+    std::vector<std::string> techniques;
+};
+
+std::vector<SceneAsked> asked_of(const Options& options) {
+    std::vector<SceneAsked> list;
+    std::vector<std::string> scenes = options.scenes;
+    if (scenes.empty()) scenes.push_back(options.common.scene);
+    for (const std::string& scene : scenes) {
+        list.push_back(
+            {options.common, options.techniques.empty() ? kTechniques : options.techniques});
+        list.back().common.scene = scene;
+    }
+    if (options.scenes.empty() && options.techniques.empty()) {
+        list.push_back({options.common, {kFlatTechnique}});
+        list.back().common.scene = kFlatScene;
+    }
+    return list;
+}
+
+int frames_of(const Options& options) {
+    return options.common.frames.value_or(app::Request().frames);
+}
+
+void load_again(const Common& common) {
+    app::load_wanted(common.scene, {.load = {.root = common.root},
+                                    .wishes = common.wishes,
+                                    .use_scene_file = common.use_scene_file});
+}
+
+/// What there is to measure of one scene.
+void add_subjects(app::Engine& engine, const SceneAsked& asked, app::Request request,
+                  int iterations, std::vector<app::Subject>& subjects) {
+    const Common common = asked.common;
+    subjects.push_back(
+        app::subject_of("load/" + request.scene.name, [common] { load_again(common); }));
+    subjects.push_back(app::session_subject(engine, request.scene));
+    subjects.push_back(app::hierarchy_subject(request.scene));
+    const auto session = std::make_shared<app::Session>(engine, request.scene);
+    for (const std::string& technique : asked.techniques) {
+        request.techniques = {technique};
+        subjects.push_back(app::frame_subject(session, request, iterations));
+    }
+}
+
+measure::DeviceFacts facts_of(const app::DeviceInfo& device) {
+    return {device.name, device.driver, device.api, device.type, device.threads};
+}
+
+void check_output(const Options& options, const std::vector<std::filesystem::path>& inputs,
+                  const std::string& read) {
+    if (options.output.empty()) return;
+    check_file_can_be_made(options.output);
+    check_apart({kStdout, options.output}, inputs, read);
+}
+
+/// To stdout, and into the file where one is asked for.
+void put_result(const Options& options, const std::string& json, const std::string& table) {
+    put(options.common.manners.json ? json : table);
+    if (options.output.empty()) return;
+    write_file(options.output, json);
+    note(options.common.manners, "written: " + options.output);
+}
+
+int measure(const Options& options) {
+    // Before the driver's threads are there, so that it counts them.
+    const app::UsageMeter meter(app::UsageMeter::Of::process);
+    check(!options.common.both_models, Failure::usage,
+          "--model both: wanted everything or required, of which a benchmark has one");
+    check_no_scene(options.techniques);
+    app::check_rows(options.techniques);
+    const std::vector<SceneAsked> list = asked_of(options);
+    std::vector<app::Request> requests;
+    std::vector<std::filesystem::path> inputs;
+    for (const SceneAsked& asked : list) {
+        requests.push_back(make_request(asked.common));
+        const std::vector<std::filesystem::path>& files = requests.back().scene.files;
+        inputs.insert(inputs.end(), files.begin(), files.end());
+    }
+    check_output(options, inputs, ", which the scene is read from");
+    app::Engine engine(engine_options(options.common.device, options.common.validate));
+    introduce(engine, options.common.manners);
+    const int iterations = frames_of(options);
+    std::vector<app::Subject> subjects;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        add_subjects(engine, list[i], std::move(requests[i]), iterations, subjects);
+    Progress progress(options.common.manners);
+    const measure::BenchmarkRun run = app::bench(
+        subjects, meter,
+        {.iterations = iterations, .rounds = options.rounds, .watcher = watcher_of(progress)},
+        facts_of(engine.device()), options.command);
+    progress.clear();
+    put_result(options, report::to_json(run), bench_table(run));
+    if (options.common.validate) engine.check_validation();
+    return 0;
+}
+
+/// Why a difference may not be the program's.
+void warn_of_circumstances(const measure::BenchmarkRun& before,
+                           const measure::BenchmarkRun& after) {
+    if (before.device.name != after.device.name || before.device.driver != after.device.driver)
+        warn("the devices differ: " + before.device.name + ", " + before.device.driver + " and " +
+             after.device.name + ", " + after.device.driver);
+    if (before.noisy.value_or(false) || after.noisy.value_or(false))
+        warn("others were at work beside what was measured; times are not to be trusted");
+}
+
+int judge(const Options& options, const measure::BenchmarkRun& before,
+          const measure::BenchmarkRun& after) {
+    warn_of_circumstances(before, after);
+    const measure::Changes changes = measure::compare(before, after);
+    if (options.against.empty() &&
+        std::ranges::any_of(changes.list, [](const measure::Change& change) {
+            return change.cost != measure::Cost::cycles;
+        }))
+        warn("the files hold times, not cycles: what the machine did otherwise when the second was "
+             "measured is in the ratios; --against measures two programs in turn");
+    put_result(options, report::to_json(changes), changes_table(changes));
+    const std::string slower = slower_text(changes);
+    check(slower.empty(), Failure::threshold, "slower: ", slower);
+    return 0;
+}
+
+int compare_files(const Options& options) {
+    const std::vector<std::string>& files = options.before_and_after;
+    check(files.size() == 2, Failure::usage, "--compare: wanted OLD and NEW, found ", files.size(),
+          files.size() == 1 ? " file" : " files");
+    check_output(options, {files.begin(), files.end()}, ", which is compared");
+    std::vector<measure::BenchmarkRun> runs;
+    for (const std::string& file : files)
+        runs.push_back(report::read_benchmarks(read_file(file), file));
+    return judge(options, runs[0], runs[1]);
+}
+
+int run_against(const Options& options) {
+    app::check_rounds(options.rounds);
+    check_output(options, {options.against}, ", which is run");
+    const std::string own = std::filesystem::read_symlink("/proc/self/exe").string();
+    const int frames = std::max(1, (frames_of(options) + options.rounds - 1) / options.rounds);
+    const std::vector<std::string> words(options.command.begin() + 2, options.command.end());
+    Progress progress(options.common.manners);
+    const std::array runs = bench_in_turn({options.against, own}, words_for_round(words, frames),
+                                          options.rounds, watcher_of(progress));
+    progress.clear();
+    return judge(options, runs[0], runs[1]);
+}
+
+int run(const Options& options) {
+    const bool compares = !options.before_and_after.empty(), in_turn = !options.against.empty();
+    check(!compares || !in_turn, Failure::usage,
+          "--compare and --against: wanted one of them, found both");
+    return compares ? compare_files(options) : in_turn ? run_against(options) : measure(options);
+}
+
+} // namespace
+
+void add_bench(CommandLine& program, std::vector<std::string> command) {
+    const auto options = std::make_shared<Options>();
+    options->command = std::move(command);
+    Verb& verb = program.add("bench", "what frames and scenes cost; beside another run or build");
+    verb.examples(kExamples);
+    verb.arguments("SCENE",
+                   "built-in names (see 'list scenes') or .glb, .gltf or .obj files "
+                   "(cornell-mirrors; and flat for planar)",
+                   options->scenes);
+    verb.option("-o,--output", "FILE", "the result as JSON, in Google Benchmark's shape",
+                options->output);
+    verb.option("--techniques", "T",
+                "name[:knob=value,...] each, see 'list techniques' (a list of its own)",
+                options->techniques);
+    verb.option("--rounds", "N",
+                "rounds in which benchmarks take turns, there and back; from 6 on medians have an "
+                "interval (6)",
+                [options](const std::string& text) {
+                    options->rounds = static_cast<int>(parse_whole("--rounds", text, 1, 10000));
+                });
+    verb.option("--compare", "OLD NEW",
+                "measures nothing: two such JSON files, NEW beside OLD; exit 1 when slower",
+                options->before_and_after);
+    verb.option("--against", "PROGRAM",
+                "another build of this program (a path): a round of each in turn, this beside it; "
+                "exit 1 when slower",
+                options->against);
+    verb.option_without_value("--tune", "not there yet", [] {
+        fail(Failure::usage, "--tune: is not there yet; no part of the engine reads a profile of "
+                             "the device that it could write");
+    });
+    add_common_without_scene(verb, options->common);
+    verb.does([options] { return run(*options); });
+}
+
+} // namespace catoptric::cli

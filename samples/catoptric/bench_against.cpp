@@ -1,0 +1,75 @@
+// Two builds of the program, a round of each in turn.
+#include "bench_against.hpp"
+
+#include "child.hpp"
+#include "report/benchmarks.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <string_view>
+
+namespace catoptric::cli {
+
+namespace {
+
+struct Own {
+    std::string_view name;
+    bool has_value;
+};
+/// What is ours and not the round's.
+constexpr std::array kOwn{Own{"--against", true},  Own{"--rounds", true}, Own{"--frames", true},
+                          Own{"--output", true},   Own{"-o", true},       Own{"--progress", true},
+                          Own{"--json", false},    Own{"--quiet", false}, Own{"-q", false},
+                          Own{"--verbose", false}, Own{"-v", false}};
+
+/// Words that this one and its value take, 0 where it is not ours.
+std::size_t words_taken(const std::string& word) {
+    for (const Own& own : kOwn) {
+        if (word == own.name) return own.has_value ? 2 : 1;
+        const bool is_long = own.name.starts_with("--");
+        // "--rounds=8", "-oFILE"
+        if (own.has_value && word.starts_with(own.name) &&
+            (!is_long || word[own.name.size()] == '='))
+            return 1;
+    }
+    return 0;
+}
+
+} // namespace
+
+std::vector<std::string> words_for_round(const std::vector<std::string>& words, int frames) {
+    std::vector<std::string> kept;
+    for (std::size_t i = 0; i < words.size();) {
+        const std::size_t taken = words_taken(words[i]);
+        if (taken == 0) kept.push_back(words[i]);
+        i += std::max<std::size_t>(taken, 1);
+    }
+    const std::vector<std::string> more{"--json", "--quiet",  "--rounds",
+                                        "1",      "--frames", std::to_string(frames)};
+    kept.insert(kept.end(), more.begin(), more.end());
+    return kept;
+}
+
+std::array<measure::BenchmarkRun, 2> bench_in_turn(const std::array<std::string, 2>& programs,
+                                                   const std::vector<std::string>& words,
+                                                   int rounds, const app::Watcher& watcher) {
+    static const std::atomic<int> kGoOn{0};
+    std::array<measure::BenchmarkRun, 2> runs;
+    for (int round = 0; round < rounds; ++round)
+        for (int place = 0; place < 2; ++place) {
+            const auto which = static_cast<std::size_t>(round % 2 == 0 ? place : 1 - place);
+            const std::string& program = programs[which];
+            watcher.row(
+                program + ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds),
+                static_cast<std::size_t>(2 * round + place), static_cast<std::size_t>(2 * rounds));
+            std::vector<std::string> command{program, "bench"};
+            command.insert(command.end(), words.begin(), words.end());
+            const measure::BenchmarkRun found = report::read_benchmarks(
+                output_of(command, watcher.stop ? *watcher.stop : kGoOn), program + ": its stdout");
+            runs[which] = round == 0 ? found : joined(runs[which], found);
+            watcher.frame(1, 1);
+        }
+    return runs;
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,102 @@
+#include "child.hpp"
+
+#include "app/watcher.hpp"
+#include "core/error.hpp"
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace catoptric::cli {
+
+namespace {
+
+constexpr int kLook = 100; // milliseconds between two looks at `stop`
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+/// A started program that is waited for whatever happens.
+class Child {
+public:
+    explicit Child(const std::vector<std::string>& command) : name_(command.front()) {
+        std::array<int, 2> ends{};
+        check(::pipe2(ends.data(), O_CLOEXEC) == 0, Failure::io, "a pipe: ", reason(errno));
+        std::vector<char*> words;
+        for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+        words.push_back(nullptr);
+        posix_spawn_file_actions_t actions;
+        ::posix_spawn_file_actions_init(&actions);
+        ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+        const int error = ::posix_spawn(&process_, words.front(), &actions, nullptr, words.data(),
+                                        environ);
+        ::posix_spawn_file_actions_destroy(&actions);
+        ::close(ends[1]);
+        out_ = ends[0];
+        if (error != 0) ::close(out_);
+        check(error == 0, Failure::missing_input, name_, ": cannot be run: ", reason(error));
+    }
+    ~Child() {
+        ::close(out_);
+        if (process_ > 0) {
+            ::kill(process_, SIGTERM);
+            wait();
+        }
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    /// All that it writes until it closes its stdout.
+    std::string read(const app::Watcher& watcher) const {
+        std::string text;
+        for (;;) {
+            watcher.check_stopped();
+            pollfd ready{out_, POLLIN, 0};
+            if (::poll(&ready, 1, kLook) <= 0) continue;
+            std::array<char, 1 << 16> block{};
+            const ssize_t count = ::read(out_, block.data(), block.size());
+            if (count < 0 && errno == EINTR) continue;
+            check(count >= 0, Failure::io, name_, ": reading what it writes: ", reason(errno));
+            if (count == 0) return text;
+            text.append(block.data(), static_cast<std::size_t>(count));
+        }
+    }
+    void end() {
+        const int status = wait();
+        if (WIFSIGNALED(status))
+            fail(Failure::bad_data, name_, ": wanted exit code 0, found signal ", WTERMSIG(status));
+        check(WEXITSTATUS(status) == 0, Failure::bad_data, name_, ": wanted exit code 0, found ",
+              WEXITSTATUS(status));
+    }
+
+private:
+    int wait() {
+        int status = 0;
+        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+        process_ = 0;
+        return status;
+    }
+
+    std::string name_;
+    pid_t process_ = 0;
+    int out_ = -1;
+};
+
+} // namespace
+
+std::string output_of(const std::vector<std::string>& command, const std::atomic<int>& stop) {
+    Child child(command);
+    app::Watcher watcher;
+    watcher.stop = &stop;
+    std::string text = child.read(watcher);
+    child.end();
+    return text;
+}
+
+} // namespace catoptric::cli

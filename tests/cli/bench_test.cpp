@@ -1,0 +1,172 @@
+// catoptric bench: what it measures, and how two measurements are judged.
+#include "cli/program.hpp"
+
+#include "catoptric/bench_against.hpp"
+#include "catoptric/bench_table.hpp"
+
+#include <sys/stat.h>
+
+namespace {
+
+using namespace catoptric;
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// Six rounds of one benchmark, milliseconds each.
+std::string file_of(const std::vector<double>& ms, const std::string& name = "frame/x") {
+    json list = json::array();
+    for (const double value : ms)
+        list.push_back(
+            {{"name", name}, {"real_time", value}, {"cpu_time", value}, {"time_unit", "ms"}});
+    return json{{"benchmarks", list}}.dump();
+}
+const std::vector<double> kSix{10, 11, 12, 13, 14, 15}, kMore{12, 13, 14, 15, 16, 17};
+
+TEST_F(Cli, BenchMeasuresFramesAndWhatComesBefore) {
+    const test::Ended ended = cli({"bench", "flat", "--techniques", "raytrace:depth=1", "--size",
+                                   "16x16", "--frames", "6", "--warmup", "1", "-o", "out.json",
+                                   "--quiet"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("medians of 6 rounds"));
+    const json document = json::parse(read("out.json"));
+    const bool counted = document["context"]["cycles"] == "user mode, all threads";
+    std::map<std::string, int> rounds;
+    for (const json& entry : document["benchmarks"]) {
+        const std::string name = entry["run_name"];
+        EXPECT_THAT(ended.out, HasSubstr(name));
+        rounds[name] += entry["run_type"] == "iteration";
+        EXPECT_GT(entry["real_time"].get<double>(), 0) << entry;
+        EXPECT_GT(entry["cpu_time"].get<double>(), 0) << entry;
+        EXPECT_EQ(entry.contains("cycles"), counted);
+        if (name == "frame/flat/16x16/raytrace:depth=1" && entry["run_type"] == "iteration") {
+            EXPECT_GE(entry["rays"], 16 * 16) << entry;
+        }
+    }
+    EXPECT_THAT(rounds, testing::UnorderedElementsAre(
+                            testing::Pair("load/flat", 6), testing::Pair("session/flat", 6),
+                            testing::Pair("hierarchy/flat", 6),
+                            testing::Pair("frame/flat/16x16/raytrace:depth=1", 6),
+                            testing::Pair("host/flat/16x16/raytrace:depth=1", 6)));
+    EXPECT_THAT(ended.out,
+                HasSubstr(counted ? "Mcycles" : "cycles are not counted (perf_event_open: "));
+    // The same run twice is the same.
+    const test::Ended same = cli({"bench", "--compare", "out.json", "out.json"});
+    EXPECT_EQ(same.exit_code, 0) << same.err;
+}
+
+TEST_F(Cli, BenchCompareNamesWhatIsSlower) {
+    write("before.json", file_of(kSix)), write("after.json", file_of(kMore));
+    const test::Ended slower = cli({"bench", "--compare", "before.json", "after.json"});
+    EXPECT_EQ(slower.exit_code, 1);
+    EXPECT_THAT(slower.out, HasSubstr("compared by processor time, ms"));
+    EXPECT_THAT(slower.out, testing::ContainsRegex("frame/x +12.500 +14.500 +1.160 +"
+                                                   "\\[1.133 - 1.200\\].* slower"));
+    EXPECT_THAT(slower.err,
+                testing::StartsWith("catoptric: warning: the files hold times, not cycles"));
+    EXPECT_THAT(slower.err,
+                testing::EndsWith("\ncatoptric: slower: frame/x 1.160 [1.133 - 1.200]\n"));
+    const test::Ended faster = cli(
+        {"bench", "--compare", "after.json", "before.json", "--json", "-o", "out.json", "--quiet"});
+    EXPECT_EQ(faster.exit_code, 0) << faster.err;
+    EXPECT_EQ(json::parse(faster.out)["benchmarks"][0]["outcome"], "faster");
+    EXPECT_EQ(read("out.json"), faster.out);
+}
+
+TEST_F(Cli, BenchSaysWhatIsWrong) {
+    write("good.json", file_of(kSix)), write("bad.json", "{\"benchmarks\": 3}");
+    expect_refused({"bench", "--compare", "good.json"}, 2,
+                   {"--compare: wanted OLD and NEW, found 1 file"});
+    expect_refused({"bench", "--compare", "good.json", "none.json"}, 66, {"none.json: "});
+    expect_refused(
+        {"bench", "--compare", "bad.json", "good.json"}, 65,
+        {"bad.json: wanted an object with a list 'benchmarks'", "found benchmarks: '3'"});
+    expect_refused(
+        {"bench", "--compare", "good.json", "good.json", "-o", "good.json"}, 2,
+        {"good.json: cannot be written: it is the same file as good.json, which is compared"});
+    expect_refused({"bench", "-o", "none/out.json", "--techniques", "reuse"}, 73,
+                   {"none/out.json: cannot be created: there is no folder"});
+    write("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect_refused(
+        {"bench", "room.obj", "-o", "room.obj", "--quiet", "--techniques", "raytrace", "--mirror",
+         "*"},
+        2,
+        {"room.obj: cannot be written: it is the same file as ", ", which the scene is read from"});
+    expect_refused({"bench", "--techniques", "reuse", "flat"}, 2,
+                   {"--techniques: wanted a technique, found the scene 'flat'"});
+    expect_refused({"bench", "--techniques", "reuse", "reuse"}, 2,
+                   {"technique 'reuse' is asked for twice"});
+    expect_refused({"bench", "--model", "both"}, 2,
+                   {"--model both: wanted everything or required"});
+    expect_refused({"bench", "--tune"}, 2, {"--tune: is not there yet"});
+    expect_refused({"bench", "--rounds", "0"}, 2, {"--rounds: wanted a whole number from 1"});
+    expect_refused({"bench", "--against", "./none", "--rounds", "5"}, 2,
+                   {"rounds: wanted at least 6", "found 5"});
+    expect_refused({"bench", "--against", "./none"}, 66, {"./none: cannot be run: No such file"});
+    expect_refused({"bench", "--against", "./none", "--compare", "a", "b"}, 2,
+                   {"--compare and --against: wanted one of them, found both"});
+}
+
+TEST(BenchAgainst, EachRoundIsAskedForWhatTheLineAsksFor) {
+    EXPECT_THAT(cli::words_for_round({"room.glb", "--against", "old/catoptric", "--size=64x64",
+                                      "--rounds=8", "-q", "-o", "x.json", "--frames", "99",
+                                      "--json", "--techniques", "reuse", "march"},
+                                     4),
+                testing::ElementsAre("room.glb", "--size=64x64", "--techniques", "reuse", "march",
+                                     "--json", "--quiet", "--rounds", "1", "--frames", "4"));
+}
+
+class BenchInTurn : public Cli {
+protected:
+    /// A program that notes that it was called, and with what, and says how long it took.
+    std::string program(const std::string& name, const std::string& rest) const {
+        const std::filesystem::path path = folder / name;
+        write(name, "#!/bin/sh\necho \"" + name + " $*\" >> '" + (folder / "log").string() + "'\n" +
+                        rest);
+        ::chmod(path.c_str(), 0755);
+        return path.string();
+    }
+    std::string measured(double ms) const { return "echo '" + file_of({ms}) + "'\n"; }
+};
+
+TEST_F(BenchInTurn, ThereAndBackAndEveryRoundIsKept) {
+    const std::array runs = cli::bench_in_turn(
+        {program("old", measured(10)), program("new", measured(12))}, {"flat"}, 6, {});
+    EXPECT_EQ(read("log"), "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
+                           "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
+                           "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n");
+    const measure::Changes changes = measure::compare(runs[0], runs[1]);
+    EXPECT_EQ(cli::slower_text(changes), "frame/x 1.200 [1.200 - 1.200]");
+    EXPECT_EQ(runs[0].benchmarks[0].rounds.size(), 6U);
+}
+
+TEST_F(BenchInTurn, AProgramThatFailsIsNamed) {
+    const auto refused = [&](const std::string& rest, const std::string& message) {
+        const std::string wrong = program("wrong", rest);
+        try {
+            cli::bench_in_turn({wrong, wrong}, {}, 6, {});
+            ADD_FAILURE() << message;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.failure, Failure::bad_data);
+            EXPECT_EQ(error.what(), wrong + message);
+        }
+    };
+    refused("exit 3\n", ": wanted exit code 0, found 3");
+    refused("kill -9 $$\n", ": wanted exit code 0, found signal 9");
+    refused("echo '[]'\n", ": its stdout: wanted an object with a list 'benchmarks', as 'catoptric "
+                           "bench --json' writes it, found a list");
+}
+
+TEST_F(BenchInTurn, ASignalEndsTheProgramUnderWay) {
+    const std::string slow = program("slow", "exec sleep 600\n");
+    const std::atomic<int> stop{15};
+    app::Watcher watcher;
+    watcher.stop = &stop;
+    try {
+        cli::bench_in_turn({slow, slow}, {}, 6, watcher);
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::terminated);
+    }
+}
+
+} // namespace

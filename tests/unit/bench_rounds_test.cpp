@@ -1,0 +1,103 @@
+// How benchmarks are measured: whose turn it is, and what is counted.
+#include "app/bench.hpp"
+
+#include "core/error.hpp"
+
+#include <gmock/gmock.h>
+
+#include <ctime>
+#include <thread>
+
+namespace {
+
+using namespace catoptric;
+using app::Subject;
+using app::UsageMeter;
+
+/// Writes its letter for each iteration, and a bar when it leaves.
+Subject writer(char letter, std::string& log, int warmup = 1) {
+    return {.name = std::string(1, letter),
+            .work =
+                [letter, &log] {
+                    log += letter;
+                    return app::Iteration{2, {{"length", static_cast<double>(log.size())}}};
+                },
+            .warmup = warmup,
+            .leave = [&log] { log += '|'; },
+            .caller = letter == 'a' ? "caller of a" : ""};
+}
+
+TEST(BenchRounds, GoThereAndBackAfterAllWarmedUp) {
+    std::string log;
+    const UsageMeter meter(UsageMeter::Of::process);
+    const std::vector<Subject> subjects{writer('a', log, 2), writer('b', log), writer('c', log, 0)};
+    app::measure_rounds(subjects, meter, {.iterations = 5, .rounds = 3, .watcher = {}});
+    EXPECT_EQ(log, "aa|b||"
+                   "aa|bb|cc|"
+                   "cc|bb|aa|"
+                   "a|b|c|");
+}
+
+TEST(BenchRounds, AnIterationsShareIsKept) {
+    std::string log;
+    const UsageMeter meter(UsageMeter::Of::process);
+    const std::vector<Subject> subjects{writer('a', log, 0), writer('b', log, 0)};
+    const std::vector<measure::Benchmark> found = app::measure_rounds(
+        subjects, meter, {.iterations = 3, .rounds = 2, .watcher = {}});
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(found[0].name, "a");
+    EXPECT_EQ(found[1].name, "b");
+    EXPECT_EQ(found[2].name, "caller of a");
+    ASSERT_EQ(found[0].rounds.size(), 2U);
+    EXPECT_EQ(found[0].rounds[0].iterations, 2U);
+    EXPECT_EQ(found[0].rounds[1].iterations, 1U);
+    // "||" of the warm-ups, then a and aa.
+    EXPECT_EQ(found[0].rounds[0].counters.at("length"), 3.5);
+    EXPECT_EQ(found[2].rounds[0].real_ms, 2);
+}
+
+TEST(BenchRounds, NoMoreRoundsThanIterationsAndNoNameTwice) {
+    std::string log;
+    const UsageMeter meter(UsageMeter::Of::process);
+    EXPECT_EQ(app::measure_rounds({writer('b', log)}, meter,
+                                  {.iterations = 2, .rounds = 6, .watcher = {}})[0]
+                  .rounds.size(),
+              2U);
+    try {
+        app::measure_rounds({writer('b', log), writer('b', log)}, meter, {});
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.failure, Failure::usage);
+        EXPECT_STREQ(error.what(), "benchmark 'b' is asked for twice");
+    }
+}
+
+double thread_ms() {
+    timespec used{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+    return 1e3 * static_cast<double>(used.tv_sec) + 1e-6 * static_cast<double>(used.tv_nsec);
+}
+
+/// What a thread of its own uses is the process's and not the caller's.
+TEST(UsageMeter, CountsOtherThreads) {
+    const UsageMeter process(UsageMeter::Of::process), caller(UsageMeter::Of::caller);
+    const double caller_before = thread_ms();
+    const app::Usage all = process.read(), own = caller.read();
+    double worked_ms = 0;
+    std::thread([&worked_ms] {
+        while ((worked_ms = thread_ms()) < 5) {
+        }
+    }).join();
+    const app::Usage own_after = caller.read() - own, all_after = process.read() - all;
+    EXPECT_GE(all_after.cpu_ms, worked_ms);
+    EXPECT_LE(own_after.cpu_ms, thread_ms() - caller_before + 1e-9) << "but for roundings";
+    EXPECT_EQ(all_after.cycles.has_value(), process.uncounted().empty());
+    if (process.uncounted().empty()) {
+        EXPECT_GT(*all_after.cycles, *own_after.cycles);
+        EXPECT_GT(*all_after.instructions, *own_after.instructions);
+    } else {
+        EXPECT_THAT(process.uncounted(), testing::StartsWith("perf_event_open: "));
+    }
+}
+
+} // namespace
