@@ -20,15 +20,17 @@ bool arrives(uint light, vec3 position, vec3 normal, out vec3 direction, out flo
 
 vec3 shade(Surface surface, vec3 position, vec3 normal) {
     vec3 direct = vec3(0);
-    for (uint light = 0u; light < frame.value.light_count; ++light) {
+    uint count = surface.albedo == vec3(0) ? 0u : frame.value.light_count;
+    uint light = 0u;
+    do { // asked at its end: see lib/trace.glsl
         vec3 direction;
         float distance, factor;
-        if (surface.albedo == vec3(0) ||
-            !arrives(light, position, normal, direction, distance, factor))
-            continue;
-        float visible = light_visible(light, position, normal, direction, distance);
-        direct += lights[light].intensity * (factor * visible);
-    }
+        if (light < count && arrives(light, position, normal, direction, distance, factor)) {
+            float visible = light_visible(light, position, normal, direction, distance);
+            direct += lights[light].intensity * (factor * visible);
+        }
+        ++light;
+    } while (light < count);
     if (environment_kind != kNoEnvironment) direct += sky_light(normal);
     return lambert(surface.emission, surface.albedo, direct, frame.value.ambient);
 }

@@ -61,14 +61,14 @@ End captured_end(uint mirror, Lookup lookup) {
     left_out = mirror + 1u;
     Ray ray = Ray(probes[mirror].centre, lookup.direction, 0u);
     End end;
-    bool goes_on = true, is_first = true;
-    while (goes_on) {
+    bool goes_on, is_first = true;
+    do {
         end = end_of(ray, 0u);
         goes_on = end.meets && (is_first ? lookup.layer != 0.0 : dot(end.point.facet, ray.direction) >= 0.0);
         is_first = false;
         if (goes_on)
             ray = Ray(spawn_origin(end.point.position, end.point.error, end.point.facet, ray.direction), ray.direction, end.point.leaves);
-    }
+    } while (goes_on);
     left_out = 0u;
     return end;
 }
@@ -107,7 +107,8 @@ vec3 mended_radiance(Path path, Lookup lookup) {
     End first, target;
     bool from_camera;
     // From the eye, from the mirror and, if the search went on from another, from that.
-    for (uint i = 0u; i < (path.hops > 0u ? 3u : 2u); ++i) {
+    uint i = 0u, last = path.hops > 0u ? 2u : 1u;
+    do {
         left_out = i == 2u ? path.mirror + 1u : 0u;
         target = end_of(search_ray, i == 0u ? kBvhHidden : 0u);
         if (i == 0u) {
@@ -121,7 +122,7 @@ vec3 mended_radiance(Path path, Lookup lookup) {
             from_camera = is_own ? mends(kMendOwn) : is_mirrored && mends(kMendMirrors);
             if (path.hops > 0u) search_ray = Ray(path.at, path.direction, 0u);
         }
-    }
+    } while (++i <= last);
     left_out = 0u;
     vec3 to_target = target.meets ? target.point.position - path.centre : search_ray.direction;
     float distance = target.meets ? length(to_target) : uintBitsToFloat(0x7f800000u);

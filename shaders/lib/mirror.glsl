@@ -108,7 +108,9 @@ void ask_others(inout Path path, inout Lookup lookup) {
     uint first;
     float met;
     bool meets = mirror_tree != 0u && first_by_tree(ray, path.mirror, false, first, met);
-    for (uint i = 0u; i < frame.value.mirror_count; ++i) {
+    uint next = 0u;
+    do { // loops ask at their end: see lib/trace.glsl
+        uint i = next++;
         if (i == path.mirror || !is_captured(i)) continue;
         Lookup other = search(i, path.at - probes[i].centre, path.direction);
         if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction))) continue;
@@ -118,15 +120,15 @@ void ask_others(inout Path path, inout Lookup lookup) {
         path.centre = probes[i].centre;
         lookup = other;
         return;
-    }
+    } while (next < frame.value.mirror_count);
     look_at(distance);
 }
 
 // The path's end and where it is to be looked up.
 Lookup follow(inout Path path) {
     Lookup lookup;
-    bool goes_on = true;
-    while (goes_on) {
+    bool goes_on;
+    do {
 #ifdef CONTINUE
         while (path.hops < hops && follow_sphere(path)) {}
 #endif
@@ -135,7 +137,7 @@ Lookup follow(inout Path path) {
 #ifdef CONTINUE
         if (has_surfaces != 0u && path.hops < hops) goes_on = follow_captured(path, lookup);
 #endif
-    }
+    } while (goes_on);
 #ifdef CONTINUE
     if (asks_others != 0u && lookup.state == kUnknown) ask_others(path, lookup);
 #endif

@@ -31,7 +31,8 @@ bool first_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out 
     uint end = floatBitsToUint(high.w) & kBvhIdMask;
     bool found = false;
     t = kLargest;
-    for (uint node = 0u; node < end;) {
+    uint node = 0u;
+    do { // loops ask at their end: see lib/trace.glsl
         low = texelFetch(mirror_nodes, int(2u * node));
         high = texelFetch(mirror_nodes, int(2u * node + 1u));
         float enters, met;
@@ -46,7 +47,7 @@ bool first_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out 
             first = mirror;
             found = true;
         }
-    }
+    } while (node < end);
     return found;
 }
 
@@ -55,24 +56,29 @@ bool first_sphere(Ray ray, uint except, out uint first, out float t) {
     if (mirror_tree != 0u) return first_by_tree(ray, except, true, first, t);
     bool found = false;
     t = kLargest;
-    for (uint i = 0u; i < frame.value.mirror_count; ++i) {
+    uint i = 0u;
+    do {
         float t_sphere;
         if (i != except && probes[i].radius > 0.0 && sphere_test(probes[i].sphere, probes[i].radius, ray, t, t_sphere)) {
             t = t_sphere;
             first = i;
             found = true;
         }
-    }
+        ++i;
+    } while (i < frame.value.mirror_count);
     return found;
 }
 
 // Whether the ray meets another mirror than `except`, or its bounds, not after `end`.
 bool meets_mirror_before(Ray ray, uint except, float end) {
-    for (uint i = 0u; i < frame.value.mirror_count; ++i) {
+    uint i = 0u;
+    bool meets = false;
+    do {
         float t;
-        if (i != except && meets_mirror(i, ray, t) && !(end < t)) return true;
-    }
-    return false;
+        meets = i != except && meets_mirror(i, ray, t) && !(end < t);
+        ++i;
+    } while (!meets && i < frame.value.mirror_count);
+    return meets;
 }
 
 #endif

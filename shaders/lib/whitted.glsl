@@ -226,7 +226,8 @@ vec3 radiance(Ray ray, uint first, out uint met) {
     exact_ray(ray, trace_low);
 #endif
     bool done = false;
-    for (uint bounce = first; !done; ++bounce) {
+    uint bounce = first;
+    do {
         if (!trace_ray(ray, skipped, point)) {
             if (environment_kind != kNoEnvironment) result += weight * environment(ray.direction);
             done = true;
@@ -252,8 +253,9 @@ vec3 radiance(Ray ray, uint first, out uint met) {
             ray = Ray(leaving(point, direction), direction, point.leaves);
             skipped = 0u;
             ++mirror_rays;
+            ++bounce;
         }
-    }
+    } while (!done);
     // A driver that stopped the walk's loops stops this one too, without a word.
     trace_exhausted = trace_exhausted || !done;
     return result;

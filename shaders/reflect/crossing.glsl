@@ -31,20 +31,29 @@ const uint kMaxRefinements = 16u;
 // A distance that near to the captured one, as a share of it, is found.
 const float kOnSurface = 1.0 / 512.0;
 
+bool are_apart(Sample front, Sample behind, float texel) {
+    return sine_between(front.place, behind.place) > (front.captured > 0.0 ? 0.5 : kEdge) * texel;
+}
+
 // A hit where a surface is crossed. Unknown at a silhouette: what is seen a texel beside it, or that the ray
 // leaves where nothing is.
 Lookup crossing(uint mirror, Arc arc, Sample front, Sample behind) {
     float texel = texel_angle(mirror);
-    for (uint i = 0u; i < kMaxRefinements &&
-                      sine_between(front.place, behind.place) > (front.captured > 0.0 ? 0.5 : kEdge) * texel; ++i) {
-        bool halves = (i & 1u) == 1u;
-        Sample middle = sample_at(mirror, arc, halves ? normalize(front.place + behind.place) : false_position(front, behind));
-        if (is_behind(middle)) behind = middle;
-        else front = middle;
-        float residual = abs(middle.depth) / middle.captured;
-        if (!halves && residual <= kOnSurface)
-            return Lookup(direction_at(arc, false_position(front, behind)), kHit, residual, 0.0);
-    }
+    uint i = 0u;
+    bool is_wide = are_apart(front, behind, texel);
+    do { // loops ask at their end: see lib/trace.glsl
+        if (is_wide) {
+            bool halves = (i & 1u) == 1u;
+            Sample middle = sample_at(mirror, arc, halves ? normalize(front.place + behind.place) : false_position(front, behind));
+            if (is_behind(middle)) behind = middle;
+            else front = middle;
+            float residual = abs(middle.depth) / middle.captured;
+            if (!halves && residual <= kOnSurface)
+                return Lookup(direction_at(arc, false_position(front, behind)), kHit, residual, 0.0);
+        }
+        ++i;
+        is_wide = i < kMaxRefinements && are_apart(front, behind, texel);
+    } while (is_wide);
     if (what_is_between(mirror, direction_at(arc, front.place), direction_at(arc, behind.place), front.captured,
                         behind.captured) == kSilhouette) {
         if (front.captured == 0.0) return Lookup(direction_at(arc, arc.end), kUnknown, 1.0, kLeaves);
@@ -58,14 +67,21 @@ Lookup crossing(uint mirror, Arc arc, Sample front, Sample behind) {
 // meets the surface between them, in `front`, which goes on there as it did.
 bool meets_at_edge(uint mirror, Arc arc, inout Sample front, inout Sample next) {
     Sample earlier = front;
-    for (uint i = 0u; i < kMaxRefinements && sine_between(front.place, next.place) > kEdge * texel_angle(mirror); ++i) {
-        Sample middle = sample_at(mirror, arc, normalize(front.place + next.place));
-        if (middle.captured == 0.0) next = middle;
-        else if (is_behind(middle)) {
-            next = middle;
-            return false;
-        } else earlier = front, front = middle;
-    }
+    float least = kEdge * texel_angle(mirror);
+    uint i = 0u;
+    bool is_wide = sine_between(front.place, next.place) > least;
+    do {
+        if (is_wide) {
+            Sample middle = sample_at(mirror, arc, normalize(front.place + next.place));
+            if (middle.captured == 0.0) next = middle;
+            else if (is_behind(middle)) {
+                next = middle;
+                return false;
+            } else earlier = front, front = middle;
+        }
+        ++i;
+        is_wide = i < kMaxRefinements && sine_between(front.place, next.place) > least;
+    } while (is_wide);
     float beyond = sine_between(next.place, front.place) * earlier.depth + sine_between(earlier.place, next.place) * front.depth;
     return sine_between(earlier.place, front.place) > 0.0 && beyond >= 0.0;
 }

@@ -185,9 +185,11 @@ bool is_met(uint mirror, Arc arc, Sample a, Sample b, out Lookup found, out bool
     is_lost = ahead(a) > 0.0;
     vec2 first = b.first > 0.0 ? plane_at(mirror, arc, b.place, b.first) : vec2(0);
     vec2 second = b.second > 0.0 ? plane_at(mirror, arc, b.place, b.second) : vec2(0);
-    for (uint i = count; i < 2u; ++i) {
+    uint next = count;
+    do {
+        uint i = next++;
         float before = i == 0u ? a.first : a.second;
-        if (before == 0.0) break;
+        if (i > 1u || before == 0.0) break;
         vec2 plane = plane_at(mirror, arc, a.place, before);
         float at_b = dot(plane, b.place);
         bool in_first = is_near(dot(first, b.place), at_b), in_second = is_near(dot(second, b.place), at_b);
@@ -197,7 +199,7 @@ bool is_met(uint mirror, Arc arc, Sample a, Sample b, out Lookup found, out bool
         if (!is_behind) continue;
         found = meet(mirror, arc, plane, a.place, in_first || i == 0u ? 0.0 : 1.0);
         return true;
-    }
+    } while (next < 2u);
     // What begins at b is met if it is ahead there.
     if (count == 0u && b.first >= b.ray && b.first > 0.0 && dot(first, b.place) < b.ray) {
         found = meet(mirror, arc, first, b.place, 0.0);
@@ -225,9 +227,9 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float guessed_distance = 0.0;
     uint samples = 0u;
     bool is_done = false;
-    while (!is_done) {
+    do { // loops ask at their end: see lib/trace.glsl
         bool changes = false; // from a to b, a texel on
-        while (!changes && !is_done) {
+        do {
             if (are_alike(a, b)) {
                 a = b;
                 is_done = a.place == arc.end || ++samples > kLimit;
@@ -242,7 +244,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
                 else b = middle;
                 is_done = ++samples > kLimit;
             } else changes = true;
-        }
+        } while (!changes && !is_done);
         if (is_done) break;
         float before = ahead(a);
         Lookup found;
@@ -258,7 +260,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         a = b;
         if (++samples > kLimit || a.place == arc.end) break;
         b = sample_at(mirror, arc, next);
-    }
+    } while (true);
     // Never met: it leaves, in front of or behind all there is along its own direction, or it was lost
     // behind two surfaces that face the centre.
     uint count = surfaces_in_front(a);

@@ -24,17 +24,17 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     uint state = is_behind(last) ? kUnknown : kHit;
     Lookup guess = Lookup(direction, kUnknown, 1.0, 0.0);
     uint k = 0u;
-    while (k < steps) {
+    do { // loops ask at their end: see lib/trace.glsl
         Sample next;
         bool goes_behind = false, ends = false;
-        while (k < steps && !goes_behind && !ends) {
+        do {
             ++k;
             place = k == steps ? arc.end : vec2(place.x * turn.x - place.y * turn.y, place.x * turn.y + place.y * turn.x);
             next = sample_at(mirror, arc, place);
             goes_behind = !is_behind(last) && is_behind(next);
             ends = !is_behind(last) && last.captured > 0.0 && next.captured == 0.0;
             if (!goes_behind && !ends) last = next;
-        }
+        } while (k < steps && !goes_behind && !ends);
         Sample front = last, behind = next;
         if (ends && meets_at_edge(mirror, arc, front, behind))
             return Lookup(direction_at(arc, front.place), state, abs(front.depth) / front.captured, 0.0);
@@ -45,7 +45,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
             guess = found;
         }
         last = next;
-    }
+    } while (k < steps);
     if (is_behind(last)) return guess;
     return Lookup(direction, state == kHit ? kMiss : kUnknown, 0.0, 0.0);
 }

@@ -175,15 +175,19 @@ Arc arc_of(vec3 offset, vec3 direction) {
 
 // Past cells in which nothing can happen, up to a texel or to the arc's end.
 void pass_cells(inout Walk walk, inout int visits, Arc arc, uint mirror, int face) {
-    while (walk.level > 0 && walk.s < 1.0 && visits < kMaxVisits) {
-        ++visits;
-        vec2 leave = leaves(walk.line, cell_first(walk), cell_end(walk, face), face, walk.s);
-        float end = min(min(leave.x, leave.y), 1.0);
-        if (is_passed(arc, cell_bounds(walk, mirror, face), walk.s, end))
-            advance(walk, arc, leave, face);
-        else
-            --walk.level;
-    }
+    bool goes_on = walk.level > 0; // it is before the arc's end
+    do { // loops ask at their end: see lib/trace.glsl
+        if (goes_on) {
+            ++visits;
+            vec2 leave = leaves(walk.line, cell_first(walk), cell_end(walk, face), face, walk.s);
+            float end = min(min(leave.x, leave.y), 1.0);
+            if (is_passed(arc, cell_bounds(walk, mirror, face), walk.s, end))
+                advance(walk, arc, leave, face);
+            else
+                --walk.level;
+        }
+        goes_on = walk.level > 0 && walk.s < 1.0 && visits < kMaxVisits;
+    } while (goes_on);
 }
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
@@ -199,7 +203,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float last_in_sight = in_sight ? 0.0 : 1.0;
     bool nothing_beside = false; // the last silhouette
     int visits = 0;
-    while (walk.s < 1.0 && visits < kMaxVisits) {
+    do {
         pass_cells(walk, visits, arc, mirror, face);
         if (walk.s >= 1.0) break;
         ++visits;
@@ -220,7 +224,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         }
         in_sight = depth_end < 0.0;
         advance(walk, arc, leave, face);
-    }
+    } while (walk.s < 1.0 && visits < kMaxVisits);
     if (walk.s < 1.0) return Lookup(normalize(direction_at(arc, walk.s)), kUnknown, 0.0, 0.0);
     if (in_sight) return Lookup(direction, state == kHit ? kMiss : kUnknown, 0.0, 0.0);
     if (nothing_beside) return Lookup(direction, kUnknown, 0.0, kLeaves);

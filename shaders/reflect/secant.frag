@@ -25,11 +25,15 @@ vec2 first_guess(Arc arc, vec3 offset, vec3 direction, float distance) {
 
 // Its own direction meets nothing: halves of the arc are tried, towards the edge of what was captured.
 void halve(uint mirror, Arc arc, inout Sample front, inout Sample end) {
-    for (uint i = 0u; i < kHalves && !is_behind(end); ++i) {
-        Sample middle = sample_at(mirror, arc, normalize(front.place + end.place));
-        if (middle.captured > 0.0 && !is_behind(middle)) front = middle;
-        else end = middle;
-    }
+    uint i = 0u;
+    do { // loops ask at their end: see lib/trace.glsl
+        if (!is_behind(end)) {
+            Sample middle = sample_at(mirror, arc, normalize(front.place + end.place));
+            if (middle.captured > 0.0 && !is_behind(middle)) front = middle;
+            else end = middle;
+        }
+        ++i;
+    } while (i < kHalves && !is_behind(end));
 }
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
