@@ -95,6 +95,11 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         details_.fill(now, geometry_, vertices_, device_.limits().maxStorageBufferRange);
     known_layouts_ = vertices_.layouts();
     if (changes.shapes() || changes.lights) fill_lights(now, changes.lights);
+    if (changes.shapes() || changes.lights) {
+        backdrops_.clear();
+        for (const shared::Light& light : lights_)
+            backdrops_.push_back(find_backdrops(geometry_, light));
+    }
     sky_.set(now.environment);
     if (changes.shapes() || changes.lights || changes.materials) fill_probes(now, changes);
     if (changes.shapes() || changes.lights || !same(camera_, camera) || size_ != size)

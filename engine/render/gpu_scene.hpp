@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graph/commands.hpp"
+#include "render/backdrop.hpp"
 #include "render/changes.hpp"
 #include "render/details.hpp"
 #include "render/mirror_tree.hpp"
@@ -40,6 +41,10 @@ public:
     /// Layers of each light in shadow maps, and how many of them are drawn.
     std::uint32_t shadow_faces() const { return shadow_faces_; }
     std::uint32_t drawn_shadow_faces(std::uint32_t light) const;
+    /// By object: see find_backdrops.
+    const std::vector<std::uint8_t>& backdrops(std::uint32_t light) const {
+        return backdrops_[light];
+    }
     const Space& space() const { return space_; }
     const std::vector<DrawRange>& ranges() const { return geometry_.ranges; }
     const std::vector<shared::View>& views() const { return views_; }
@@ -155,6 +160,7 @@ private:
     std::vector<shared::Probe> probes_;
     std::vector<scene::PointLight> world_lights_;
     std::vector<shared::Light> lights_;
+    std::vector<std::vector<std::uint8_t>> backdrops_; ///< by light
     std::vector<std::size_t> mirror_objects_;
     std::vector<bool> hides_all_; ///< by object
     std::vector<double> face_needs_;

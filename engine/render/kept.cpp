@@ -50,9 +50,11 @@ public:
         : scene_(scene), model_(model), layout_(layout), before_(before), compares_(compares) {
         if (before) changed_ = changed(*before);
         Stamp lit;
-        for (std::uint32_t light = 0; light < scene.light_count(); ++light)
+        for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
+            lit.add_all(std::span(scene.backdrops(light)));
             for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
                 lit.add(scene.views()[scene.shadow_view(light) + face]);
+        }
         shadow_views_ = lit.value();
     }
 

@@ -100,6 +100,7 @@ std::uint64_t shadow_stamp(const GpuScene& scene, const require::Model& model, s
     if (!needs.has_map || face >= scene.drawn_shadow_faces(light)) return stamp.value();
     const shared::View& view = scene.views()[scene.shadow_view(light) + face];
     stamp.add(needs.stamp).add(view);
+    stamp.add_all(std::span(scene.backdrops(light)));
     for (const require::Caster& caster : model.casters)
         if (may_meet(view, scene.ranges()[caster.object]))
             stamp.add(caster.object).add(caster.stamp);
@@ -121,7 +122,8 @@ void add_shadow_faces(graph::Graph& graph, const GpuScene& scene, std::uint32_t 
                              scene.shadow_view(light) + faces.first,
                              std::min(faces.count, drawn - faces.first), 0, [&](std::size_t i) {
                                  const DrawRange& range = scene.ranges()[i];
-                                 return range.casts_shadow && range.masked == masked;
+                                 return range.casts_shadow && range.masked == masked &&
+                                        !scene.backdrops(light)[i];
                              });
         });
 }

@@ -107,19 +107,25 @@ TEST(Planar, ShowsWhatRaysSee) {
         const app::Part truth = test::render(scene, app::kReference, size),
                         planar = test::render(scene, "planar", size),
                         lit = test::render(scene, "raytrace:depth=16,shadow=none", size);
+        const Found whole = off_of(planar, truth, measure::Mask(truth.hits.size(), 0));
+        print(scene.name + ", nothing left out", whole);
+        EXPECT_LE(whole.share_off, .003) << scene.name;
+        EXPECT_LE(whole.mae, .0003) << scene.name;
+        EXPECT_LE(whole.rmse, .0025) << scene.name;
         measure::Mask left_out = beside_outlines(scene, truth.hits, size);
         const Found found = off_of(planar, truth, left_out);
         print(scene.name, found);
-        EXPECT_LE(found.share_off, .003) << scene.name;
-        EXPECT_LE(found.mae, .0003) << scene.name;
+        EXPECT_LE(found.share_off, .001) << scene.name;
+        EXPECT_LE(found.mae, .00005) << scene.name;
+        EXPECT_LE(found.rmse, .0016) << scene.name;
         EXPECT_LE(found.left_out, .07) << scene.name << ": lines, two pixels wide";
         const measure::Mask shadows = test::shadow_edges(lit.hdr, truth.hdr);
         for (std::size_t i = 0; i < left_out.size(); ++i)
             if (shadows[i]) left_out[i] = 255;
         const Found away = off_of(planar, truth, left_out);
         print(scene.name + ", away from shadow edges", away);
-        EXPECT_LE(away.share_off, .0008) << scene.name;
-        EXPECT_LE(away.rmse, .001) << scene.name;
+        EXPECT_EQ(away.share_off, 0) << scene.name;
+        EXPECT_LE(away.rmse, 1e-6) << scene.name;
         EXPECT_LE(away.left_out, .15) << scene.name;
     }
 }

@@ -1,0 +1,93 @@
+#include "render/backdrop.hpp"
+
+#include "core/shader_math.hpp"
+#include "render/views.hpp"
+
+#include <algorithm>
+
+namespace catoptric::render {
+
+namespace {
+
+constexpr std::uint32_t kMostTriangles = 64; ///< of an object that is asked
+constexpr std::size_t kMostLooks = 1 << 22;  ///< at boxes and vertices, all together
+/// As a part of the scene's extent: sixteen roundings of its coordinates. A shadow's lift off its
+/// receiver is a thousand times that.
+constexpr double kInPlane = 0x1p-20;
+
+struct Plane {
+    dvec3 normal; ///< unit, to the light's side
+    double at;
+    double depth(const dvec3& point) const { return at - dot(normal, point); } ///< behind it
+};
+
+/// How far the box's farthest corner is behind.
+double depth_of(const Plane& plane, const Bounds<float>& box) {
+    const dvec3 corner(plane.normal.x < 0 ? box.hi.x : box.lo.x,
+                       plane.normal.y < 0 ? box.hi.y : box.lo.y,
+                       plane.normal.z < 0 ? box.hi.z : box.lo.z);
+    return plane.depth(corner);
+}
+
+class Search {
+public:
+    Search(const Geometry& geometry, const shared::Light& light)
+        : geometry_(geometry), light_(light) {
+        const Bounds<float> all = bounds_of(geometry);
+        room_ = kInPlane * f32::largest(max(abs(all.lo), abs(all.hi)));
+    }
+
+    bool is_backdrop(const DrawRange& range) {
+        if (range.own || range.index_count > 3 * kMostTriangles) return false;
+        for (std::uint32_t k = 0; k < range.index_count; k += 3)
+            if (!is_before(range.first_index + k)) return false;
+        return true;
+    }
+
+private:
+    /// Whether all is before the triangle's plane, where the light is.
+    bool is_before(std::uint32_t first_index) {
+        const auto corner = [&](std::uint32_t j) {
+            return dvec3(geometry_.vertices[geometry_.indices[first_index + j]].position);
+        };
+        const dvec3 across = cross(corner(1) - corner(0), corner(2) - corner(0));
+        const double size = length(across);
+        if (!(size > 0)) return true; // no area, no shadow
+        Plane plane{across / size, 0};
+        plane.at = dot(plane.normal, corner(0));
+        const double height = light_.directional != 0 ? -dot(plane.normal, dvec3(light_.forward))
+                                                      : -plane.depth(dvec3(light_.position));
+        if (height == 0) return true; // seen from its edge
+        if (height < 0) plane = {-plane.normal, -plane.at};
+        return std::ranges::all_of(geometry_.ranges, [&](const DrawRange& other) {
+            return ++looks_ < kMostLooks &&
+                   (depth_of(plane, other.bounds) <= room_ || all_vertices_before(plane, other));
+        });
+    }
+
+    bool all_vertices_before(const Plane& plane, const DrawRange& range) {
+        if (range.own || (looks_ += range.index_count) >= kMostLooks) return false;
+        for (std::uint32_t k = 0; k < range.index_count; ++k) {
+            const auto& vertex = geometry_.vertices[geometry_.indices[range.first_index + k]];
+            if (!(plane.depth(dvec3(vertex.position)) <= room_)) return false;
+        }
+        return true;
+    }
+
+    const Geometry& geometry_;
+    const shared::Light& light_;
+    double room_ = 0;
+    std::size_t looks_ = 0;
+};
+
+} // namespace
+
+std::vector<std::uint8_t> find_backdrops(const Geometry& geometry, const shared::Light& light) {
+    Search search(geometry, light);
+    std::vector<std::uint8_t> backdrops;
+    for (const DrawRange& range : geometry.ranges)
+        backdrops.push_back(range.casts_shadow && search.is_backdrop(range) ? 1 : 0);
+    return backdrops;
+}
+
+} // namespace catoptric::render
