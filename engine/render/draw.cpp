@@ -98,18 +98,6 @@ std::string build_of(const MirrorLook& look, bool peeled, bool shadow_map, bool 
     return look.fragment + (build.empty() ? "" : "#" + build);
 }
 
-/// Whether nothing of the object that faces away is seen in a drawing, so that it need not be
-/// drawn: of a crowd of balls those triangles are half of all the work. Not where something is seen
-/// from within or cut open.
-bool hides_its_back(const GpuScene& scene, const Drawing& drawing, std::size_t object) {
-    const DrawRange& range = scene.ranges()[object];
-    const shared::View& view = scene.views()[drawing.first_view];
-    const bool within = all(lessThanEqual(range.bounds.lo, view.eye)) &&
-                        all(lessThanEqual(view.eye, range.bounds.hi));
-    return range.shell && !range.flipped && !within && !drawing.peeled && view.parallel == 0 &&
-           view.clip == vec4(0);
-}
-
 void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& drawing,
                   const MirrorLook& look, const std::string& black, const Wanted& wanted) {
     gpu::RasterState state{"", black, drawing.store};
@@ -122,14 +110,17 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& draw
         for (const auto& [name, images] : look.images) commands.bind(name, images);
         for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
     }
-    const auto draw = [&](const Wanted& part) {
-        draw_objects(commands, scene, state, drawing.first_view, drawing.layers, look.mended, part);
-    };
-    if (!scene.is_crowd()) return draw(wanted);
-    const auto is_front = [&](std::size_t i) { return hides_its_back(scene, drawing, i); };
-    draw([&](std::size_t i) { return wanted(i) && !is_front(i); });
-    state.hidden = turns_away(scene.views()[drawing.first_view]);
-    draw([&](std::size_t i) { return wanted(i) && is_front(i); });
+    const auto& draw = drawing.peeled ? draw_objects : draw_fronts;
+    draw(commands, scene, state, drawing.first_view, drawing.layers, look.mended, wanted);
+}
+
+/// Whether nothing of the object that faces away is seen in a view, so that it need not be drawn:
+/// of a ball those triangles are half of all. Not where it is seen from within or cut.
+bool hides_its_back(const GpuScene& scene, const shared::View& view, std::size_t object) {
+    const DrawRange& range = scene.ranges()[object];
+    const bool within = all(lessThanEqual(range.bounds.lo, view.eye)) &&
+                        all(lessThanEqual(view.eye, range.bounds.hi));
+    return range.shell && !range.flipped && !within && view.parallel == 0 && view.clip == vec4(0);
 }
 
 } // namespace
@@ -149,6 +140,18 @@ void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState st
             draw_object(commands, scene, i, first_view, layers, mended);
         }
     }
+}
+
+void draw_fronts(Commands& commands, const GpuScene& scene, gpu::RasterState state,
+                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
+                 const Wanted& wanted) {
+    const shared::View& view = scene.views()[first_view];
+    const auto is_front = [&](std::size_t i) { return hides_its_back(scene, view, i); };
+    draw_objects(commands, scene, state, first_view, layers, mended,
+                 [&](std::size_t i) { return wanted(i) && !is_front(i); });
+    state.hidden = turns_away(view);
+    draw_objects(commands, scene, std::move(state), first_view, layers, mended,
+                 [&](std::size_t i) { return wanted(i) && is_front(i); });
 }
 
 void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawing,

@@ -16,6 +16,12 @@ void draw_objects(graph::Commands& commands, const GpuScene& scene, gpu::RasterS
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
                   const Wanted& wanted);
 
+/// The same without triangles that face away of what hides its own back. Not for what is looked at
+/// behind a first layer.
+void draw_fronts(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
+                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
+                 const Wanted& wanted);
+
 /// What a picture of the scene is made with.
 struct Drawing {
     std::uint32_t first_view = 0, layers = 1;

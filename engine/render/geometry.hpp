@@ -33,7 +33,7 @@ struct DrawRange {
     bool turns = false;        ///< its normal turns to who looks
     bool masked = false;       ///< parts of it may be cut out
     bool lit = false;          ///< a mirror with light of its own, which only its picture shows
-    bool shell = false;        ///< in its mesh's space it is one (is_shell); asked of crowds only
+    bool shell = false;        ///< in its mesh's space it is one (is_shell)
     bool flipped = false;      ///< mirrored or flattened on its way from that space
     /// Of its mesh, in Geometry::attributes; none: its vertices have none.
     std::optional<std::uint32_t> first_attribute;

@@ -118,7 +118,7 @@ void GpuScene::lay_out(const scene::Scene& now) {
     has_own_spaces_ = std::ranges::any_of(
         geometry_.ranges, [](const DrawRange& range) { return range.own.has_value(); });
     mirror_objects_ = scene::mirrors(now);
-    if (mirror_objects_.size() > kFewMirrors) find_shells(now);
+    find_shells(now);
     nearest_.lay_out(geometry_);
     tracing_->lay_out();
     vertices_.lay_out(geometry_);

@@ -118,13 +118,13 @@ void add_shadow_faces(graph::Graph& graph, const GpuScene& scene, std::uint32_t 
             if (!has_map || faces.first >= drawn) return;
             scene.bind(commands);
             for (const bool masked : {false, true})
-                draw_objects(commands, scene, {"", masked ? "masked.frag" : "", {}},
-                             scene.shadow_view(light) + faces.first,
-                             std::min(faces.count, drawn - faces.first), 0, [&](std::size_t i) {
-                                 const DrawRange& range = scene.ranges()[i];
-                                 return range.casts_shadow && range.masked == masked &&
-                                        !scene.backdrops(light)[i];
-                             });
+                draw_fronts(commands, scene, {"", masked ? "masked.frag" : "", {}},
+                            scene.shadow_view(light) + faces.first,
+                            std::min(faces.count, drawn - faces.first), 0, [&](std::size_t i) {
+                                const DrawRange& range = scene.ranges()[i];
+                                return range.casts_shadow && range.masked == masked &&
+                                       !scene.backdrops(light)[i];
+                            });
         });
 }
 
