@@ -200,7 +200,7 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
     bool found = false;
     uint waiting = 0u;
     uint child = kBvhRoot;
-    while (child != kBvhNothing && trace_steps < kMaxTraceSteps) {
+    do {
         // Down to a leaf. A child that is not met leaves `child` for the next on the stack.
         do {
             if (bvh_is_inner(child)) {
@@ -255,7 +255,7 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
             --waiting;
             child = STACK(waiting);
         }
-    }
+    } while (child != kBvhNothing && trace_steps < kMaxTraceSteps);
     trace_exhausted = trace_exhausted || child != kBvhNothing;
     if (found) best.barycentric = barycentric(best.barycentric);
     return found;
