@@ -37,6 +37,13 @@ std::vector<KernelRay> rays_among(std::span<const bvh::Triangle> things, test::N
         ray.direction = numbers.in_cube();
         if (i % 4 != 0) continue;
         const bvh::Triangle& ball = things[2 * numbers.below(kHalf) + 1];
+        if (i % 8 == 0) { // along an axis, past where its box touches it
+            const int along = static_cast<int>(i / 8 % 3), across = (along + 1) % 3;
+            ray.origin = ball.a, ray.direction = vec3(0);
+            ray.origin[across] += .9999f * ball.b.x;
+            ray.origin[along] -= 3 + ball.b.x, ray.direction[along] = 1;
+            continue;
+        }
         const vec3 to = ball.a - ray.origin, beside = glm::cross(to, ray.direction);
         ray.direction = to + ball.b.x / glm::length(beside) * beside;
     }
