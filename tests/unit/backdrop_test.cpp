@@ -55,6 +55,11 @@ TEST(Backdrops, IsNoWallWithSomethingBehindIt) {
     test::add_mesh(scene, scene::box("outside", {2.5, -1, -1}, {3, 1, 1}),
                    scene.objects[0].material);
     EXPECT_THAT(backdrops(scene, {0, 1, 0}), testing::ElementsAre("1", "2", "3", "4", "5"));
+    // Through it, beginning inside.
+    scene = room();
+    test::add_quad(scene, "shelf", scene.objects[0].material, {1, 0, 0}, {3, 0, 0}, {3, 0, 1},
+                   {1, 0, 1});
+    EXPECT_THAT(backdrops(scene, {0, 1, 0}), testing::ElementsAre("1", "2", "3", "4", "5"));
     // By less than a sixteenth of a millimetre, too: a mirror that hangs before a wall.
     scene = room();
     test::add_quad(scene, "mirror", scene.objects[0].material, {-1, -1, -2.9999}, {1, -1, -2.9999},
