@@ -4,7 +4,9 @@
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace catoptric::render {
 
@@ -62,11 +64,13 @@ void Tracing::lay_out() {
 void Tracing::build(const Geometry& geometry) {
     tree_ = bvh::build(std::span(triangles_).first(geometry.flat_indices / 3), geometry.core);
     cost_when_built_ = bvh::cost(tree_);
+    changed_triangles_ = {0, tree_.triangles.size()};
     ++built_;
 }
 
-void Tracing::refit(const Geometry& geometry) {
-    bvh::refit(tree_, std::span(triangles_).first(geometry.flat_indices / 3), geometry.core);
+void Tracing::refit(const Geometry& geometry, const std::vector<char>& objects) {
+    changed_triangles_ = bvh::refit(tree_, std::span(triangles_).first(geometry.flat_indices / 3),
+                                    geometry.core, objects);
     ++refitted_;
     // Written so that a NaN builds too.
     if (!(bvh::cost(tree_) <= kWorstRefit * cost_when_built_)) build(geometry);
@@ -82,13 +86,22 @@ void Tracing::build_own(const Geometry& geometry, std::size_t object) {
 /// Does what the moves since the last time ask for.
 void Tracing::follow(const Geometry& geometry) {
     bool flat = false;
+    std::vector<char> objects(geometry.ranges.size());
+    changed_normals_ = {normals_.size(), 0}, changed_triangles_ = {};
     for (const auto& [object, vertices] : moved_) {
-        const bool own = geometry.ranges[object].own.has_value();
-        if (vertices) read_object(geometry, object, triangles_, normals_);
+        const DrawRange& range = geometry.ranges[object];
+        const bool own = range.own.has_value();
+        if (vertices) {
+            read_object(geometry, object, triangles_, normals_);
+            changed_normals_ = {
+                std::min<std::size_t>(changed_normals_.first, range.first_index),
+                std::max<std::size_t>(changed_normals_.end, range.first_index + range.index_count)};
+        }
         if (vertices && own) build_own(geometry, object);
+        objects[object] = !own;
         flat = flat || !own;
     }
-    if (flat) refit(geometry);
+    if (flat) refit(geometry, objects);
 }
 
 /// Puts together what the device walks.
@@ -109,12 +122,19 @@ void Tracing::fill(const Geometry& geometry) {
     const bvh::Bvh whole = instances.empty() ? bvh::Bvh() : bvh::assemble(tree_, instances);
     const bvh::Bvh& shown = instances.empty() ? tree_ : whole;
     nodes_buffer_.set(shown.nodes);
-    triangles_buffer_.set(shown.triangles);
-    normals_buffer_.set(normals_);
+    if (instances.empty())
+        triangles_buffer_.set(tree_.triangles, changed_triangles_.first, changed_triangles_.end);
+    else
+        triangles_buffer_.set(whole.triangles);
+    normals_buffer_.set(normals_, changed_normals_.first, changed_normals_.end);
 }
 
 void Tracing::bring_up_to_date(const Geometry& geometry) {
-    if (!laid_out_) {
+    if (laid_out_ && moved_.empty()) return;
+    // Until the end: whatever throws, the next time starts anew.
+    if (std::exchange(laid_out_, false)) {
+        follow(geometry);
+    } else {
         triangles_.resize(geometry.indices.size() / 3);
         normals_.resize(geometry.indices.size());
         own_trees_.clear();
@@ -123,11 +143,9 @@ void Tracing::bring_up_to_date(const Geometry& geometry) {
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
             if (is_own_storage(geometry, i)) build_own(geometry, i);
         build(geometry);
-        fill(geometry);
-    } else if (!moved_.empty()) {
-        follow(geometry);
-        fill(geometry);
+        changed_normals_ = {0, normals_.size()};
     }
+    fill(geometry);
     laid_out_ = true;
     moved_.clear();
 }

@@ -45,13 +45,16 @@ private:
     };
     void bring_up_to_date(const Geometry& geometry);
     void build(const Geometry& geometry);
-    void refit(const Geometry& geometry);
+    void refit(const Geometry& geometry, const std::vector<char>& objects);
     void build_own(const Geometry& geometry, std::size_t object);
     void follow(const Geometry& geometry);
     void fill(const Geometry& geometry);
 
     std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
     std::vector<vec4> normals_;
+    /// Of normals and of the tree's triangles, outside of which none has changed since they were
+    /// filled.
+    bvh::Run changed_normals_, changed_triangles_;
     bvh::Bvh tree_;                             ///< of what is in scene units
     std::map<std::size_t, bvh::Bvh> own_trees_; ///< by the object whose vertices they are
     double cost_when_built_ = 0;
