@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 namespace catoptric::bvh {
 
@@ -34,6 +33,11 @@ Box child_bounds(const Bvh& bvh, std::uint32_t child, const Box& core) {
     return box;
 }
 
+/// A zero that changes its sign is another.
+bool same_bits(const vec3& a, const vec3& b) {
+    return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
+}
+
 /// Puts the triangle at `place`, in the order of the leaves, where it is now. Whether it stood
 /// elsewhere.
 bool move(Bvh& bvh, std::size_t place, std::span<const Triangle> triangles) {
@@ -45,7 +49,7 @@ bool move(Bvh& bvh, std::size_t place, std::span<const Triangle> triangles) {
     const std::array corners{t.a, t.b, t.c};
     bool moved = false;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (std::memcmp(&texel[k], &corners[k], sizeof corners[k]) == 0) continue;
+        if (same_bits(vec3(texel[k]), corners[k])) continue;
         texel[k] = vec4(corners[k], texel[k].w);
         moved = true;
     }

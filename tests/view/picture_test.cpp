@@ -176,7 +176,7 @@ TEST_F(ViewPicture, AClickChoosesTheMirrorThere) {
         inputs.on_controls = false;
         inputs.mouse = pixel_of(frame <= 4 ? 3 : 4);
         inputs.down[0] = frame == 3 || frame == 6;
-        if (frame == 5) state.plan.own[state.chosen] = {"raytrace", {}};
+        if (frame == 5 && state.chosen != 0) state.plan.own[state.chosen] = {"raytrace", {}};
     };
     driver.after = [&](const Report& report) {
         EXPECT_EQ(report.state.chosen, report.frame < 4   ? 0u
