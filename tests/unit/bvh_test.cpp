@@ -496,8 +496,8 @@ TEST(Refit, RaysMeetWhatTheyMeetInANewTree) {
     EXPECT_GT(found, 15000u);
 }
 
-/// What is left alone where little moves is what would have been made anew: by way of a place where
-/// everything is elsewhere, the same bytes.
+/// What is left alone where little moves is what would have been made anew: the same bytes by way
+/// of another core, for which all boxes are made.
 TEST(Refit, WhereOneThingMovedTheTreeIsWhatItWouldBeOtherwise) {
     for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
         std::vector<Triangle> triangles = soup(500, 6);
@@ -509,7 +509,7 @@ TEST(Refit, WhereOneThingMovedTheTreeIsWhatItWouldBeOtherwise) {
             refit(few, triangles, core);
             std::vector<Triangle> elsewhere = triangles;
             for (Triangle& t : elsewhere) t.a += vec3(1), t.b += vec3(1), t.c += vec3(1);
-            refit(all, elsewhere, core);
+            refit(all, elsewhere, {vec3(-9), vec3(9)});
             refit(all, triangles, core);
             ASSERT_TRUE(same(few.nodes, all.nodes)) << step;
             ASSERT_TRUE(same(few.triangles, all.triangles)) << step;
