@@ -1,10 +1,13 @@
-# cmake --install: the library, its public headers, the program, and find_package(catoptric) with what shaders of
+# cmake --install: the library, its public headers, the programs, and find_package(catoptric) with what shaders of
 # techniques from outside include.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS catoptric catoptric_cli EXPORT catoptricTargets
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(TARGET catoptric_view) # of users, not of programs that link the library
+    install(TARGETS catoptric_view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 
 # The public headers. Programs include those that lie in catoptric/ itself; the others are what these are made of. They
 # name each other by relative paths, which are the same here and installed (docs/design.md).

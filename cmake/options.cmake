@@ -4,6 +4,8 @@ target_include_directories(catoptric_options INTERFACE ${PROJECT_SOURCE_DIR}/eng
 # A hit is a comparison of floats: contraction to fused multiply-add would let the CPU oracle and the
 # device disagree about an edge.
 target_compile_options(catoptric_options INTERFACE -ffp-contract=off)
+# No implicit conversions in this tree; a public header sets nothing of GLM for programs outside.
+target_compile_definitions(catoptric_options INTERFACE GLM_FORCE_EXPLICIT_CTOR)
 if(CATOPTRIC_SANITIZE)
     target_compile_options(catoptric_options INTERFACE
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/stamp.hpp"
 #include "graph/dump.hpp"
+#include "scene/pose.hpp"
 
 #include <chrono>
 #include <utility>
@@ -74,7 +75,9 @@ double Session::Impl::stand(const Standing& wanted) {
     if (standing && standing->size != wanted.size) resident->forget_face_needs();
     standing.reset(); // should the update end half-way
     models.clear();
-    resident->update(scene::at(scene, wanted.time), wanted.camera, wanted.size, wanted.ambient,
+    if (!now) now = scene;
+    scene::pose(*now, scene, wanted.time);
+    resident->update(*now, wanted.camera, wanted.size, wanted.ambient,
                      static_cast<std::uint32_t>(copy));
     standing = wanted;
     ++counts.updates;
@@ -95,8 +98,7 @@ const std::shared_ptr<const require::Model>& Session::Impl::model_of(Modelling m
                                                                      bool is_mended) {
     std::shared_ptr<const require::Model>& model = models[{modelling, is_mended}];
     if (model) return model;
-    const scene::Scene now = scene::at(scene, standing->time);
-    require::Question question{now, standing->camera, standing->size};
+    require::Question question{*now, standing->camera, standing->size};
     reflect::demand(question, plans);
     question.whole_cubes = question.whole_cubes ||
                            is_mended; // what is exact looks where a search never would
@@ -201,6 +203,7 @@ void Session::change(const scene::Edit& edit) {
         ++self.units;
     }
     self.scene = std::move(edited);
+    self.now.reset();
     self.mirrors = mirror_names(self.scene);
     self.standing.reset();
     self.texts.clear(); // another plan may be suggested

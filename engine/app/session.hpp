@@ -222,9 +222,9 @@ public:
     /// the scene is written to. Other techniques than those of the frame before, or another model,
     /// begin without history. Throws `usage` for a specification that means nothing.
     CATOPTRIC_API Frame frame(const FrameSpec& spec);
-    /// The same, shown in a window (not for programs outside yet): of the screen's engine, which
-    /// must `fit`. A frame that the
-    /// window has no image for is rendered all the same.
+    /// The same, shown in a window: of the screen's engine, which must `fit`. A frame that the
+    /// window has no image for is rendered all the same. Not for programs outside, which have a
+    /// window of their own (embed/embed.hpp).
     Frame show(const FrameSpec& spec, Screen& screen, const Showing& showing);
     /// Edits the scene; seen from the next frame on. History stays unless the edit changes the
     /// scene's units on the device (render::space_of): it is much larger or smaller now, or what

@@ -57,6 +57,7 @@ struct Session::Impl {
     graph::Runner runner;
     std::vector<std::string> mirrors; ///< their names
     std::optional<Standing> standing;
+    std::optional<scene::Scene> now; ///< as it stands there
     std::vector<std::string> texts;
     std::vector<reflect::Plan> plans;      ///< of `texts`
     std::vector<reflect::Plan> remembered; ///< whose history the runner has

@@ -6,6 +6,7 @@
 #include "reflect/plan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -57,22 +58,28 @@ void check_search(const Search& search) {
     }
 }
 
-/// The search's own knobs, then those that all searches have.
+/// The search's own knobs, then those that all searches have, or all that continue.
 std::vector<Knob> knobs_of(const Search& search) {
+    constexpr std::array<std::string_view, 3> kOfContinuing{"continue", "captures", "mirrors"};
     std::vector<Knob> knobs;
-    const auto add = [&](const Knob& knob) {
-        check(std::ranges::find(knobs, knob.name, &Knob::name) == knobs.end(), Failure::usage,
-              "technique '", search.name, "' has two knobs '", knob.name, "'");
-        knobs.push_back(knob);
+    const auto check_new = [&](std::string_view name) {
+        check(std::ranges::find(knobs, name, &Knob::name) == knobs.end(), Failure::usage,
+              "technique '", search.name, "' has two knobs '", name, "'");
     };
-    for (const SearchKnob& own : search.knobs)
-        add({.name = own.name,
-             .help = own.help,
-             .low = own.low,
-             .high = own.high,
-             .value = own.value,
-             .is_real = own.is_real});
-    std::ranges::for_each(reflect::kSearchKnobs, add);
+    for (const SearchKnob& own : search.knobs) {
+        check_new(own.name);
+        knobs.push_back({.name = own.name,
+                         .help = own.help,
+                         .low = own.low,
+                         .high = own.high,
+                         .value = own.value,
+                         .is_real = own.is_real});
+    }
+    for (const Knob& knob : reflect::kSearchKnobs) {
+        check_new(knob.name); // also where it is not offered: its name would be read as this one
+        if (search.continues || std::ranges::find(kOfContinuing, knob.name) == kOfContinuing.end())
+            knobs.push_back(knob);
+    }
     return knobs;
 }
 

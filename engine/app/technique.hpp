@@ -34,14 +34,17 @@ struct SearchKnob {
 
 /// A technique that looks reflections up in the mirrors' captures, colour and distance, with a
 /// fragment shader of its own (docs/library.md has what that defines and may call). It has
-/// `secant`'s knobs beside its own: face, colour, distance, range, continue, lookup, captures,
-/// mirrors, show, shadow and shadow_map. In captures, mirrors are drawn as `parallax` has it.
+/// `secant`'s knobs beside its own: face, colour, distance, range, lookup, show, shadow and
+/// shadow_map. In captures, mirrors are drawn as `parallax` has it.
 struct Search {
     std::string name;    ///< small letters, digits and '_', as it is asked for
     std::string summary; ///< one sentence for lists and reports
     int order = 1000;    ///< place in these; then by name
     std::string shader;  ///< as catoptric_shader() has named it
     std::vector<SearchKnob> knobs;
+    /// The shader defines CONTINUE: the search has the knobs continue, captures and mirrors, too,
+    /// which without that would do nothing.
+    bool continues = false;
     std::vector<std::string> compared; ///< its rows where nobody says which; empty: its name alone
 };
 

@@ -71,10 +71,19 @@ struct Bvh {
 Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core = {},
           std::uint32_t leaf = kMaxLeaf);
 
+/// From the first to before `end`.
+struct Run {
+    std::size_t first = 0, end = 0;
+    bool operator==(const Run&) const = default;
+};
+
 /// The same tree over the same triangles elsewhere: `triangles` as they were given to `build`, in
-/// the same order, moved. What a ray meets does not depend on whether a tree was built or refitted.
-/// O(n), a tenth of a build. Throws `Failure::internal` where a triangle that was finite is not.
-void refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {});
+/// the same order, moved. `objects`: by number, whether triangles of it may have moved; empty: of
+/// all. Returns the run of Bvh::triangles outside of which none did. What a ray meets does not
+/// depend on whether a tree was built or refitted. O(n), a twentieth of a build, less where few
+/// triangles move. Throws `Failure::internal` where a triangle that was finite is not.
+Run refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
+          std::span<const char> objects = {});
 
 /// What the surface area heuristic expects of a ray's walk, times the area of the whole: rises as
 /// the triangles of a refitted tree move away from their neighbours.

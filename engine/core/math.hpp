@@ -1,8 +1,8 @@
 #pragma once
-
-// GLM as every file of the engine must see it: Vulkan's depth range, no implicit conversions.
-#define GLM_FORCE_DEPTH_ZERO_TO_ONE
-#define GLM_FORCE_EXPLICIT_CTOR
+// The library is built with GLM's packed types; all else that GLM has to set is the program's.
+#ifdef GLM_FORCE_DEFAULT_ALIGNED_GENTYPES
+#error "catoptric: wanted GLM's packed types, found GLM_FORCE_DEFAULT_ALIGNED_GENTYPES"
+#endif
 #include <glm/glm.hpp>
 
 #include <limits>

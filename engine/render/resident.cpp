@@ -13,13 +13,14 @@ std::size_t page_count(std::size_t bytes) { return (bytes + kPage - 1) / kPage; 
 
 } // namespace
 
-bool Resident::set(std::span<const std::byte> data) {
+bool Resident::set(std::span<const std::byte> data, std::size_t from, std::size_t to) {
     const std::size_t kept = std::min(data.size(), data_.size());
     const std::uint64_t next = version_ + 1;
     bool changed = data.size() != data_.size();
     data_.resize(data.size());
     pages_.resize(page_count(data.size()), next);
-    for (std::size_t page = 0; page < pages_.size(); ++page) {
+    if (changed) from = 0, to = data.size();
+    for (std::size_t page = from / kPage; page < page_count(to); ++page) {
         const std::size_t first = page * kPage, end = std::min(first + kPage, data.size());
         if (end <= kept && std::memcmp(&data_[first], &data[first], end - first) == 0) continue;
         std::memcpy(&data_[first], &data[first], end - first);

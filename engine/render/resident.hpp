@@ -21,7 +21,13 @@ public:
     /// those before. Returns whether something did.
     template <typename T>
     bool set(const std::vector<T>& data) {
-        return set(std::as_bytes(std::span(data)));
+        return set(data, 0, data.size());
+    }
+    /// The same, where only entries from `first` to before `end` may be others than those set last:
+    /// compares no others.
+    template <typename T>
+    bool set(const std::vector<T>& data, std::size_t first, std::size_t end) {
+        return set(std::as_bytes(std::span(data)), first * sizeof(T), end * sizeof(T));
     }
     /// Makes slot `slot`, of which no frame is in flight, bind the contents. Returns how often the
     /// device's memory was written. Throws as gpu::Buffer does.
@@ -36,7 +42,7 @@ private:
         std::uint64_t version = 0;
     };
 
-    bool set(std::span<const std::byte> data);
+    bool set(std::span<const std::byte> data, std::size_t first, std::size_t end);
     std::size_t free_copy(std::size_t slot);
 
     std::string name_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 namespace catoptric::render {
 
@@ -73,7 +74,6 @@ Tracing::Tracing(std::size_t slots)
       normals_buffer_("normals", gpu::BufferUse::texels, slots) {}
 
 void Tracing::lay_out() {
-    ++version_.layouts;
     is_read_ = false;
     moved_.clear();
 }
@@ -82,12 +82,13 @@ void Tracing::build(Hierarchy& hierarchy, const Geometry& geometry,
                     std::span<const bvh::Triangle> flat) {
     hierarchy.tree = bvh::build(flat, geometry.core);
     hierarchy.cost_when_built = bvh::cost(hierarchy.tree);
+    hierarchy.changed = {0, hierarchy.tree.triangles.size()};
     ++built_;
 }
 
 void Tracing::refit(Hierarchy& hierarchy, const Geometry& geometry,
                     std::span<const bvh::Triangle> flat) {
-    bvh::refit(hierarchy.tree, flat, geometry.core);
+    hierarchy.changed = bvh::refit(hierarchy.tree, flat, geometry.core, hierarchy.moved);
     ++refitted_;
     // Written so that a NaN builds too.
     if (!(bvh::cost(hierarchy.tree) <= kWorstRefit * hierarchy.cost_when_built))
@@ -101,9 +102,35 @@ void Tracing::build_own(const Geometry& geometry, std::size_t object) {
     renumber(tree, range.first_index / 3);
 }
 
+/// Takes over what has moved.
+void Tracing::follow(const Geometry& geometry) {
+    bvh::Run changed{normals_.size(), 0};
+    for (const auto& [object, vertices] : moved_) {
+        const DrawRange& range = geometry.ranges[object];
+        const bool own = range.own.has_value();
+        if (vertices) {
+            read_object(geometry, object, triangles_, normals_);
+            changed = {std::min<std::size_t>(changed.first, range.first_index),
+                       std::max<std::size_t>(changed.end, range.first_index + range.index_count)};
+        }
+        if (vertices && own) build_own(geometry, object);
+        for (Hierarchy& hierarchy : hierarchies_) {
+            hierarchy.moved.resize(geometry.ranges.size());
+            if (!own) hierarchy.moved[object] = 1;
+        }
+    }
+    normals_buffer_.set(normals_, changed.first, changed.end);
+}
+
 /// Takes over what was laid out or has moved.
 void Tracing::read(const Geometry& geometry) {
-    if (!is_read_) {
+    if (is_read_ && moved_.empty()) return;
+    // Until the end: whatever throws, the next time starts anew.
+    if (std::exchange(is_read_, false)) {
+        ++version_.moves;
+        follow(geometry);
+    } else {
+        ++version_.layouts;
         triangles_.resize(geometry.indices.size() / 3);
         normals_.resize(geometry.indices.size());
         own_trees_.clear();
@@ -111,17 +138,6 @@ void Tracing::read(const Geometry& geometry) {
             if (geometry.ranges[i].storage == i) read_object(geometry, i, triangles_, normals_);
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
             if (is_own_storage(geometry, i)) build_own(geometry, i);
-        normals_buffer_.set(normals_);
-    } else if (!moved_.empty()) {
-        ++version_.moves;
-        bool flat = false;
-        for (const auto& [object, vertices] : moved_) {
-            const bool own = geometry.ranges[object].own.has_value();
-            if (vertices) read_object(geometry, object, triangles_, normals_);
-            if (vertices && own) build_own(geometry, object);
-            flat = flat || !own;
-        }
-        if (flat) ++version_.flat_moves;
         normals_buffer_.set(normals_);
     }
     is_read_ = true;
@@ -147,17 +163,23 @@ void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry) const {
                                              : bvh::assemble(hierarchy.tree, instances);
     const bvh::Bvh& shown = instances.empty() ? hierarchy.tree : whole;
     hierarchy.nodes.set(shown.nodes);
-    hierarchy.triangles.set(shown.triangles);
+    if (instances.empty())
+        hierarchy.triangles.set(shown.triangles, hierarchy.changed.first, hierarchy.changed.end);
+    else
+        hierarchy.triangles.set(shown.triangles);
 }
 
 /// `flat`: the triangles and balls in scene units.
 void Tracing::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
                                std::span<const bvh::Triangle> flat) {
-    if (hierarchy.seen.layouts != version_.layouts)
+    const bool is_new = hierarchy.seen.layouts != version_.layouts;
+    hierarchy.seen = {}, hierarchy.changed = {}; // whatever throws, the next time starts anew
+    if (is_new)
         build(hierarchy, geometry, flat);
-    else if (hierarchy.seen.flat_moves != version_.flat_moves)
+    else if (std::ranges::find(hierarchy.moved, 1) != hierarchy.moved.end())
         refit(hierarchy, geometry, flat);
     fill(hierarchy, geometry);
+    hierarchy.moved.clear();
     hierarchy.seen = version_;
 }
 

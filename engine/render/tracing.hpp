@@ -52,7 +52,7 @@ private:
     };
     /// What changed so far: a hierarchy that has seen less is behind.
     struct Version {
-        std::size_t layouts = 0, flat_moves = 0, moves = 0;
+        std::size_t layouts = 0, moves = 0;
         friend bool operator==(const Version&, const Version&) = default;
     };
     struct Hierarchy {
@@ -62,6 +62,8 @@ private:
         bvh::Bvh tree; ///< of what is in scene units
         double cost_when_built = 0;
         Version seen;
+        std::vector<char> moved; ///< by object in scene units, since then
+        bvh::Run changed;        ///< of the tree's triangles, since they were filled
         Resident nodes, triangles;
     };
     Hierarchy& of(Spheres spheres) { return hierarchies_[static_cast<std::size_t>(spheres)]; }
@@ -70,13 +72,14 @@ private:
                           std::span<const bvh::Triangle> flat);
     void build(Hierarchy& hierarchy, const Geometry& geometry, std::span<const bvh::Triangle> flat);
     void refit(Hierarchy& hierarchy, const Geometry& geometry, std::span<const bvh::Triangle> flat);
+    void follow(const Geometry& geometry);
     void build_own(const Geometry& geometry, std::size_t object);
     void fill(Hierarchy& hierarchy, const Geometry& geometry) const;
 
     std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
     std::vector<vec4> normals_;
     std::map<std::size_t, bvh::Bvh> own_trees_; ///< by the object whose vertices they are
-    Version version_{1, 0, 0};
+    Version version_{1, 0};
     bool is_read_ = false;    ///< this layout
     std::vector<Move> moved_; ///< since the triangles were read
     std::array<Hierarchy, 2> hierarchies_;

@@ -1,6 +1,7 @@
 #include "scene/motion.hpp"
 
 #include "core/error.hpp"
+#include "scene/pose.hpp"
 #include "scene/scene.hpp"
 #include "scene/transform.hpp"
 
@@ -182,10 +183,10 @@ Camera camera_at(const Camera& camera, double seconds) {
     return camera.follows.rig ? carried(camera, Poses(seconds).of(camera.follows)) : camera;
 }
 
-Scene at(const Scene& scene, double seconds) {
+void pose(Scene& still, const Scene& scene, double seconds) {
     check(std::isfinite(seconds), Failure::usage, "time: wanted a finite number of seconds, found ",
           seconds);
-    Scene still = scene;
+    still.objects = scene.objects, still.punctual = scene.punctual, still.cameras = scene.cameras;
     Poses poses(seconds);
     const auto move = [&](dmat4& place, const Motion& motion) {
         if (const Follows* follows = followed(motion)) place = poses.of(*follows);
@@ -204,6 +205,11 @@ Scene at(const Scene& scene, double seconds) {
     }
     for (Camera& camera : still.cameras)
         if (camera.follows.rig) camera = carried(camera, poses.of(camera.follows));
+}
+
+Scene at(const Scene& scene, double seconds) {
+    Scene still = scene;
+    pose(still, scene, seconds);
     return still;
 }
 

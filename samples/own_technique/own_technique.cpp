@@ -24,9 +24,8 @@ int main() try {
     request.base.camera = request.base.scene.cameras.front();
     request.base.size = {64, 64};
     request.base.frames = 6;
-    request.base.techniques = {"reuse:face=64", "blend:face=64",
-                               "blend:amount=1,face=64,continue=0,lookup=bilinear",
-                               "parallax:face=64"};
+    request.base.techniques = {"reuse:face=64", "blend:amount=0,face=64", "blend:face=64",
+                               "blend:amount=1,face=64,lookup=bilinear", "parallax:face=64"};
 
     app::Engine engine({});
     const measure::Comparison found = app::compare(engine, request);

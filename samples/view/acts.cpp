@@ -134,6 +134,8 @@ void Loop::load(const std::string& file) {
         common.root = defaults.root, common.seed = defaults.seed;
         common.use_scene_file = defaults.use_scene_file;
         options_.words = {file};
+        if (!common.device.empty())
+            options_.words.insert(options_.words.end(), {"--device", common.device});
         request_ = ask(options_).request;
         state_.plan = without_mirrors(state_.plan), state_.other = without_mirrors(state_.other);
         open(Scene::another);

@@ -1,5 +1,7 @@
 #include "command.hpp"
 
+#include "app/candidates.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,12 +16,18 @@ namespace {
 constexpr std::array<std::string_view, 12> kReplaced{
     "--camera", "--time",   "--size",       "--technique", "--plan",   "--model",
     "--frames", "--warmup", "--screenshot", "--exposure",  "--timing", "--progress"};
-constexpr std::array<std::string_view, 6> kFlags{"--animate", "--validate", "--json",
-                                                 "-q",        "--quiet",    "-v"};
+constexpr std::array<std::string_view, 5> kFlags{"--animate", "--validate", "--json", "--quiet",
+                                                 "--verbose"};
 
 template <std::size_t N>
 bool is_one_of(const std::array<std::string_view, N>& names, std::string_view word) {
     return std::ranges::find(names, word) != names.end();
+}
+
+/// -q, -v, -qv.
+bool is_short_flags(const std::string& word) {
+    return word.size() > 1 && word.starts_with('-') &&
+           word.find_first_not_of("qv", 1) == std::string::npos;
 }
 
 } // namespace
@@ -27,10 +35,12 @@ bool is_one_of(const std::array<std::string_view, N>& names, std::string_view wo
 std::vector<std::string> render_words(const std::vector<std::string>& words, const State& state,
                                       const std::string& camera, uvec2 size) {
     std::vector<std::string> made{"render"};
-    for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto end = std::ranges::find(words, "--"); // of options; a scene's name may follow
+    const auto options = static_cast<std::size_t>(end - words.begin());
+    for (std::size_t i = 0; i < options; ++i) {
         const std::string& word = words[i];
         const std::string name = word.substr(0, word.find('='));
-        if (is_one_of(kFlags, word) || word == "--verbose") continue;
+        if (is_one_of(kFlags, word) || is_short_flags(word)) continue;
         if (is_one_of(kReplaced, name)) {
             if (name == word) ++i; // its value is the next word
             continue;
@@ -44,16 +54,15 @@ std::vector<std::string> render_words(const std::vector<std::string>& words, con
                              "--size", fmt::format("{}x{}", size.x, size.y), "--exposure",
                              fmt::format("{}", state.exposure), "--model",
                              app::name_of(state.model), "-o", "view.png"});
+    made.insert(made.end(), end, words.end());
     return made;
 }
 
 std::string quoted(const std::string& word) {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                         "0123456789_-+=:,./@%";
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
+    const bool is_plain = !word.empty() && word.find_first_not_of(kPlain) == std::string::npos;
+    return is_plain ? word : app::shell_word(word);
 }
 
 std::string render_command(const std::vector<std::string>& words, const State& state,

@@ -49,9 +49,13 @@ void Controls::give_font(app::Screen& screen) const {
                     {texels, texels + static_cast<std::ptrdiff_t>(width) * height});
 }
 
-void Controls::begin(uvec2 window) {
+void Controls::begin(uvec2 window, const Inputs& inputs) {
     ImGui_ImplGlfw_NewFrame();
-    ImGui::GetIO().DisplaySize = {static_cast<float>(window.x), static_cast<float>(window.y)};
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(window.x), static_cast<float>(window.y)};
+    io.MousePos = {static_cast<float>(inputs.mouse.x), static_cast<float>(inputs.mouse.y)};
+    for (std::size_t button = 0; button < inputs.down.size(); ++button)
+        io.MouseDown[button] |= inputs.down[button];
     ImGui::NewFrame();
 }
 

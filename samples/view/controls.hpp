@@ -16,8 +16,9 @@ public:
 
     /// Of each new screen.
     void give_font(app::Screen& screen) const;
-    /// Between these, ImGui:: calls make controls. `window`: as it is, pixels.
-    void begin(uvec2 window);
+    /// Between these, ImGui:: calls make controls. `window`: as it is, pixels. What the mouse does
+    /// is what the inputs say.
+    void begin(uvec2 window, const Inputs& inputs);
     app::Overlay end();
     /// Of the last frame: the mouse is over controls, or a text is being typed.
     bool has_mouse() const;

@@ -41,6 +41,11 @@ const std::vector<Key>& keys() {
     return kList;
 }
 
+dvec2 pixels_per_unit(uvec2 pixels, uvec2 units) {
+    const bool is_known = pixels.x > 0 && pixels.y > 0 && units.x > 0 && units.y > 0;
+    return is_known ? dvec2(pixels) / dvec2(units) : dvec2(1);
+}
+
 uvec2 picture_size(uvec2 window, bool shows_panels) {
     constexpr std::uint32_t kLeast = 16;
     const std::uint32_t taken = shows_panels ? kPanelWidth : 0;

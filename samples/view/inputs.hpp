@@ -41,6 +41,7 @@ const std::vector<Key>& keys();
 /// Since the frame before.
 struct Inputs {
     uvec2 window{0, 0};         ///< pixels; 0: minimised
+    dvec2 scale{1};             ///< pixels per unit of the desktop, as pixels_per_unit has them
     dvec2 mouse{0};             ///< pixels from the upper left corner
     std::array<bool, 3> down{}; ///< buttons: left, right, middle
     double wheel = 0;
@@ -67,6 +68,10 @@ private:
     dvec2 last_{0}, pressed_{0};
     bool strayed_ = false;
 };
+
+/// How many pixels a window has along one unit in which the desktop says its size and where the
+/// mouse is: more than 1 where the display is scaled, 1 where there is nothing to tell it by.
+dvec2 pixels_per_unit(uvec2 pixels, uvec2 units);
 
 /// Of the picture beside or under the controls; at least 16x16.
 uvec2 picture_size(uvec2 window, bool shows_panels);

@@ -35,7 +35,7 @@ Loop::Loop(const Options& options, const Driver& driver)
     open(Scene::another);
 }
 
-/// Room for the picture and for controls beside it.
+/// Room for the picture and for controls beside it, as Window takes it.
 uvec2 Loop::first_window() const {
     const bool is_size_said = std::ranges::any_of(
         options_.words, [](const std::string& word) { return word.starts_with("--size"); });
@@ -70,7 +70,8 @@ void Loop::render(const Inputs& inputs, app::Overlay overlay) {
                            ? request_.size
                            : picture_size(last_, state_.shows_panels);
     const bool is_seen = inputs.window != uvec2(0) && viewer_->screen().fit(inputs.window);
-    if (!is_seen && !is_scripted()) return;
+    waits_ = !is_seen && !is_scripted();
+    if (waits_) return;
     viewer_->frame(state_, size, std::move(overlay), is_seen);
     good_ = state_, losses_ = 0;
     const std::string text = text_of(state_.plan) + " " + std::to_string(viewer_->cuts());
@@ -106,24 +107,27 @@ void Loop::recover(const Error& error) {
 
 void Loop::show(const Inputs& inputs) {
     Wants wants;
-    controls_.begin(glm::max(last_, uvec2(1)));
+    controls_.begin(glm::max(last_, uvec2(1)), inputs);
     draw_panels(state_, {request_.scene, *viewer_, entries_, period_}, last_, wants);
     app::Overlay overlay = controls_.end();
     carry_out(wants);
     render(inputs, std::move(overlay));
     ++frame_;
-    if (viewer_->screen().lost()) open(Scene::same);
+    if (viewer_->screen().lost()) {
+        cli::warn("the window's surface was lost; the session is made anew");
+        open(Scene::same);
+    }
     if (driver_.after) driver_.after({frame_, state_, *viewer_, command()});
 }
 
 /// One frame, or none where it was refused; false: it was the last.
 bool Loop::turn() try {
-    Inputs inputs = window_.poll(last_ == uvec2(0) && !is_scripted() && frame_ > 0);
+    Inputs inputs = window_.poll(waits_);
     inputs.on_controls = controls_.has_mouse();
     if (controls_.has_keys()) inputs.acts.clear(), inputs.flies = {};
     if (driver_.before) driver_.before(frame_ + 1, inputs, state_, window_);
     if (frame_ == 0) first_ = inputs.window;
-    if (inputs.window != uvec2(0)) last_ = inputs.window;
+    if (inputs.window != uvec2(0)) last_ = inputs.window, scale_ = inputs.scale;
     for (const Key& key : inputs.acts) act(key);
     for (const std::string& file : inputs.dropped) load(file);
     const uvec2 size = picture_size(last_, state_.shows_panels);
@@ -135,7 +139,7 @@ bool Loop::turn() try {
         state_.motion.time = advanced(state_.motion, inputs.seconds);
     if (ends_ || inputs.closes || cli::stop_on_signals().load() != 0) return false;
     if (inputs.window == uvec2(0) && !is_scripted()) {
-        last_ = {0, 0}; // minimised: nothing is rendered until it comes back
+        waits_ = true; // minimised: nothing is rendered until it comes back
         return true;
     }
     show(inputs);
@@ -163,7 +167,8 @@ int Loop::end() {
     if (options_.common.validate) viewer_->engine().check_validation();
     if (is_scripted()) return 0;
     try {
-        save_settings({last_, state_.shows_panels, state_.flies, state_.motion.speed, state_.gain},
+        save_settings({uvec2(glm::round(dvec2(last_) / scale_)), state_.shows_panels, state_.flies,
+                       state_.motion.speed, state_.gain},
                       settings_file());
     } catch (const Error& error) { // no reason for a session to have failed
         cli::warn(error.what());

@@ -44,6 +44,8 @@ private:
     std::vector<PlanEntry> entries_;
     std::string entries_of_;
     uvec2 first_, last_{0, 0}; ///< sizes of the window
+    dvec2 scale_{1};           ///< as Inputs has it
+    bool waits_ = false;       ///< for the window's events: nothing can be shown
     std::size_t frame_ = 0;
     int losses_ = 0; ///< of the device since a frame was rendered
     double reach_ = 1, period_ = 0;

@@ -135,7 +135,7 @@ void draw_panels(State& state, const Seen& seen, uvec2 window, Wants& wants) {
     };
     if (section("View")) draw_mode(state);
     if (section("Errors")) draw_error(state, seen.viewer);
-    if (section("Plan")) draw_plan(state, seen);
+    if (section("Plan")) draw_plan(state, seen.scene, seen.entries);
     if (section("Motion")) draw_motion(state, seen.period);
     if (section("Times")) draw_times(seen.viewer);
     if (section("Left out", false)) draw_left_out(state, seen.viewer);

@@ -23,7 +23,8 @@ struct Wants {
 void draw_panels(State& state, const Seen& seen, uvec2 window, Wants& wants);
 
 // Its parts, one file each.
-void draw_plan(State& state, const Seen& seen);
+/// `entries`: of the plan as it was typed.
+void draw_plan(State& state, const scene::Scene& scene, const std::vector<PlanEntry>& entries);
 void draw_times(const Viewer& viewer);
 void draw_scene(const Seen& seen, Wants& wants);
 

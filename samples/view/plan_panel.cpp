@@ -11,11 +11,6 @@ namespace catoptric::view {
 
 namespace {
 
-const std::vector<app::TechniqueInfo>& table() {
-    static const std::vector<app::TechniqueInfo> kTechniques = app::techniques();
-    return kTechniques;
-}
-
 void draw_choice(Drawing& drawing, const app::Knob& knob) {
     const std::string value = value_of(drawing, knob);
     if (!ImGui::BeginCombo(knob.name.c_str(), value.c_str())) return;
@@ -84,21 +79,22 @@ void draw_technique(Drawing& drawing) {
     draw_knobs(drawing);
 }
 
-void draw_one(PlanState& plan, std::uint32_t& chosen, const Seen& seen) {
+void draw_one(PlanState& plan, std::uint32_t& chosen, const scene::Scene& scene,
+              const std::vector<PlanEntry>& entries) {
     if (!plan.typed.empty()) {
         ImGui::TextWrapped("%s", plan.typed.c_str());
-        for (const PlanEntry& entry : seen.entries)
+        for (const PlanEntry& entry : entries)
             ImGui::TextWrapped("%u %s: %s (%s)", entry.mirror, entry.name.c_str(),
                                entry.technique.c_str(), entry.why.c_str());
-        if (ImGui::SmallButton("edit it mirror by mirror")) plan = resolved(plan, seen.entries);
+        if (ImGui::SmallButton("edit it mirror by mirror")) plan = resolved(plan, entries);
         return;
     }
-    const std::vector<std::size_t> mirrors = scene::mirrors(seen.scene);
+    const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     const auto name = [&](std::uint32_t mirror) {
-        return mirror == 0 ? std::string("all, but those with their own")
-                           : fmt::format("mirror {}: {}{}", mirror,
-                                         seen.scene.objects[mirrors[mirror - 1]].name,
-                                         plan.own.contains(mirror) ? " *" : "");
+        return mirror == 0
+                   ? std::string("all, but those with their own")
+                   : fmt::format("mirror {}: {}{}", mirror, scene.objects[mirrors[mirror - 1]].name,
+                                 plan.own.contains(mirror) ? " *" : "");
     };
     chosen = std::min(chosen, static_cast<std::uint32_t>(mirrors.size()));
     if (ImGui::BeginCombo("of", name(chosen).c_str())) {
@@ -118,14 +114,14 @@ void draw_one(PlanState& plan, std::uint32_t& chosen, const Seen& seen) {
 
 } // namespace
 
-void draw_plan(State& state, const Seen& seen) {
+void draw_plan(State& state, const scene::Scene& scene, const std::vector<PlanEntry>& entries) {
     const bool has_other = (state.mode == Mode::split || state.mode == Mode::difference) &&
                            state.against == Against::other;
-    if (!has_other) return draw_one(state.plan, state.chosen, seen);
+    if (!has_other) return draw_one(state.plan, state.chosen, scene, entries);
     if (ImGui::RadioButton("the plan", !state.edits_other)) state.edits_other = false;
     ImGui::SameLine();
     if (ImGui::RadioButton("the other", state.edits_other)) state.edits_other = true;
-    draw_one(state.edits_other ? state.other : state.plan, state.chosen, seen);
+    draw_one(state.edits_other ? state.other : state.plan, state.chosen, scene, entries);
 }
 
 } // namespace catoptric::view

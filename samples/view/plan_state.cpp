@@ -8,11 +8,6 @@ namespace catoptric::view {
 
 namespace {
 
-const std::vector<app::TechniqueInfo>& table() {
-    static const std::vector<app::TechniqueInfo> kTechniques = app::techniques();
-    return kTechniques;
-}
-
 Drawing drawing_of(const std::string& technique, const std::vector<Setting>& settings) {
     Drawing drawing{technique, {}};
     for (const Setting& setting : settings)
@@ -29,6 +24,11 @@ nlohmann::json rule_of(nlohmann::json mirror, const Drawing& drawing) {
 }
 
 } // namespace
+
+const std::vector<app::TechniqueInfo>& table() {
+    static const std::vector<app::TechniqueInfo> kTechniques = app::techniques();
+    return kTechniques;
+}
 
 const app::TechniqueInfo* find(const std::string& technique) {
     const auto found = std::ranges::find(table(), technique, &app::TechniqueInfo::name);

@@ -44,6 +44,8 @@ PlanState with(PlanState plan, const std::string& knob, const std::string& value
 /// A file that --plan reads.
 std::string json_of(const PlanState& plan);
 
+/// Every technique, asked for once.
+const std::vector<app::TechniqueInfo>& table();
 /// Null: there is none of that name.
 const app::TechniqueInfo* find(const std::string& technique);
 

@@ -9,7 +9,7 @@ namespace catoptric::view {
 
 /// What is kept from run to run.
 struct Settings {
-    uvec2 window{0, 0}; ///< pixels; 0: never set
+    uvec2 window{0, 0}; ///< as Window takes it; 0: never set
     bool shows_panels = true;
     bool flies = false;
     double speed = 1; ///< of motion

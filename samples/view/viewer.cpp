@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kInFlight = 2;
 constexpr int kRests = 3;    // frames without a change: the camera rests
 constexpr int kHidden = 4;   // frames after a cut that are not shown
-constexpr int kSettled = 12; // frames at rest after which errors are figured
+constexpr int kSettled = 12; // frames at rest after which errors and their causes are figured
 
 double now_ms() {
     return std::chrono::duration<double, std::milli>(
@@ -29,8 +29,7 @@ bool same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
 
 } // namespace
 
-Viewer::Viewer(Window& window, app::EngineOptions options, const app::Request& request)
-    : request_(request) {
+Viewer::Viewer(Window& window, app::EngineOptions options, const app::Request& request) {
     window.add_to(options);
     engine_ = std::make_unique<app::Engine>(options);
     screen_ = std::make_unique<app::Screen>(*engine_);
@@ -114,7 +113,7 @@ std::shared_ptr<const measure::Picture> Viewer::canvas(const State& state) {
     const bool is_made = made_ && made_mode_ == state.mode && made_cause_ == state.cause &&
                          made_gain_ == state.gain;
     if (is_made) return made_;
-    if (state.mode == Mode::causes && still_ < kRests) return nullptr;
+    if (state.mode == Mode::causes && still_ < kSettled) return nullptr;
     made_mode_ = state.mode, made_cause_ = state.cause, made_gain_ = state.gain;
     collect(0);
     if (state.mode == Mode::numbers) {

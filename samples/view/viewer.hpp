@@ -16,8 +16,7 @@ namespace catoptric::view {
 /// is a State, which outlives this.
 class Viewer {
 public:
-    /// The request's scene, size and first instant; `font`: of overlays. Throws as Engine, Screen
-    /// and Session do.
+    /// The request's scene, size and first instant. Throws as Engine, Screen and Session do.
     Viewer(Window& window, app::EngineOptions options, const app::Request& request);
     /// Waits for frames on their way.
     ~Viewer();
@@ -42,7 +41,6 @@ public:
     /// plan.
     void write(const std::filesystem::path& file) const;
     app::FrameSpec spec() const { return spec_; }
-    std::size_t frames() const { return frames_; }
     std::size_t cuts() const { return cuts_; }
 
 private:
@@ -56,7 +54,6 @@ private:
         Times::Sample sample;
     };
 
-    const app::Request& request_;
     std::unique_ptr<app::Engine> engine_;
     std::unique_ptr<app::Screen> screen_;
     std::unique_ptr<app::Session> session_;

@@ -19,6 +19,10 @@ std::string last_error() {
     return text ? text : "no reason was given";
 }
 
+uvec2 to_size(int width, int height) {
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+}
+
 std::uint64_t make_surface(GLFWwindow* window, void* instance) {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     const VkResult result = glfwCreateWindowSurface(static_cast<VkInstance>(instance), window,
@@ -69,6 +73,8 @@ Window::Window(const std::string& title, uvec2 size) {
         glfwTerminate();
         fail(Failure::no_device, "no window could be opened: ", why);
     }
+    // A click between two frames is seen by the next.
+    glfwSetInputMode(window_, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, Callbacks::key);
     glfwSetScrollCallback(window_, Callbacks::scroll);
@@ -97,11 +103,13 @@ Inputs Window::poll(bool wait) {
     else
         glfwPollEvents();
     Inputs inputs = std::exchange(gathered_, {});
-    int width = 0, height = 0;
+    int width = 0, height = 0, wide = 0, high = 0;
     glfwGetFramebufferSize(window_, &width, &height);
-    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED))
-        inputs.window = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+    glfwGetWindowSize(window_, &wide, &high);
+    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) inputs.window = to_size(width, height);
+    inputs.scale = pixels_per_unit(inputs.window, to_size(wide, high));
     glfwGetCursorPos(window_, &inputs.mouse.x, &inputs.mouse.y);
+    inputs.mouse *= inputs.scale;
     for (int button = 0; button < 3; ++button)
         inputs.down[static_cast<std::size_t>(button)] = glfwGetMouseButton(window_, button) ==
                                                         GLFW_PRESS;
@@ -122,6 +130,5 @@ void Window::resize(uvec2 size) {
 }
 
 void Window::copy(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
-void Window::title(const std::string& text) { glfwSetWindowTitle(window_, text.c_str()); }
 
 } // namespace catoptric::view

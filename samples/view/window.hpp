@@ -12,7 +12,8 @@ namespace catoptric::view {
 /// A window of the desktop. One a process; of the main thread.
 class Window {
 public:
-    /// Throws `no_device` where there is no display, or none that Vulkan can show pictures on.
+    /// `size`: in the desktop's units. Throws `no_device` where there is no display, or none that
+    /// Vulkan can show pictures on.
     Window(const std::string& title, uvec2 size);
     ~Window();
     Window(const Window&) = delete;
@@ -22,9 +23,8 @@ public:
     void add_to(app::EngineOptions& options) const;
     /// What has happened; `wait`: sleeps up to a tenth of a second for something to happen.
     Inputs poll(bool wait);
-    void resize(uvec2 size);
+    void resize(uvec2 size); ///< in the desktop's units
     void copy(const std::string& text);
-    void title(const std::string& text);
     GLFWwindow* handle() const { return window_; }
 
 private:

@@ -1,8 +1,12 @@
-// What is refused of devices and images of a caller's; samples/embedded shows that the rest works.
+// Sessions on a device of the caller's, here that of other tests, which is validated: what they
+// leave in an image, and what is refused. samples/embedded is a program that does it.
 #include "app/session.hpp"
 #include "core/error.hpp"
 #include "embed/embed.hpp"
+#include "gpu/buffer.hpp"
+#include "graph/physical.hpp"
 #include "scene/load.hpp"
+#include "support/device.hpp"
 
 #include <gmock/gmock.h>
 
@@ -21,14 +25,92 @@ std::string refused(Call&& call) {
     return "nothing was thrown";
 }
 
+/// The device of other tests; nothing asks for its instance.
+embed::Device given_device() {
+    const gpu::Device& own = test::bench().device;
+    return {reinterpret_cast<VkInstance>(std::uintptr_t{1}), own.physical(), own.handle(),
+            own.queue(), own.queue_family()};
+}
+
+/// An image of the caller's, and what it holds when it was left in a layout.
+class Own {
+public:
+    explicit Own(uvec2 size)
+        : size_(size), image_(graph::make_physical(device_, {.name = "target",
+                                                             .format = Format::rgba8_unorm,
+                                                             .width = size.x,
+                                                             .height = size.y})) {
+        VkMemoryRequirements wants;
+        vkGetImageMemoryRequirements(device_.handle(), image_.image, &wants);
+        memory_ = device_.allocate(
+            wants.size, static_cast<std::uint32_t>(device_.memory_type(wants.memoryTypeBits, 0)),
+            "target");
+        gpu::check_vk(vkBindImageMemory(device_.handle(), image_.image, memory_, 0), "bind");
+    }
+    VkImage image() const { return image_.image; }
+    measure::Picture read(VkImageLayout left_in) {
+        gpu::Buffer buffer(device_, "seen", 4 * size_.x * size_.y, gpu::BufferUse::read_back);
+        device_.submit_now("look at a target", [&](VkCommandBuffer commands) {
+            VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
+            barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+            barrier.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
+            barrier.oldLayout = left_in;
+            barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+            barrier.image = image_.image;
+            barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+            vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                                 VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1,
+                                 &barrier);
+            const VkBufferImageCopy all{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                        .imageExtent = {size_.x, size_.y, 1}};
+            vkCmdCopyImageToBuffer(commands, image_.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                   buffer.handle(), 1, &all);
+        });
+        const std::vector<std::byte> bytes = buffer.read();
+        measure::Picture picture(static_cast<int>(size_.x), static_cast<int>(size_.y));
+        for (std::size_t i = 0; i < 3 * picture.pixels.size(); ++i)
+            picture.pixels[i / 3][static_cast<int>(i % 3)] = static_cast<float>(
+                                                                 bytes[4 * (i / 3) + i % 3]) /
+                                                             255.f;
+        return picture;
+    }
+
+private:
+    gpu::Device& device_ = test::bench().device;
+    uvec2 size_;
+    gpu::UniqueMemory memory_;
+    graph::Physical image_;
+};
+
+TEST(Embed, AnImageHoldsTheFrameAndIsLeftAsWasAskedFor) {
+    app::Engine engine = embed::make_engine(given_device());
+    app::Session session(engine, scene::cornell_mirrors(), 2);
+    const app::FrameSpec spec{.techniques = {"reuse:face=16,shadow_map=16"},
+                              .camera = session.scene().cameras.front(),
+                              .size = {32, 16}};
+    Own own(spec.size);
+    for (const VkImageLayout left_in :
+         {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+          VK_IMAGE_LAYOUT_GENERAL}) {
+        const app::Frame frame = embed::frame_into(session, spec, {own.image(), left_in});
+        EXPECT_TRUE(own.read(left_in).pixels == frame.read().display.pixels) << left_in;
+    }
+}
+
+TEST(Embed, TheQueueMustBeOneThatDoes) {
+    embed::Device given = given_device();
+    given.queue_family = 7;
+    EXPECT_THAT(refused([&] { embed::make_engine(given); }),
+                HasSubstr("queue families, number 7 was given"));
+}
+
 TEST(Embed, ADeviceMustBeThere) {
     EXPECT_THAT(refused([] { embed::make_engine({}); }),
                 HasSubstr("wants an instance, a physical device, a device and a queue"));
 }
 
 TEST(Embed, ATargetMustBeOneThatCanBeWritten) {
-    app::Engine engine({});
-    app::Session session(engine, scene::flat());
+    app::Session session(test::engine(), scene::flat());
     app::FrameSpec spec{
         .techniques = {"reuse"}, .camera = session.scene().cameras.front(), .size = {16, 16}};
     const auto image = reinterpret_cast<VkImage>(std::uintptr_t{1}); // never touched

@@ -140,6 +140,27 @@ TEST(Resident, ShowsWhatASceneMadeForTheFrameShows) {
     EXPECT_GT(live.resident.hierarchies_refitted(), 2u);
 }
 
+/// Of several things in one update, more than is compared at a time.
+TEST(Resident, RaysSeeAllThatTurned) {
+    scene::Scene now = test::room(0, 1);
+    for (const double x : {-.4, .4}) {
+        scene::add_ball(now, "fine", 0, dvec3(x, 0, 0), .3);
+        now.meshes.back() = scene::ball("fine", 4);
+    }
+    render::GpuScene live(device(), now, 1), fresh(device(), now, 1);
+    const scene::Camera camera = now.cameras.front();
+    live.update(now, camera, kSize, .05);
+    const std::vector<std::byte> before = picture(live, "raytrace");
+    for (std::size_t object = now.objects.size() - 2; object < now.objects.size(); ++object) {
+        dmat4& place = now.objects[object].world_from_object;
+        place = dmat4(place[1], -place[0], place[2], place[3]);
+    }
+    live.update(now, camera, kSize, .05);
+    fresh.update(now, camera, kSize, .05);
+    EXPECT_NE(picture(live, "raytrace"), before);
+    EXPECT_EQ(picture(live, "raytrace"), picture(fresh, "raytrace"));
+}
+
 /// 50 million triangles: where copies cannot share their mesh's, refused by their count, before a
 /// vertex is made.
 TEST(Resident, AndASceneBeyondTheDeviceIsRefused) {

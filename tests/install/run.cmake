@@ -80,11 +80,16 @@ foreach(file hello.png waves.png waves.glb live.png embedded.png own_technique/r
 endforeach()
 # With amount=1, and without what parallax has not, the sample's technique is parallax.
 set(images ${WORK}/own_technique/images)
-step(${CMAKE_COMMAND} -E compare_files ${images}/blend-amount1-face64-continue0-lookupbilinear.exr
+step(${CMAKE_COMMAND} -E compare_files ${images}/blend-amount1-face64-lookupbilinear.exr
     ${images}/parallax-face64.exr)
-execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${images}/blend-face64.exr ${images}/parallax-face64.exr
-    RESULT_VARIABLE differs ERROR_QUIET)
-if(NOT differs)
-    message(FATAL_ERROR "blend with amount=0.5 shows what parallax shows: its constant does not reach the shader")
-endif()
+foreach(other parallax-face64 blend-amount0-face64)
+    execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${images}/blend-face64.exr ${images}/${other}.exr
+        RESULT_VARIABLE differs ERROR_QUIET)
+    if(NOT differs)
+        message(FATAL_ERROR "blend with amount=0.5 shows what ${other} shows: its constant does not reach the shader")
+    endif()
+endforeach()
 step(${WORK}/prefix/bin/catoptric --version)
+if(EXISTS ${BUILD}/catoptric-view) # it is left out where its libraries are missing
+    step(${WORK}/prefix/bin/catoptric-view --version)
+endif()

@@ -36,14 +36,20 @@ patch_of() { # patch_of NAME [FOLDER]
 }
 
 mutate_tests() {
-    local names=("$@") name patch program filter red
+    local names=("$@") name patch program filter red command
     ((${#names[@]})) || for patch in $here/*.patch; do names+=("$(basename "$patch" .patch)"); done
     for name in "${names[@]}"; do
         patch=$(patch_of "$name")
         read -r _ program filter < <(grep '^Test: ' "$patch")
         apply "$patch"
-        build "$program" "$name"
-        if red=$($build/"$program" --gtest_filter="$filter" 2>&1); then
+        if [[ $program == ctest ]]; then # Test: ctest REGEX
+            build all "$name"
+            command=(ctest --test-dir $build --output-on-failure -R "$filter")
+        else
+            build "$program" "$name"
+            command=($build/"$program" --gtest_filter="$filter")
+        fi
+        if red=$("${command[@]}" 2>&1); then
             grep -q '\[  PASSED  \] 0 tests' <<<"$red" && { echo "mutate: $name: no test $filter" >&2; exit 2; }
             green+=("$name")
             printf '%-24s GREEN  %s\n' "$name" "$filter"

@@ -496,6 +496,27 @@ TEST(Refit, RaysMeetWhatTheyMeetInANewTree) {
     EXPECT_GT(found, 15000u);
 }
 
+/// What is left alone where little moves is what would have been made anew: the same bytes by way
+/// of another core, for which all boxes are made.
+TEST(Refit, WhereOneThingMovedTheTreeIsWhatItWouldBeOtherwise) {
+    for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
+        std::vector<Triangle> triangles = soup(500, 6);
+        Bvh few = build(triangles, core), all = few;
+        test::Numbers random(23);
+        for (int step = 0; step < 5; ++step) {
+            for (std::size_t i = 100; i < 140; ++i) triangles[i].b += random.in_cube();
+            triangles[90].a = -triangles[90].a; // a zero that changes its sign is elsewhere, too
+            refit(few, triangles, core);
+            std::vector<Triangle> elsewhere = triangles;
+            for (Triangle& t : elsewhere) t.a += vec3(1), t.b += vec3(1), t.c += vec3(1);
+            refit(all, elsewhere, {vec3(-9), vec3(9)});
+            refit(all, triangles, core);
+            ASSERT_TRUE(same(few.nodes, all.nodes)) << step;
+            ASSERT_TRUE(same(few.triangles, all.triangles)) << step;
+        }
+    }
+}
+
 TEST(Refit, CostRisesWhereNeighboursPart) {
     std::vector<Triangle> triangles = soup(500, 5);
     Bvh tree = build(triangles);

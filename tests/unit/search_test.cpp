@@ -19,11 +19,21 @@ const app::RegisteredSearch kFound{
      .summary = "For a test.",
      .shader = "test_search.frag",
      .knobs = {{.name = "much", .help = "how much", .high = 2, .value = .5, .is_real = true}},
+     .continues = true,
      .compared = {"test_search", "test_search:much=2"}}};
 
 std::string refused(app::Search search) {
     try {
         app::add_search(std::move(search));
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+std::string refused_text(const std::string& technique) {
+    try {
+        static_cast<void>(app::parse_technique(technique));
     } catch (const UsageError& error) {
         return error.what();
     }
@@ -45,12 +55,23 @@ TEST(Search, IsAtHomeInTheTable) {
     }
 }
 
+TEST(Search, HasNoKnobThatWouldDoNothing) {
+    app::add_search({.name = "test_short", .shader = "test_short.frag"});
+    for (const char* knob : {"continue=0", "captures=own", "mirrors=captured"})
+        EXPECT_THAT(refused_text("test_short:" + std::string(knob)),
+                    HasSubstr("technique 'test_short' has no knob '"));
+    const app::TechniqueChoice choice = app::parse_technique("test_short:face=64,show=state");
+    EXPECT_EQ(choice.settings.size() + 3, app::parse_technique("test_search").settings.size() - 1);
+}
+
 TEST(Search, WhatIsWrongWithOneIsSaid) {
     EXPECT_THAT(refused({.name = "Two words"}),
                 HasSubstr("'Two words': wanted a name of small letters, digits and '_'"));
     EXPECT_THAT(refused({.name = "secant"}), HasSubstr("there is a technique 'secant' already"));
     EXPECT_THAT(refused({.name = "twice", .knobs = {{.name = "face"}}}),
                 HasSubstr("technique 'twice' has two knobs 'face'"));
+    EXPECT_THAT(refused({.name = "short", .knobs = {{.name = "mirrors"}}}),
+                HasSubstr("technique 'short' has two knobs 'mirrors'"));
     EXPECT_THAT(refused({.name = "outside", .knobs = {{.name = "a", .high = 1, .value = 2}}}),
                 HasSubstr("knob 'a': wanted a value from 0 to 1, found 2"));
     EXPECT_THAT(refused({.name = "auto"}), HasSubstr("'auto' is what the requirements suggest"));

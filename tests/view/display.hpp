@@ -10,6 +10,7 @@
 #include <string>
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -28,7 +29,9 @@ public:
         if (server_ == 0) {
             const std::string number = std::to_string(ends[1]);
             const int quiet = ::open("/dev/null", O_WRONLY);
+            ::dup2(quiet, 1);
             ::dup2(quiet, 2);
+            ::prctl(PR_SET_PDEATHSIG, SIGTERM); // also where the test ends in a crash
             ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1280x1024x24",
                      "-fbdir", folder_.c_str(), static_cast<char*>(nullptr));
             ::_exit(127);

@@ -1,5 +1,6 @@
 // A window is resized, minimised, closed, refused, loses its device, and runs for long: no message
 // of the validation layer, and memory stays what it was.
+#include "view/settings.hpp"
 #include "view/window.hpp"
 
 #include <algorithm>
@@ -110,22 +111,78 @@ TEST_F(ViewLife, GoesBackToThePlanBefore) {
     EXPECT_EQ(refused, 6);
 }
 
+/// What the user chose is there in the next window; with --frames it is neither read nor written.
+TEST_F(ViewLife, KeepsItsSettings) {
+    const char* before = std::getenv("XDG_CONFIG_HOME");
+    const std::string kept = before ? before : "";
+    ::setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
+    const Words words{"--technique", "reuse:face=16"};
+    Driver driver;
+    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window& window) {
+        if (frame == 1) window.resize({380, 50});
+        state.gain = 32, state.motion.speed = -2, state.flies = true;
+        if (frame > 2 && inputs.window == uvec2(380, 50)) inputs.closes = true;
+    };
+    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32"}, driver), 0);
+    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window&) {
+        EXPECT_EQ(inputs.window, uvec2(380, 50));
+        EXPECT_EQ(state.gain, 32);
+        EXPECT_EQ(state.motion.speed, -2);
+        EXPECT_TRUE(state.flies);
+        inputs.closes = frame == 2;
+    };
+    EXPECT_EQ(view(words, driver), 0);
+    Words scripted = words;
+    scripted.insert(scripted.end(), {"--frames", "1", "--size", "32x32"});
+    driver.before = [&](std::size_t, Inputs&, State& state, Window&) {
+        EXPECT_EQ(state.gain, State().gain);
+        state.gain = 64;
+    };
+    EXPECT_EQ(view(scripted, driver), 0);
+    EXPECT_EQ(load_settings(settings_file()).gain, 32);
+    if (before)
+        ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1);
+    else
+        ::unsetenv("XDG_CONFIG_HOME");
+}
+
+/// A window whose device or surface fails while it shows 60 frames, or before the first.
+class ViewFaults : public ViewLife {
+protected:
+    test::Ended with_fault(const std::string& fault) const {
+        test::Start start{.command = {CATOPTRIC_VIEW},
+                          .environment = {{"VK_ADD_LAYER_PATH", CATOPTRIC_FAULTS_LAYER},
+                                          {"VK_INSTANCE_LAYERS", "VK_LAYER_CATOPTRIC_faults"},
+                                          {"CATOPTRIC_FAULT_REPORT", path("calls")},
+                                          {"CATOPTRIC_FAULT", fault}},
+                          .folder = folder};
+        start.command.insert(start.command.end(), words.begin(), words.end());
+        start.command.insert(start.command.end(), {"--frames", "60", "--screenshot", "lost.png"});
+        return test::run_process(start);
+    }
+    const Words words{"--technique", "reuse:face=32", "--size", "64x64"};
+};
+
 /// In mid-frame: what the user had is there in a session made anew, and the picture comes out as
 /// ever.
-TEST_F(ViewLife, GoesOnWhenTheDeviceIsLost) {
-    const Words words{"--technique", "reuse:face=32", "--size", "64x64"};
-    test::Start lost{.command = {CATOPTRIC_VIEW},
-                     .environment = {{"VK_ADD_LAYER_PATH", CATOPTRIC_FAULTS_LAYER},
-                                     {"VK_INSTANCE_LAYERS", "VK_LAYER_CATOPTRIC_faults"},
-                                     {"CATOPTRIC_FAULT_REPORT", path("calls")},
-                                     {"CATOPTRIC_FAULT", "vkQueueSubmit2:30:-4"}},
-                     .folder = folder};
-    lost.command.insert(lost.command.end(), words.begin(), words.end());
-    lost.command.insert(lost.command.end(), {"--frames", "60", "--screenshot", "lost.png"});
-    const test::Ended ended = test::run_process(lost);
+TEST_F(ViewFaults, ItGoesOnWhenTheDeviceIsLost) {
+    const test::Ended ended = with_fault("vkQueueSubmit2:30:-4");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("VK_ERROR_DEVICE_LOST (-4); the session is made anew"));
     expect_rendered("lost.png", words);
+}
+
+TEST_F(ViewFaults, ItGoesOnWhenTheSurfaceIsLost) {
+    const test::Ended ended = with_fault("vkQueuePresentKHR:40:-1000000000");
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("the window's surface was lost; the session is made anew"));
+    expect_rendered("lost.png", words);
+}
+
+TEST_F(ViewFaults, ADeviceThatCannotShowIsRefused) {
+    const test::Ended ended = with_fault("vkGetPhysicalDeviceSurfaceSupportKHR:1:0");
+    EXPECT_EQ(ended.exit_code, 69) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("lacks a way to show pictures in this window"));
 }
 
 } // namespace

@@ -31,6 +31,7 @@ TEST_F(ViewPicture, ItsPictureIsThatOfRender) {
 /// The plan's picture and what is compared with it, as the X server has them.
 TEST_F(ViewPicture, ShowsWhatItSays) {
     std::vector<std::string> seen;
+    std::vector<measure::Picture> first; // of plan, split and difference
     const auto expect_shown = [&](const Viewer& viewer, const std::string& name) {
         viewer.write(path(name));
         const measure::Picture written = measure::to_display(measure::read_picture(path(name)));
@@ -48,11 +49,12 @@ TEST_F(ViewPicture, ShowsWhatItSays) {
         }
         EXPECT_EQ(apart, 0) << name;
         seen.push_back(name);
+        if (first.size() < 3) first.push_back(written);
     };
     Driver driver;
     driver.before = [&](std::size_t frame, Inputs&, State& state, Window&) {
         state.other = plan_of("parallax:face=16,shadow_map=64");
-        state.divider = 40.0 / 64;
+        state.divider = 40.0 / 64, state.gain = 2;
         state.cause = 8;
         state.mode = static_cast<Mode>(std::min<std::size_t>(frame / 10, kModes - 1));
         if (frame >= 60) state.mode = Mode::split, state.against = Against::reference;
@@ -68,6 +70,52 @@ TEST_F(ViewPicture, ShowsWhatItSays) {
              driver),
         0);
     EXPECT_EQ(seen.size(), 7u);
+    // Right of the divider another picture, left of it the plan's; how far they are apart.
+    double apart = 0, of_difference = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const vec3 plan = first[0].at(x, y), split = first[1].at(x, y);
+            if (x < 40) {
+                EXPECT_EQ(split, plan) << x << ' ' << y;
+                continue;
+            }
+            const vec3 d = glm::abs(split - plan);
+            apart = std::max({apart, double(d.x), double(d.y), double(d.z)});
+            const vec3 off = glm::abs(first[2].at(x, y) - glm::min(2.f * d, vec3(1)));
+            of_difference = std::max({of_difference, double(off.x), double(off.y), double(off.z)});
+        }
+    EXPECT_GT(apart, .1);
+    EXPECT_LT(of_difference, 1.5 / 255);
+}
+
+/// A reference that was begun is not that of another view, instant or size.
+TEST_F(ViewPicture, TheReferenceIsOfWhatIsShown) {
+    const auto passes = [](const Report& report) { return report.viewer.reference().passes(); };
+    std::vector<int> seen;
+    Driver driver;
+    driver.before = [&](std::size_t frame, Inputs& inputs, State& state, Window& window) {
+        inputs.on_controls = false;
+        state.mode = Mode::split, state.against = Against::reference;
+        inputs.wheel = frame == 7 ? 1 : 0;
+        if (frame == 14) state.motion.time = .5;
+        if (frame == 21) window.resize({400, 40});
+    };
+    driver.after = [&](const Report& report) {
+        seen.push_back(passes(report));
+        const auto made = report.viewer.reference().display();
+        if (!made) return;
+        EXPECT_EQ(uvec2(made->width, made->height), report.viewer.spec().size);
+    };
+    EXPECT_EQ(
+        view({"--technique", "reuse:face=16,shadow_map=16", "--size", "32x32", "--frames", "30"},
+             driver),
+        0);
+    EXPECT_GT(seen[5], 1);
+    EXPECT_EQ(seen[6], 0);
+    EXPECT_GT(seen[12], 1);
+    EXPECT_EQ(seen[13], 0);
+    EXPECT_THAT(std::vector(seen.begin() + 20, seen.begin() + 26), testing::Contains(0));
+    EXPECT_GT(seen.back(), 0);
 }
 
 /// Every technique with three of its knobs turned while the window runs.
@@ -128,7 +176,7 @@ TEST_F(ViewPicture, AClickChoosesTheMirrorThere) {
         inputs.on_controls = false;
         inputs.mouse = pixel_of(frame <= 4 ? 3 : 4);
         inputs.down[0] = frame == 3 || frame == 6;
-        if (frame == 5) state.plan.own[state.chosen] = {"raytrace", {}};
+        if (frame == 5 && state.chosen != 0) state.plan.own[state.chosen] = {"raytrace", {}};
     };
     driver.after = [&](const Report& report) {
         EXPECT_EQ(report.state.chosen, report.frame < 4   ? 0u
@@ -176,12 +224,18 @@ TEST_F(ViewPicture, LoadsWhatIsDropped) {
         if (frame == 5) inputs.dropped = {"flat"};
     };
     std::vector<std::string> said, scenes;
+    std::string command;
     driver.after = [&](const Report& report) {
         said.push_back(report.state.said);
         scenes.push_back(const_cast<Viewer&>(report.viewer).session().scene().name);
+        command = report.command;
     };
-    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32", "--frames", "6"}, driver),
+    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32", "--frames", "6", "--ambient",
+                    ".5", "--device", "0"},
+                   driver),
               0);
+    EXPECT_THAT(command, testing::StartsWith("catoptric render flat --device 0 --technique "))
+        << "the wishes were for the scene before";
     ASSERT_GE(said.size(), 6u);
     EXPECT_THAT(said[2], HasSubstr("broken.glb"));
     EXPECT_EQ(scenes[3], "cornell-mirrors");

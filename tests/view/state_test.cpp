@@ -142,6 +142,14 @@ TEST(ViewHand, DragsTheDividerAndClicksMirrors) {
     EXPECT_EQ(state.camera, turned);
 }
 
+/// On a display that is scaled by two, and where nothing is known of it.
+TEST(ViewInputs, TheMouseIsInPixels) {
+    EXPECT_EQ(pixels_per_unit({1744, 1024}, {872, 512}), dvec2(2));
+    EXPECT_EQ(pixels_per_unit({300, 200}, {200, 100}), dvec2(1.5, 2));
+    EXPECT_EQ(pixels_per_unit({0, 0}, {872, 512}), dvec2(1));
+    EXPECT_EQ(pixels_per_unit({872, 512}, {0, 0}), dvec2(1));
+}
+
 TEST(ViewState, SaysWhatIsRenderedAndShown) {
     State state;
     state.plan = plan_of("hybrid"), state.other = plan_of("reuse");
@@ -188,6 +196,14 @@ TEST(ViewCommand, KeepsWhatSaysHowTheSceneIsRead) {
         "catoptric render 'hall of mirrors.glb' --mirror 'wall*=.9' --environment studio --plan "
         "'1=planar *=reuse' --camera 0,1,2:3,4,5:40 --time 0.25 --size 64x48 --exposure -1 --model "
         "required -o view.png");
+    EXPECT_THAT(render_words({"-qv", "-vv", "--verbose", "--seed", "7", "--", "-q"}, state,
+                             "0,1,2:3,4,5:40", {64, 48}),
+                testing::AllOf(testing::Not(testing::Contains("-qv")),
+                               testing::Not(testing::Contains("-vv")), testing::Contains("7"),
+                               testing::Contains("view.png")));
+    const std::vector<std::string> odd = render_words({"-q", "--", "-q"}, state, "0", {64, 48});
+    EXPECT_EQ(odd.at(1), "--plan");
+    EXPECT_THAT(std::vector(odd.end() - 3, odd.end()), ElementsAre("view.png", "--", "-q"));
     EXPECT_EQ(quoted("it's"), "'it'\\''s'");
     EXPECT_EQ(quoted(""), "''");
 }

@@ -10,7 +10,8 @@
 //
 // Faults come as the world makes them. A wait that fails has not waited. A submit that says "lost"
 // has submitted, and a lost device stays lost. Of the physical devices result 0 finds none; 5
-// (VK_INCOMPLETE) counts one more than there are, or fetches one fewer.
+// (VK_INCOMPLETE) counts one more than there are, or fetches one fewer. With result 0 a device
+// cannot show pictures on a surface (vkGetPhysicalDeviceSurfaceSupportKHR).
 //
 // For one instance, one device and one thread at a time, as the engine has them; those that it
 // abandoned may go on beside them.
@@ -65,7 +66,7 @@ namespace {
     X(AllocateDescriptorSets) X(AllocateCommandBuffers) X(BindBufferMemory)                        \
     X(BindImageMemory) X(MapMemory) X(BeginCommandBuffer) X(EndCommandBuffer)                      \
     X(QueueSubmit2) X(WaitSemaphores) X(QueueWaitIdle) X(DeviceWaitIdle)                           \
-    X(GetQueryPoolResults)
+    X(GetQueryPoolResults) X(QueuePresentKHR)
 // Recorded commands that a time stamp may stand before.
 #define FOR_COMMANDS(X)                                                                            \
     X(CmdBeginRendering) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdClearColorImage)               \
@@ -334,7 +335,8 @@ VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationC
     if (result != VK_SUCCESS) return result;
     born(counter_of("vkCreateInstance"), "vkDestroyInstance", *instance);
     // Asked now: later the loader answers with the top of the chain, not with what is below us.
-    for (const char* name : {"vkDestroyInstance", "vkEnumeratePhysicalDevices", "vkCreateDevice"})
+    for (const char* name : {"vkDestroyInstance", "vkEnumeratePhysicalDevices", "vkCreateDevice",
+                             "vkGetPhysicalDeviceSurfaceSupportKHR"})
         counter_of(name).next = state.next_instance_proc(*instance, name);
     return result;
 }
@@ -358,6 +360,17 @@ VkResult enumerate_devices(VkInstance instance, std::uint32_t* count, VkPhysical
     const auto next = reinterpret_cast<PFN_vkEnumeratePhysicalDevices>(counter_of(kName).next);
     const VkResult result = next(instance, count, devices);
     if (fault && !devices) ++*count;
+    return result;
+}
+
+VkResult surface_support(VkPhysicalDevice physical, std::uint32_t family, VkSurfaceKHR surface,
+                         VkBool32* can) {
+    constexpr char kName[] = "vkGetPhysicalDeviceSurfaceSupportKHR";
+    const bool fault = is_fault(kName);
+    if (fault && state.fault_result < 0) return static_cast<VkResult>(state.fault_result);
+    const VkResult result = reinterpret_cast<PFN_vkGetPhysicalDeviceSurfaceSupportKHR>(
+        counter_of(kName).next)(physical, family, surface, can);
+    if (fault) *can = VK_FALSE;
     return result;
 }
 
@@ -402,7 +415,9 @@ PFN_vkVoidFunction instance_proc(VkInstance instance, const char* name) {
         {"vkDestroyInstance", reinterpret_cast<PFN_vkVoidFunction>(destroy_instance)},
         {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(create_device)},
         {"vkDestroyDevice", reinterpret_cast<PFN_vkVoidFunction>(destroy_device)},
-        {"vkEnumeratePhysicalDevices", reinterpret_cast<PFN_vkVoidFunction>(enumerate_devices)}};
+        {"vkEnumeratePhysicalDevices", reinterpret_cast<PFN_vkVoidFunction>(enumerate_devices)},
+        {"vkGetPhysicalDeviceSurfaceSupportKHR",
+         reinterpret_cast<PFN_vkVoidFunction>(surface_support)}};
     for (const Hook& hook : hooks)
         if (hook.name == name) return hook.function;
     for (const Hook& hook : kDeviceHooks)

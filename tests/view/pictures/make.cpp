@@ -27,7 +27,7 @@ const std::vector<Shot> kShots{
     {"difference", 6, [](State& state) { state.mode = Mode::difference, state.gain = 8; }},
     {"answers", 6, [](State& state) { state.mode = Mode::answers; }},
     {"numbers", 6, [](State& state) { state.mode = Mode::numbers; }},
-    {"causes", 8,
+    {"causes", 16,
      [](State& state) {
          state.mode = Mode::causes, state.cause = shared::kMendTexels, state.gain = 16;
      }},

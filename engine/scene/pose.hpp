@@ -1,0 +1,11 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace catoptric::scene {
+
+/// Makes `still`, a copy of the scene or what this made of one before, what `at` gives for the
+/// instant, without copying a mesh or a material. A time that is not finite is `Failure::usage`.
+void pose(Scene& still, const Scene& scene, double seconds);
+
+} // namespace catoptric::scene

@@ -1,0 +1,124 @@
+// The plan's controls under a mouse that clicks everywhere: without a window or a device.
+#include "core/error.hpp"
+#include "scene/load.hpp"
+#include "view/panels.hpp"
+
+#include <gmock/gmock.h>
+#include <imgui.h>
+
+#include <functional>
+#include <set>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::view;
+using testing::Contains;
+using testing::Each;
+using testing::Not;
+using testing::StartsWith;
+
+/// Dear ImGui on its own, with one panel of the window's width.
+class Panel {
+public:
+    explicit Panel(const scene::Scene& scene, ImFontAtlas& fonts)
+        : scene_(scene), context_(ImGui::CreateContext(&fonts)) {
+        ImGui::SetCurrentContext(context_);
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.DisplaySize = {360, 700};
+        io.DeltaTime = 1; // nothing is a double click
+    }
+    ~Panel() { ImGui::DestroyContext(context_); }
+    Panel(const Panel&) = delete;
+    Panel& operator=(const Panel&) = delete;
+
+    void click(State& state, float x, float y) {
+        for (const bool down : {false, true, false, false}) {
+            ImGui::GetIO().MousePos = {x, y};
+            ImGui::GetIO().MouseDown[0] = down;
+            ImGui::NewFrame();
+            ImGui::SetNextWindowPos({0, 0});
+            ImGui::SetNextWindowSize({360, 700});
+            ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
+            draw_plan(state, scene_, {});
+            ImGui::End();
+            ImGui::Render();
+        }
+    }
+
+private:
+    const scene::Scene& scene_;
+    ImGuiContext* context_;
+};
+
+class ViewPanel : public testing::Test {
+protected:
+    ViewPanel() {
+        unsigned char* texels = nullptr;
+        int width = 0, height = 0;
+        fonts.GetTexDataAsAlpha8(&texels, &width, &height);
+    }
+
+    /// Plans that one click leads to, or one and another below it: in a list that it opened.
+    std::set<std::string> reached(const State& from,
+                                  const std::function<PlanState(const State&)>& plan) {
+        std::set<std::string> texts;
+        for (const float x : {30.f, 220.f, 250.f, 284.f})
+            for (float y = 6; y < 400; y += 8) {
+                State state = from;
+                Panel panel(scene, fonts);
+                panel.click(state, x, y);
+                texts.insert(text_of(plan(state)));
+                panel.click(state, 60, y + 44);
+                texts.insert(text_of(plan(state)));
+                EXPECT_LE(state.chosen, 4u);
+            }
+        for (const std::string& text : texts)
+            EXPECT_NO_THROW(static_cast<void>(app::parse_technique(text))) << text;
+        return texts;
+    }
+    static PlanState plan_itself(const State& state) { return state.plan; }
+
+    scene::Scene scene = scene::load("cornell-mirrors", {});
+    ImFontAtlas fonts;
+};
+
+TEST_F(ViewPanel, TurnsTheKnobsOfAllMirrors) {
+    State state;
+    state.plan = plan_of("secant");
+    const std::set<std::string> texts = reached(state, plan_itself);
+    for (const char* text : {"secant:face=128", "secant:face=512", "secant:face=auto",
+                             "secant:shadow_map=512", "secant:distance=r16f"})
+        EXPECT_THAT(texts, Contains(text));
+    EXPECT_THAT(texts, Contains(StartsWith("secant:steps=")));
+    EXPECT_THAT(texts, Contains(Not(StartsWith("secant")))) << "another technique";
+    EXPECT_THAT(texts, Each(Not(testing::HasSubstr(" ")))) << "for all mirrors";
+}
+
+TEST_F(ViewPanel, TurnsTheKnobsOfTheMirrorThatWasChosen) {
+    State state;
+    state.plan = plan_of("secant:face=64");
+    state.chosen = 2;
+    std::set<std::string> texts = reached(state, plan_itself);
+    texts.erase("secant:face=64"); // nothing was hit
+    EXPECT_THAT(texts, Contains("2=secant:face=128 *=secant:face=64"));
+    EXPECT_THAT(texts, Contains("2=secant:face=auto *=secant:face=64"));
+    EXPECT_THAT(texts, Each(testing::EndsWith(" *=secant:face=64")));
+    state.plan.own[2] = {"reuse", {}};
+    EXPECT_THAT(reached(state, plan_itself), Contains("secant:face=64")) << "as all others";
+}
+
+TEST_F(ViewPanel, EditsOneOfTwoPlans) {
+    State state;
+    state.mode = Mode::split;
+    state.plan = plan_of("secant"), state.other = plan_of("parallax");
+    state.edits_other = true;
+    EXPECT_THAT(reached(state, [](const State& s) { return s.other; }),
+                Contains("parallax:face=512"));
+    const std::set<std::string> texts = reached(
+        state, [](const State& s) { return s.edits_other ? s.plan : State().plan; });
+    EXPECT_THAT(texts, Each(text_of(plan_of("secant"))));
+}
+
+} // namespace
