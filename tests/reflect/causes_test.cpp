@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryCause, testing::ValuesIn(that_capture()),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST_P(EveryCause, IsThere) {
-    const Split found = split(scene::cornell_mirrors(),
+    const Split found = split(test::with_coarse_balls(scene::cornell_mirrors()),
                               test::with(GetParam(), {{"face", "32"}, {"shadow_map", "256"}}),
                               kSmall);
     std::cout << "[ MEASURED ] " << GetParam().name << ": rmse "
@@ -107,7 +107,9 @@ TEST(Causes, AreThereForEveryFormatAndKindOfShadow) {
           "parallax:face=32,distance=unorm8,shadow=none",
           "hybrid:face=32,shadow_map=64,captures=own,continue=0",
           "march:face=32,shadow_map=64,mirrors=left_out,lookup=object"})
-        expect_whole(split(scene::cornell_mirrors_closed(), technique, kSmall), technique);
+        expect_whole(
+            split(test::with_coarse_balls(scene::cornell_mirrors_closed()), technique, kSmall),
+            technique);
     expect_whole(split(test::room(2, 3), "parallax:face=32,shadow_map=64", kSmall), "three lights");
     expect_whole(split(test::hall(), "pyramid:face=32,shadow_map=64", kSmall),
                  "mirrors of any shape");

@@ -34,6 +34,13 @@ inline scene::Scene furnace(int mirrors) {
     return scene;
 }
 
+/// The same with balls of 256 triangles: for small pictures, of which triangles cost most.
+inline scene::Scene with_coarse_balls(scene::Scene scene) {
+    for (const scene::Object& object : scene.objects)
+        if (object.sphere) scene.meshes[object.mesh] = scene::ball("ball", 3);
+    return scene;
+}
+
 /// White room with coloured side walls, `lights` lamps under the ceiling and `mirrors` (0 to 3)
 /// balls.
 inline scene::Scene room(int mirrors, int lights) {
