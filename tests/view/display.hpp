@@ -32,8 +32,10 @@ public:
             ::dup2(quiet, 1);
             ::dup2(quiet, 2);
             ::prctl(PR_SET_PDEATHSIG, SIGTERM); // also where the test ends in a crash
-            ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "1280x1024x24",
-                     "-fbdir", folder_.c_str(), static_cast<char*>(nullptr));
+            // Without -noreset it starts over when the last window closes, and refuses the next one
+            // meanwhile.
+            ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-noreset", "-screen", "0",
+                     "1280x1024x24", "-fbdir", folder_.c_str(), static_cast<char*>(nullptr));
             ::_exit(127);
         }
         ::close(ends[1]);
