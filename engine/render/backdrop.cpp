@@ -66,7 +66,8 @@ private:
     }
 
     bool all_vertices_before(const Plane& plane, const DrawRange& range) {
-        if (range.own || (looks_ += range.index_count) >= kMostLooks) return false;
+        looks_ += range.index_count;
+        if (range.own || looks_ >= kMostLooks) return false;
         for (std::uint32_t k = 0; k < range.index_count; ++k) {
             const auto& vertex = geometry_.vertices[geometry_.indices[range.first_index + k]];
             if (!(plane.depth(dvec3(vertex.position)) <= room_)) return false;
