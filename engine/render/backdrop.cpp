@@ -1,8 +1,6 @@
 #include "render/backdrop.hpp"
 
 #include "core/shader_math.hpp"
-#include "render/views.hpp"
-
 #include <algorithm>
 
 namespace catoptric::render {
@@ -11,13 +9,14 @@ namespace {
 
 constexpr std::uint32_t kMostTriangles = 64; ///< of an object that is asked
 constexpr std::size_t kMostLooks = 1 << 22;  ///< at boxes and vertices, all together
-/// As a part of the scene's extent: sixteen roundings of its coordinates. A shadow's lift off its
-/// receiver is a thousand times that.
+/// As a part of the triangle's largest coordinate: sixteen of its roundings. Not of the scene's
+/// extent or of what lies farther out, before which a small thing's height may be nothing.
 constexpr double kInPlane = 0x1p-20;
 
 struct Plane {
     dvec3 normal; ///< unit, to the light's side
     double at;
+    double room; ///< how far behind it is in it
     double depth(const dvec3& point) const { return at - dot(normal, point); } ///< behind it
 };
 
@@ -32,10 +31,7 @@ double depth_of(const Plane& plane, const Bounds<float>& box) {
 class Search {
 public:
     Search(const Geometry& geometry, const shared::Light& light)
-        : geometry_(geometry), light_(light) {
-        const Bounds<float> all = bounds_of(geometry);
-        room_ = kInPlane * f32::largest(max(abs(all.lo), abs(all.hi)));
-    }
+        : geometry_(geometry), light_(light) {}
 
     bool is_backdrop(const DrawRange& range) {
         if (range.own || range.index_count > 3 * kMostTriangles) return false;
@@ -53,15 +49,17 @@ private:
         const dvec3 across = cross(corner(1) - corner(0), corner(2) - corner(0));
         const double size = length(across);
         if (!(size > 0)) return true; // no area, no shadow
-        Plane plane{across / size, 0};
+        Plane plane{across / size, 0, 0};
         plane.at = dot(plane.normal, corner(0));
+        for (std::uint32_t j = 0; j < 3; ++j)
+            plane.room = std::max(plane.room, kInPlane * f64::largest(glm::abs(corner(j))));
         const double height = light_.directional != 0 ? -dot(plane.normal, dvec3(light_.forward))
                                                       : -plane.depth(dvec3(light_.position));
         if (height == 0) return true; // seen from its edge
-        if (height < 0) plane = {-plane.normal, -plane.at};
+        if (height < 0) plane = {-plane.normal, -plane.at, plane.room};
         return std::ranges::all_of(geometry_.ranges, [&](const DrawRange& other) {
-            return ++looks_ < kMostLooks &&
-                   (depth_of(plane, other.bounds) <= room_ || all_vertices_before(plane, other));
+            return ++looks_ < kMostLooks && (depth_of(plane, other.bounds) <= plane.room ||
+                                             all_vertices_before(plane, other));
         });
     }
 
@@ -70,14 +68,13 @@ private:
         if (range.own || looks_ >= kMostLooks) return false;
         for (std::uint32_t k = 0; k < range.index_count; ++k) {
             const auto& vertex = geometry_.vertices[geometry_.indices[range.first_index + k]];
-            if (!(plane.depth(dvec3(vertex.position)) <= room_)) return false;
+            if (!(plane.depth(dvec3(vertex.position)) <= plane.room)) return false;
         }
         return true;
     }
 
     const Geometry& geometry_;
     const shared::Light& light_;
-    double room_ = 0;
     std::size_t looks_ = 0;
 };
 

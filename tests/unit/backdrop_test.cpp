@@ -67,6 +67,18 @@ TEST(Backdrops, IsNoWallWithSomethingBehindIt) {
     EXPECT_THAT(backdrops(scene, {0, 1, 0}), testing::Not(testing::Contains("mirror")));
 }
 
+/// A shelf a millimetre before the ground, which reaches to the horizon.
+TEST(Backdrops, AreToldBesideThingsThatReachFar) {
+    scene::Scene scene = room();
+    test::add_quad(scene, "ground", scene.objects[0].material, {-4e4, -1.5, 4e4}, {4e4, -1.5, 4e4},
+                   {4e4, -1.5, -4e4}, {-4e4, -1.5, -4e4});
+    test::add_quad(scene, "shelf", scene.objects[0].material, {-1, -1.499, 2}, {1, -1.499, 2},
+                   {1, -1.499, 1}, {-1, -1.499, 1});
+    const Names names = backdrops(scene, {0, 1, 0});
+    EXPECT_THAT(names, testing::Contains("ground"));
+    EXPECT_THAT(names, testing::Not(testing::Contains("shelf")));
+}
+
 /// The left wall leans: boxes of floor and back reach behind it, they do not.
 TEST(Backdrops, AreToldByVerticesWhereBoxesDoNotTell) {
     const scene::Scene scene = scene::load("cornell-mirrors");
