@@ -2,12 +2,12 @@
 // The including shader defines BVH_NODES_BINDING and BVH_TRIANGLES_BINDING (set 0), and
 // TRACE_LOCAL_SIZE where its work group has not 64 invocations.
 // TRACE_PRIVATE_STACK: for stages that have no shared memory. TRACE_SEES(object): false for objects that
-// rays pass through. TRACE_BALLS: whether the hierarchy may hold some. TRACE_IS_THERE(stored triangle, object, barycentric): false where one of
-// kBvhMasked is cut out.
-// What makes it fast on a processor: uniform texel buffers, the stack in shared memory, lanes that
-// diverge, and loops that ask at their end whether to go on: a software driver, which jumps nowhere but at a loop's end,
-// computes the body of one that asks first once more than needed. NAIVE is what one would write first, kept for the benchmark that shows it: storage
-// buffers, the stack in a private array.
+// rays pass through. TRACE_BALLS: whether the hierarchy may hold some. TRACE_IS_THERE(stored triangle, object,
+// barycentric): false where one of kBvhMasked is cut out.
+// What makes it fast on a processor: uniform texel buffers, the stack in shared memory, lanes that diverge, and loops
+// that ask at their end whether to go on: a software driver, which jumps nowhere but at a loop's end, computes the body
+// of one that asks first once more than needed. NAIVE is what one would write first, kept for the benchmark that shows
+// it: storage buffers, the stack in a private array.
 #ifndef CATOPTRIC_TRACE_GLSL
 #define CATOPTRIC_TRACE_GLSL
 
