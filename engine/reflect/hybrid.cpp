@@ -9,15 +9,11 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr std::array<std::string_view, 2> kForceChoices{"search", "unknown"};
-constexpr auto kKnobs = [] {
-    auto knobs = search_knobs(std::array{
-        Knob{.name = "force",
-             .help = "trace what the search does not know, or take every answer as unknown",
-             .high = 1,
-             .choices = kForceChoices}});
-    std::ranges::find(knobs, "captures", &Knob::name)->value = 1; // before anything is traced
-    return knobs;
-}();
+constexpr auto kKnobs = search_knobs(
+    std::array{Knob{.name = "force",
+                    .help = "trace what the search does not know, or take every answer as unknown",
+                    .high = 1,
+                    .choices = kForceChoices}});
 
 /// It searches with what, of the searches, has the fewest wrong answers that call themselves right
 /// (`march` misses what is thinner than its step).

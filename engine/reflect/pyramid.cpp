@@ -2,7 +2,11 @@
 // in one step wherever these bounds allow it: exact to the texel, where a march takes its chances.
 #include "reflect/pyramid.hpp"
 
+#include "core/stamp.hpp"
+
+#include <algorithm>
 #include <bit>
+#include <iterator>
 
 namespace catoptric::reflect {
 
@@ -18,35 +22,86 @@ std::uint32_t level_edge(std::uint32_t face, std::uint32_t level) {
     return (face + (1u << level) - 1) >> level;
 }
 
-/// All levels of all faces of each array, one layer a face: a dispatch a level.
+/// Cubes of one array that follow each other.
+struct Run {
+    graph::Image distances, bounds;
+    std::uint32_t face = 0;
+};
+
+/// What the bounds of a mirror's cube are made from: cells at the edge of a face read its
+/// neighbours.
+std::uint64_t stamp_of(const render::Captures& captures, std::size_t mirror) {
+    const render::CaptureOptions& options = captures.options[mirror];
+    return Stamp()
+        .add(captures.drawings[mirror])
+        .add(options.distance.value_or(options.colour))
+        .add(options.stored_unit)
+        .add(options.leaves_out_spheres)
+        .value();
+}
+
+/// The cubes of the array that do not hold the bounds of what the captures show.
+std::vector<Run> to_be_made(graph::Graph& graph, const render::Captures& captures,
+                            std::uint32_t array, graph::Image bounds) {
+    const render::Cubes& cubes = captures.arrays[array];
+    // What nobody searches has no distance, and what stands for it is never read.
+    const graph::Image distances = cubes.distance.value_or(cubes.colour);
+    std::vector<Run> runs;
+    std::uint32_t end = 0; // of the last run
+    for (std::size_t mirror = 0; mirror < captures.places.size(); ++mirror) {
+        const render::CapturePlace& place = captures.places[mirror];
+        if (place.array != array) continue;
+        const std::uint32_t first = 6 * place.cube;
+        if (!captures.drawings.empty()) {
+            const std::uint64_t stamp = stamp_of(captures, mirror);
+            if (graph.holds(bounds.layers(first, 6), stamp)) continue;
+            graph.made_from(bounds.layers(first, 6), stamp);
+        }
+        if (runs.empty() || end != first)
+            runs.push_back({distances.layers(first, 0), bounds.layers(first, 0), cubes.face});
+        runs.back().distances.layer_count += 6;
+        runs.back().bounds.layer_count += 6;
+        end = first + 6;
+    }
+    return runs;
+}
+
+/// All levels of all faces of each array, one layer a face: a dispatch a level and run of cubes.
+/// Where captures are kept, so is this.
 std::vector<graph::Image> add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
                                       const render::Captures& captures) {
     std::vector<graph::Image> pyramids;
+    std::vector<Run> runs;
     std::uint32_t top_of_all = 0;
-    graph::PassBuilder pass = graph.pass(inputs.prefix + "pyramid");
-    for (const render::Cubes& cubes : captures.arrays) {
-        const std::string number = pyramids.empty() ? "" : std::to_string(pyramids.size() + 1);
+    for (std::uint32_t array = 0; array < captures.arrays.size(); ++array) {
+        const render::Cubes& cubes = captures.arrays[array];
         const std::uint32_t top = top_level(cubes.face);
         top_of_all = std::max(top_of_all, top);
-        pyramids.push_back(
-            graph.image({inputs.prefix + "pyramid" + number, Format::r32ui, 1u << top,
-                         level_edge(cubes.face, 1), cubes.colour.layer_count}));
-        // What nobody searches has no distance, and what stands for it is never read.
-        pass.reads(cubes.distance.value_or(cubes.colour), graph::Use::sampled)
-            .writes(pyramids.back(), graph::Use::storage_write);
+        graph::ImageDesc desc{inputs.prefix + "pyramid" + (array ? std::to_string(array + 1) : ""),
+                              Format::r32ui, 1u << top, level_edge(cubes.face, 1),
+                              cubes.colour.layer_count};
+        pyramids.push_back(captures.drawings.empty() ? graph.image(std::move(desc))
+                                                     : graph.kept(std::move(desc)));
+        std::ranges::copy(to_be_made(graph, captures, array, pyramids.back()),
+                          std::back_inserter(runs));
     }
-    pass.record([=, arrays = captures.arrays](graph::Commands& commands) {
+    if (runs.empty()) return pyramids;
+    graph::PassBuilder pass = graph.pass(inputs.prefix + "pyramid");
+    for (const Run& run : runs)
+        pass.reads(run.distances, graph::Use::sampled)
+            .writes(run.bounds, graph::Use::storage_write);
+    pass.record([top_of_all, runs = std::move(runs)](graph::Commands& commands) {
         for (std::uint32_t level = 1; level <= top_of_all; ++level) {
             if (level > 1) commands.barrier();
             commands.use(
                 gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
             commands.push(static_cast<std::int32_t>(level));
-            for (std::size_t i = 0; i < arrays.size(); ++i) {
-                if (level > top_level(arrays[i].face)) continue;
-                commands.bind("distance_cubes", arrays[i].distance.value_or(arrays[i].colour));
-                commands.bind("bounds", pyramids[i]);
-                const std::uint32_t groups = (level_edge(arrays[i].face, level) + 7) / 8;
-                commands.dispatch(groups, groups, arrays[i].colour.layer_count);
+            for (const Run& run : runs) {
+                if (level > top_level(run.face)) continue;
+                commands.bind("distance_cubes", run.distances);
+                commands.bind("bounds", run.bounds);
+                const std::uint32_t groups = (level_edge(run.face, level) + 7) / 8;
+                commands.dispatch(groups, groups, run.bounds.layer_count);
             }
         }
     });

@@ -2,6 +2,8 @@
 
 #include "render/frame_inputs.hpp"
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,6 +58,9 @@ struct Captures {
     /// shared::CaptureTable; none where mirror n is cube n of the only array.
     std::optional<graph::Buffer> table;
     std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
+    /// Of each mirror's faces, where captures are kept: with the same options the same number, the
+    /// same texels.
+    std::vector<std::array<std::uint64_t, 6>> drawings;
 };
 
 /// Declares the arrays, one for each size and format that some mirror wants and as many more as the

@@ -219,9 +219,13 @@ Feeding feed_required(graph::Graph& graph, const FrameInputs& inputs, const std:
     const bool follows = before && before->options.size() == mirrors;
     const KeptCaptures* const known = follows ? before.get() : nullptr;
     const std::vector<CaptureOptions> layout = layout_of(required_options(options, model), known);
-    const auto declare = [&](const std::vector<CaptureOptions>& laid_out, std::uint32_t set) {
-        return std::make_shared<const Captures>(
-            declare_captures(graph, inputs, name, laid_out, kSets[set]));
+    const auto declare = [&](const std::vector<CaptureOptions>& laid_out,
+                             const KeptCaptures& filled) {
+        Captures captures = declare_captures(graph, inputs, name, laid_out, kSets[filled.set]);
+        for (const std::array<KeptFace, 6>& faces : filled.faces)
+            std::ranges::transform(faces, captures.drawings.emplace_back().begin(),
+                                   &KeptFace::drawing);
+        return std::make_shared<const Captures>(std::move(captures));
     };
     Feeding feeding;
     feeding.work.faces.resize(mirrors);
@@ -238,12 +242,12 @@ Feeding feed_required(graph::Graph& graph, const FrameInputs& inputs, const std:
     }
     if (known && same_layout(layout, known->options) && is_idle(feeding.work)) {
         kept.set = known->set;
-        feeding.captures = declare(layout, kept.set);
+        feeding.captures = declare(layout, kept);
         return feeding;
     }
     kept.set = before ? 1 - before->set : (comparisons ? 0 : 2);
-    if (any_there) feeding.last = declare(known->options, known->set);
-    feeding.captures = declare(layout, kept.set);
+    if (any_there) feeding.last = declare(known->options, *known);
+    feeding.captures = declare(layout, kept);
     add_keeping(graph, inputs.prefix + name + ".keep", feeding);
     if (any_there) feeding.last = looked_into(*feeding.last);
     if (std::ranges::find(kept.changes, Change::unknown) != kept.changes.end()) {

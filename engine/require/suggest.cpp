@@ -123,17 +123,13 @@ Suggestion suggest(const Question& question) {
     Suggestion suggestion;
     std::map<std::string, std::vector<std::size_t>> of_technique;
     const std::vector<std::size_t> mirrors = scene::mirrors(question.now);
-    // By itself it asks the captures of all mirrors, which then have to be made.
-    const bool all_seen = std::ranges::all_of(model.mirrors, &MirrorNeeds::is_seen);
-    const std::string hybrid = all_seen ? "hybrid" : "hybrid:captures=own";
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
-        auto [technique, reason] = choice_of(question, picture, question.now.objects[mirrors[i]],
-                                             model.mirrors[i]);
-        if (technique == "hybrid") technique = hybrid;
+        const auto [technique, reason] = choice_of(
+            question, picture, question.now.objects[mirrors[i]], model.mirrors[i]);
         of_technique[technique].push_back(i + 1);
         suggestion.reasons.push_back(technique + ": " + reason);
     }
-    suggestion.plan = plan_of(of_technique, hybrid);
+    suggestion.plan = plan_of(of_technique, "hybrid");
     return suggestion;
 }
 

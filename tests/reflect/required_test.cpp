@@ -186,6 +186,19 @@ TEST(RequiredFrames, FollowWhatMovesUntilItStands) {
     EXPECT_EQ(pair.frame(), kSettled);
 }
 
+// What a search reads beside the captures is made from all faces of a cube, each time one is drawn.
+TEST(RequiredFrames, KeepBoundsOfDistancesAsLongAsCaptures) {
+    Pair pair(scene::cornell_mirrors(), {"pyramid:face=16"});
+    for (int k = 0; k < 6; ++k) {
+        EXPECT_THAT(pair.frame(), testing::Contains("pyramid"));
+        pair.spec.time += 1 / 20.0;
+    }
+    pair.settle();
+    EXPECT_EQ(pair.frame(), kSettled);
+    pair.spec.ambient = .3; // of colours, but captures are one thing
+    EXPECT_THAT(pair.frame(), testing::Contains("pyramid"));
+}
+
 /// A bare room with a ball mirror, a block before it and a lamp.
 scene::Scene room_with_block() {
     scene::Scene scene{.name = "block"};
