@@ -126,6 +126,7 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, std::u
     bvh.copies = kept.size() - triangle_count(bvh);
     bvh.nodes[0] = vec4(slack.lo, id_word(triangle_count(bvh)));
     bvh.nodes[1] = vec4(slack.hi, id_word(node_count(bvh)));
+    bvh.cost = cost(bvh);
     return bvh;
 }
 

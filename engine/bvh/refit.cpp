@@ -31,6 +31,12 @@ Box child_bounds(const Bvh& bvh, std::uint32_t child, const Box& core) {
     return box;
 }
 
+/// Of one child: a node's two add up.
+double cost_of_child(std::uint32_t child, const Box& box) {
+    return area(box) *
+           (f32::bvh_is_inner(child) ? kTraversalCost : static_cast<double>(f32::bvh_count(child)));
+}
+
 /// A zero that changes its sign is another.
 bool same_bits(const vec3& a, const vec3& b) {
     return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
@@ -71,6 +77,8 @@ void move_boxes(Bvh& bvh, const std::vector<char>& moved, const Box& slack, bool
             const std::uint32_t child = bits(texel[side].w);
             if (!all && !has_changed(child)) continue;
             const Box box = child_bounds(bvh, child, slack);
+            bvh.cost += cost_of_child(child, box) -
+                        cost_of_child(child, {vec3(texel[2 * side]), vec3(texel[2 * side + 1])});
             texel[2 * side] = vec4(box.lo, texel[2 * side].w);
             texel[2 * side + 1] = vec4(box.hi, texel[2 * side + 1].w);
             changed[node] = 1;
@@ -105,11 +113,8 @@ double cost(const Bvh& bvh) {
     for (std::size_t node = 1; node < node_count(bvh); ++node) {
         const vec4* texel = &bvh.nodes[4 * node];
         for (int side = 0; side < 2; ++side) {
-            const std::uint32_t child = bits(texel[side].w);
-            const Box box{vec3(texel[2 * side]), vec3(texel[2 * side + 1])};
-            sum += area(box) * (f32::bvh_is_inner(child)
-                                    ? kTraversalCost
-                                    : static_cast<double>(f32::bvh_count(child)));
+            sum += cost_of_child(bits(texel[side].w),
+                                 {vec3(texel[2 * side]), vec3(texel[2 * side + 1])});
         }
     }
     return sum;

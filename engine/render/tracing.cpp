@@ -81,7 +81,7 @@ void Tracing::lay_out() {
 void Tracing::build(Hierarchy& hierarchy, const Geometry& geometry,
                     std::span<const bvh::Triangle> flat) {
     hierarchy.tree = bvh::build(flat, geometry.core);
-    hierarchy.cost_when_built = bvh::cost(hierarchy.tree);
+    hierarchy.cost_when_built = hierarchy.tree.cost;
     hierarchy.changed = {0, hierarchy.tree.triangles.size()};
     ++built_;
 }
@@ -91,7 +91,7 @@ void Tracing::refit(Hierarchy& hierarchy, const Geometry& geometry,
     hierarchy.changed = bvh::refit(hierarchy.tree, flat, geometry.core, hierarchy.moved);
     ++refitted_;
     // Written so that a NaN builds too.
-    if (!(bvh::cost(hierarchy.tree) <= kWorstRefit * hierarchy.cost_when_built))
+    if (!(hierarchy.tree.cost <= kWorstRefit * hierarchy.cost_when_built))
         build(hierarchy, geometry, flat);
 }
 

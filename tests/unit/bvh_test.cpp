@@ -513,6 +513,8 @@ TEST(Refit, WhereOneThingMovedTheTreeIsWhatItWouldBeOtherwise) {
             refit(all, triangles, core);
             ASSERT_TRUE(same(few.nodes, all.nodes)) << step;
             ASSERT_TRUE(same(few.triangles, all.triangles)) << step;
+            for (const Bvh* tree : {&few, &all})
+                EXPECT_NEAR(tree->cost, cost(*tree), 1e-12 * cost(*tree)) << step;
         }
     }
 }
