@@ -2,6 +2,7 @@
 // turn in one process.
 //   catoptric_peers [ROUNDS]      at least 6; exit code 1 where the pictures differ
 #include "app/bench_subjects.hpp"
+#include "embree_tree.hpp"
 #include "measure/statistics.hpp"
 #include "peer_scene.hpp"
 #include "scene/load.hpp"
@@ -150,27 +151,45 @@ bool compare_frames(const app::UsageMeter& meter, const peers::EmbreeDevice& dev
     return same;
 }
 
-void compare_builds(const app::UsageMeter& meter, const peers::EmbreeDevice& device, int rounds) {
-    scene::Scene scene;
-    scene.meshes.push_back(scene::torus("torus", 1, .4, kTorus));
-    scene.materials.emplace_back();
-    scene.objects.emplace_back();
-    const std::vector<bvh::Triangle> triangles = peers::triangles_of(scene);
+void compare_builds(const app::UsageMeter& meter, const peers::EmbreeDevice& device, int rounds,
+                    const std::vector<bvh::Triangle>& triangles) {
     RTCGeometry geometry = peers::triangle_geometry(device, triangles);
     const auto theirs = [&] {
         peers::EmbreeScene tree(device, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM);
         tree.add(geometry);
         tree.commit();
     };
+    const auto ours = [&](unsigned threads) {
+        return [&triangles, threads] { bvh::build(triangles, {}, bvh::kMaxLeaf, threads); };
+    };
     const std::vector<Benchmark> list = app::measure_rounds(
-        {app::subject_of("ours/build", [&] { bvh::build(triangles); }),
+        {app::subject_of("ours/build", ours(0)), app::subject_of("ours/build/1", ours(1)),
          app::subject_of("embree/build", theirs)},
         meter, {.iterations = rounds, .rounds = rounds, .watcher = {}});
     rtcReleaseGeometry(geometry);
     std::printf("\n%zu triangles\n", triangles.size());
     for (const Benchmark& benchmark : list)
         print(benchmark, "triangles", static_cast<double>(triangles.size()) / 1e6);
-    print_ratio(list[0], list[1]);
+    print_ratio(list[0], list[2]);
+    print_ratio(list[1], list[2]);
+}
+
+/// What a ray's walk is expected to cost in our tree, beside Embree's of two qualities.
+void compare_trees(const peers::EmbreeDevice& device, const std::string& name,
+                   const std::vector<bvh::Triangle>& triangles) {
+    const double ours = bvh::cost(bvh::build(triangles));
+    std::printf("%-24s %8zu triangles, cost of the tree / Embree's: medium %.3f, high %.3f\n",
+                name.c_str(), triangles.size(),
+                ours / peers::embree_cost(device, triangles, RTC_BUILD_QUALITY_MEDIUM),
+                ours / peers::embree_cost(device, triangles, RTC_BUILD_QUALITY_HIGH));
+}
+
+std::vector<bvh::Triangle> torus() {
+    scene::Scene scene;
+    scene.meshes.push_back(scene::torus("torus", 1, .4, kTorus));
+    scene.materials.emplace_back();
+    scene.objects.emplace_back();
+    return peers::triangles_of(scene);
 }
 
 } // namespace
@@ -183,7 +202,11 @@ int main(int argc, char** argv) try {
         std::printf("cycles are not counted: %s\n", meter.uncounted().c_str());
     const peers::EmbreeDevice device;
     const bool same = compare_frames(meter, device, rounds);
-    compare_builds(meter, device, rounds);
+    compare_builds(meter, device, rounds, torus());
+    std::printf("\n");
+    compare_trees(device, "torus", torus());
+    for (const scene::BuiltIn& scene : scene::built_in_scenes())
+        compare_trees(device, scene.name, peers::triangles_of(scene.make()));
     return same ? 0 : 1;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "catoptric_peers: %s\n", error.what());

@@ -23,6 +23,11 @@ inline float pad_of(const Box& box, const Box& core) {
            f32::largest(max(abs(box.lo - middle), abs(box.hi - middle))); // twice: roundings here
 }
 
+/// Wider all around, as far as finite numbers go.
+inline Box padded(const Box& box, float pad) {
+    return {max(box.lo - pad, vec3(-f32::kLargest)), min(box.hi + pad, vec3(f32::kLargest))};
+}
+
 /// Of a triangle, or of a ball with what its test's roundings reach out of it.
 inline Box box_of(const vec3& a, const vec3& b, const vec3& c, std::uint32_t flags) {
     Box box;

@@ -23,10 +23,8 @@ Box child_bounds(const Bvh& bvh, std::uint32_t child, const Box& core) {
         return box;
     }
     for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
-        Box triangle = bounds_of(&bvh.triangles[3 * std::size_t{f32::bvh_index(child) + i}]);
-        const float pad = pad_of(triangle, core);
-        triangle.lo -= pad, triangle.hi += pad;
-        box.add(triangle);
+        const Box triangle = bounds_of(&bvh.triangles[3 * std::size_t{f32::bvh_index(child) + i}]);
+        box.add(padded(triangle, pad_of(triangle, core)));
     }
     return box;
 }

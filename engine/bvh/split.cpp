@@ -1,7 +1,7 @@
 #include "bvh/split.hpp"
 
 #include <algorithm>
-#include <array>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -9,84 +9,185 @@ namespace catoptric::bvh {
 
 namespace {
 
-Box centre_bounds(References references) {
-    Box box;
-    for (const Reference& r : references) box.add(r.centre);
-    return box;
+using Integers = std::int32_t __attribute__((vector_size(16)));
+
+/// References from one that is looked at to one that is wanted soon: processors do not look ahead
+/// across pages by themselves.
+constexpr std::size_t kAhead = 24;
+
+double cost_of(const Extent& extent, std::size_t count) {
+    return extent.half_area() * static_cast<double>(count);
 }
 
-struct Bin {
-    Box box;
-    std::size_t count = 0;
-    void add(const Bin& other) { box.add(other.box), count += other.count; }
-    double cost() const { return count == 0 ? 0 : area(box) * static_cast<double>(count); }
-};
+bool is_before(const Reference& a, const Reference& b, std::size_t axis) {
+    const float place_a = a.lo[axis] * .5f + a.hi[axis] * .5f,
+                place_b = b.lo[axis] * .5f + b.hi[axis] * .5f;
+    return place_a != place_b ? place_a < place_b : a.triangle() < b.triangle();
+}
 
 } // namespace
 
-std::optional<Split> best_split(References references, std::size_t most) {
+Binning::Binning(const Extent& centres)
+    : lo(centres.lo), bins_per_unit(all_lanes(kBinCount) / (centres.hi - centres.lo)) {
+    lo[3] = bins_per_unit[3] = 0;
+}
+
+void Bins::add(std::span<const Reference> references, const Binning& binning) {
+    for (const Reference& r : references) {
+        __builtin_prefetch(&r + kAhead);
+        // The last bin takes what is no number, too.
+        const Integers bin = __builtin_convertvector(
+            smaller(all_lanes(kBinCount - 1), binning.place(r.centre())), Integers);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto k = static_cast<std::size_t>(bin[axis]);
+            extents_[axis][k].add(r.extent());
+            ++counts_[axis][k];
+        }
+    }
+}
+
+void Bins::add(const Bins& other) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t k = 0; k < kBinCount; ++k) {
+            extents_[axis][k].add(other.extents_[axis][k]);
+            counts_[axis][k] += other.counts_[axis][k];
+        }
+}
+
+std::size_t Bins::left_count(const Split& split) const {
+    const auto& counts = counts_[split.axis];
+    return std::accumulate(counts.begin(), counts.begin() + split.first_right, std::size_t{0});
+}
+
+std::array<Extent, 2> Bins::extents(const Split& split) const {
+    std::array<Extent, 2> sides;
+    for (int k = 0; k < kBinCount; ++k)
+        sides[k < split.first_right ? 0 : 1].add(extents_[split.axis][k]);
+    return sides;
+}
+
+Sides sides_of(const Part& part, const Bins& bins, const Split& split,
+               const std::array<Extent, 2>& centres) {
+    const std::size_t left = bins.left_count(split);
+    const std::array<Extent, 2> boxes = bins.extents(split);
+    return {
+        Part{part.first, left, !part.in_second, false, boxes[0], centres[0]},
+        Part{part.first + left, part.count - left, !part.in_second, false, boxes[1], centres[1]}};
+}
+
+void Split::scatter(std::span<const Reference> references, const Binning& binning,
+                    std::array<Reference*, 2> to, std::array<Extent, 2>& centres) const {
+    const auto k = static_cast<std::size_t>(axis);
+    const float lo = binning.lo[k], bins_per_unit = binning.bins_per_unit[k],
+                end = static_cast<float>(first_right);
+    Reference *left = to[0], *right = to[1];
+    for (const Reference& r : references) {
+        __builtin_prefetch(&r + kAhead);
+        const Lanes centre = r.centre();
+        // No branch, which nobody could foresee, and no sum by way of memory.
+        const bool is_right = !((centre[k] - lo) * bins_per_unit < end);
+        *(is_right ? right : left) = r;
+        right += is_right, left += !is_right;
+        const Lanes away[2] = {all_lanes(0), all_lanes(kInfinity)};
+        centres[0].add_moved(centre, away[is_right]);
+        centres[1].add_moved(centre, away[!is_right]);
+    }
+}
+
+std::optional<Split> best_split(const Bins& bins, std::size_t most) {
     std::optional<Split> best;
-    const Box centres = centre_bounds(references);
-    for (int axis = 0; axis < 3; ++axis) {
-        if (!(centres.lo[axis] < centres.hi[axis])) continue;
-        const Binning binning(centres, axis);
-        std::array<Bin, kBinCount> bins;
-        for (const Reference& r : references) {
-            Bin& bin = bins[static_cast<std::size_t>(binning.bin(r))];
-            bin.box.add(r.box), ++bin.count;
+    double least = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto& extents = bins.extents_[axis];
+        const auto& counts = bins.counts_[axis];
+        std::array<double, kBinCount> right_cost; // of bins i and above
+        std::array<std::size_t, kBinCount> right_count;
+        Extent right;
+        std::size_t count = 0;
+        for (std::size_t i = kBinCount; i-- > 1;) {
+            right.add(extents[i]), count += counts[i];
+            right_count[i] = count;
+            right_cost[i] = cost_of(right, count);
         }
-        std::array<Bin, kBinCount> right; // right[i]: bins i and above
-        right.back() = bins.back();
-        for (std::size_t i = kBinCount - 1; i-- > 1;) {
-            right[i] = bins[i];
-            right[i].add(right[i + 1]);
-        }
-        Bin left;
+        Extent left;
+        count = 0;
         for (std::size_t i = 1; i < kBinCount; ++i) {
-            left.add(bins[i - 1]);
-            if (left.count == 0 || right[i].count == 0) continue;
-            if (left.count > most || right[i].count > most) continue;
-            const double cost = left.cost() + right[i].cost();
-            if (!best || cost < best->cost) best = Split{binning, static_cast<int>(i), cost};
+            left.add(extents[i - 1]), count += counts[i - 1];
+            if (count == 0 || right_count[i] == 0) continue;
+            if (count > most || right_count[i] > most) continue;
+            const double cost = cost_of(left, count) + right_cost[i];
+            if (best && !(cost < least)) continue;
+            best = Split{static_cast<int>(axis), static_cast<int>(i)};
+            least = cost;
         }
     }
     return best;
 }
 
-std::size_t halve(References references) {
-    const vec3 size = centre_bounds(references).extent();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+std::optional<Division> sweep(References references, std::size_t most) {
+    const std::size_t count = references.size();
+    std::array<Reference, kSweepCount> sorted, best_order;
+    std::optional<Division> best;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < count; ++i) {
+            std::size_t k = i;
+            for (; k > 0 && is_before(references[i], sorted[k - 1], axis); --k)
+                sorted[k] = sorted[k - 1];
+            sorted[k] = references[i];
+        }
+        std::array<double, kSweepCount> right_cost;
+        Extent right;
+        for (std::size_t i = count; i-- > 1;) {
+            right.add(sorted[i].extent());
+            right_cost[i] = cost_of(right, count - i);
+        }
+        Extent left;
+        bool is_best = false;
+        for (std::size_t i = 1; i < count; ++i) {
+            left.add(sorted[i - 1].extent());
+            if (i > most || count - i > most) continue;
+            const double cost = cost_of(left, i) + right_cost[i];
+            if (best && !(cost < best->cost)) continue;
+            best = Division{cost, i};
+            is_best = true;
+        }
+        if (is_best) best_order = sorted;
+    }
+    if (best) std::copy_n(best_order.begin(), count, references.begin());
+    return best;
+}
+
+std::size_t halve(References references, const Extent& centres) {
+    const vec3 size = centres.box().extent();
+    const std::size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t middle = references.size() / 2;
     std::nth_element(references.begin(), references.begin() + static_cast<std::ptrdiff_t>(middle),
                      references.end(), [axis](const Reference& a, const Reference& b) {
-                         if (a.centre[axis] != b.centre[axis])
-                             return a.centre[axis] < b.centre[axis];
-                         return a.triangle < b.triangle;
+                         return is_before(a, b, axis);
                      });
     return middle;
 }
 
 References without_copies(References references, std::span<const Triangle> triangles) {
-    const auto in_one_place = [&](const Reference& r) { return r.centre == references[0].centre; };
-    if (references.size() <= kMaxLeaf || !std::ranges::all_of(references, in_one_place))
-        return references;
     const auto what = [&](const Reference& r) {
-        const Triangle& t = triangles[r.triangle];
+        const Triangle& t = triangles[r.triangle()];
         return std::array{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
     };
     const auto whose = [&](const Reference& r) {
-        const Triangle& t = triangles[r.triangle];
+        const Triangle& t = triangles[r.triangle()];
         return std::pair{t.object, t.flags};
     };
     std::ranges::sort(references, [&](const Reference& a, const Reference& b) {
-        return std::tuple{what(a), whose(a), a.triangle} <
-               std::tuple{what(b), whose(b), b.triangle};
+        return std::tuple{what(a), whose(a), a.triangle()} <
+               std::tuple{what(b), whose(b), b.triangle()};
     });
     const auto copies = std::ranges::unique(references,
                                             [&](const Reference& a, const Reference& b) {
                                                 return what(a) == what(b) && whose(a) == whose(b);
                                             });
-    return references.first(references.size() - copies.size());
+    references = references.first(references.size() - copies.size());
+    std::ranges::sort(references, {}, &Reference::triangle);
+    return references;
 }
 
 } // namespace catoptric::bvh

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "core/parallel.hpp"
+
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <thread>
 #include <vector>
 
 namespace catoptric::measure {
@@ -40,16 +40,11 @@ struct Kernel {
 template <typename Body>
 void for_rows(int height, const Body& body) {
     constexpr int kRows = 16;
-    std::atomic<int> next{0};
-    const auto work = [&] {
-        for (int first = next.fetch_add(kRows); first < height; first = next.fetch_add(kRows))
-            for (int y = first; y < std::min(first + kRows, height); ++y) body(y);
-    };
-    const int useful = (height + kRows - 1) / kRows;
-    const int threads = std::min(static_cast<int>(std::thread::hardware_concurrency()), useful);
-    std::vector<std::jthread> others;
-    for (int t = 1; t < threads; ++t) others.emplace_back(work);
-    work();
+    in_parallel(static_cast<std::size_t>((height + kRows - 1) / kRows), all_threads(),
+                [&](std::size_t i) {
+                    const int first = static_cast<int>(i) * kRows;
+                    for (int y = first; y < std::min(first + kRows, height); ++y) body(y);
+                });
 }
 
 /// Convolution along x or y; beyond the border the outermost pixel goes on. Costs

@@ -1,21 +1,29 @@
 // In a source of its own: a compiler that sees both sides of these operators warns of free().
 #include "allocations/counting.hpp"
 
+#include <atomic>
 #include <cstdlib>
 #include <new>
 
 namespace {
 
 thread_local std::size_t taken = 0;
+constexpr std::size_t kAll = ~std::size_t{0};
+std::atomic<std::size_t> granted = kAll; // before one is refused
+
+bool is_refused() { return granted != kAll && granted-- == 0; }
 
 } // namespace
 
 std::size_t test::allocations() { return taken; }
 
+test::Refusal::Refusal(std::size_t after) { granted = after; }
+test::Refusal::~Refusal() { granted = kAll; }
+
 // NOLINTBEGIN(cppcoreguidelines-no-malloc): this is what malloc is for
 void* operator new(std::size_t bytes) {
     ++taken;
-    if (void* const memory = std::malloc(bytes ? bytes : 1)) return memory;
+    if (void* const memory = is_refused() ? nullptr : std::malloc(bytes ? bytes : 1)) return memory;
     throw std::bad_alloc();
 }
 void* operator new[](std::size_t bytes) { return operator new(bytes); }

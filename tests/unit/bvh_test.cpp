@@ -1,5 +1,6 @@
 #include "bvh/bvh.hpp"
 #include "bvh/closest_hit.hpp"
+#include "support/hierarchies.hpp"
 #include "support/numbers.hpp"
 
 #include <gmock/gmock.h>
@@ -12,6 +13,8 @@
 
 namespace catoptric::bvh {
 namespace {
+
+using test::expect_sound, test::same, test::soup;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -39,66 +42,6 @@ std::vector<Triangle> ball(int levels, float scale = 1, vec3 offset = vec3(0)) {
     return result;
 }
 
-std::vector<Triangle> soup(std::size_t count, unsigned seed) {
-    test::Numbers random(seed);
-    std::vector<Triangle> result(count);
-    for (Triangle& t : result) {
-        const vec3 centre = random.in_cube();
-        t.a = centre + 0.1f * random.in_cube();
-        t.b = centre + 0.1f * random.in_cube();
-        t.c = centre + 0.1f * random.in_cube();
-    }
-    return result;
-}
-
-/// Depth, leaf size, boxes that hold what is below them, every triangle in exactly one leaf.
-struct Census {
-    const Bvh& bvh;
-    std::size_t nodes = 0, triangles = 0;
-    std::uint32_t deepest = 0;
-
-    Bounds<float> visit(std::uint32_t child, std::uint32_t depth) {
-        Bounds<float> box;
-        const std::uint32_t first = f32::bvh_index(child);
-        if (f32::bvh_is_inner(child)) {
-            ++nodes;
-            deepest = std::max(deepest, depth + 1);
-            const vec4* node = &bvh.nodes[4 * std::size_t{first}];
-            for (int i : {0, 1}) {
-                const Bounds<float> stored{vec3(node[2 * i]), vec3(node[2 * i + 1])};
-                const Bounds<float> below = visit(bits(node[i].w), depth + 1);
-                EXPECT_EQ(stored.lo, below.lo);
-                EXPECT_EQ(stored.hi, below.hi);
-                box.add(below);
-            }
-            return box;
-        }
-        EXPECT_LE(f32::bvh_count(child), kMaxLeaf);
-        for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
-            EXPECT_EQ(first + i, triangles) << "leaves follow each other";
-            ++triangles;
-            for (int k = 0; k < 3; ++k) box.add(vec3(bvh.triangles[3 * (first + i) + k]));
-        }
-        return box;
-    }
-};
-
-void expect_sound(const Bvh& bvh, std::size_t triangles) {
-    Census census{bvh};
-    const Bounds<float> all = census.visit(f32::kBvhRoot, 0);
-    EXPECT_EQ(all.lo, vec3(bvh.nodes[0]));
-    EXPECT_EQ(all.hi, vec3(bvh.nodes[1]));
-    EXPECT_EQ(census.triangles, triangles);
-    EXPECT_EQ(number_of(bvh.nodes[0].w), triangles);
-    EXPECT_EQ(number_of(bvh.nodes[1].w), node_count(bvh));
-    EXPECT_EQ(census.nodes + 1, node_count(bvh));
-    EXPECT_LE(census.deepest, kMaxDepth);
-    // Words survive being read as floats; the second half of a node has none.
-    for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
-        EXPECT_EQ(std::isnormal(bvh.nodes[i].w), i % 4 < 2) << i;
-    for (const vec4& texel : bvh.triangles) EXPECT_TRUE(std::isnormal(texel.w));
-}
-
 TEST(Bvh, IsSoundForAnyCount) {
     for (std::size_t count : {0, 1, 2, 3, 4, 5, 8, 9, 100, 5000}) {
         SCOPED_TRACE(count);
@@ -116,10 +59,8 @@ TEST(Bvh, EmptyIsAMiss) {
 
 TEST(Bvh, SameInputSameBytes) {
     const Bvh a = build(soup(3000, 2)), b = build(soup(3000, 2));
-    ASSERT_EQ(a.nodes.size(), b.nodes.size());
-    const auto bytes = [](const std::vector<vec4>& texels) { return texels.size() * sizeof(vec4); };
-    EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), bytes(a.nodes)), 0);
-    EXPECT_EQ(std::memcmp(a.triangles.data(), b.triangles.data(), bytes(a.triangles)), 0);
+    EXPECT_TRUE(same(a.nodes, b.nodes));
+    EXPECT_TRUE(same(a.triangles, b.triangles));
 }
 
 TEST(Bvh, ALampIsMetFromItsFrontAndItsBackOnlyByRaysThatDoNotSee) {
@@ -443,10 +384,6 @@ TEST(ClosestHit, SpawnedRaysCrossTheBall) {
             ASSERT_GT(hit->t, scale);
         }
     }
-}
-
-bool same(const std::vector<vec4>& a, const std::vector<vec4>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(vec4)) == 0;
 }
 
 TEST(Refit, ToWhereEverythingStandsChangesNothing) {

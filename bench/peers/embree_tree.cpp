@@ -1,0 +1,122 @@
+#include "embree_tree.hpp"
+
+#include "bvh/box.hpp"
+
+#include <embree3/rtcore_builder.h>
+
+#include <vector>
+
+namespace peers {
+
+using namespace catoptric;
+using bvh::Box;
+
+namespace {
+
+constexpr unsigned kDeepest = 48; // at most what Embree's builder takes without a word
+constexpr std::size_t kRoom = 2;  // references a triangle, where they may be split
+
+struct Node {
+    std::size_t triangles = 0; ///< of a leaf; 0: a node
+    Box boxes[2];
+    Node* children[2] = {};
+};
+
+double cost_of(const Node& node) {
+    double sum = 0;
+    for (int side = 0; side < 2; ++side) {
+        const Node& child = *node.children[side];
+        const bool is_leaf = child.triangles > 0;
+        sum += bvh::area(node.boxes[side]) *
+                   (is_leaf ? static_cast<double>(child.triangles) : bvh::kTraversalCost) +
+               (is_leaf ? 0 : cost_of(child));
+    }
+    return sum;
+}
+
+Box box_of(const RTCBounds& bounds) {
+    return {{bounds.lower_x, bounds.lower_y, bounds.lower_z},
+            {bounds.upper_x, bounds.upper_y, bounds.upper_z}};
+}
+
+RTCBounds bounds_of(const Box& box) {
+    return {box.lo.x, box.lo.y, box.lo.z, 0, box.hi.x, box.hi.y, box.hi.z, 0};
+}
+
+Node* new_node(RTCThreadLocalAllocator allocator) {
+    return new (rtcThreadLocalAlloc(allocator, sizeof(Node), alignof(Node))) Node;
+}
+
+/// Boxes of what lies of a triangle, and in the primitive's box, on each side of a plane.
+void split(const RTCBuildPrimitive* primitive, unsigned axis_number, float place, RTCBounds* left,
+           RTCBounds* right, void* triangles) {
+    const auto axis = static_cast<glm::length_t>(axis_number);
+    const bvh::Triangle& t = static_cast<const bvh::Triangle*>(triangles)[primitive->primID];
+    const vec3 corners[] = {t.a, t.b, t.c};
+    Box sides[2];
+    for (int i = 0; i < 3; ++i) {
+        const vec3 from = corners[i], to = corners[(i + 1) % 3];
+        if (from[axis] <= place) sides[0].add(from);
+        if (from[axis] >= place) sides[1].add(from);
+        if ((from[axis] < place) == (to[axis] < place)) continue;
+        vec3 between = from + (to - from) * ((place - from[axis]) / (to[axis] - from[axis]));
+        between[axis] = place;
+        sides[0].add(between), sides[1].add(between);
+    }
+    const vec3 lo(primitive->lower_x, primitive->lower_y, primitive->lower_z),
+        hi(primitive->upper_x, primitive->upper_y, primitive->upper_z);
+    for (Box& side : sides) side = {max(side.lo, lo), min(side.hi, hi)};
+    *left = bounds_of(sides[0]), *right = bounds_of(sides[1]);
+}
+
+void say_how(RTCBuildArguments& arguments) {
+    arguments.maxDepth = kDeepest;
+    arguments.maxLeafSize = bvh::kMaxLeaf;
+    arguments.traversalCost = static_cast<float>(bvh::kTraversalCost);
+    arguments.createNode = [](RTCThreadLocalAllocator allocator, unsigned, void*) -> void* {
+        return new_node(allocator);
+    };
+    arguments.setNodeChildren = [](void* node, void** children, unsigned, void*) {
+        for (int side = 0; side < 2; ++side)
+            static_cast<Node*>(node)->children[side] = static_cast<Node*>(children[side]);
+    };
+    arguments.setNodeBounds = [](void* node, const RTCBounds** bounds, unsigned, void*) {
+        for (int side = 0; side < 2; ++side)
+            static_cast<Node*>(node)->boxes[side] = box_of(*bounds[side]);
+    };
+    arguments.createLeaf = [](RTCThreadLocalAllocator allocator, const RTCBuildPrimitive*,
+                              std::size_t count, void*) -> void* {
+        Node* const leaf = new_node(allocator);
+        leaf->triangles = count;
+        return leaf;
+    };
+    arguments.splitPrimitive = split;
+}
+
+} // namespace
+
+double embree_cost(const EmbreeDevice& device, std::span<const bvh::Triangle> triangles,
+                   RTCBuildQuality quality) {
+    std::vector<RTCBuildPrimitive> primitives(kRoom * triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const bvh::Triangle& t = triangles[i];
+        const Box box = bvh::box_of(t.a, t.b, t.c, t.flags);
+        primitives[i] = {box.lo.x, box.lo.y, box.lo.z, 0,
+                         box.hi.x, box.hi.y, box.hi.z, static_cast<unsigned>(i)};
+    }
+    RTCBuildArguments arguments = rtcDefaultBuildArguments();
+    say_how(arguments);
+    arguments.buildQuality = quality;
+    arguments.bvh = rtcNewBVH(device.get());
+    arguments.primitives = primitives.data();
+    arguments.primitiveCount = triangles.size();
+    arguments.primitiveArrayCapacity = primitives.size();
+    arguments.userPtr = const_cast<bvh::Triangle*>(triangles.data()); // read by `split` alone
+    const auto* root = static_cast<const Node*>(rtcBuildBVH(&arguments));
+    device.check();
+    const double cost = root->triangles > 0 ? 0 : cost_of(*root); // of a leaf there is no walk
+    rtcReleaseBVH(arguments.bvh);
+    return cost;
+}
+
+} // namespace peers

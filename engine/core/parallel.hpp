@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace catoptric {
+
+/// As many as the machine runs at once; at least 1.
+inline unsigned all_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+/// Calls body(i) for every i below `count`, on at most `threads` threads of which the caller's is
+/// one; fewer where the system has no more. Lower numbers begin first. What a body throws comes out
+/// here once all threads have ended, of several the one with the lowest number; what had not begun
+/// by then is left out. A thread costs some ten microseconds.
+template <typename Body>
+void in_parallel(std::size_t count, unsigned threads, const Body& body) {
+    std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::exception_ptr error;
+    std::size_t thrown_by = count;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < count; i = next++) try {
+                body(i);
+            } catch (...) {
+                const std::lock_guard lock(mutex);
+                if (i < thrown_by) thrown_by = i, error = std::current_exception();
+                next = count;
+            }
+    };
+    {
+        std::vector<std::jthread> others;
+        others.reserve(std::min<std::size_t>(threads, count));
+        try {
+            for (std::size_t t = 1; t < std::min<std::size_t>(threads, count); ++t)
+                others.emplace_back(work);
+        } catch (const std::system_error&) { // those that there are do it
+        }
+        work();
+    }
+    if (error) std::rethrow_exception(error);
+}
+
+} // namespace catoptric

@@ -1,0 +1,186 @@
+// How a tree is made: divisions beside all that there are, and trees by any number of threads.
+#include "bvh/subtree.hpp"
+#include "core/shader_math.hpp"
+#include "support/hierarchies.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::bvh {
+namespace {
+
+using test::expect_sound, test::same, test::soup;
+
+std::vector<Reference> references(std::span<const Triangle> triangles) {
+    std::vector<Reference> result;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const Box box = box_of(triangles[i].a, triangles[i].b, triangles[i].c, 0);
+        result.push_back({lanes(box.lo, id_word(i)), lanes(box.hi, 0)});
+    }
+    return result;
+}
+
+/// Half the area of their box times how many they are.
+double cost_of(std::span<const Reference> references) {
+    Bounds<double> box;
+    for (const Reference& r : references)
+        box.add(Bounds<double>{dvec3(vector(r.lo)), dvec3(vector(r.hi))});
+    return box.area() / 2 * static_cast<double>(references.size());
+}
+
+double cost_of(std::span<const Reference> references, std::size_t middle) {
+    return cost_of(references.first(middle)) + cost_of(references.subspan(middle));
+}
+
+std::vector<Reference> sorted(std::vector<Reference> references, int axis) {
+    std::ranges::stable_sort(references, {}, [&](const Reference& r) { return r.centre()[axis]; });
+    return references;
+}
+
+TEST(BvhDivision, SweepFindsTheCheapestOfAll) {
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        const std::size_t count = 2 + seed % (kSweepCount - 1), most = count - seed % 2;
+        std::vector<Reference> few = references(soup(count, seed));
+        double least = std::numeric_limits<double>::infinity();
+        for (int axis = 0; axis < 3; ++axis)
+            for (std::size_t middle = 1; middle < count; ++middle)
+                if (std::max(middle, count - middle) <= most)
+                    least = std::min(least, cost_of(sorted(few, axis), middle));
+        const std::optional<Division> found = sweep(few, most);
+        ASSERT_EQ(found.has_value(), std::isfinite(least));
+        if (!found) continue;
+        EXPECT_NEAR(found->cost, least, 1e-6 * least);
+        EXPECT_NEAR(cost_of(few, found->middle), least, 1e-6 * least) << "sorted as it says";
+    }
+}
+
+/// Planes between bins of equal width, by definition.
+TEST(BvhDivision, BinsFindTheCheapestOfTheirPlanes) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const std::size_t count = 50 * seed, most = seed % 2 == 0 ? count : 3 * count / 4;
+        std::vector<Reference> all = references(soup(count, seed));
+        Part part;
+        for (const Reference& r : all) part.add(r);
+        double least = std::numeric_limits<double>::infinity();
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::vector<Reference> along = sorted(all, axis);
+            for (int plane = 1; plane < kBinCount; ++plane) {
+                const double lo = double{part.centres.lo[axis]}, hi = double{part.centres.hi[axis]},
+                             place = lo + (hi - lo) * plane / kBinCount;
+                const auto middle = static_cast<std::size_t>(std::ranges::count_if(
+                    along, [&](const Reference& r) { return double{r.centre()[axis]} < place; }));
+                if (middle > 0 && middle < count && std::max(middle, count - middle) <= most)
+                    least = std::min(least, cost_of(along, middle));
+            }
+        }
+        Bins bins;
+        bins.add(all, Binning(part.centres));
+        const std::optional<Split> split = best_split(bins, most);
+        ASSERT_TRUE(split);
+        const std::size_t middle = bins.left_count(*split);
+        std::vector<Reference> sides(count);
+        std::array<Extent, 2> centres;
+        split->scatter(all, Binning(part.centres), {sides.data(), &sides[middle]}, centres);
+        EXPECT_NEAR(cost_of(sides, middle), least, 1e-6 * least);
+        for (std::size_t side = 0; side < 2; ++side) {
+            const auto own = std::span(sides).subspan(side == 0 ? 0 : middle,
+                                                      side == 0 ? middle : count - middle);
+            Part made;
+            for (const Reference& r : own) made.add(r);
+            EXPECT_EQ(bins.extents(*split)[side].box(), made.box.box());
+            EXPECT_EQ(centres[side].box(), made.centres.box());
+            EXPECT_TRUE(std::ranges::is_sorted(own, {}, &Reference::triangle)) << "in their order";
+        }
+    }
+}
+
+/// What may be hard to divide, more of it than one thread builds at once.
+struct Input {
+    const char* name;
+    std::vector<Triangle> triangles;
+    std::size_t kept;
+    Box core{};
+};
+
+std::vector<Input> inputs() {
+    constexpr std::size_t kMany = 20000;
+    std::vector<Input> list{{"nothing", {}, 0},
+                            {"one", soup(1, 1), 1},
+                            {"two", soup(2, 2), 2},
+                            {"soup", soup(kMany, 3), kMany}};
+    Input flat{"points and lines", soup(kMany, 4), kMany};
+    for (std::size_t i = 0; i < kMany; ++i) {
+        Triangle& t = flat.triangles[i];
+        t.c = t.b;
+        if (i % 2 == 0) t.b = t.c = t.a;
+    }
+    list.push_back(flat);
+    Input heap{"one centre", soup(kMany, 5), kMany};
+    for (Triangle& t : heap.triangles) t.b = -t.a, t.c = vec3(0);
+    list.push_back(heap);
+    // Copies and what is not finite leave holes.
+    Input holes{"holes", soup(kMany, 6), 0};
+    for (std::size_t i = 0; i < kMany; ++i) {
+        Triangle& t = holes.triangles[i];
+        if (i % 3 == 0) t = holes.triangles[i / 3 % 20];
+        if (i % 1000 == 999) t.a.x = std::numeric_limits<float>::quiet_NaN();
+    }
+    list.push_back(holes);
+    Input bits{
+        "any finite numbers, most of them far out", soup(kMany, 7), kMany, {vec3(-1), vec3(1)}};
+    test::Numbers random(8);
+    for (std::size_t i = 0; i < kMany; ++i) {
+        bits.triangles[i].object = static_cast<std::uint32_t>(i); // no copies
+        for (vec3* corner : {&bits.triangles[i].a, &bits.triangles[i].b, &bits.triangles[i].c})
+            for (int k = 0; k < 3; ++k)
+                (*corner)[k] = i % 100 == 0 ? std::copysign(f32::kLargest, (*corner)[k])
+                                            : std::ldexp((*corner)[k],
+                                                         static_cast<int>(random.below(250)) - 125);
+    }
+    list.push_back(bits);
+    return list;
+}
+
+TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
+    for (const Input& input : inputs()) {
+        SCOPED_TRACE(input.name);
+        const Bvh one = build(input.triangles, input.core, kMaxLeaf, 1);
+        const std::size_t kept = input.triangles.size() - one.dropped - one.copies;
+        EXPECT_EQ(triangle_count(one), kept);
+        if (input.core.empty()) expect_sound(one, kept);
+        if (input.name == std::string("holes"))
+            EXPECT_GT(one.dropped * one.copies, 0u);
+        else
+            EXPECT_EQ(kept, input.kept);
+        for (const unsigned threads : {2U, 3U, 8U}) {
+            const Bvh many = build(input.triangles, input.core, kMaxLeaf, threads);
+            EXPECT_TRUE(same(one.nodes, many.nodes)) << threads;
+            EXPECT_TRUE(same(one.triangles, many.triangles)) << threads;
+            EXPECT_EQ(one.dropped, many.dropped);
+            EXPECT_EQ(one.copies, many.copies);
+        }
+    }
+}
+
+/// Each triangle that was finite is there once, as it was given, but for copies.
+TEST(BvhBuild, NothingIsLostBetweenThreads) {
+    for (const Input& input : inputs()) {
+        SCOPED_TRACE(input.name);
+        const Bvh bvh = build(input.triangles, input.core, kMaxLeaf, 3);
+        std::vector<char> seen(input.triangles.size());
+        for (std::size_t i = 0; i < bvh.triangles.size(); i += 3) {
+            const std::uint32_t number = number_of(bvh.triangles[i + 1].w);
+            ASSERT_LT(number, seen.size());
+            ASSERT_EQ(seen[number]++, 0);
+            const Triangle& t = input.triangles[number];
+            ASSERT_EQ(vec3(bvh.triangles[i]), t.a);
+            ASSERT_EQ(vec3(bvh.triangles[i + 1]), t.b);
+            ASSERT_EQ(vec3(bvh.triangles[i + 2]), t.c);
+        }
+    }
+}
+
+} // namespace
+} // namespace catoptric::bvh

@@ -1,0 +1,61 @@
+#include "core/parallel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+#include <string>
+
+namespace catoptric {
+namespace {
+
+TEST(Parallel, CallsEachNumberOnceOnAnyNumberOfThreads) {
+    for (const unsigned threads : {1U, 2U, 3U, 8U})
+        for (const std::size_t count : {0U, 1U, 2U, 1000U}) {
+            std::vector<std::atomic<int>> calls(count);
+            in_parallel(count, threads, [&](std::size_t i) { ++calls[i]; });
+            for (const std::atomic<int>& call : calls) EXPECT_EQ(call, 1);
+        }
+}
+
+TEST(Parallel, IsOnNoOtherThreadWhereOneIsEnough) {
+    const std::thread::id here = std::this_thread::get_id();
+    in_parallel(1, 8, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
+    in_parallel(100, 1, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
+}
+
+TEST(Parallel, WhatAnotherThreadThrowsComesOutHere) {
+    const std::thread::id here = std::this_thread::get_id();
+    std::atomic<bool> thrown = false;
+    const auto work = [&](std::size_t) {
+        while (std::this_thread::get_id() == here && !thrown) std::this_thread::yield();
+        if (std::this_thread::get_id() == here) return;
+        thrown = true;
+        throw std::runtime_error("there");
+    };
+    EXPECT_THROW(in_parallel(1000, 2, work), std::runtime_error);
+}
+
+/// The first to throw is not the one with the lowest number: that waits for it.
+TEST(Parallel, WhatTheLowestNumberThrowsComesOutHere) {
+    for (int round = 0; round < 20; ++round) {
+        std::atomic<int> thrown{0}, begun{0};
+        try {
+            in_parallel(10000, 3, [&](std::size_t i) {
+                ++begun;
+                while (i == 0 && thrown == 0) std::this_thread::yield();
+                if (i > 2) return;
+                ++thrown;
+                throw std::runtime_error("number " + std::to_string(i));
+            });
+            ADD_FAILURE() << "nothing was thrown";
+        } catch (const std::runtime_error& error) {
+            EXPECT_STREQ(error.what(), "number 0");
+        }
+        EXPECT_GE(thrown, 2);
+        EXPECT_LT(begun, 10000) << "the rest is left out";
+    }
+}
+
+} // namespace
+} // namespace catoptric
