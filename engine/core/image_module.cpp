@@ -1,11 +1,9 @@
 #include "core/image_module.hpp"
 
+#include "core/address_space.hpp"
 #include "core/error.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <iterator>
 
 #include <dlfcn.h>
 #include <link.h>
@@ -17,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "catoptric-images.so";
+constexpr std::size_t kRoom = std::size_t{512} << 20; // all its libraries
 constexpr const char* kWanted = "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
                                 "libopenimageio2.4)";
 
@@ -50,14 +49,11 @@ fs::path module_file() {
 
 const ImageCodecs* load() {
     const fs::path file = module_file();
+    check_address_space(kRoom, "OpenImageIO");
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // to the end of the process
-    if (!module) {
-        const std::string why = dlerror();
-        const bool is_memory = why.find(std::strerror(ENOMEM)) != std::string::npos;
-        fail(is_memory ? Failure::exhausted : Failure::internal,
-             "pictures cannot be read or written: ", file.string(), " cannot be loaded: ", why,
-             ". ", kWanted);
-    }
+    check(module != nullptr, Failure::internal,
+          "pictures cannot be read or written: ", file.string(),
+          " cannot be loaded: ", module ? "" : dlerror(), ". ", kWanted);
     const auto codecs = reinterpret_cast<ImageCodecsFunction>(dlsym(module, kImageCodecs));
     check(codecs != nullptr, Failure::internal,
           "pictures cannot be read or written: ", file.string(), " is of another version: wanted ",

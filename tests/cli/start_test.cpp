@@ -38,6 +38,17 @@ TEST_F(Start, TheLibraryOfPicturesIsLoadedWhenAFileNeedsIt) {
     EXPECT_THAT(reading.err, HasSubstr(kLibrary));
 }
 
+/// Not that its module is broken.
+TEST_F(Start, NoMemoryForTheLibraryOfPictures) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer itself takes address space without end";
+#endif
+    write_picture();
+    test::Start limited = start({"diff", "a.png", "a.png"});
+    limited.memory_limit = 400 << 20;
+    expect_ended(test::run_process(limited), 75, {"no memory for OpenImageIO", "ulimit -v"});
+}
+
 /// The program as it is installed, in bin/, with and without its module in lib/.
 class Installed : public Start {
 protected:
