@@ -21,10 +21,10 @@ constexpr const char* kWanted = "It comes with catoptric and wants OpenImageIO 2
 
 /// The folder of the library or program that this function is part of.
 fs::path own_folder() {
-    static const char here = 0;
+    static const char kHere = 0;
     Dl_info info{};
     link_map* own = nullptr;
-    const bool is_found = dladdr1(&here, &info, reinterpret_cast<void**>(&own), RTLD_DL_LINKMAP) !=
+    const bool is_found = dladdr1(&kHere, &info, reinterpret_cast<void**>(&own), RTLD_DL_LINKMAP) !=
                           0;
     check(is_found, Failure::internal, "this library's own file cannot be found");
     const bool is_program = own->l_name[0] == '\0';
@@ -64,8 +64,8 @@ const ImageCodecs* load() {
 } // namespace
 
 const ImageCodecs& image_codecs() {
-    static const ImageCodecs* const codecs = load();
-    return *codecs;
+    static const ImageCodecs* const kCodecs = load();
+    return *kCodecs;
 }
 
 } // namespace catoptric
