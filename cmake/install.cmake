@@ -5,6 +5,7 @@ include(CMakePackageConfigHelpers)
 install(TARGETS catoptric catoptric_cli EXPORT catoptricTargets
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS catoptric_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/catoptric)
 if(TARGET catoptric_view) # of users, not of programs that link the library
     install(TARGETS catoptric_view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

@@ -10,8 +10,9 @@
 #include <string_view>
 #include <vector>
 
-// Pictures as files have them, in memory. The only place that knows OpenImageIO, which opens no
-// file of its own accord here.
+// Pictures as files have them, in memory. All but the writing of PNG is OpenImageIO's, in a module
+// that is loaded when it is first asked for (core/image_module.hpp); `internal` where that is
+// missing.
 namespace catoptric {
 
 /// What the bytes begin as: "png", "jpeg", "openexr", "hdr", "bmp", "gif", "tiff", "webp", "dds",
@@ -46,8 +47,8 @@ private:
     std::unique_ptr<Open> open_;
 };
 
-/// The bytes of an "openexr" of floats, or a "png" of 8 bits, in sRGB. Same values, same bytes.
-/// Values are as ImageReader gives them.
+/// The bytes of an OpenEXR picture of floats, or a PNG of 8 bits, in sRGB, with 1 to 4 channels.
+/// Same values, same bytes. Values are as ImageReader gives them.
 std::string openexr_bytes(const ImageShape& shape, std::span<const float> values);
 std::string png_bytes(const ImageShape& shape, std::span<const std::uint8_t> values);
 

@@ -1,12 +1,12 @@
 #include "gpu/instance.hpp"
 
+#include "core/address_space.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
 #include <thread>
-
-#include <sys/mman.h>
 
 namespace catoptric::gpu {
 
@@ -17,15 +17,9 @@ constexpr const char* kNoDriver =
     "no Vulkan device: no driver is installed; install one for the graphics card, or the software "
     "driver: apt-get install mesa-vulkan-drivers";
 
-/// Under a limit of address space the loader says of a driver that it could not map what it says
-/// where there is none, and drivers crash. Throws `exhausted` where there is no room for one.
-void check_room_for_driver() {
-    constexpr std::size_t kRoom = std::size_t{256} << 20; // a software driver and its compiler
-    void* room = ::mmap(nullptr, kRoom, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    check(room != MAP_FAILED, Failure::exhausted, "no memory for a Vulkan driver: wanted ", kRoom,
-          " bytes of address space; is it limited (ulimit -v)?");
-    ::munmap(room, kRoom);
-}
+/// A software driver and its compiler. Without this room the loader says that it could not map a
+/// driver's file, and drivers crash.
+constexpr std::size_t kRoomForDriver = std::size_t{256} << 20;
 
 /// What `call(count, items)` lists: counted first, then fetched; both again where something came in
 /// between. What has gone in between is not there. `failed` is told of a result that is an error.
@@ -130,7 +124,7 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
     // Unless somebody tells it which one to take, the order that is made here is enough.
     if (!std::getenv("MESA_VK_DEVICE_SELECT") && !std::getenv("DRI_PRIME"))
         setenv("NODEVICE_SELECT", "1", 0);
-    check_room_for_driver();
+    check_address_space(kRoomForDriver, "a Vulkan driver");
     std::vector<const char*> layers, extensions;
     if (validate) {
         check(has_layer(kValidationLayer), Failure::usage, "--validate needs the layer ",

@@ -2,6 +2,7 @@
 #include "app/compare.hpp"
 
 #include "core/error.hpp"
+#include "core/image_module.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "places.hpp"
@@ -195,6 +196,7 @@ int run(const Options& options) {
     check_folder_can_be_made(std::filesystem::path(options.folder) / "images");
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
     check_places(options, requests);
+    image_codecs(); // where they are missing nothing need be rendered
     app::Engine engine(engine_options(options.common.device, options.common.validate));
     introduce(engine, options.common.manners);
     report::create_folder(options.folder);

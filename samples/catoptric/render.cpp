@@ -3,6 +3,7 @@
 #include "app/run.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/image_module.hpp"
 #include "drawn.hpp"
 #include "json.hpp"
 #include "measure/difference.hpp"
@@ -130,6 +131,7 @@ int run(const Options& options) {
     check_output(options);
     app::Request request = make_render_request(options);
     check_places(options, request.scene);
+    if (is_exr(options)) image_codecs(); // where they are missing nothing need be rendered
     app::Engine engine(engine_options(options.common.device, options.common.validate));
     introduce(engine, options.common.manners);
 

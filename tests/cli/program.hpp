@@ -1,6 +1,5 @@
 #pragma once
 
-#include "catoptric/program.hpp"
 #include "places.hpp"
 #include "support/folder.hpp"
 #include "support/process.hpp"
@@ -12,8 +11,7 @@
 #include <fstream>
 #include <iterator>
 
-/// The program in a folder of its own that is gone after the test: as it was built by `start`, its
-/// code in a copy of this process by `cli`.
+/// The program in a folder of its own that is gone after the test.
 class Cli : public test::InFolder {
 protected:
     using Words = std::vector<std::string>;
@@ -24,11 +22,7 @@ protected:
         start.folder = folder;
         return start;
     }
-    test::Ended cli(const Words& words) const {
-        test::Start quick = start(words);
-        quick.main = catoptric::cli::run_program;
-        return test::run_process(quick);
-    }
+    test::Ended cli(const Words& words) const { return test::run_process(start(words)); }
 
     /// A verb that renders, small and quick.
     static Words quick(Words words) {

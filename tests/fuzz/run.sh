@@ -11,17 +11,21 @@ compile() { # SOURCE; the compiler cache knows what is out of date
     local compiler=(clang++-16)
     ! command -v ccache >/dev/null || compiler=(ccache clang++-16)
     "${compiler[@]}" -std=c++20 -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined,fuzzer-no-link \
-        -fno-sanitize-recover=undefined -Iengine -Ishaders -Itests/fuzz -c "$1" -o "$folder/objects/${1//\//_}.o"
+        -fno-sanitize-recover=undefined -fPIC -Iengine -Ishaders -Itests/fuzz \
+        -DCATOPTRIC_MODULES_FROM_PROGRAMS='"."' -c "$1" -o "$folder/objects/${1//\//_}.o"
 }
 export -f compile
+module=engine/images/images.cpp
 sources=(engine/core/*.cpp engine/scene/*.cpp "tests/fuzz/$target.cpp")
 {
     flock 9 # targets share the engine's objects
-    printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" bash -c 'compile "$1"' compile
+    printf '%s\0' $module "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" bash -c 'compile "$1"' compile
     objects=("${sources[@]//\//_}")
     objects=("${objects[@]/#/$folder/objects/}")
     clang++-16 -fsanitize=address,undefined,fuzzer "${objects[@]/%/.o}" -o "$folder/$target/$target" \
-        -ltinygltf -ltinyobjloader -lOpenImageIO -lOpenImageIO_Util
+        -ltinygltf -ltinyobjloader -lpng
+    clang++-16 -shared -fsanitize=address,undefined "$folder/objects/${module//\//_}.o" \
+        -o "$folder/$target/catoptric-images.so" -lOpenImageIO -lOpenImageIO_Util
 } 9>"$folder/lock"
 # A leak of OpenImageIO's own tables is none of ours.
 LSAN_OPTIONS=suppressions=tests/fuzz/leaks.txt:print_suppressions=0 \

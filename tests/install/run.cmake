@@ -90,6 +90,7 @@ foreach(other parallax-face64 blend-amount0-face64)
     endif()
 endforeach()
 step(${WORK}/prefix/bin/catoptric --version)
+step(${WORK}/prefix/bin/catoptric diff ${WORK}/hello.png ${WORK}/hello.png) # finds its module, too
 if(EXISTS ${BUILD}/catoptric-view) # it is left out where its libraries are missing
     step(${WORK}/prefix/bin/catoptric-view --version)
 endif()

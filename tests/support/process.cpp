@@ -3,12 +3,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstddef>
-#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
-#include <iostream>
-#include <iterator>
 #include <thread>
 #include <utility>
 
@@ -39,17 +35,8 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
     return text;
 }
 
-std::ptrdiff_t thread_count() {
-    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
-}
-/// Of libraries that begin some when they are loaded.
-const std::ptrdiff_t kThreadsAtStart = thread_count();
-
-/// A copy has none of this process's threads, and codecs of pictures would wait for theirs.
-bool can_be_copied() { return thread_count() == kThreadsAtStart; }
-
 /// In the child, between fork and exec.
-[[noreturn]] void become(const Start& start, bool as_copy, int out, int err) {
+[[noreturn]] void become(const Start& start, int out, int err) {
     for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
     for (const auto& [resource, most] :
          {std::pair{RLIMIT_FSIZE, start.file_limit}, std::pair{RLIMIT_AS, start.memory_limit}}) {
@@ -67,13 +54,6 @@ bool can_be_copied() { return thread_count() == kThreadsAtStart; }
     for (const std::string& word : start.command)
         arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
-    if (as_copy) {
-        ::close_range(3, ~0U, 0); // ends of pipes, and what else an exec would have closed
-        const int code = start.main(static_cast<int>(start.command.size()), arguments.data());
-        std::cout.flush();
-        std::fflush(nullptr);
-        ::_exit(code); // libraries would wait for threads that only the original has
-    }
     ::execv(arguments[0], arguments.data());
     ::_exit(127);
 }
@@ -86,10 +66,8 @@ Ended run_process(const Start& start) {
     if (start.no_reader) ::close(out[0]);
     const Clock::time_point begin = Clock::now();
     Clock::time_point signalled = begin;
-    const bool as_copy = start.main != nullptr && can_be_copied();
-    if (as_copy) std::fflush(nullptr); // or the copy says it again
     const pid_t child = ::fork();
-    if (child == 0) become(start, as_copy, out[1], err[1]);
+    if (child == 0) become(start, out[1], err[1]);
     ::close(out[1]);
     ::close(err[1]);
     Ended ended;

@@ -19,11 +19,7 @@ struct Ended {
 };
 
 struct Start {
-    std::vector<std::string> command; ///< the program's path first
-    /// Where this process has begun no threads, this runs in a copy of it in place of that program,
-    /// which takes longer to load its libraries than to refuse an option. The copy ends without
-    /// destructors.
-    int (*main)(int, char**) = nullptr;
+    std::vector<std::string> command;                    ///< the program's path first
     std::map<std::string, std::string> environment = {}; ///< added to ours
     std::string out_path = {};      ///< stdout goes here instead of `Ended::out`
     bool no_reader = false;         ///< stdout is a pipe whose other end is closed

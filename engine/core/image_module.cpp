@@ -1,0 +1,71 @@
+#include "core/image_module.hpp"
+
+#include "core/address_space.hpp"
+#include "core/error.hpp"
+
+#include <filesystem>
+
+#include <dlfcn.h>
+#include <link.h>
+
+namespace catoptric {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFile = "catoptric-images.so";
+constexpr std::size_t kRoom = std::size_t{512} << 20; // all its libraries
+constexpr const char* kWanted = "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
+                                "libopenimageio2.4)";
+
+/// The folder of the library or program that this function is part of.
+fs::path own_folder() {
+    static const char kHere = 0;
+    Dl_info info{};
+    link_map* own = nullptr;
+    const bool is_found = dladdr1(&kHere, &info, reinterpret_cast<void**>(&own), RTLD_DL_LINKMAP) !=
+                          0;
+    check(is_found, Failure::internal, "this library's own file cannot be found");
+    const bool is_program = own->l_name[0] == '\0';
+    std::error_code error;
+    const fs::path file = fs::canonical(is_program ? "/proc/self/exe" : own->l_name, error);
+    check(!error, Failure::internal, is_program ? "/proc/self/exe" : own->l_name,
+          ": its folder cannot be found: ", error.message());
+    return file.parent_path();
+}
+
+/// The module's file: in a build tree beside the programs and the library, installed in a folder of
+/// its own beside the library.
+fs::path module_file() {
+    const fs::path own = own_folder();
+    const fs::path folders[] = {own, own / "catoptric",
+                                (own / CATOPTRIC_MODULES_FROM_PROGRAMS).lexically_normal()};
+    for (const fs::path& folder : folders)
+        if (fs::exists(folder / kFile)) return folder / kFile;
+    fail(Failure::internal, "pictures cannot be read or written: ", kFile, " is in none of ",
+         folders[0].string(), ", ", folders[1].string(), ", ", folders[2].string(), ". ", kWanted);
+}
+
+const ImageCodecs* load() {
+    const fs::path file = module_file();
+    check_address_space(kRoom, "OpenImageIO");
+    void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // to the end of the process
+    check(module != nullptr, Failure::internal,
+          "pictures cannot be read or written: ", file.string(),
+          " cannot be loaded: ", module ? "" : dlerror(), ". ", kWanted);
+    const auto codecs = reinterpret_cast<ImageCodecsFunction>(dlsym(module, kImageCodecs));
+    check(codecs != nullptr, Failure::internal,
+          "pictures cannot be read or written: ", file.string(), " is of another version: wanted ",
+          kImageCodecs, " in it, found none");
+    return codecs();
+}
+
+} // namespace
+
+const ImageCodecs& image_codecs() {
+    static const ImageCodecs* const kCodecs = load();
+    return *kCodecs;
+}
+
+} // namespace catoptric

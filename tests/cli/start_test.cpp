@@ -1,0 +1,111 @@
+// What the program loads when it starts, and what it says where that is missing.
+#include "cli/program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+class Start : public Cli {
+protected:
+    static constexpr const char* kLibrary = "libOpenImageIO.so";
+
+    /// The libraries that it loads, on stderr.
+    test::Ended traced(const Words& words) const {
+        test::Start asked = start(words);
+        asked.environment = {{"LD_DEBUG", "files"}};
+        return test::run_process(asked);
+    }
+    void write_picture() const {
+        const test::Ended ended = test::run_process(start(quick(
+            {"render", "--technique", "raytrace:depth=0,shadow=none", "--quiet", "-o", "a.png"})));
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    }
+};
+
+TEST_F(Start, TheLibraryOfPicturesIsLoadedWhenAFileNeedsIt) {
+    const auto expect_none = [&](const Words& words) {
+        const test::Ended ended = traced(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr("libstdc++.so")) << "nothing was traced";
+        EXPECT_THAT(ended.err, Not(HasSubstr(kLibrary))) << words.front();
+    };
+    expect_none({"--version"});
+    expect_none(quick({"render", "--technique", "raytrace:depth=0,shadow=none", "-o", "a.png"}));
+    const test::Ended reading = traced({"diff", "a.png", "a.png"});
+    EXPECT_EQ(reading.exit_code, 0) << reading.err;
+    EXPECT_THAT(reading.err, HasSubstr(kLibrary));
+}
+
+/// Not that its module is broken.
+TEST_F(Start, NoMemoryForTheLibraryOfPictures) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer itself takes address space without end";
+#endif
+    write_picture();
+    test::Start limited = start({"diff", "a.png", "a.png"});
+    limited.memory_limit = 400 << 20;
+    expect_ended(test::run_process(limited), 75, {"no memory for OpenImageIO", "ulimit -v"});
+}
+
+/// The program as it is installed, in bin/, with and without its module in lib/.
+class Installed : public Start {
+protected:
+    void SetUp() override {
+        write_picture();
+        fs::create_directories(modules);
+        fs::create_directories(program.parent_path());
+        std::error_code other_disk;
+        fs::create_hard_link(CATOPTRIC_CLI, program, other_disk);
+        if (other_disk) fs::copy_file(CATOPTRIC_CLI, program);
+    }
+    test::Ended installed(const Words& words) const {
+        test::Start asked = start(words);
+        asked.command.front() = program.string();
+        asked.environment = {{"VK_DRIVER_FILES", "/none"}}; // what is missing is said before
+        return test::run_process(asked);
+    }
+    void expect_missing(const Words& words, const Words& parts) const {
+        const test::Ended ended = installed(words);
+        expect_ended(ended, 70, parts);
+        expect_ended(ended, 70,
+                     {"pictures cannot be read or written: ",
+                      "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
+                      "libopenimageio2.4)"});
+    }
+    const Words diff = {"diff", "a.png", "a.png"};
+    const fs::path program = folder / "bin/catoptric";
+    const fs::path modules =
+        (program.parent_path() / CATOPTRIC_MODULES_FROM_PROGRAMS).lexically_normal();
+    const fs::path module = modules / "catoptric-images.so";
+};
+
+TEST_F(Installed, FindsTheModule) {
+    fs::create_symlink(CATOPTRIC_IMAGES, module);
+    EXPECT_EQ(installed(diff).exit_code, 0) << installed(diff).err;
+    fs::rename(module, folder / "bin/catoptric-images.so");
+    EXPECT_EQ(installed(diff).exit_code, 0) << installed(diff).err;
+}
+
+TEST_F(Installed, SaysWhereItLookedForTheModule) {
+    const std::string bin = program.parent_path().string();
+    const Words places = {"catoptric-images.so is in none of " + bin + ", " + bin + "/catoptric, " +
+                          modules.string() + ". "};
+    expect_missing(diff, places);
+    expect_missing({"compare", "-o", "out"}, places);
+    expect_missing({"render", "--technique", "reuse", "-o", "b.exr"}, places);
+    EXPECT_FALSE(fs::exists(folder / "b.exr"));
+    EXPECT_EQ(installed({"--version"}).exit_code, 0);
+}
+
+TEST_F(Installed, SaysWhatIsWrongWithTheModule) {
+    write(fs::relative(module, folder).string(), "no library");
+    expect_missing(diff, {module.string() + " cannot be loaded: "});
+    fs::remove(module);
+    fs::create_symlink(CATOPTRIC_LIBRARY, module);
+    expect_ended(installed(diff), 70,
+                 {module.string() + " is of another version: wanted catoptric_image_codecs_1"});
+}
+
+} // namespace

@@ -1,0 +1,58 @@
+// PNG as libpng writes it here, beside what OpenImageIO makes of the same values.
+#include "core/error.hpp"
+#include "core/image_codec.hpp"
+#include "core/image_module.hpp"
+#include "support/refusal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace catoptric {
+namespace {
+
+/// Runs of equal values and others, so that each of PNG's filters is taken somewhere.
+std::vector<std::uint8_t> values_of(uvec2 size, std::size_t channel_count) {
+    std::vector<std::uint8_t> values(std::size_t(size.x) * size.y * channel_count);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<std::uint8_t>(i % 7 < 3 ? i / 16 : i * i * 31 >> 3);
+    return values;
+}
+
+TEST(Png, IsByteForByteWhatOpenImageIOWrites) {
+    for (const uvec2 size : {uvec2(1, 1), uvec2(7, 3), uvec2(300, 200)})
+        for (std::size_t channel_count = 1; channel_count <= 4; ++channel_count) {
+            const std::vector<std::uint8_t> values = values_of(size, channel_count);
+            const CodecValue type = CodecValue::uint8;
+            std::string wanted;
+            const CodecResult made = image_codecs().encode(
+                "png", {size, channel_count, type, values.data()}, wanted);
+            ASSERT_EQ(made.answer, CodecAnswer::done) << made.why;
+            EXPECT_TRUE(png_bytes({size, channel_count, {}}, values) == wanted)
+                << size.x << "x" << size.y << " with " << channel_count << " channels";
+        }
+}
+
+TEST(Png, SaysWhatItCannotWrite) {
+    const std::vector<std::uint8_t> values(10);
+    EXPECT_THAT(test::refusal(Failure::internal,
+                              [&] {
+                                  png_bytes({{2, 1}, 5, {}}, values);
+                              }),
+                testing::HasSubstr("a picture of 2x1 cannot be written as PNG: wanted 1 to 4 "
+                                   "channels, found 5 and 10 values"));
+    EXPECT_THAT(
+        test::refusal(Failure::internal,
+                      [&] {
+                          png_bytes({{2, 2}, 3, {}}, values);
+                      }),
+        testing::HasSubstr("2x2 cannot be written as PNG: wanted 1 to 4 channels, found 3 and 10"));
+    const std::vector<std::uint8_t> row(2'000'000);
+    EXPECT_THAT(test::refusal(Failure::internal,
+                              [&] {
+                                  png_bytes({{2'000'000, 1}, 1, {}}, row);
+                              }),
+                testing::HasSubstr("libpng cannot encode a picture of 2000000x1: "));
+}
+
+} // namespace
+} // namespace catoptric
