@@ -1,0 +1,136 @@
+// Our walk of the hierarchy beside the device's own ray query on the same rays, in turn in one
+// process: processor time of all threads, since the driver that has ray queries may be a second
+// one.
+//   catoptric_ray_query [ROUNDS]   at least 6; exit code 69 where no device has them
+#include "drivers/ray_query.hpp"
+#include "app/bench_subjects.hpp"
+#include "measure/statistics.hpp"
+#include "render/geometry.hpp"
+#include "scene/load.hpp"
+#include "support/numbers.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+namespace {
+
+using namespace catoptric;
+using test::KernelHit;
+using test::KernelRay;
+
+constexpr int kAcross = 512;           // of the picture, in rays
+constexpr std::size_t kFewRays = 64;   // what a call costs besides its rays
+constexpr std::size_t kMostOther = 40; // hits of one that the other has not, at edges
+constexpr int kNoDevice = 69;
+
+std::vector<bvh::Triangle> triangles_of(const scene::Scene& scene, const render::Space& space) {
+    const render::Geometry geometry = render::make_geometry(scene, space);
+    std::vector<bvh::Triangle> triangles;
+    for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3) {
+        const auto corner = [&](std::size_t k) {
+            return geometry.vertices[geometry.indices[i + k]].position;
+        };
+        triangles.push_back({corner(0), corner(1), corner(2), 0, 0});
+    }
+    return triangles;
+}
+
+/// One through each pixel of the scene's first camera, neighbours beside each other: blocks of 8x8.
+std::vector<KernelRay> camera_rays(const scene::Scene& scene, const render::Space& space) {
+    const scene::Camera& camera = scene.cameras.front();
+    const dvec3 forward = normalize(camera.target - camera.eye),
+                right = normalize(cross(forward, camera.up)), up = cross(right, forward);
+    const double half = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
+    std::vector<KernelRay> rays;
+    for (int i = 0; i < kAcross * kAcross; ++i) {
+        const int block = i / 64, x = block % (kAcross / 8) * 8 + i % 8,
+                  y = block / (kAcross / 8) * 8 + i / 8 % 8;
+        const dvec2 place = (dvec2(x, y) + .5) / (kAcross / 2.0) - 1.0;
+        rays.push_back(
+            {.origin = vec3(space.point(camera.eye)),
+             .direction = vec3(normalize(forward + half * (place.x * right - place.y * up)))});
+    }
+    return rays;
+}
+
+/// From anywhere in the middle of the room in any direction.
+std::vector<KernelRay> scattered_rays(std::span<const bvh::Triangle> triangles) {
+    Bounds<float> box;
+    for (const bvh::Triangle& t : triangles)
+        for (const vec3& corner : {t.a, t.b, t.c}) box.add(corner);
+    test::Numbers random(7);
+    std::vector<KernelRay> rays;
+    for (int i = 0; i < kAcross * kAcross; ++i)
+        rays.push_back({.origin = box.centre() + .4f * box.extent() * random.in_cube(),
+                        .direction = random.direction()});
+    return rays;
+}
+
+std::size_t differing(const std::vector<KernelHit>& a, const std::vector<KernelHit>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        count += a[i].found() != b[i].found() ||
+                 !(std::abs(a[i].t - b[i].t) <= 1e-4f * std::max(1.0f, std::abs(a[i].t)));
+    return count;
+}
+
+double processor_ms(const measure::Benchmark& found, std::size_t round) {
+    return costs_of(found, measure::Cost::cpu_time)[round];
+}
+
+/// Prints how many times our processor time the ray query takes.
+void compare(const char* name, std::span<const bvh::Triangle> triangles,
+             const std::vector<KernelRay>& rays, const test::RayQuery& query, int rounds) {
+    test::Kernel kernel(triangles);
+    const std::size_t other = differing(kernel.closest(rays), query.closest(triangles, rays));
+    check(other <= kMostOther, Failure::internal, name, ": ", other, " of ", rays.size(),
+          " rays meet something else, at most ", kMostOther, " may");
+    const std::vector<KernelRay> few(rays.begin(), rays.begin() + kFewRays);
+    const std::vector<app::Subject> subjects{
+        app::subject_of("ours", [&] { kernel.closest(rays); }),
+        app::subject_of("ours, few", [&] { kernel.closest(few); }),
+        app::subject_of("query", [&] { query.closest(triangles, rays); }),
+        app::subject_of("query, few", [&] { query.closest(triangles, few); })};
+    const app::UsageMeter meter(app::UsageMeter::Of::process);
+    const std::vector<measure::Benchmark> found = app::measure_rounds(
+        subjects, meter, {.iterations = 3 * rounds, .rounds = rounds, .watcher = {}});
+    std::vector<double> ours, theirs, ratios;
+    for (std::size_t i = 0; i < found[0].rounds.size(); ++i) {
+        ours.push_back(processor_ms(found[0], i) - processor_ms(found[1], i));
+        theirs.push_back(processor_ms(found[2], i) - processor_ms(found[3], i));
+        ratios.push_back(theirs.back() / ours.back());
+    }
+    const measure::Summary ratio = measure::summarise(ratios);
+    std::printf(
+        "%-10s %zu rays: ours %.1f ms, ray query %.1f ms, which is %.2f times [%.2f - %.2f]; %zu rays differ\n",
+        name, rays.size(), measure::summarise(ours).median, measure::summarise(theirs).median,
+        ratio.median, ratio.p05, ratio.p95, other);
+}
+
+} // namespace
+
+int main(int argc, char** argv) try {
+    const int rounds = argc > 1 ? std::max(6, std::atoi(argv[1])) : 6;
+    std::string reason;
+    const auto device = test::RayQueryDevice::open(reason);
+    if (!device) {
+        std::fprintf(stderr, "catoptric_ray_query: %s\n", reason.c_str());
+        return kNoDevice;
+    }
+    const test::RayQuery query(*device);
+    const scene::Scene scene = scene::cornell_mirrors();
+    const render::Space space = render::space_of(scene);
+    const std::vector<bvh::Triangle> triangles = triangles_of(scene, space);
+    std::printf("walk on %s, ray query on %s; %zu triangles\n",
+                test::bench().device.info().driver.c_str(), device->name().c_str(),
+                triangles.size());
+    compare("camera", triangles, camera_rays(scene, space), query, rounds);
+    compare("scattered", triangles, scattered_rays(triangles), query, rounds);
+    test::detail::devices = {}; // drivers do not like to be called while the program is unloaded
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "catoptric_ray_query: %s\n", error.what());
+    return 1;
+}
