@@ -33,9 +33,9 @@ protected:
                 names.push_back(graph.passes()[planned.pass].name);
         return names;
     }
-    void settle() {
+    void settle(const std::string& technique = "parallax:face=8") {
         for (int k = 0; k < 40; ++k)
-            if (frame().empty()) return;
+            if (frame(technique).empty()) return;
         ADD_FAILURE() << "captures are still drawn";
     }
     /// Colours of a mirror's capture, from 0.
@@ -70,6 +70,23 @@ TEST_F(KeptFrames, DrawTheFacesWhoseStampChanged) {
     model_.mirrors[0].stamps[5] += 1;
     EXPECT_EQ(frame(), Names{"capture/1.6-6"});
     EXPECT_EQ(frame(), Names());
+}
+
+// Of all six faces together, and of each mirror by itself.
+TEST_F(KeptFrames, MakeThePyramidOverACubeOfWhichAFaceIsDrawn) {
+    for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
+    const std::string pyramid = "pyramid:face=8";
+    EXPECT_EQ(frame(pyramid).back(), "pyramid");
+    settle(pyramid);
+    EXPECT_EQ(frame(pyramid), Names());
+    for (const std::size_t mirror : {0, 1, 2}) {
+        model_.mirrors[mirror].stamps[5] += 1;
+        const std::string drawn = "capture/" + std::to_string(mirror + 1) + ".6-6";
+        EXPECT_EQ(frame(pyramid), (Names{"capture.keep", drawn, "pyramid"}));
+        model_.mirrors[mirror].stamps[5] += 1;
+        EXPECT_EQ(frame(pyramid), (Names{drawn, "pyramid"})) << "the other set has the rest";
+        EXPECT_EQ(frame(pyramid), Names());
+    }
 }
 
 TEST_F(KeptFrames, ShowNothingInFacesThatNobodyLooksAt) {
