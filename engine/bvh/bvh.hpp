@@ -79,13 +79,22 @@ struct Run {
     bool operator==(const Run&) const = default;
 };
 
+/// What of a tree is to be looked at when some objects move.
+struct Reach {
+    std::vector<std::uint32_t> triangles; ///< places in the order of the leaves, rising
+    std::vector<std::uint32_t> boxes;     ///< 2 * node + side, those below before those above
+};
+
+/// Triangles of the objects, by number whether they may move, and the boxes that hold some. O(n).
+Reach reach_of(const Bvh& bvh, std::span<const char> objects);
+
 /// The same tree over the same triangles elsewhere: `triangles` as they were given to `build`, in
-/// the same order, moved. `objects`: by number, whether triangles of it may have moved; empty: of
-/// all. Returns the run of Bvh::triangles outside of which none did. What a ray meets does not
-/// depend on whether a tree was built or refitted. O(n), a tenth of a build, less where few
-/// triangles move. Throws `Failure::internal` where a triangle that was finite is not.
+/// the same order, moved. `reach`: of all objects that may have moved; null: all have. Returns the
+/// run of Bvh::triangles outside of which none did. What a ray meets does not depend on whether a
+/// tree was built or refitted. O(what is reached), a tenth of a build for all. Throws
+/// `Failure::internal` where a triangle that was finite is not.
 Run refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
-          std::span<const char> objects = {});
+          const Reach* reach = nullptr);
 
 /// What the surface area heuristic expects of a ray's walk, times the area of the whole: rises as
 /// the triangles of a refitted tree move away from their neighbours. O(n).

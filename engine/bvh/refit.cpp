@@ -60,47 +60,63 @@ bool move(Bvh& bvh, std::size_t place, std::span<const Triangle> triangles) {
     return moved;
 }
 
-/// Boxes of children that hold something that moved; of all, where `all`.
-void move_boxes(Bvh& bvh, const std::vector<char>& moved, const Box& slack, bool all) {
-    std::vector<char> changed(node_count(bvh));
-    const auto has_changed = [&](std::uint32_t child) {
-        if (f32::bvh_is_inner(child)) return changed[f32::bvh_index(child)] != 0;
-        const auto first = moved.begin() + f32::bvh_index(child);
-        return std::any_of(first, first + f32::bvh_count(child), [](char c) { return c != 0; });
-    };
-    // A node comes before what is below it.
-    for (std::size_t node = node_count(bvh); node-- > 1;) {
-        vec4* texel = &bvh.nodes[4 * node];
-        for (int side = 0; side < 2; ++side) {
-            const std::uint32_t child = bits(texel[side].w);
-            if (!all && !has_changed(child)) continue;
-            const Box box = child_bounds(bvh, child, slack);
-            bvh.cost += cost_of_child(child, box) -
-                        cost_of_child(child, {vec3(texel[2 * side]), vec3(texel[2 * side + 1])});
-            texel[2 * side] = vec4(box.lo, texel[2 * side].w);
-            texel[2 * side + 1] = vec4(box.hi, texel[2 * side + 1].w);
-            changed[node] = 1;
-        }
-    }
+void move_box(Bvh& bvh, std::uint32_t place, const Box& slack) {
+    vec4* texel = &bvh.nodes[4 * std::size_t{place / 2}];
+    vec4 &lo = texel[2 * (place % 2)], &hi = texel[2 * (place % 2) + 1];
+    const std::uint32_t child = bits(texel[place % 2].w);
+    const Box box = child_bounds(bvh, child, slack);
+    bvh.cost += cost_of_child(child, box) - cost_of_child(child, {vec3(lo), vec3(hi)});
+    lo = vec4(box.lo, lo.w);
+    hi = vec4(box.hi, hi.w);
 }
 
 } // namespace
 
-Run refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core,
-          std::span<const char> objects) {
-    std::vector<char> moved(triangle_count(bvh));
-    Run run;
-    for (std::size_t place = 0; place < moved.size(); ++place) {
-        if (!objects.empty() && !objects[number_of(bvh.triangles[3 * place].w)]) continue;
-        if (!move(bvh, place, triangles)) continue;
-        moved[place] = 1;
-        run = {run.end == 0 ? 3 * place : run.first, 3 * place + 3};
+Reach reach_of(const Bvh& bvh, std::span<const char> objects) {
+    Reach reach;
+    std::vector<char> moves(triangle_count(bvh)), holds(node_count(bvh));
+    for (std::uint32_t place = 0; place < moves.size(); ++place) {
+        if (!objects[number_of(bvh.triangles[3 * std::size_t{place}].w)]) continue;
+        moves[place] = 1;
+        reach.triangles.push_back(place);
     }
+    const auto is_reached = [&](std::uint32_t child) {
+        if (f32::bvh_is_inner(child)) return holds[f32::bvh_index(child)] != 0;
+        const auto first = moves.begin() + f32::bvh_index(child);
+        return std::any_of(first, first + f32::bvh_count(child), [](char c) { return c != 0; });
+    };
+    // A node comes before what is below it.
+    for (auto node = static_cast<std::uint32_t>(node_count(bvh)); node-- > 1;) {
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            if (!is_reached(bits(bvh.nodes[4 * std::size_t{node} + side].w))) continue;
+            reach.boxes.push_back(2 * node + side);
+            holds[node] = 1;
+        }
+    }
+    return reach;
+}
+
+Run refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core,
+          const Reach* reach) {
+    Run run;
+    const auto move_one = [&](std::size_t place) {
+        if (move(bvh, place, triangles))
+            run = {run.end == 0 ? 3 * place : run.first, 3 * place + 3};
+    };
+    if (reach)
+        std::ranges::for_each(reach->triangles, move_one);
+    else
+        for (std::size_t place = 0; place < triangle_count(bvh); ++place) move_one(place);
     Box slack = core;
     if (slack.empty())
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3)
             slack.add(bounds_of(&bvh.triangles[i]));
-    move_boxes(bvh, moved, slack, vec3(bvh.nodes[0]) != slack.lo || vec3(bvh.nodes[1]) != slack.hi);
+    // How much boxes of what lies far out are wider depends on where the rest is.
+    if (reach && vec3(bvh.nodes[0]) == slack.lo && vec3(bvh.nodes[1]) == slack.hi)
+        for (const std::uint32_t place : reach->boxes) move_box(bvh, place, slack);
+    else
+        for (auto place = 2 * static_cast<std::uint32_t>(node_count(bvh)); place-- > 2;)
+            move_box(bvh, place, slack);
     bvh.nodes[0] = vec4(slack.lo, bvh.nodes[0].w);
     bvh.nodes[1] = vec4(slack.hi, bvh.nodes[1].w);
     return run;

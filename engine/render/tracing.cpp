@@ -81,6 +81,7 @@ void Tracing::lay_out() {
 void Tracing::build(Hierarchy& hierarchy, const Geometry& geometry,
                     std::span<const bvh::Triangle> flat) {
     hierarchy.tree = bvh::build(flat, geometry.core);
+    hierarchy.reached.clear();
     hierarchy.cost_when_built = hierarchy.tree.cost;
     hierarchy.changed = {0, hierarchy.tree.triangles.size()};
     ++built_;
@@ -88,7 +89,11 @@ void Tracing::build(Hierarchy& hierarchy, const Geometry& geometry,
 
 void Tracing::refit(Hierarchy& hierarchy, const Geometry& geometry,
                     std::span<const bvh::Triangle> flat) {
-    hierarchy.changed = bvh::refit(hierarchy.tree, flat, geometry.core, hierarchy.moved);
+    if (hierarchy.moved != hierarchy.reached) { // mostly the same things move from frame to frame
+        hierarchy.reach = bvh::reach_of(hierarchy.tree, hierarchy.moved);
+        hierarchy.reached = hierarchy.moved;
+    }
+    hierarchy.changed = bvh::refit(hierarchy.tree, flat, geometry.core, &hierarchy.reach);
     ++refitted_;
     // Written so that a NaN builds too.
     if (!(hierarchy.tree.cost <= kWorstRefit * hierarchy.cost_when_built))

@@ -62,8 +62,10 @@ private:
         bvh::Bvh tree; ///< of what is in scene units
         double cost_when_built = 0;
         Version seen;
-        std::vector<char> moved; ///< by object in scene units, since then
-        bvh::Run changed;        ///< of the tree's triangles, since they were filled
+        std::vector<char> moved;   ///< by object in scene units, since then
+        std::vector<char> reached; ///< likewise, those of `reach`
+        bvh::Reach reach;
+        bvh::Run changed; ///< of the tree's triangles, since they were filled
         Resident nodes, triangles;
     };
     Hierarchy& of(Spheres spheres) { return hierarchies_[static_cast<std::size_t>(spheres)]; }

@@ -433,17 +433,31 @@ TEST(Refit, RaysMeetWhatTheyMeetInANewTree) {
     EXPECT_GT(found, 15000u);
 }
 
+/// The least run of stored triangles outside of which both hold the same.
+Run run_of(const Bvh& before, const Bvh& after) {
+    Run run;
+    for (std::size_t i = 0; i < after.triangles.size(); i += 3)
+        if (std::memcmp(&before.triangles[i], &after.triangles[i], 3 * sizeof(vec4)) != 0)
+            run = {run.end == 0 ? i : run.first, i + 3};
+    return run;
+}
+
 /// What is left alone where little moves is what would have been made anew: the same bytes by way
 /// of another core, for which all boxes are made.
 TEST(Refit, WhereOneThingMovedTheTreeIsWhatItWouldBeOtherwise) {
     for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
         std::vector<Triangle> triangles = soup(500, 6);
+        for (std::size_t i = 0; i < triangles.size(); ++i)
+            triangles[i].object = i >= 80 && i < 150 ? 1 : 0;
         Bvh few = build(triangles, core), all = few;
+        const Reach reach = reach_of(few, std::vector<char>{0, 1});
+        EXPECT_LT(reach.boxes.size(), node_count(few)) << "half of them";
         test::Numbers random(23);
         for (int step = 0; step < 5; ++step) {
             for (std::size_t i = 100; i < 140; ++i) triangles[i].b += random.in_cube();
             triangles[90].a = -triangles[90].a; // a zero that changes its sign is elsewhere, too
-            refit(few, triangles, core);
+            const auto run = refit(few, triangles, core, &reach);
+            EXPECT_EQ(run, run_of(all, few));
             std::vector<Triangle> elsewhere = triangles;
             for (Triangle& t : elsewhere) t.a += vec3(1), t.b += vec3(1), t.c += vec3(1);
             refit(all, elsewhere, {vec3(-9), vec3(9)});
