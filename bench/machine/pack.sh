@@ -2,8 +2,8 @@
 # Packs what another machine needs to measure and test this build: programs, the libraries that they load, the files
 # that their tests read, and run.sh. That machine needs bash, the usual commands beside it, tar and a Vulkan driver.
 # Called by ./dev pack: pack.sh BUILD [--small] [ARCHIVE]. Needs a finished build; writes nothing but ARCHIVE
-# (catoptric-kit.tar.gz; .tar.xz is half as large). --small leaves out the library of picture files with what it loads,
-# most of it all; then run.sh leaves out compare, which writes OpenEXR.
+# (catoptric-kit.tar.gz; .tar.xz takes minutes and is much smaller). --small leaves out the library of picture files with what it loads,
+# more than half of it all; then run.sh leaves out compare, which writes OpenEXR.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
@@ -71,6 +71,7 @@ cp "$here/run.sh" "$kit/"
 git -C "$source" describe --always --dirty >"$kit/commit.txt"
 # Made aside: an archive that is there is a whole one.
 new=$(dirname "$archive")/new-$(basename "$archive")
+export XZ_OPT=${XZ_OPT:--9} # whose window is wider than a program: they share most of what they are
 tar -C "$work" -caf "$new" catoptric-kit
 mv "$new" "$archive"
 echo "packed: $archive ($(du -h "$archive" | cut -f 1))"
