@@ -111,7 +111,7 @@ step info "$catoptric" info --json "${device[@]}"
 wanted bench "$catoptric" bench "${device[@]}" "${small[@]}" --rounds "$rounds" -o "$results/bench.json" --quiet
 if [[ -e bin/catoptric-images.so ]]; then
     wanted compare "$catoptric" compare "${device[@]}" "${small[@]}" -o "$results/compare" --quiet
-else
+elif is_wanted compare; then
     note compare left-out 0 # packed with --small
 fi
 wanted stress "$catoptric" stress "${device[@]}" "${stress[@]}" -o "$results/stress" --quiet
