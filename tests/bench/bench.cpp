@@ -10,6 +10,7 @@
 #include "repeats.hpp"
 #include "scene/load.hpp"
 #include "scene/repair.hpp"
+#include "support/wanted_device.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -67,9 +68,11 @@ void compare(const char* title, const Side& a, const Side& b, const app::Request
 }
 
 void compare_shapes(const app::Request& base, int rounds) {
-    app::Engine plain({}),
-        naive_engine({.shader_variants = {{"raytrace.comp", "raytrace.comp#naive"}}}),
-        faces_engine({.layered = false});
+    const std::string device = test::wanted_device();
+    app::Engine plain({.device = device}),
+        naive_engine(
+            {.device = device, .shader_variants = {{"raytrace.comp", "raytrace.comp#naive"}}}),
+        faces_engine({.device = device, .layered = false});
     Side fast{"default", plain, "raytrace:depth=4"},
         naive{"naive", naive_engine, "raytrace:depth=4"};
     std::printf("%s, %s\n", plain.device().name.c_str(), plain.device().driver.c_str());
@@ -138,7 +141,7 @@ void compare_rules(const app::Request& base, int rounds) {
         {"\"nothing there\" is asked for", "parallax", "parallax:without=void_test"},
         {"hit points in doubles (no rule)", "raytrace:hit=f64", "raytrace"},
         {"colour in floats (no rule)", "parallax:colour=float", "parallax"}};
-    app::Engine engine({});
+    app::Engine engine({.device = test::wanted_device()});
     std::printf("%s, %s; 512x512, %d pairs\n\n", engine.device().name.c_str(),
                 engine.device().driver.c_str(), rounds);
     std::printf(

@@ -16,8 +16,7 @@ inline constexpr const char* kNoSecondDriver =
 /// What a process needs in its environment to see that driver and no other; nothing where it was
 /// not set up.
 inline std::optional<std::map<std::string, std::string>> second_driver() {
-    const std::filesystem::path place = std::filesystem::path(CATOPTRIC_SOURCE_DIR) /
-                                        "build/drivers/mesa25";
+    const std::filesystem::path place = source_folder() / "build/drivers/mesa25";
     if (!std::filesystem::exists(place / "icd.json")) return {};
     const char* libraries = std::getenv("LD_LIBRARY_PATH");
     return {{{"VK_DRIVER_FILES", place / "icd.json"},

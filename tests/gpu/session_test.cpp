@@ -336,7 +336,7 @@ TEST(Session, TellsWhatWasNeededOnce) {
 TEST(Session, PipelinesAreCompiledOnceAnEngine) {
     const scene::Scene scene = test::room(1, 1);
     const auto begin = std::chrono::steady_clock::now();
-    app::Engine engine({});
+    app::Engine engine({.device = test::wanted_device()});
     EXPECT_EQ(engine.compiled().pipelines, 0u);
     EXPECT_EQ(engine.cache_use(), app::CacheUse::none);
     const app::FrameSpec spec = spec_of(scene, "raytrace:depth=1");

@@ -195,7 +195,7 @@ TEST_P(EveryTechnique, RendersASceneWithoutMirrorsAndOneWithoutLight) {
 TEST(Table, IsAsLongAsTheFolder) {
     std::size_t rows = 0;
     for (const auto& entry :
-         std::filesystem::directory_iterator(CATOPTRIC_SOURCE_DIR "/engine/reflect")) {
+         std::filesystem::directory_iterator(test::source_folder() / "engine/reflect")) {
         if (entry.path().extension() != ".cpp") continue;
         std::ifstream file(entry.path());
         const std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -14,14 +14,17 @@ namespace {
 
 using namespace catoptric;
 
+std::filesystem::path shipped(const std::string& ending) {
+    return test::source_folder() / "samples/scenes" / ("cornell-mirrors." + ending);
+}
+
 class Shipped : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Files, Shipped, testing::Values("glb", "obj"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(Shipped, RendersAsTheBuiltInScene) {
     const scene::Scene built_in = scene::cornell_mirrors();
-    const scene::Scene loaded = scene::load(
-        std::string(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.") + GetParam());
+    const scene::Scene loaded = scene::load(shipped(GetParam()));
     for (const char* technique : {"raytrace", "parallax"})
         for (const double time : {0.0, 0.7}) {
             app::Request request = test::request(built_in, {technique}, {256, 256});
@@ -75,14 +78,11 @@ using Nested = test::InFolder;
 
 /// N4: a thousand nodes one in another, some 7 times as large and far away: the same picture.
 TEST_F(Nested, RendersBelowAThousandNodes) {
-    std::ifstream file(CATOPTRIC_SOURCE_DIR "/samples/scenes/cornell-mirrors.glb",
-                       std::ios::binary);
+    std::ifstream file(shipped("glb"), std::ios::binary);
     const std::string glb((std::istreambuf_iterator<char>(file)), {});
     const std::filesystem::path path = folder / "nested.glb";
     std::ofstream(path, std::ios::binary) << below_nodes(glb, 1000);
-    const scene::Scene flat = scene::load(CATOPTRIC_SOURCE_DIR
-                                          "/samples/scenes/cornell-mirrors.glb"),
-                       nested = scene::load(path);
+    const scene::Scene flat = scene::load(shipped("glb")), nested = scene::load(path);
     const dmat4 there = nested.objects.front().world_from_object,
                 here = flat.objects.front().world_from_object;
     EXPECT_NEAR(length(dvec3(there[0])) / length(dvec3(here[0])), std::pow(1.002, 1000), 1e-6);

@@ -3,6 +3,7 @@
 #include "app/run.hpp"
 #include "graph/run.hpp"
 #include "support/refusal.hpp"
+#include "support/wanted_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +69,8 @@ inline const bool watched = [] {
 inline Bench& bench(bool staged = false) {
     auto& made = detail::devices.benches[staged];
     if (!made)
-        made = std::make_unique<Bench>(gpu::DeviceOptions{.validate = true, .staged = staged});
+        made = std::make_unique<Bench>(
+            gpu::DeviceOptions{.wanted = wanted_device(), .validate = true, .staged = staged});
     return *made;
 }
 
@@ -77,7 +79,7 @@ inline app::Engine& engine(bool layered = true) {
     auto& made = detail::devices.engines[layered];
     if (!made)
         made = std::make_unique<app::Engine>(
-            app::EngineOptions{.validate = true, .layered = layered});
+            app::EngineOptions{.device = wanted_device(), .validate = true, .layered = layered});
     return *made;
 }
 

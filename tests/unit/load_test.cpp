@@ -14,7 +14,7 @@ namespace {
 
 using namespace test::loading;
 
-const fs::path kSamples = fs::path(CATOPTRIC_SOURCE_DIR) / "samples" / "scenes";
+const fs::path kSamples = test::source_folder() / "samples" / "scenes";
 
 void expect_near(const dvec3& found, const dvec3& wanted, double tolerance) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], wanted[i], tolerance) << "component " << i;

@@ -13,8 +13,7 @@ namespace {
 
 using namespace catoptric;
 
-const std::filesystem::path kMutations = std::filesystem::path(CATOPTRIC_SOURCE_DIR) /
-                                         "tests/mutations";
+const std::filesystem::path kMutations = test::source_folder() / "tests/mutations";
 
 bool is_there(const std::string& patch) {
     return std::filesystem::exists(kMutations / "stress" / (patch + ".patch")) ||

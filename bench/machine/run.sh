@@ -1,0 +1,125 @@
+#!/usr/bin/env bash
+# Measures and tests the programs that lie beside this script (./dev pack) on this machine, and leaves one archive.
+# Needs bash, tar, gzip, timeout and other usual commands, and a Vulkan driver. Writes nothing outside its folder.
+set -uo pipefail
+export PATH=${PATH:-/usr/local/bin:/usr/bin:/bin} LC_ALL=C
+cd "$(dirname "$0")" || exit 1
+here=$PWD
+
+usage() {
+    cat <<'TEXT'
+run.sh [-d DEVICE] [-t SECONDS] [--quick] [STEP...]
+  -d DEVICE    index from 0 or part of a name, as 'catoptric list devices' has it (the fastest kind)
+  -t SECONDS   the most that one step may take (600)
+  --quick      small pictures, few rounds, a few tests: whether all of it runs
+  STEP         only those whose names hold one of these words; 'devices' and 'info' always run
+Steps: devices, info, bench, compare, stress, ratios, and gpu/..., reflect/..., drivers/... of tests.txt.
+Exit code 0 when every step ended with 0, 1 otherwise. The archive is there in either case, and when this is stopped.
+TEXT
+}
+device=() limit=600 quick=0 only=()
+while (($#)); do
+    case $1 in
+    -d) device=(--device "${2:?-d wants a DEVICE}"); export CATOPTRIC_TEST_DEVICE=$2; shift ;;
+    -t) limit=${2:?-t wants SECONDS}; shift ;;
+    --quick) quick=1 ;;
+    -h | --help) usage; exit 0 ;;
+    -*) echo "run.sh: no option '$1'" >&2; usage >&2; exit 2 ;;
+    *) only+=("$1") ;;
+    esac
+    shift
+done
+
+name=results-${HOSTNAME:-machine}-$(date -u +%Y%m%d-%H%M%S)
+results=$here/$name
+mkdir -p "$results" work/{home,cache,tmp} || exit 1
+# What drivers and programs keep, they keep in here.
+export HOME=$here/work/home XDG_CACHE_HOME=$here/work/cache XDG_CONFIG_HOME=$here/work/home TMPDIR=$here/work/tmp
+export MESA_SHADER_CACHE_DIR=$here/work/cache __GL_SHADER_DISK_CACHE_PATH=$here/work/cache
+# Where tests look for what they read at home in the tree that they were built in.
+export CATOPTRIC_TEST_SOURCE=$here/source CATOPTRIC_TEST_BUILD=$here/bin
+export VK_ADD_LAYER_PATH=$here/layers
+
+# Drivers share libraries with these programs, and were built for what the machine has: where that is newer than what
+# came along under the same name, it is the machine's that both load.
+rm -rf work/lib
+mkdir -p work/lib
+declare -A machine_has
+while read -r file place; do machine_has[$file]=${machine_has[$file]:-$place}; done < <(
+    { ldconfig -p || /sbin/ldconfig -p; } 2>/dev/null | sed -n 's|^\s*\(\S*\) (libc6,[^)]*64.* => \(/.*\)|\1 \2|p')
+is_newer() { # is_newer THEIRS OWN: as names with versions in them
+    [[ $1 != "$2" && $(printf '%s\n' "$1" "$2" | sort -V | tail -n 1) == "$1" ]]
+}
+for library in lib/*.so*; do
+    file=${library##*/} theirs=
+    [[ -z ${machine_has[$file]:-} ]] || theirs=$(basename "$(readlink -f "${machine_has[$file]}")")
+    own=$file
+    [[ ! -L $library ]] || own=$(readlink "$library")
+    if [[ -n $theirs ]] && is_newer "$theirs" "$own"; then
+        echo "$file: this machine's $theirs is newer than $own" >>"$results/libraries.txt"
+    else
+        ln -s "../../lib/$own" "work/lib/$file"
+    fi
+done
+export LD_LIBRARY_PATH=$here/work/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+
+summary=$results/summary.txt failed=0 child=
+printf '%-34s %-10s %8s\n' step exit seconds >"$summary"
+note() { printf '%-34s %-10s %8s\n' "$@" | tee -a "$summary"; }
+finish() { # whatever ends this, there is an archive of what was done
+    [[ -z $child ]] || kill "$child" 2>/dev/null
+    tar -czf "$here/$name.tar.gz" -C "$here" "$name" && rm -rf "$results"
+    echo "archive: $here/$name.tar.gz"
+}
+trap finish EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+is_wanted() {
+    ((${#only[@]})) || return 0
+    local word
+    for word in "${only[@]}"; do [[ $1 != *"$word"* ]] || return 0; done
+    return 1
+}
+step() { # step NAME COMMAND...: its log beside its exit code and seconds; goes on when it fails
+    local step=$1 begin=$EPOCHREALTIME code
+    shift
+    local log=$results/${step//\//-}.log
+    echo "$*" >"$log"
+    timeout -k 10 "$limit" "$@" >>"$log" 2>&1 &
+    child=$!
+    wait "$child"
+    code=$?
+    child=
+    local milliseconds=$(((${EPOCHREALTIME/./} - ${begin/./}) / 1000)) # without the dot: microseconds
+    case $code in
+    0) ;;
+    124 | 137) failed=1 code="over $limit s" ;;
+    *) failed=1 ;;
+    esac
+    note "$step" "$code" "$((milliseconds / 1000)).$((milliseconds % 1000 / 100))"
+}
+wanted() { ! is_wanted "$1" || step "$@"; }
+
+catoptric=bin/catoptric
+small=() rounds=6 pairs=7 stress=()
+((quick)) && small=(--size 64x64 --frames 2 --warmup 1) rounds=2 pairs=1 stress=(--size 64x64 --only N1 C9)
+step devices "$catoptric" list devices --json
+step info "$catoptric" info --json "${device[@]}"
+! command -v vulkaninfo >/dev/null || step vulkaninfo vulkaninfo
+{ uname -srm; nproc; cat commit.txt; grep -m 1 'model name' /proc/cpuinfo; } >"$results/machine.txt" 2>/dev/null
+wanted bench "$catoptric" bench "${device[@]}" "${small[@]}" --rounds "$rounds" -o "$results/bench.json" --quiet
+if [[ -e bin/catoptric-images.so ]]; then
+    wanted compare "$catoptric" compare "${device[@]}" "${small[@]}" -o "$results/compare" --quiet
+elif is_wanted compare; then
+    note compare left-out 0 # packed with --small
+fi
+wanted stress "$catoptric" stress "${device[@]}" "${stress[@]}" -o "$results/stress" --quiet
+wanted ratios bin/catoptric_bench "$pairs"
+while read -r program file; do
+    # The quick form takes the first of each program.
+    ((quick)) && [[ $program == "${last:-}" ]] && continue
+    last=$program
+    wanted "$program/$file" "bin/${program}_test" --from "${file}_test.cpp"
+done <tests.txt
+exit $failed

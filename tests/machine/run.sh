@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# bench/machine: what is packed runs elsewhere, a program that fails or hangs stops no other, and one archive says how
+# each ended. Scripts stand in for the programs. Called by CTest: run.sh WORK.
+set -euo pipefail
+source=$(cd "$(dirname "$0")/../.." && pwd)
+work=$1
+rm -rf "$work"
+mkdir -p "$work"/{build,elsewhere}
+cd "$work"
+
+fail() { echo "machine: $*" >&2; exit 1; }
+expect() { grep -qE -- "$1" "$2" || fail "wanted '$1' in $2, found: $(cat "$2")"; }
+stub() { # stub NAME LINE: a program that does this
+    printf '#!/usr/bin/env bash\n%s\n' "$2" >"build/$1"
+    chmod +x "build/$1"
+}
+stub catoptric 'echo "catoptric $*"; [[ $1 == stress ]] && exit 1; exit 0'
+stub catoptric_bench 'sleep 30'
+stub gpu_test 'echo "gpu $* on ${CATOPTRIC_TEST_DEVICE:-any}"; exit 3'
+stub drivers_test 'kill -SEGV $$'
+stub catoptric-images.so ''
+
+if "$source/bench/machine/pack.sh" build kit.tar.gz 2>refused.txt; then fail "packed a build without reflect_test"; fi
+expect 'reflect_test: wanted a finished build' refused.txt
+[[ ! -e kit.tar.gz ]] || fail "a refused pack left an archive"
+stub reflect_test 'echo "reflect reads $CATOPTRIC_TEST_SOURCE"; echo kept >"$TMPDIR/kept"; ls "$CATOPTRIC_TEST_SOURCE/samples/scenes"'
+"$source/bench/machine/pack.sh" build kit.tar.gz
+tar -C elsewhere -xzf kit.tar.gz
+kit=$work/elsewhere/catoptric-kit
+[[ -e $kit/layers/VkLayer_khronos_validation.json ]] || fail "no validation layer in the archive"
+
+code=0
+(cd / && env -i "$kit/run.sh" -d 'A B' -t 1 --quick) >said.txt 2>&1 || code=$?
+((code == 1)) || fail "steps failed: wanted exit code 1, found $code: $(cat said.txt)"
+archives=("$kit"/results-*.tar.gz)
+((${#archives[@]} == 1)) && [[ -s ${archives[0]} ]] || fail "wanted one archive, found ${archives[*]}"
+mkdir results
+tar -C results --strip-components=1 -xzf "${archives[0]}"
+summary=results/summary.txt
+expect '^info +0 ' $summary
+expect '^compare +0 ' $summary
+expect '^stress +1 ' $summary
+expect '^ratios +over 1 s +1\.[0-9]' $summary
+expect '^gpu/[a-z_]+ +3 ' $summary
+expect '^drivers/[a-z_]+ +139 ' $summary
+expect '^reflect/[a-z_]+ +0 ' $summary
+expect 'catoptric compare --device A B .*--size 64x64' results/compare.log
+expect '^gpu --from [a-z_]+_test.cpp on A B$' "$(echo results/gpu-*.log)"
+expect "reads $kit/source\$" "$(echo results/reflect-*.log)"
+expect 'cornell-mirrors.glb' "$(echo results/reflect-*.log)"
+[[ -e $kit/work/tmp/kept ]] || fail "what programs keep for a while lies outside the folder"
+expect "archive: $kit/results-" said.txt
+
+# The machine's library where it is newer than what was packed, and no other.
+rm -rf "$kit"/lib/libz.so* "$kit"/results-*
+expect_library() { # expect_library VERSION LINES: a library packed in this version; how often run.sh says newer
+    local unpacked=elsewhere/unpacked
+    ln -sf "libz.so.$1" "$kit/lib/libz.so.1"
+    env -i "$kit/run.sh" none >said.txt 2>&1 || fail "wanted exit code 0: $(cat said.txt)"
+    rm -rf $unpacked && mkdir $unpacked
+    tar -C $unpacked --strip-components=1 -xzf "$kit"/results-*.tar.gz
+    rm "$kit"/results-*
+    local said=0
+    ! grep -sq "^libz.so.1: this machine's libz.so.* is newer than libz.so.$1\$" $unpacked/libraries.txt || said=1
+    ((said == $2)) || fail "libz.so.$1: wanted $2 lines in libraries.txt, found $said"
+    [[ $2 == 1 || -L $kit/work/lib/libz.so.1 ]] || fail "libz.so.$1: newer than the machine's, and not used"
+    [[ $2 == 0 || ! -L $kit/work/lib/libz.so.1 ]] || fail "libz.so.$1: older than the machine's, and used"
+}
+expect_library 1.0.1 1
+expect_library 1.99.0 0
+
+# Only what is asked for, and nothing failed.
+env -i "$kit/run.sh" reflect/a >said.txt 2>&1 || fail "nothing failed: wanted exit code 0: $(cat said.txt)"
+! grep -q '^gpu/' said.txt || fail "ran what was not asked for: $(cat said.txt)"
+(($(grep -c '^reflect/' said.txt) == $(ls "$source"/tests/reflect/a*_test.cpp | wc -l))) || fail "not all: $(cat said.txt)"
+
+# Without the library of pictures nothing wants it.
+"$source/bench/machine/pack.sh" build --small small.tar.gz
+tar -tf small.tar.gz >small.txt
+if grep -q catoptric-images small.txt; then fail "--small packed the library of pictures"; fi
+rm "$kit/bin/catoptric-images.so" "$kit"/results-*
+env -i "$kit/run.sh" compare >said.txt 2>&1 || fail "wanted exit code 0: $(cat said.txt)"
+expect '^compare +left-out ' said.txt
+
+# Stopped in the middle: what was done is there.
+rm "$kit"/results-*
+env -i "$kit/run.sh" ratios >said.txt 2>&1 &
+for ((i = 0; i < 100; ++i)); do grep -q '^info' said.txt && break; sleep .05; done
+kill $!
+wait $! || code=$?
+((code == 143)) || fail "stopped: wanted exit code 143, found $code"
+archives=("$kit"/results-*.tar.gz)
+[[ -s ${archives[0]} ]] || fail "stopped: wanted an archive, found none"
+tar -xzOf "${archives[0]}" --wildcards '*/summary.txt' >stopped.txt
+expect '^info +0 ' stopped.txt
