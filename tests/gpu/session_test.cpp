@@ -97,6 +97,24 @@ TEST(Session, ChangedShowsWhatAFreshOneShows) {
     }
 }
 
+TEST(Session, RaysMeetOneThingAfterAnotherWhereItMovedTo) {
+    const scene::Scene at_rest = test::room(3, 2);
+    const app::FrameSpec spec = spec_of(at_rest, "raytrace");
+    app::Session session(test::engine(), at_rest);
+    measure::Picture before = session.frame(spec).hdr();
+    for (const std::size_t back : {1, 2, 3, 2}) {
+        const std::size_t object = at_rest.objects.size() - back;
+        dmat4 place = session.scene().objects[object].world_from_object;
+        place[3].y += .3;
+        session.change(scene::move(object, place));
+        const measure::Picture found = session.frame(spec).hdr();
+        EXPECT_FALSE(test::same_bytes(found, before)) << "it is in sight";
+        app::Session fresh(test::engine(), session.scene());
+        EXPECT_TRUE(test::same_bytes(found, fresh.frame(spec).hdr())) << object;
+        before = found;
+    }
+}
+
 TEST(Session, KeepsHistoryOverAChangeAndForgetsItAtACut) {
     const scene::Scene scene = test::room(3, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
