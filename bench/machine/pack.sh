@@ -2,8 +2,8 @@
 # Packs what another machine needs to measure and test this build: programs, the libraries that they load, the files
 # that their tests read, and run.sh. That machine needs bash, the usual commands beside it, tar and a Vulkan driver.
 # Called by ./dev pack: pack.sh BUILD [--small] [ARCHIVE]. Needs a finished build; writes nothing but ARCHIVE
-# (catoptric-kit.tar.gz; .tar.xz takes minutes and is much smaller). --small leaves out the library of picture files with what it loads,
-# more than half of it all; then run.sh leaves out compare, which writes OpenEXR.
+# (catoptric-kit.tar.gz; .tar.xz takes minutes and is much smaller). --small leaves out the library of picture files
+# with what it loads, more than half of it all; then run.sh leaves out compare, which writes OpenEXR.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)

@@ -37,7 +37,7 @@ mkdir -p "$results" work/{home,cache,tmp} || exit 1
 export HOME=$here/work/home XDG_CACHE_HOME=$here/work/cache XDG_CONFIG_HOME=$here/work/home TMPDIR=$here/work/tmp
 export MESA_SHADER_CACHE_DIR=$here/work/cache __GL_SHADER_DISK_CACHE_PATH=$here/work/cache
 # Where tests look for what they read at home in the tree that they were built in.
-export CATOPTRIC_TEST_SOURCE=$here/source CATOPTRIC_TEST_BUILD=$here/bin
+export CATOPTRIC_TEST_SOURCE=$here/source
 export VK_ADD_LAYER_PATH=$here/layers
 
 # Drivers share libraries with these programs, and were built for what the machine has: where that is newer than what

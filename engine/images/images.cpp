@@ -78,7 +78,8 @@ CodecResult read(ImageCodecs::Picture& picture, CodecValue type, void* values) n
 
 void close(ImageCodecs::Picture* picture) noexcept { delete picture; }
 
-/// In memory: OpenImageIO's PNG writer reports success on a full disk.
+/// In memory, since OpenImageIO's writers report success on a full disk. PNG is what core/png.cpp
+/// is tested against.
 CodecResult encode(const std::string& format, const ImageCodecs::Values& picture,
                    std::string& bytes) noexcept {
     return without_exceptions([&]() -> CodecResult {

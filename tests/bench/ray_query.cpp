@@ -4,10 +4,9 @@
 //   catoptric_ray_query [ROUNDS]   at least 6; exit code 69 where no device has them
 #include "drivers/ray_query.hpp"
 #include "app/bench_subjects.hpp"
+#include "drivers/witness_rays.hpp"
 #include "measure/statistics.hpp"
-#include "render/geometry.hpp"
 #include "scene/load.hpp"
-#include "support/numbers.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -25,18 +24,6 @@ constexpr std::size_t kFewRays = 64;   // what a call costs besides its rays
 constexpr std::size_t kMostOther = 40; // hits of one that the other has not, at edges
 constexpr int kNoDevice = 69;
 
-std::vector<bvh::Triangle> triangles_of(const scene::Scene& scene, const render::Space& space) {
-    const render::Geometry geometry = render::make_geometry(scene, space);
-    std::vector<bvh::Triangle> triangles;
-    for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3) {
-        const auto corner = [&](std::size_t k) {
-            return geometry.vertices[geometry.indices[i + k]].position;
-        };
-        triangles.push_back({corner(0), corner(1), corner(2), 0, 0});
-    }
-    return triangles;
-}
-
 /// One through each pixel of the scene's first camera, neighbours beside each other: blocks of 8x8.
 std::vector<KernelRay> camera_rays(const scene::Scene& scene, const render::Space& space) {
     const scene::Camera& camera = scene.cameras.front();
@@ -52,19 +39,6 @@ std::vector<KernelRay> camera_rays(const scene::Scene& scene, const render::Spac
             {.origin = vec3(space.point(camera.eye)),
              .direction = vec3(normalize(forward + half * (place.x * right - place.y * up)))});
     }
-    return rays;
-}
-
-/// From anywhere in the middle of the room in any direction.
-std::vector<KernelRay> scattered_rays(std::span<const bvh::Triangle> triangles) {
-    Bounds<float> box;
-    for (const bvh::Triangle& t : triangles)
-        for (const vec3& corner : {t.a, t.b, t.c}) box.add(corner);
-    test::Numbers random(7);
-    std::vector<KernelRay> rays;
-    for (int i = 0; i < kAcross * kAcross; ++i)
-        rays.push_back({.origin = box.centre() + .4f * box.extent() * random.in_cube(),
-                        .direction = random.direction()});
     return rays;
 }
 
@@ -122,12 +96,14 @@ int main(int argc, char** argv) try {
     const test::RayQuery query(*device);
     const scene::Scene scene = scene::cornell_mirrors();
     const render::Space space = render::space_of(scene);
-    const std::vector<bvh::Triangle> triangles = triangles_of(scene, space);
+    const std::vector<bvh::Triangle> triangles = test::built_in_scene();
+    test::Numbers numbers(7);
     std::printf("walk on %s, ray query on %s; %zu triangles\n",
                 test::bench().device.info().driver.c_str(), device->name().c_str(),
                 triangles.size());
     compare("camera", triangles, camera_rays(scene, space), query, rounds);
-    compare("scattered", triangles, scattered_rays(triangles), query, rounds);
+    compare("scattered", triangles,
+            test::rays_anywhere(triangles, std::size_t{kAcross} * kAcross, numbers), query, rounds);
     test::detail::devices = {}; // drivers do not like to be called while the program is unloaded
     return 0;
 } catch (const std::exception& error) {
