@@ -248,10 +248,10 @@ void GpuScene::bind(graph::Commands& commands) const {
 }
 
 gpu::Constants GpuScene::features(std::uint32_t view) const {
-    return {{"own_spaces", has_own_spaces() ? 1u : 0u}, {"details", details_.any() ? 1u : 0u},
-            {"masks", details_.masks() ? 1u : 0u},      {"light_kinds", has_punctual_ ? 1u : 0u},
-            {"environment_kind", sky_.kind()},          {"orthographic", views_[view].parallel},
-            {"mirror_tree", is_crowd() ? 1u : 0u}};
+    return {{"own_spaces", has_own_spaces() ? 1u : 0u},  {"details", details_.any() ? 1u : 0u},
+            {"masks", details_.masks() ? 1u : 0u},       {"light_kinds", has_punctual_ ? 1u : 0u},
+            {"one_light", light_count() == 1 ? 1u : 0u}, {"environment_kind", sky_.kind()},
+            {"orthographic", views_[view].parallel},     {"mirror_tree", is_crowd() ? 1u : 0u}};
 }
 
 void GpuScene::bind_sky_vertices(graph::Commands& commands) const {

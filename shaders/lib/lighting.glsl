@@ -30,7 +30,7 @@ vec3 shade(Surface surface, vec3 position, vec3 normal) {
             direct += lights[light].intensity * (factor * visible);
         }
         ++light;
-    } while (light < count);
+    } while (one_light == 0u && light < count);
     if (environment_kind != kNoEnvironment) direct += sky_light(normal);
     return lambert(surface.emission, surface.albedo, direct, frame.value.ambient);
 }

@@ -51,10 +51,10 @@ TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
         EXPECT_EQ(one->binding, binding) << name;
         EXPECT_EQ(one->kind, kind) << name;
     }
-    EXPECT_EQ(constants(found),
-              (std::vector<std::string>{"details", "environment_kind", "exact_spheres",
-                                        "fixed_offset", "light_kinds", "masks", "max_depth",
-                                        "orthographic", "own_spaces", "shadow", "without"}));
+    EXPECT_EQ(constants(found), (std::vector<std::string>{
+                                    "details", "environment_kind", "exact_spheres", "fixed_offset",
+                                    "light_kinds", "masks", "max_depth", "one_light",
+                                    "orthographic", "own_spaces", "shadow", "without"}));
 }
 
 TEST(Reflection, LeavesOutWhatTheCodeDoesNotUse) {
