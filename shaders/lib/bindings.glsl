@@ -5,7 +5,7 @@
 #include "lib/math.glsl"
 #include "shared.h"
 
-// Uniform buffers where every invocation reads the same: a software driver loads them once.
+// Uniform buffers where every invocation reads the same; storage buffers are no faster there (docs/performance.md).
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame value; } frame;
 layout(set = 0, binding = 1, scalar) readonly buffer Views { View views[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Surfaces { Surface surfaces[]; };
