@@ -14,6 +14,7 @@ public:
     PeerScene(const EmbreeDevice& device, const catoptric::app::Request& request, int depth,
               bool exact);
 
+    const Whitted& whitted() const { return whitted_; }
     Traced trace(int width, int threads) const { return peers::trace(whitted_, width, threads); }
 
 private:

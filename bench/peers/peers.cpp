@@ -1,10 +1,11 @@
-// Ours beside Embree 3: the Whitted picture of the built-in scene and the building of trees, in
-// turn in one process.
+// Ours beside Embree 3 and beside plain prototypes: the Whitted picture of the built-in scene,
+// frames with captures and the building of trees, in turn in one process.
 //   catoptric_peers [ROUNDS]      at least 6; exit code 1 where the pictures differ
 #include "app/bench_subjects.hpp"
 #include "embree_tree.hpp"
 #include "measure/statistics.hpp"
 #include "peer_scene.hpp"
+#include "prototypes.hpp"
 #include "scene/load.hpp"
 #include "scene/shapes.hpp"
 
@@ -36,13 +37,15 @@ struct Pair {
 constexpr Pair kPairs[] = {{"mesh", "raytrace:depth=4", false},
                            {"exact", "raytrace:depth=4,sphere=exact", true}};
 constexpr int kWidths[] = {1, 8, 16};
-/// Rows of ours beside which Embree's single rays are only a unit of time.
-constexpr const char* kOthers[] = {"parallax:face=64", "parallax", "parallax:face=512"};
+/// Rows of ours beside which Embree's single rays are only a unit of time, and their faces.
+constexpr std::pair<const char*, int> kOthers[] = {
+    {"parallax:face=64", 64}, {"parallax", 256}, {"parallax:face=512", 512}};
+constexpr int kSettles = 14; // frames
 
-std::size_t other_pixels(const measure::Picture& ours, const peers::Traced& theirs) {
+std::size_t other_pixels(const measure::Picture& ours, const std::vector<peers::Vector>& theirs) {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < theirs.pixels.size(); ++i) {
-        const auto& [x, y, z] = theirs.pixels[i];
+    for (std::size_t i = 0; i < theirs.size(); ++i) {
+        const auto& [x, y, z] = theirs[i];
         const vec3 apart = abs(ours.pixels[i] - vec3(x, y, z));
         count += !(std::max({apart.x, apart.y, apart.z}) <= kSame); // also what is no number
     }
@@ -65,11 +68,42 @@ bool check_pictures(app::Session& session, app::Request request, const Pair& pai
     bool same = true;
     for (const int width : kWidths) {
         const peers::Traced theirs = peer.trace(width, threads);
-        const std::size_t other = other_pixels(ours.hdr, theirs);
+        const std::size_t other = other_pixels(ours.hdr, theirs.pixels);
         std::printf(
             "%-16s %llu rays, %zu pixels differ by more than %g\n", peer_name(pair, width).c_str(),
             static_cast<unsigned long long>(theirs.rays.all()), other, static_cast<double>(kSame));
         same = same && other <= kMostOther;
+    }
+    return same;
+}
+
+/// Prints how far the prototypes' pictures are from ours; whether those that trace show the same.
+bool check_prototypes(app::Session& session, app::Request request, peers::Prototypes& prototypes) {
+    for (app::Subject& subject : prototypes.subjects(0))
+        for (int i = 0; i < kSettles; ++i) subject.work();
+    request.techniques = {kPairs[0].technique};
+    const measure::Picture traced = session.frame(request).read().hdr;
+    bool same = true;
+    for (const std::string& name : peers::Prototypes::tracers()) {
+        const std::size_t other = other_pixels(traced, prototypes.read(name));
+        std::printf("%-16s %zu pixels differ by more than %g\n", name.c_str(), other,
+                    static_cast<double>(kSame));
+        same = same && other <= kMostOther;
+    }
+    request.frames = kSettles;
+    for (const auto& [technique, face] : kOthers) {
+        request.techniques = {technique};
+        const measure::Picture ours = app::run(session, request).parts.front().hdr;
+        const std::vector<peers::Vector> theirs = prototypes.read(peers::Prototypes::name_of(face));
+        double squares = 0;
+        for (std::size_t i = 0; i < theirs.size(); ++i) {
+            const vec3 apart = ours.pixels[i] - vec3(theirs[i].x, theirs[i].y, theirs[i].z);
+            squares += dot(dvec3(apart), dvec3(apart)) / 3;
+        }
+        std::printf("%-16s rmse %.4f from %s, %zu pixels differ by more than %g\n",
+                    peers::Prototypes::name_of(face).c_str(),
+                    std::sqrt(squares / static_cast<double>(theirs.size())), technique,
+                    other_pixels(ours, theirs), static_cast<double>(kSame));
     }
     return same;
 }
@@ -131,7 +165,11 @@ bool compare_frames(const app::UsageMeter& meter, const peers::EmbreeDevice& dev
                 peer_name(pair, width), [peer, width, threads] { peer->trace(width, threads); },
                 kWarmup));
     }
-    for (const char* technique : kOthers) {
+    const PeerScene mesh(device, request, kDepth, false);
+    peers::Prototypes prototypes(request, mesh);
+    same = check_prototypes(*session, request, prototypes) && same;
+    std::ranges::move(prototypes.subjects(kWarmup), std::back_inserter(subjects));
+    for (const auto& [technique, face] : kOthers) {
         request.techniques = {technique};
         subjects.push_back(app::frame_subject(session, request, iterations));
         subjects.back().name = technique, subjects.back().caller.clear();
@@ -146,8 +184,12 @@ bool compare_frames(const app::UsageMeter& meter, const peers::EmbreeDevice& dev
         for (const int width : kWidths)
             print_ratio(named(list, our_name(pair)), named(list, peer_name(pair, width)));
     print_ratio(named(list, "ours/exact"), named(list, "ours/mesh"));
-    for (const char* technique : kOthers)
+    for (const auto& [technique, face] : kOthers)
         print_ratio(named(list, technique), named(list, peer_name(kPairs[0], 1)));
+    for (const std::string& prototype : peers::Prototypes::tracers())
+        print_ratio(named(list, our_name(kPairs[0])), named(list, prototype));
+    for (const auto& [technique, face] : kOthers)
+        print_ratio(named(list, technique), named(list, peers::Prototypes::name_of(face)));
     return same;
 }
 

@@ -1,0 +1,222 @@
+#include "capture_prototype.hpp"
+
+#include "render/views.hpp"
+
+#include <algorithm>
+
+namespace peers {
+
+using namespace catoptric;
+using gpu::BufferUse;
+
+namespace {
+
+constexpr std::uint32_t kShadowEdge = 1024;
+constexpr float kNear = .002f;   // scene units, of which a scene is about one across
+constexpr float kNothing = 1000; // the distance where nothing is
+constexpr std::size_t kMirrors = 4, kLightView = 1 + 6 * kMirrors;
+
+/// As Frame of shaders/draw.glsl.
+struct Frame {
+    glm::mat4 clip_from_scene[kLightView + 6];
+    vec4 light, light_normal, intensity;
+};
+
+glm::mat4 clip_from_scene(const shared::View& view) {
+    glm::mat4 rows(0);
+    const auto row = [&](const vec3& axis) { return vec4(axis, -dot(axis, view.eye)); };
+    rows[0] = row(view.right), rows[1] = row(view.down);
+    rows[2] = vec4(0, 0, 0, kNear), rows[3] = row(view.forward);
+    return transpose(rows);
+}
+
+} // namespace
+
+CapturePrototype::CapturePrototype(gpu::Device& device, gpu::Pipelines& pipelines,
+                                   const app::Request& request, std::uint32_t face)
+    : device_(device), face_(face), linear_(linear_sampler(device, false)),
+      compare_(linear_sampler(device, true)), sets_(device) {
+    add_scene(request);
+    make_images(request.size);
+    make_programs(pipelines);
+}
+
+void CapturePrototype::add_scene(const app::Request& request) {
+    const render::Space space = render::space_of(request.scene);
+    const scene::Scene now = scene::at(request.scene, request.time);
+    geometry_ = render::make_geometry(now, space);
+    const scene::PointLight light = scene::lights(now).at(0);
+    const vec3 at = space.point(light.position);
+    views_ = {render::camera_view(request.camera, space, request.size, 1)};
+    for (std::size_t i = 0; i < now.objects.size(); ++i) {
+        const scene::Material& material = now.materials[now.objects[i].material];
+        const bool mirror = scene::is_mirror(now, now.objects[i]);
+        materials_.push_back(
+            {vec4(mirror ? material.reflectance : material.albedo, 0), vec4(material.emission, 0)});
+        if (!mirror) continue;
+        mirrors_.push_back(i);
+        for (const shared::View& view : render::cube_views(geometry_.ranges[i].bounds.centre(), 1))
+            views_.push_back(view);
+    }
+    for (const shared::View& view : render::cube_views(at, 1)) views_.push_back(view);
+    Frame frame{};
+    check(views_.size() == std::size(frame.clip_from_scene), Failure::usage,
+          "the prototype with captures wants ", kMirrors, " mirrors, found ", mirrors_.size());
+    for (std::size_t i = 0; i < views_.size(); ++i)
+        frame.clip_from_scene[i] = clip_from_scene(views_[i]);
+    frame.light = vec4(at, static_cast<float>(request.ambient));
+    frame.light_normal = vec4(vec3(light.normal), kNear);
+    frame.intensity = vec4(
+        light.emission * static_cast<float>(light.area * space.scale * space.scale), 0);
+    gpu::upload(device_, vertices_, "vertices", geometry_.vertices, BufferUse::vertex);
+    gpu::upload(device_, indices_, "indices", geometry_.indices, BufferUse::index);
+    gpu::upload(device_, frame_, "frame", std::vector<Frame>{frame}, BufferUse::uniform);
+}
+
+void CapturePrototype::make_images(uvec2 size) {
+    constexpr VkImageUsageFlags kSampled = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                kColour = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                                kDepth = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    constexpr VkImageViewType kArray = VK_IMAGE_VIEW_TYPE_2D_ARRAY, kOne = VK_IMAGE_VIEW_TYPE_2D;
+    shadow_map_ = PlainImage(device_, Format::d32f, uvec2(kShadowEdge), 6, kDepth | kSampled);
+    shadow_faces_ = shadow_map_.view(kArray, 0, 6);
+    depth_ = PlainImage(device_, Format::d32f, uvec2(face_), 6, kDepth);
+    depth_faces_ = depth_.view(kArray, 0, 6);
+    view_ = PlainImage(device_, Format::rgba32f, size, 1,
+                       kColour | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    picture_ = view_.view(kOne);
+    view_depth_ = PlainImage(device_, Format::d32f, size, 1, kDepth);
+    picture_depth_ = view_depth_.view(kOne);
+    pixels_ = gpu::Buffer(device_, "pixels", sizeof(vec4) * size.x * size.y, BufferUse::read_back);
+    const auto layers = static_cast<std::uint32_t>(6 * mirrors_.size());
+    for (std::size_t i = 0; i < 2; ++i) {
+        cubes_[i] = {PlainImage(device_, Format::rgba16f, uvec2(face_), layers, kColour | kSampled),
+                     PlainImage(device_, Format::r32f, uvec2(face_), layers, kColour | kSampled)};
+        for (std::uint32_t first = 0; first < layers; first += 6)
+            faces_[i].push_back({cubes_[i].colour.view(kArray, first, 6),
+                                 cubes_[i].distance.view(kArray, first, 6)});
+    }
+}
+
+void CapturePrototype::make_programs(gpu::Pipelines& pipelines) {
+    const gpu::Attachments faces{{Format::rgba16f, Format::r32f}, true},
+        picture{{Format::rgba32f}, true};
+    const auto layers = static_cast<std::uint32_t>(6 * mirrors_.size());
+    // Cubes show mirrored pictures, so there triangles run the other way round. Of a ball those
+    // that face away are left out.
+    constexpr gpu::Winding kAway = gpu::Winding::clockwise,
+                           kAwayInFaces = gpu::Winding::counterclockwise;
+    const auto state = [](const char* fragment, gpu::Winding hidden) {
+        return gpu::RasterState{"peers/surface.vert", fragment, {}, hidden};
+    };
+    for (std::size_t i = 0; i < 2; ++i) {
+        const VkImageViewType cubes = VK_IMAGE_VIEW_TYPE_CUBE_ARRAY;
+        const Resources resources{
+            {"frame", {&frame_}},
+            {"shadow_map", {nullptr, shadow_map_.view(VK_IMAGE_VIEW_TYPE_CUBE, 0, 6), compare_}},
+            {"colours", {nullptr, cubes_[i].colour.view(cubes, 0, layers), linear_}},
+            {"distances", {nullptr, cubes_[i].distance.view(cubes, 0, layers), linear_}}};
+        const auto bind = [&](const char* fragment, gpu::Winding hidden,
+                              const gpu::Attachments& to) {
+            return sets_.bind(pipelines.raster(state(fragment, hidden), to), resources);
+        };
+        capture_[i] = {bind("peers/diffuse.frag", gpu::Winding::none, faces),
+                       bind("peers/mirror.frag", kAwayInFaces, faces)};
+        camera_[i] = {bind("peers/diffuse.frag", gpu::Winding::none, picture),
+                      bind("peers/mirror.frag", kAway, picture)};
+        shadow_ = bind("", kAwayInFaces, {{}, true});
+    }
+}
+
+/// In the layers whose view it may meet; neighbouring layers in one draw.
+void CapturePrototype::draw_object(VkCommandBuffer commands, const Bound& program,
+                                   std::size_t object, std::uint32_t first_view,
+                                   std::uint32_t layers) const {
+    const render::DrawRange& range = geometry_.ranges[object];
+    const auto mirror = std::ranges::find(mirrors_, object);
+    const vec3 centre = mirror == mirrors_.end() ? vec3(0) : range.bounds.centre();
+    program.push(commands, Draw{vec4(views_[first_view].eye, 0), materials_[object].albedo,
+                                materials_[object].emission, vec4(centre, 0), first_view,
+                                static_cast<float>(mirror - mirrors_.begin())});
+    const auto meets = [&](std::uint32_t layer) {
+        return render::may_meet(views_[first_view + layer], range);
+    };
+    for (std::uint32_t layer = 0, end; layer < layers; layer = end + 1) {
+        for (end = layer; end < layers && meets(end);) ++end;
+        if (end > layer)
+            vkCmdDrawIndexed(commands, range.index_count, end - layer, range.first_index, 0, layer);
+    }
+}
+
+namespace {
+
+/// A rendering scope over whole images of one size.
+template <typename Body>
+void render(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t layers,
+            const std::vector<VkRenderingAttachmentInfo>& colours,
+            const VkRenderingAttachmentInfo& depth, Body&& body) {
+    VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    rendering.renderArea.extent = extent;
+    rendering.layerCount = layers;
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(colours.size());
+    rendering.pColorAttachments = colours.data();
+    rendering.pDepthAttachment = &depth;
+    vkCmdBeginRendering(commands, &rendering);
+    const VkViewport viewport{
+        0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
+    body();
+    vkCmdEndRendering(commands);
+    plain_barrier(commands);
+}
+
+} // namespace
+
+/// Only balls: a room's shadow falls on nothing.
+void CapturePrototype::draw_shadows(VkCommandBuffer commands) {
+    render(commands, shadow_map_.extent(), 6, {}, cleared(shadow_faces_, 0), [&] {
+        shadow_.bind(commands);
+        for (const std::size_t mirror : mirrors_)
+            draw_object(commands, shadow_, mirror, kLightView, 6);
+    });
+}
+
+void CapturePrototype::draw_surfaces(VkCommandBuffer commands, const Programs& programs,
+                                     std::uint32_t first_view, std::uint32_t layers,
+                                     std::size_t except) const {
+    programs.diffuse.bind(commands);
+    for (std::size_t i = 0; i < geometry_.ranges.size(); ++i)
+        if (!geometry_.ranges[i].mirror)
+            draw_object(commands, programs.diffuse, i, first_view, layers);
+    programs.mirror.bind(commands);
+    for (const std::size_t mirror : mirrors_)
+        if (mirror != except) draw_object(commands, programs.mirror, mirror, first_view, layers);
+}
+
+void CapturePrototype::draw() {
+    const std::size_t now = ++frame_number_ % 2, before = 1 - now;
+    device_.submit_now("draw the prototype's frame", [&](VkCommandBuffer commands) {
+        const VkDeviceSize zero = 0;
+        const VkBuffer vertices = vertices_.handle();
+        vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
+        vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT32);
+        draw_shadows(commands);
+        for (std::uint32_t i = 0; i < mirrors_.size(); ++i)
+            render(commands, depth_.extent(), 6,
+                   {cleared(faces_[now][i][0], 0), cleared(faces_[now][i][1], kNothing)},
+                   cleared(depth_faces_, 0, false),
+                   [&] { draw_surfaces(commands, capture_[before], 1 + 6 * i, 6, mirrors_[i]); });
+        render(commands, view_.extent(), 1, {cleared(picture_, 0)},
+               cleared(picture_depth_, 0, false),
+               [&] { draw_surfaces(commands, camera_[now], 0, 1, geometry_.ranges.size()); });
+    });
+}
+
+std::vector<Vector> CapturePrototype::read() {
+    device_.submit_now("read the prototype's picture",
+                       [&](VkCommandBuffer commands) { view_.copy(commands, pixels_); });
+    return vectors_of(pixels_);
+}
+
+} // namespace peers

@@ -1,0 +1,70 @@
+#include "prototypes.hpp"
+
+#include "capture_prototype.hpp"
+#include "prototype_shaders.hpp"
+#include "trace_prototype.hpp"
+
+#include <map>
+
+namespace peers {
+
+using namespace catoptric;
+
+namespace {
+
+using Tree = TracePrototype::Tree;
+constexpr std::pair<const char*, Tree> kTracers[] = {{"prototype/stack", Tree::stack},
+                                                     {"prototype/links", Tree::skip_links}};
+constexpr int kFaces[] = {64, 256, 512};
+
+void add_shaders() {
+    for (const gpu::EmbeddedShader& shader : prototype_shaders()) gpu::add_shader(shader);
+}
+
+} // namespace
+
+struct Prototypes::Impl {
+    gpu::Device device{{}};
+    gpu::Pipelines pipelines{device};
+    std::map<std::string, std::unique_ptr<TracePrototype>> tracers;
+    std::map<std::string, std::unique_ptr<CapturePrototype>> captures;
+};
+
+Prototypes::Prototypes(const app::Request& request, const PeerScene& mesh) {
+    add_shaders();
+    impl_ = std::make_unique<Impl>();
+    const std::vector<bvh::Triangle> triangles = triangles_of(request.scene);
+    for (const auto& [name, tree] : kTracers)
+        impl_->tracers[name] = std::make_unique<TracePrototype>(impl_->device, impl_->pipelines,
+                                                                mesh, triangles, tree);
+    for (const int face : kFaces)
+        impl_->captures[name_of(face)] = std::make_unique<CapturePrototype>(
+            impl_->device, impl_->pipelines, request, static_cast<std::uint32_t>(face));
+}
+
+Prototypes::~Prototypes() = default;
+
+std::vector<std::string> Prototypes::tracers() {
+    std::vector<std::string> names;
+    for (const auto& [name, tree] : kTracers) names.emplace_back(name);
+    return names;
+}
+
+std::vector<app::Subject> Prototypes::subjects(int warmup) {
+    std::vector<app::Subject> subjects;
+    for (const auto& [name, tracer] : impl_->tracers)
+        subjects.push_back(app::subject_of(
+            name, [&one = *tracer] { one.trace(); }, warmup));
+    for (const auto& [name, capture] : impl_->captures)
+        subjects.push_back(app::subject_of(
+            name, [&one = *capture] { one.draw(); }, warmup));
+    return subjects;
+}
+
+std::vector<Vector> Prototypes::read(const std::string& name) {
+    const auto tracer = impl_->tracers.find(name);
+    return tracer != impl_->tracers.end() ? tracer->second->read()
+                                          : impl_->captures.at(name)->read();
+}
+
+} // namespace peers
