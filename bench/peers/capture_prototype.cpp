@@ -14,11 +14,12 @@ namespace {
 constexpr std::uint32_t kShadowEdge = 1024;
 constexpr float kNear = .002f;   // scene units, of which a scene is about one across
 constexpr float kNothing = 1000; // the distance where nothing is
-constexpr std::size_t kMirrors = 4, kLightView = 1 + 6 * kMirrors;
+constexpr std::uint32_t kMirrors = 4, kLightView = 1 + 6 * kMirrors;
+constexpr std::uint32_t kShadowFaces = 5; // above a light that shines down nothing is lit
 
 /// As Frame of shaders/draw.glsl.
 struct Frame {
-    glm::mat4 clip_from_scene[kLightView + 6];
+    glm::mat4 clip_from_scene[kLightView + kShadowFaces];
     vec4 light, light_normal, intensity;
 };
 
@@ -58,7 +59,8 @@ void CapturePrototype::add_scene(const app::Request& request) {
         for (const shared::View& view : render::cube_views(geometry_.ranges[i].bounds.centre(), 1))
             views_.push_back(view);
     }
-    for (const shared::View& view : render::cube_views(at, 1)) views_.push_back(view);
+    for (const shared::View& view : render::cube_views(at, 1))
+        if (dot(view.forward, vec3(light.normal)) > -.5f) views_.push_back(view);
     Frame frame{};
     check(views_.size() == std::size(frame.clip_from_scene), Failure::usage,
           "the prototype with captures wants ", kMirrors, " mirrors, found ", mirrors_.size());
@@ -78,8 +80,9 @@ void CapturePrototype::make_images(uvec2 size) {
                                 kColour = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
                                 kDepth = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     constexpr VkImageViewType kArray = VK_IMAGE_VIEW_TYPE_2D_ARRAY, kOne = VK_IMAGE_VIEW_TYPE_2D;
-    shadow_map_ = PlainImage(device_, Format::d32f, uvec2(kShadowEdge), 6, kDepth | kSampled);
-    shadow_faces_ = shadow_map_.view(kArray, 0, 6);
+    shadow_map_ = PlainImage(device_, Format::d32f, uvec2(kShadowEdge), kShadowFaces,
+                             kDepth | kSampled);
+    shadow_faces_ = shadow_map_.view(kArray, 0, kShadowFaces);
     depth_ = PlainImage(device_, Format::d32f, uvec2(face_), 6, kDepth);
     depth_faces_ = depth_.view(kArray, 0, 6);
     view_ = PlainImage(device_, Format::rgba32f, size, 1,
@@ -113,7 +116,7 @@ void CapturePrototype::make_programs(gpu::Pipelines& pipelines) {
         const VkImageViewType cubes = VK_IMAGE_VIEW_TYPE_CUBE_ARRAY;
         const Resources resources{
             {"frame", {&frame_}},
-            {"shadow_map", {nullptr, shadow_map_.view(VK_IMAGE_VIEW_TYPE_CUBE, 0, 6), compare_}},
+            {"shadow_map", {nullptr, shadow_faces_, compare_}},
             {"colours", {nullptr, cubes_[i].colour.view(cubes, 0, layers), linear_}},
             {"distances", {nullptr, cubes_[i].distance.view(cubes, 0, layers), linear_}}};
         const auto bind = [&](const char* fragment, gpu::Winding hidden,
@@ -175,10 +178,10 @@ void render(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t layers,
 
 /// Only balls: a room's shadow falls on nothing.
 void CapturePrototype::draw_shadows(VkCommandBuffer commands) {
-    render(commands, shadow_map_.extent(), 6, {}, cleared(shadow_faces_, 0), [&] {
+    render(commands, shadow_map_.extent(), kShadowFaces, {}, cleared(shadow_faces_, 0), [&] {
         shadow_.bind(commands);
         for (const std::size_t mirror : mirrors_)
-            draw_object(commands, shadow_, mirror, kLightView, 6);
+            draw_object(commands, shadow_, mirror, kLightView, kShadowFaces);
     });
 }
 

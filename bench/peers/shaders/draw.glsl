@@ -1,6 +1,6 @@
 // What all shaders of the prototype with captures see.
 layout(set = 0, binding = 0) uniform Frame {
-    mat4 clip_from_scene[31]; // camera, six faces of each mirror, six of the light
+    mat4 clip_from_scene[30]; // camera, six faces of each mirror, five of the light
     vec4 light;               // ambient
     vec4 light_normal;        // near plane of its faces
     vec4 intensity;
