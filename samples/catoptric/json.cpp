@@ -1,5 +1,7 @@
 #include "json.hpp"
 
+#include "app/compare_row.hpp"
+#include "app/device_facts.hpp"
 #include "measure/quantity.hpp"
 #include "report/json.hpp"
 
@@ -17,41 +19,12 @@ std::string written(const Json& document) {
 
 Json to_json(const dvec3& v) { return {v.x, v.y, v.z}; }
 
-Json to_json(const measure::Summary& s) {
-    return {{"median", s.median}, {"p05", s.p05}, {"p95", s.p95},
-            {"mad", s.mad},       {"n", s.n},     {"samples", s.samples}};
-}
-
 Json to_json(const app::DeviceInfo& device) {
-    Json row{{"name", device.name},
-             {"driver", device.driver},
-             {"api", device.api},
-             {"type", device.type},
-             {"threads", device.threads}};
+    Json row = report::device_json(app::facts_of(device));
+    row["id"] = device.id;
     row["usable"] = device.missing.empty();
     if (!device.missing.empty()) row["missing"] = device.missing;
     return row;
-}
-
-template <typename Value>
-Json over_frames(const std::vector<app::FrameTimes>& frames, Value&& value) {
-    std::vector<double> samples;
-    for (const app::FrameTimes& frame : frames) samples.push_back(value(frame));
-    return to_json(measure::summarise(samples));
-}
-
-/// Of the last frame's passes; 0 in frames that had none of that name.
-Json passes_json(const std::vector<app::FrameTimes>& frames) {
-    Json passes = Json::array();
-    for (const app::PassTime& pass : frames.back().passes)
-        passes.push_back(
-            {{"name", pass.name}, {"gpu_ms", over_frames(frames, [&](const auto& frame) {
-                                       double ms = 0;
-                                       for (const app::PassTime& other : frame.passes)
-                                           if (other.name == pass.name) ms += other.ms();
-                                       return ms;
-                                   })}});
-    return passes;
 }
 
 Json left_out_json(const app::Part& part) {
@@ -124,12 +97,11 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
     // The frames of a still compile what they use first: their times say nothing.
+    report::Row row;
     const bool timed = !request.until_settled;
-    const auto times = [&](auto get) { return timed ? over_frames(result.frames, get) : Json(); };
-    document["gpu_ms"] = times([](const auto& f) { return f.gpu_ms; });
-    document["cpu_record_ms"] = times([](const auto& f) { return f.record_ms; });
-    document["wall_ms"] = times([](const auto& f) { return f.wall_ms; });
-    document["passes"] = timed ? passes_json(result.frames) : Json();
+    if (timed) app::fill_times(row, {result.frames}, part.prefix, device.type == "cpu");
+    const Json times = report::times_json(row);
+    for (const auto& [name, value] : times.items()) document[name] = timed ? value : Json();
     document["memory_bytes"] = part.memory_bytes;
     if (part.rays)
         document["rays"] = {{"primary", part.rays->primary},
