@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace catoptric::cli {
 
 namespace {
@@ -25,6 +27,17 @@ Json to_json(const app::DeviceInfo& device) {
     row["usable"] = device.missing.empty();
     if (!device.missing.empty()) row["missing"] = device.missing;
     return row;
+}
+
+/// As report.json has them; the frames of a still compile what they use first: theirs say nothing.
+Json times_of(const app::Result& result, const app::DeviceInfo& device) {
+    report::Row row;
+    app::fill_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
+    const std::vector<app::PassTime>& last = result.frames.back().passes;
+    std::erase_if(row.passes, [&](const report::PassFacts& pass) { // that only others had
+        return std::ranges::find(last, pass.name, &app::PassTime::name) == last.end();
+    });
+    return report::times_json(row);
 }
 
 Json left_out_json(const app::Part& part) {
@@ -96,12 +109,9 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["left_out"] = left_out_json(part);
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
-    // The frames of a still compile what they use first: their times say nothing.
-    report::Row row;
-    const bool timed = !request.until_settled;
-    if (timed) app::fill_times(row, {result.frames}, part.prefix, device.type == "cpu");
-    const Json times = report::times_json(row);
-    for (const auto& [name, value] : times.items()) document[name] = timed ? value : Json();
+    const Json times = times_of(result, device);
+    for (const auto& [name, value] : times.items())
+        document[name] = request.until_settled ? Json() : value;
     document["memory_bytes"] = part.memory_bytes;
     if (part.rays)
         document["rays"] = {{"primary", part.rays->primary},
