@@ -18,8 +18,7 @@ std::vector<double> device_ms(const measure::Benchmark& benchmark) {
 
 } // namespace
 
-std::vector<measure::Tried> tune(const EngineOptions& engine, const Request& request,
-                                 const BenchOptions& options) {
+Tuned tune(const EngineOptions& engine, const Request& request, const BenchOptions& options) {
     const UsageMeter meter(UsageMeter::Of::process);
     std::deque<Engine> engines; // they outlive the sessions in the subjects
     std::vector<Subject> subjects;
@@ -36,7 +35,8 @@ std::vector<measure::Tried> tune(const EngineOptions& engine, const Request& req
     const std::string benchmark = "frame/" + request.scene.name + "/" +
                                   std::to_string(request.size.x) + "x" +
                                   std::to_string(request.size.y) + "/" + kTunedTechnique;
-    std::vector<measure::Tried> tried;
+    Tuned tuned;
+    std::vector<measure::Tried>& tried = tuned.tried;
     for (const gpu::Variant& variant : gpu::variants())
         tried.push_back({.variant = std::string(variant.name),
                          .choice = std::string(variant.choices[1]),
@@ -47,14 +47,15 @@ std::vector<measure::Tried> tune(const EngineOptions& engine, const Request& req
     add("default", {{tried.front().variant, tried.front().standard}});
     for (const measure::Tried& one : tried)
         add(one.variant + "=" + one.choice, {{one.variant, one.choice}});
-    const std::vector<measure::Benchmark> measured = measure_rounds(subjects, meter, options);
+    const measure::BenchmarkRun run = bench(subjects, meter, options, {}, {});
+    tuned.noisy = run.noisy.value_or(false);
     for (std::size_t i = 0; i < tried.size(); ++i) {
-        tried[i].standard_ms = device_ms(measured.front());
-        tried[i].ms = device_ms(measured[i + 1]);
+        tried[i].standard_ms = device_ms(run.benchmarks.front());
+        tried[i].ms = device_ms(run.benchmarks[i + 1]);
     }
     if (engine.validate)
         for (const Engine& one : engines) one.check_validation();
-    return tried;
+    return tuned;
 }
 
 } // namespace catoptric::app

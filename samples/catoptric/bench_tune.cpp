@@ -70,12 +70,14 @@ int tune_device(const Common& common, int rounds, const std::string& output) {
     const fs::path place = place_of(output, device, request.scene.files);
 
     Progress progress(common.manners);
-    const std::vector<measure::Tried> tried = app::tune(
+    const app::Tuned tuned = app::tune(
         engine, request,
         {.iterations = request.frames, .rounds = rounds, .watcher = watcher_of(progress)});
     progress.clear();
-    const std::string text = app::profile_text(device, tried);
-    put(common.manners.json ? text : tuned_table(device, tried));
+    if (tuned.noisy)
+        warn("others were at work beside what was measured; what is taken may be their doing");
+    const std::string text = app::profile_text(device, tuned.tried);
+    put(common.manners.json ? text : tuned_table(device, tuned.tried));
     write_profile(place, text, output.empty());
     note(common.manners, "written: " + place.string());
     return 0;

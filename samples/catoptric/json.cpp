@@ -29,7 +29,7 @@ Json to_json(const app::DeviceInfo& device) {
     return row;
 }
 
-/// As report.json has them; the frames of a still compile what they use first: theirs say nothing.
+/// As report.json has them.
 Json times_of(const app::Result& result, const app::DeviceInfo& device) {
     report::Row row;
     app::fill_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
@@ -109,6 +109,7 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["left_out"] = left_out_json(part);
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
+    // The frames of a still compile what they use first: their times say nothing.
     const Json times = times_of(result, device);
     for (const auto& [name, value] : times.items())
         document[name] = request.until_settled ? Json() : value;
