@@ -45,10 +45,10 @@ std::vector<vec3> picture(const char* technique, const app::Variants& variants) 
     for (const auto& variant : variants) EXPECT_THAT(engine.device().variants, Contains(variant));
     app::Session session(engine, test::with_coarse_balls(scene::cornell_mirrors()));
     app::Request request = test::request(scene::cornell_mirrors(), {technique}, {61, 53});
-    // Another picture before, in the same memory: a pixel that is left out shows it.
-    request.ambient += .5;
+    // Another picture before, wherever this one may lie: a pixel that is left out shows it.
+    request.ambient += .5, request.frames = 3;
     app::run(session, request);
-    request.ambient -= .5;
+    request.ambient -= .5, request.frames = 1;
     std::vector<vec3> pixels = app::run(session, request).parts.front().hdr.pixels;
     engine.check_validation();
     return pixels;
