@@ -15,10 +15,10 @@ struct Tuned {
     bool noisy = false;                ///< others were at work beside: the ratios may be theirs
 };
 
-/// Each variant alone beside the default: the device's time of frames of
-/// `request`, whose technique is kTunedTechnique, in rounds of which each has some of every one.
-/// `engine`: the options of engines of one device, without variants or profile. Costs as many
-/// engines, each with a session of the scene, as there are variants, and one.
-Tuned tune(const EngineOptions& engine, const Request& request, const BenchOptions& options);
+/// Each variant alone beside the default: the device's time of frames of `request`, whose technique
+/// is kTunedTechnique, in rounds of which each has some of every one. All in one session, since the
+/// threads of several software devices would be in each other's way. Leaves the engine with the
+/// defaults.
+Tuned tune(Engine& engine, const Request& request, const BenchOptions& options);
 
 } // namespace catoptric::app

@@ -63,10 +63,11 @@ int tune_device(const Common& common, int rounds, const std::string& output) {
           "--tune and --device-profile: wanted one of them, found both");
     app::Request request = make_request(common);
     request.techniques = {app::kTunedTechnique};
-    app::EngineOptions engine = engine_options(common.device);
-    engine.profiles.clear(); // it is measured from the defaults on
-    const app::DeviceInfo device = app::Engine(engine).device();
-    detail(common.manners, "device: " + device.name + ", " + device.driver);
+    app::EngineOptions opened = engine_options(common.device);
+    opened.profiles.clear(); // it is measured from the defaults on
+    app::Engine engine(opened);
+    introduce(engine, common.manners);
+    const app::DeviceInfo& device = engine.device();
     const fs::path place = place_of(output, device, request.scene.files);
 
     Progress progress(common.manners);
@@ -80,6 +81,7 @@ int tune_device(const Common& common, int rounds, const std::string& output) {
     put(common.manners.json ? text : tuned_table(device, tuned.tried));
     write_profile(place, text, output.empty());
     note(common.manners, "written: " + place.string());
+    if (common.device.validate) engine.check_validation();
     return 0;
 }
 
