@@ -37,8 +37,8 @@ std::size_t find_variant(std::string_view name, Failure failure, const std::stri
 /// Index of the choice.
 std::uint8_t find_choice(const gpu::Variant& variant, const Json& choice, Failure failure,
                          const std::string& place) {
-    for (std::uint8_t k = 0; k < variant.choices.size(); ++k)
-        if (choice == variant.choices[k]) return k;
+    for (std::size_t k = 0; k < variant.choices.size(); ++k)
+        if (choice == variant.choices[k]) return static_cast<std::uint8_t>(k);
     fail(failure, place, ".", variant.name, ": wanted ", in_quotes(variant.choices[0]), " or ",
          in_quotes(variant.choices[1]), ", found ", shown(choice));
 }
