@@ -28,12 +28,17 @@ void keep_hits(uvec2 pixel, uint met) {}
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = HITS_BINDING, r32ui) writeonly uniform uimage2D hits;
+layout(constant_id = PIXELS_IN_ROWS_CONSTANT) const uint pixels_in_rows = 0u;
+
+// Eight that run together are a block of 4x2 pixels, or a row.
+uvec2 place_in_group(uint i) {
+    return pixels_in_rows != 0u ? uvec2(i & 7u, i >> 3) : uvec2(i & 3u | i >> 1 & 4u, i >> 2 & 1u | i >> 3 & 6u);
+}
 
 bool has_pixel(out uvec2 pixel) {
     uint across = (trace.size.x + 7u) / 8u;
     uint group = work_group();
-    uint i = gl_LocalInvocationIndex; // eight that run together are a block of 4x2 pixels
-    pixel = uvec2(group % across, group / across) * 8u + uvec2(i & 3u | i >> 1 & 4u, i >> 2 & 1u | i >> 3 & 6u);
+    pixel = uvec2(group % across, group / across) * 8u + place_in_group(gl_LocalInvocationIndex);
     return all(lessThan(pixel, trace.size));
 }
 void keep_hits(uvec2 pixel, uint met) { imageStore(hits, ivec2(pixel), uvec4(met)); }

@@ -1,6 +1,7 @@
 #include "app/compare.hpp"
 
 #include "app/compare_row.hpp"
+#include "app/device_facts.hpp"
 #include "app/exposure.hpp"
 #include "app/lag.hpp"
 #include "app/plan_file.hpp"
@@ -94,7 +95,7 @@ private:
         comparison_.images = request_.images;
         comparison_.complete = false;
         comparison_.asked = base.techniques.size();
-        comparison_.device = {device.name, device.driver, device.api, device.type, device.threads};
+        comparison_.device = facts_of(device);
         comparison_.scene = scene_facts(base);
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);

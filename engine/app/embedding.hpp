@@ -9,10 +9,14 @@
 
 namespace catoptric::app {
 
-/// The way in for embed/: an engine on a given device, and frames with something added.
+/// The way in for embed/: an engine on a given device, and frames with something added; and for
+/// tuning: another choice of shaders from the next frame on, which Engine::device does not say.
 struct Embedding {
     static Engine make(const EngineOptions& options, const gpu::GivenDevice& given) {
         return Engine(options, given);
+    }
+    static void choose(Engine& engine, const gpu::Choices& choices) {
+        engine.impl_->device.choose(choices);
     }
     static Frame submit(Session& session, const FrameSpec& spec,
                         const std::function<void(FrameGraph&)>& finish) {

@@ -1,6 +1,7 @@
 #include "app/engine.hpp"
 
 #include "app/engine_impl.hpp"
+#include "app/profile.hpp"
 #include "app/version.hpp"
 
 #include <cstdlib>
@@ -13,7 +14,15 @@ std::string commit() { return CATOPTRIC_COMMIT; }
 namespace {
 
 DeviceInfo to_info(const gpu::DeviceInfo& info) {
-    return {info.name, info.driver, info.api, info.type, info.threads, info.missing};
+    return {.name = info.name,
+            .driver = info.driver,
+            .api = info.api,
+            .type = info.type,
+            .threads = info.threads,
+            .missing = info.missing,
+            .id = info.id,
+            .profile = {},
+            .warning = {}};
 }
 
 gpu::DeviceOptions to_options(const EngineOptions& options,
@@ -28,11 +37,26 @@ gpu::DeviceOptions to_options(const EngineOptions& options,
     return wanted;
 }
 
+/// catoptric's in the folder that the variable names, or in one of HOME; empty where neither is an
+/// absolute path.
+std::filesystem::path users_folder(const char* variable, const char* in_home) {
+    const auto absolute = [](const char* name) {
+        const char* text = std::getenv(name);
+        const std::filesystem::path path = text ? text : "";
+        return path.is_absolute() ? path : std::filesystem::path();
+    };
+    const std::filesystem::path home = absolute("HOME"), folder = absolute(variable);
+    if (!folder.empty()) return folder / "catoptric";
+    return home.empty() ? home : home / in_home / "catoptric";
+}
+
 } // namespace
 
 Engine::Impl::Impl(const EngineOptions& options, const std::optional<gpu::GivenDevice>& given)
     : device(to_options(options, given)), pipelines(device, options.shader_variants, options.cache),
-      info(to_info(device.info())) {}
+      info(to_info(device.info())) {
+    device.choose(choose(options, info));
+}
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 Engine::Engine(const EngineOptions& options, const gpu::GivenDevice& given)
@@ -52,20 +76,19 @@ void Engine::check_validation() const { impl_->device.check_validation(); }
 
 bool any_abandoned() { return gpu::any_abandoned(); }
 
-std::filesystem::path cache_folder() {
-    const auto absolute = [](const char* variable) {
-        const char* text = std::getenv(variable);
-        const std::filesystem::path path = text ? text : "";
-        return path.is_absolute() ? path : std::filesystem::path();
-    };
-    const std::filesystem::path home = absolute("HOME"), cache = absolute("XDG_CACHE_HOME");
-    if (!cache.empty()) return cache / "catoptric";
-    return home.empty() ? home : home / ".cache" / "catoptric";
+std::filesystem::path cache_folder() { return users_folder("XDG_CACHE_HOME", ".cache"); }
+
+std::filesystem::path profile_folder() {
+    const std::filesystem::path folder = users_folder("XDG_CONFIG_HOME", ".config");
+    return folder.empty() ? folder : folder / "devices";
 }
 
-std::vector<DeviceInfo> devices() {
+std::vector<DeviceInfo> devices(const std::filesystem::path& profiles) {
     std::vector<DeviceInfo> list;
-    for (const gpu::DeviceInfo& info : gpu::list_devices()) list.push_back(to_info(info));
+    for (const gpu::DeviceInfo& info : gpu::list_devices()) {
+        list.push_back(to_info(info));
+        choose({.profiles = profiles}, list.back());
+    }
     return list;
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace catoptric::gpu {
@@ -18,6 +19,10 @@ struct GivenDevice; // internal
 /// The engine as a program or a library uses it. No Vulkan name is needed to include this.
 namespace catoptric::app {
 
+/// Choices among builds of shaders that change no byte of a picture, by name: {"groups", "in
+/// order"}.
+using Variants = std::vector<std::pair<std::string, std::string>>;
+
 struct EngineOptions {
     std::string device;    ///< index or part of a name; empty = discrete, else integrated, else cpu
     bool validate = false; ///< the validation layer watches; any message makes the run fail
@@ -25,6 +30,14 @@ struct EngineOptions {
     /// Shader builds to use in place of others, for benchmarks: "raytrace.comp" ->
     /// "raytrace.comp#naive".
     std::map<std::string, std::string> shader_variants = {};
+    /// The profile of the device (docs/performance.md), as `catoptric bench --tune` writes it: a
+    /// file of this device and driver, else the engine throws `bad_data` or `missing_input`.
+    std::filesystem::path profile = {};
+    /// A folder with profiles, where none is named: that of this device and driver is used if it is
+    /// there; DeviceInfo::warning says where it is no good. Empty: all is as by default.
+    std::filesystem::path profiles = {};
+    /// What would be in a profile, in place of one.
+    Variants variants = {};
     /// A folder where compiled pipelines are kept from process to process; empty: nowhere.
     std::filesystem::path cache = {};
     /// For a window (app/screen.hpp): the instance extensions that its system wants, and what makes
@@ -36,6 +49,9 @@ struct EngineOptions {
 
 /// XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty where neither is an absolute path.
 CATOPTRIC_API std::filesystem::path cache_folder();
+/// XDG_CONFIG_HOME/catoptric/devices, or below HOME/.config; empty where neither is an absolute
+/// path.
+CATOPTRIC_API std::filesystem::path profile_folder();
 
 struct Knob {
     std::string name, help;
@@ -61,9 +77,14 @@ CATOPTRIC_API TechniqueChoice parse_technique(const std::string& text);
 struct DeviceInfo {
     std::string name, driver, api, type;
     int threads = 0;
-    std::string missing; ///< what the engine needs and it lacks; empty = usable
+    std::string missing;    ///< what the engine needs and it lacks; empty = usable
+    std::string id;         ///< vendor and device in hexadecimal: "10de-2330"
+    std::string profile;    ///< file name of the profile that holds; empty: none
+    Variants variants = {}; ///< that hold, all
+    std::string warning;    ///< why a profile that is there does not hold; empty: it does
 };
-CATOPTRIC_API std::vector<DeviceInfo> devices();
+/// `profiles`: see EngineOptions.
+CATOPTRIC_API std::vector<DeviceInfo> devices(const std::filesystem::path& profiles = {});
 
 CATOPTRIC_API std::string version(); ///< "0.1.0"
 CATOPTRIC_API std::string commit();  ///< abbreviated, "unknown" outside a checkout

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "gpu/variants.hpp"
 #include "gpu/vulkan.hpp"
 
 #include <cstdint>
@@ -19,6 +20,7 @@ struct DeviceInfo {
     std::string type;    ///< discrete | integrated | virtual | cpu | other
     int threads = 0;     ///< of a cpu device: how many processors it may use; otherwise 0
     std::string missing; ///< features that the engine requires and the device lacks; empty = usable
+    std::string id;      ///< vendor and device in hexadecimal: "10de-2330"
 };
 
 /// All devices in the order in which they are preferred: discrete, integrated, virtual, cpu.
@@ -73,6 +75,10 @@ public:
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
     bool is_cpu() const { return info_.type == "cpu"; }
+    /// What its shaders are to be; the defaults until somebody says otherwise, before the first
+    /// frame.
+    const Choices& choices() const { return choices_; }
+    void choose(const Choices& choices) { choices_ = choices; }
     /// Vertex shaders may write gl_Layer; otherwise layered passes run layer by layer.
     bool layered() const { return layered_; }
     /// Shaders may compute with doubles.
@@ -144,6 +150,7 @@ private:
     std::uint64_t max_allocation_ = 0;
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceInfo info_;
+    Choices choices_{};
     bool layered_ = true;
     bool doubles_ = false;
     bool staged_ = false;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <thread>
@@ -68,6 +69,12 @@ int preference(VkPhysicalDeviceType type) {
     case VK_PHYSICAL_DEVICE_TYPE_CPU: return 3;
     default: return 4;
     }
+}
+
+std::string id_of(const VkPhysicalDeviceProperties& properties) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%04x-%04x", properties.vendorID, properties.deviceID);
+    return text;
 }
 
 std::string version(std::uint32_t v) {
@@ -180,6 +187,7 @@ DeviceInfo describe(VkPhysicalDevice device) {
     DeviceInfo info;
     info.name = properties.properties.deviceName;
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    info.id = id_of(properties.properties);
     info.api = version(properties.properties.apiVersion);
     info.type = kTypes[static_cast<std::size_t>(preference(properties.properties.deviceType))];
     if (info.type == "cpu") info.threads = cpu_threads();

@@ -18,6 +18,7 @@ Stage::Stage(const Device& device, const std::string& name, VkShaderStageFlagBit
         for (const auto& [constant, value] : *list)
             if (const Constant* known = find(constant)) values[known->id] = bits_of(value);
     const std::vector<std::uint32_t> words = specialise(name, shader.words, values);
+    reflection.bindings = reflect(name, words).bindings; // of what these constants leave of it
     VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     create.codeSize = words.size() * sizeof(std::uint32_t);
     create.pCode = words.data();

@@ -22,9 +22,11 @@ namespace catoptric::measure {
 
 struct DeviceFacts {
     std::string name, driver, api, type;
-    int threads = 0; ///< of a cpu device
+    int threads = 0;     ///< of a cpu device
+    std::string profile; ///< file name of its profile; empty: none holds
+    std::vector<std::pair<std::string, std::string>> variants; ///< of its shaders, by name
     int held_threads =
-        0; ///< of these, how many stayed on a processor each while rows were measured
+        0; ///< of a cpu device's, how many stayed on a processor while rows were measured
 };
 
 /// Where the picture was taken from, world units.

@@ -35,6 +35,10 @@ std::vector<vec2> sample_offsets(int count, std::uint64_t seed) {
     return offsets;
 }
 
+render::Spheres spheres_of(const Tracer& tracer) {
+    return tracer.exact_spheres ? render::Spheres::exact : render::Spheres::mesh;
+}
+
 gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, bool listed) {
     std::string build;
     for (const auto& [wanted, name] : {std::pair{listed, "listed"},
@@ -47,11 +51,7 @@ gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, 
              {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
              {"without", tracer.without},
              {"fixed_offset", scene.space().length(kReportOffset)}},
-            scene.features()};
-}
-
-render::Spheres spheres_of(const Tracer& tracer) {
-    return tracer.exact_spheres ? render::Spheres::exact : render::Spheres::mesh;
+            scene.tracing_features(spheres_of(tracer))};
 }
 
 /// What the body of a tracing pass binds.

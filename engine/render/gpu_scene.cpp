@@ -254,6 +254,15 @@ gpu::Constants GpuScene::features(std::uint32_t view) const {
             {"orthographic", views_[view].parallel},     {"mirror_tree", is_crowd() ? 1u : 0u}};
 }
 
+gpu::Constants GpuScene::tracing_features(Spheres spheres) const {
+    gpu::Constants constants = features();
+    for (const auto& constant :
+         constants_of(device_.choices(), tracing_->largest_bytes(spheres, slot_),
+                      device_.limits().maxStorageBufferRange))
+        constants.push_back(constant);
+    return constants;
+}
+
 void GpuScene::bind_sky_vertices(graph::Commands& commands) const {
     sky_.bind_vertices(commands, slot_);
 }

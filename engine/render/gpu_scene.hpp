@@ -83,6 +83,9 @@ public:
     /// What shaders that show this view are to be built for; what the scene has not got costs
     /// nothing.
     gpu::Constants features(std::uint32_t view = kCameraView) const;
+    /// The same for the tracer, with what the device has otherwise than by default
+    /// (gpu/variants.hpp). After `bind_tracing` of these spheres.
+    gpu::Constants tracing_features(Spheres spheres) const;
     /// Whether some surface is more than one colour.
     bool has_details() const { return details_.any(); }
     /// Whether something is seen where the scene ends.

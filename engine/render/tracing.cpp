@@ -67,7 +67,20 @@ std::vector<bvh::Triangle> with_balls(std::span<const bvh::Triangle> flat, const
     return triangles;
 }
 
+constexpr std::string_view kInStorage = "bvh_in_storage";
+
 } // namespace
+
+gpu::Constants constants_of(const gpu::Choices& choices, std::uint64_t bytes,
+                            std::uint64_t most_of_storage) {
+    gpu::Constants constants;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+        const std::string_view constant = gpu::variants()[i].constant;
+        if (choices[i] == 0 || (constant == kInStorage && bytes > most_of_storage)) continue;
+        constants.emplace_back(constant, choices[i]);
+    }
+    return constants;
+}
 
 Tracing::Tracing(std::size_t slots)
     : hierarchies_{Hierarchy(slots), Hierarchy(slots)},
@@ -207,6 +220,11 @@ void Tracing::prepare(gpu::Device& device, const Geometry& geometry,
     for (Resident* buffer : {&hierarchy.nodes, &hierarchy.triangles, &normals_buffer_})
         writes_ += buffer->write(device, slot);
     if (is_first) first_build_ms_ = build_ms, first_write_ms_ = watch.ms() - build_ms;
+}
+
+std::uint64_t Tracing::largest_bytes(Spheres spheres, std::size_t slot) const {
+    const Hierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
+    return std::max(hierarchy.nodes.at(slot).bytes(), hierarchy.triangles.at(slot).bytes());
 }
 
 void Tracing::bind(graph::Commands& commands, Spheres spheres, std::size_t slot) const {

@@ -20,6 +20,11 @@ inline constexpr double kWorstRefit = 2;
 /// place. Each has a hierarchy of its own.
 enum class Spheres { mesh, exact };
 
+/// What the tracer's shaders are to be built for by a device's choices, but for its defaults, where
+/// nodes and triangles have so many bytes: more than a storage buffer may are texels.
+gpu::Constants constants_of(const gpu::Choices& choices, std::uint64_t bytes,
+                            std::uint64_t most_of_storage);
+
 /// The hierarchies that rays walk, each made when somebody asks for it: built once for a layout of
 /// objects, refitted where objects have moved since.
 class Tracing {
@@ -35,6 +40,8 @@ public:
     void prepare(gpu::Device& device, const Geometry& geometry,
                  std::span<const shared::Surface> surfaces, Spheres spheres, std::size_t slot);
     void bind(graph::Commands& commands, Spheres spheres, std::size_t slot) const;
+    /// Bytes of nodes or of triangles, the more, as `prepare` wrote them for the slot.
+    std::uint64_t largest_bytes(Spheres spheres, std::size_t slot) const;
 
     std::size_t built() const { return built_; }
     std::size_t refitted() const { return refitted_; }

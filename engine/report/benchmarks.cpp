@@ -22,11 +22,7 @@ Json context_json(const BenchmarkRun& run) {
     context["version"] = run.version;
     context["commit"] = run.commit;
     context["command"] = run.command;
-    context["device"] = {{"name", run.device.name},
-                         {"driver", run.device.driver},
-                         {"api", run.device.api},
-                         {"type", run.device.type},
-                         {"threads", run.device.threads}};
+    context["device"] = device_json(run.device);
     context["cycles"] = run.uncounted.empty() ? "user mode, all threads"
                                               : "not counted: " + run.uncounted;
     context["noisy"] = run.noisy ? Json(*run.noisy) : Json();
@@ -55,11 +51,6 @@ Json round_json(const Benchmark& benchmark, std::size_t family, std::size_t inde
     if (round.instructions) json["instructions"] = number(*round.instructions);
     for (const auto& [name, value] : round.counters) json[name] = number(value);
     return json;
-}
-
-Json interval_json(const measure::Interval& interval) {
-    return interval.is_known() ? Json::array({number(interval.low), number(interval.high)})
-                               : Json();
 }
 
 void put_median(Json& json, const char* name, const std::vector<double>& values) {

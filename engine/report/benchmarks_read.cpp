@@ -16,13 +16,6 @@ using measure::Benchmark;
 using measure::BenchmarkRound;
 using measure::BenchmarkRun;
 
-/// What was found, for a message.
-std::string shown(const Json& value) {
-    if (value.is_null()) return "nothing";
-    if (value.is_structured()) return value.is_array() ? "a list" : "an object";
-    return in_quotes(value.dump(-1, ' ', true, Json::error_handler_t::replace));
-}
-
 /// One entry of the list, and where it stands.
 struct Entry {
     const Json& json;

@@ -14,7 +14,8 @@ std::string device_text(const DeviceFacts& device) {
     if (device.threads > 0) threads = fmt::format(", {} threads", device.threads);
     if (device.held_threads > 0)
         threads += fmt::format(", {} of them held on a processor each", device.held_threads);
-    return fmt::format("{} ({}{})", device.name, device.type, threads);
+    const std::string profile = device.profile.empty() ? "" : ", profile " + device.profile;
+    return fmt::format("{} ({}{}{})", device.name, device.type, threads, profile);
 }
 
 std::string settings_of(const Comparison& comparison) {

@@ -2,6 +2,7 @@
 #include "report/json.hpp"
 
 #include "core/mirror_id.hpp"
+#include "core/text.hpp"
 #include "report/report.hpp"
 #include "report/text.hpp"
 
@@ -15,6 +16,29 @@ Json number(double value) {
     if (std::abs(value) < kExact && value == std::trunc(value) && !std::signbit(value))
         return static_cast<std::int64_t>(value);
     return value;
+}
+
+Json interval_json(const measure::Interval& interval) {
+    return interval.is_known() ? Json::array({number(interval.low), number(interval.high)})
+                               : Json();
+}
+
+std::string shown(const Json& value) {
+    if (value.is_null()) return "nothing";
+    if (value.is_structured()) return value.is_array() ? "a list" : "an object";
+    return in_quotes(value.dump(-1, ' ', true, Json::error_handler_t::replace));
+}
+
+Json device_json(const DeviceFacts& device) {
+    Json json{{"name", device.name},
+              {"driver", device.driver},
+              {"api", device.api},
+              {"type", device.type},
+              {"threads", device.threads}};
+    json["profile"] = device.profile.empty() ? Json() : Json(device.profile);
+    json["variants"] = Json::object();
+    for (const auto& [name, choice] : device.variants) json["variants"][name] = choice;
+    return json;
 }
 
 namespace {
@@ -31,9 +55,7 @@ Json to_json(const measure::Summary& summary) {
             {"p05", number(summary.p05)},
             {"p95", number(summary.p95)},
             {"mad", number(summary.mad)},
-            {"ci95", summary.ci95.is_known()
-                         ? Json::array({number(summary.ci95.low), number(summary.ci95.high)})
-                         : Json(nullptr)},
+            {"ci95", interval_json(summary.ci95)},
             {"rounds", list_json(summary.rounds)},
             {"n", summary.n},
             {"samples", list_json(summary.samples)}};
@@ -92,20 +114,23 @@ void add_to_object(Json& json, const measure::Quantity& quantity, const measure:
     object[std::string(quantity.name.substr(slash + 1))] = value_json(value);
 }
 
+void add_figure(Json& json, const measure::Quantity& quantity, const Row& row) {
+    const measure::Value value = measure::value_of(quantity, row);
+    const bool* mark = std::get_if<bool>(&value);
+    if (quantity.only_where_true && mark != nullptr && !*mark) return;
+    if (quantity.name.find('/') != std::string_view::npos)
+        add_to_object(json, quantity, value);
+    else
+        json[std::string(quantity.name)] = value_json(value);
+}
+
 /// Every figure of the table, those of differences where their first stands.
 void add_figures(Json& json, const Row& row) {
     for (const measure::Quantity& quantity : measure::quantities()) {
-        if (quantity.mask == "each") {
-            if (!json.contains("error")) add_errors(json, row);
-            continue;
-        }
-        const measure::Value value = measure::value_of(quantity, row);
-        const bool* mark = std::get_if<bool>(&value);
-        if (quantity.only_where_true && mark != nullptr && !*mark) continue;
-        if (quantity.name.find('/') != std::string_view::npos)
-            add_to_object(json, quantity, value);
-        else
-            json[std::string(quantity.name)] = value_json(value);
+        if (quantity.mask != "each")
+            add_figure(json, quantity, row);
+        else if (!json.contains("error"))
+            add_errors(json, row);
     }
 }
 
@@ -165,10 +190,8 @@ Json to_json(const SetupFacts& setup) {
 }
 
 void add_circumstances(Json& json, const Comparison& comparison) {
-    const DeviceFacts& device = comparison.device;
-    json["device"] = {{"name", device.name},       {"driver", device.driver},
-                      {"api", device.api},         {"type", device.type},
-                      {"threads", device.threads}, {"held_threads", device.held_threads}};
+    json["device"] = device_json(comparison.device);
+    json["device"]["held_threads"] = comparison.device.held_threads;
     json["scene"] = scene_json(comparison.scene);
     json["setup"] = to_json(comparison.setup);
     json["size"] = Json::array({comparison.width, comparison.height});
@@ -185,6 +208,13 @@ void add_circumstances(Json& json, const Comparison& comparison) {
 }
 
 } // namespace
+
+Json times_json(const Row& row) {
+    Json json = Json::object();
+    for (const measure::Quantity& quantity : measure::quantities())
+        if (quantity.unit == "ms") add_figure(json, quantity, row);
+    return json;
+}
 
 Json value_json(const measure::Value& value) { return std::visit(Writes{}, value); }
 

@@ -18,6 +18,14 @@ std::string written(const Json& document);
 
 /// Whole numbers without a fraction, null for what JSON has no number for.
 Json number(double value);
+/// Low and high; null where it is not known.
+Json interval_json(const measure::Interval& interval);
+/// A value that was read, for a message: "nothing", "a list", as JSON in quotes.
+std::string shown(const Json& value);
+/// The field "device".
+Json device_json(const DeviceFacts& device);
+/// What a row's frames took, milliseconds: its fields of that unit, as report.json has them.
+Json times_json(const Row& row);
 /// What a quantity came to; null where it says nothing.
 Json value_json(const measure::Value& value);
 /// The field "lag".

@@ -45,11 +45,7 @@ std::string to_json(const Stress& stress) {
         json["incomplete"] = incomplete_text(stress);
         json["rows_asked"] = stress.asked;
     }
-    json["device"] = {{"name", stress.device.name},
-                      {"driver", stress.device.driver},
-                      {"api", stress.device.api},
-                      {"type", stress.device.type},
-                      {"threads", stress.device.threads}};
+    json["device"] = device_json(stress.device);
     json["size"] = Json::array({stress.width, stress.height});
     json["seed"] = stress.seed;
     json["rows"] = Json::array();

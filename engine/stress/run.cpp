@@ -1,5 +1,6 @@
 #include "stress/run.hpp"
 
+#include "app/device_facts.hpp"
 #include "core/error.hpp"
 #include "stress/property.hpp"
 
@@ -70,7 +71,7 @@ report::Stress run(app::Engine& engine, const StressRequest& request) {
                           false,
                           chosen.size(),
                           {},
-                          {device.name, device.driver, device.api, device.type, device.threads},
+                          app::facts_of(device),
                           static_cast<int>(request.size.x),
                           static_cast<int>(request.size.y),
                           request.seed,

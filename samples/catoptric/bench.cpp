@@ -1,8 +1,10 @@
 // catoptric bench: what frames, and what comes before them, cost; beside another run or build.
 #include "app/bench_subjects.hpp"
 #include "app/compare.hpp"
+#include "app/device_facts.hpp"
 #include "bench_against.hpp"
 #include "bench_table.hpp"
+#include "bench_tune.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "options.hpp"
@@ -26,10 +28,13 @@ constexpr const char* kExamples = R"(Examples:
   catoptric bench scene.glb --size 256x256 --json > scene.json
   catoptric bench --compare before.json now.json
   catoptric bench --against ../before/build/release/catoptric --techniques raytrace
+  catoptric bench --tune
 
 SCENE comes before --techniques. frame/...: a frame, with all threads; host/...: what the calling thread does for it;
 load/, session/, hierarchy/: the scene made or read, put on the device, its tree built.
 Cycles are of user mode. Where the system does not count them (perf_event), processor time takes their place.
+--tune measures frames of the ray tracer with each variant of its shaders beside the default and keeps in the profile
+what is faster for certain; pictures stay the same, to the byte.
 Exit code 1 where --compare or --against finds something slower: the interval of the ratio lies above 1.)";
 
 /// What is measured of a scene where nothing is asked for.
@@ -43,6 +48,8 @@ const std::vector<std::string> kTechniques{"raytrace:depth=4",
                                            "pyramid",
                                            "layered",
                                            "hybrid"};
+constexpr const char* kOneModel =
+    "--model both: wanted everything or required, of which a benchmark has one";
 constexpr const char* kFlatScene = "flat"; // `planar` needs a flat mirror
 constexpr const char* kFlatTechnique = "planar";
 
@@ -54,6 +61,7 @@ struct Options {
     int rounds = app::kRounds;
     std::vector<std::string> before_and_after; ///< files to compare
     std::string against;                       ///< another build
+    bool tunes = false;
     std::vector<std::string> command;
 };
 
@@ -104,10 +112,6 @@ void add_subjects(app::Engine& engine, const SceneAsked& asked, app::Request req
     }
 }
 
-measure::DeviceFacts facts_of(const app::DeviceInfo& device) {
-    return {device.name, device.driver, device.api, device.type, device.threads};
-}
-
 void check_output(const Options& options, const std::vector<std::filesystem::path>& inputs,
                   const std::string& read) {
     if (options.output.empty()) return;
@@ -126,8 +130,7 @@ void put_result(const Options& options, const std::string& json, const std::stri
 int measure(const Options& options) {
     // Before the driver's threads are there, so that it counts them.
     const app::UsageMeter meter(app::UsageMeter::Of::process);
-    check(!options.common.both_models, Failure::usage,
-          "--model both: wanted everything or required, of which a benchmark has one");
+    check(!options.common.both_models, Failure::usage, kOneModel);
     check_no_scene(options.techniques);
     app::check_rows(options.techniques);
     const std::vector<SceneAsked> list = asked_of(options);
@@ -139,7 +142,7 @@ int measure(const Options& options) {
         inputs.insert(inputs.end(), files.begin(), files.end());
     }
     check_output(options, inputs, ", which the scene is read from");
-    app::Engine engine(engine_options(options.common.device, options.common.validate));
+    app::Engine engine(engine_options(options.common.device));
     introduce(engine, options.common.manners);
     const int iterations = frames_of(options);
     std::vector<app::Subject> subjects;
@@ -149,10 +152,10 @@ int measure(const Options& options) {
     const measure::BenchmarkRun run = app::bench(
         subjects, meter,
         {.iterations = iterations, .rounds = options.rounds, .watcher = watcher_of(progress)},
-        facts_of(engine.device()), options.command);
+        app::facts_of(engine.device()), options.command);
     progress.clear();
     put_result(options, report::to_json(run), bench_table(run));
-    if (options.common.validate) engine.check_validation();
+    if (options.common.device.validate) engine.check_validation();
     return 0;
 }
 
@@ -206,10 +209,23 @@ int run_against(const Options& options) {
     return judge(options, runs[0], runs[1]);
 }
 
+int tune(const Options& options) {
+    check(options.techniques.empty() && options.scenes.size() <= 1, Failure::usage,
+          "--tune: wanted at most one SCENE and no --techniques, since ", app::kTunedTechnique,
+          " is what is measured");
+    check(!options.common.both_models, Failure::usage, kOneModel);
+    Common common = options.common;
+    if (!options.scenes.empty()) common.scene = options.scenes.front();
+    return tune_device(common, std::min(options.rounds, frames_of(options)), options.output);
+}
+
 int run(const Options& options) {
     const bool compares = !options.before_and_after.empty(), in_turn = !options.against.empty();
-    check(!compares || !in_turn, Failure::usage,
-          "--compare and --against: wanted one of them, found both");
+    for (const auto& [both, names] : {std::pair{compares && in_turn, "--compare and --against"},
+                                      {options.tunes && compares, "--tune and --compare"},
+                                      {options.tunes && in_turn, "--tune and --against"}})
+        check(!both, Failure::usage, names, ": wanted one of them, found both");
+    if (options.tunes) return tune(options);
     return compares ? compare_files(options) : in_turn ? run_against(options) : measure(options);
 }
 
@@ -242,10 +258,10 @@ void add_bench(CommandLine& program, std::vector<std::string> command) {
                 "another build of this program (a path): a round of each in turn, this beside it; "
                 "exit 1 when slower",
                 options->against);
-    verb.option_without_value("--tune", "not there yet", [] {
-        fail(Failure::usage, "--tune: is not there yet; no part of the engine reads a profile of "
-                             "the device that it could write");
-    });
+    verb.flag("--tune",
+              "which variants of shaders suit the device: into its profile in the user's "
+              "configuration, or -o FILE",
+              options->tunes);
     add_common_without_scene(verb, options->common);
     verb.does([options] { return run(*options); });
 }

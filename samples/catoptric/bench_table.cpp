@@ -21,11 +21,6 @@ using Cells = std::vector<std::vector<std::string>>;
 
 std::string figure(double value) { return fmt::format("{:.3f}", value); }
 
-std::string interval_text(const measure::Interval& interval, double unit = 1) {
-    if (!interval.is_known()) return "-";
-    return fmt::format("[{:.3f} - {:.3f}]", interval.low / unit, interval.high / unit);
-}
-
 /// Median and interval, in `unit`.
 void add(std::vector<std::string>& cells, const std::vector<double>& values, double unit = 1) {
     cells.push_back(figure(measure::percentile(values, .5) / unit));
@@ -67,6 +62,11 @@ std::string list_text(const char* title, const std::vector<std::string>& names) 
 }
 
 } // namespace
+
+std::string interval_text(const measure::Interval& interval, double unit) {
+    if (!interval.is_known()) return "-";
+    return fmt::format("[{:.3f} - {:.3f}]", interval.low / unit, interval.high / unit);
+}
 
 std::string bench_table(const BenchmarkRun& run) {
     const bool counted = run.uncounted.empty();

@@ -6,6 +6,8 @@
 
 namespace catoptric::cli {
 
+/// "[0.981 - 1.020]", in `unit`; "-" where it is not known.
+std::string interval_text(const measure::Interval& interval, double unit = 1);
 /// What bench prints: a line about where it was measured, then one a benchmark.
 std::string bench_table(const measure::BenchmarkRun& run);
 /// What `bench --compare` and `--against` print.

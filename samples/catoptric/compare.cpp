@@ -197,7 +197,7 @@ int run(const Options& options) {
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
     check_places(options, requests);
     image_codecs(); // where they are missing nothing need be rendered
-    app::Engine engine(engine_options(options.common.device, options.common.validate));
+    app::Engine engine(engine_options(options.common.device));
     introduce(engine, options.common.manners);
     report::create_folder(options.folder);
 
@@ -215,7 +215,7 @@ int run(const Options& options) {
     }
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
-    if (options.common.validate) engine.check_validation();
+    if (options.common.device.validate) engine.check_validation();
     return 0;
 }
 

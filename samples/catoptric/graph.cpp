@@ -56,12 +56,12 @@ int run(const Options& options) {
         put(format == app::PlanFormat::json ? app::why_json(request) : app::why_text(request));
         return 0;
     }
-    app::Engine engine(engine_options(options.common.device, options.common.validate));
+    app::Engine engine(engine_options(options.common.device));
     introduce(engine, options.common.manners);
     std::string plan = app::Session(engine, request.scene).plan(request, format);
     if (!plan.ends_with('\n')) plan += '\n';
     put(plan);
-    if (options.common.validate) engine.check_validation();
+    if (options.common.device.validate) engine.check_validation();
     return 0;
 }
 

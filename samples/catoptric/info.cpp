@@ -26,10 +26,13 @@ constexpr const char* kExamples = R"(Examples:
   catoptric info room.glb
   catoptric info room.glb --mirror 'wall mirror' --write)";
 
-InfoFacts gather(const std::string& device) {
+InfoFacts gather(const DeviceAsked& device) {
     InfoFacts facts;
     try {
-        facts.device = app::Engine({.device = device}).device();
+        app::EngineOptions options = engine_options(device);
+        options.cache.clear(); // it compiles nothing
+        facts.device = app::Engine(options).device();
+        if (!facts.device->warning.empty()) warn(facts.device->warning);
     } catch (const Error& error) {
         if (error.failure != Failure::no_device) throw;
         facts.why_no_device = error.what();
@@ -55,6 +58,10 @@ std::string text_of(const InfoFacts& facts) {
                                                        : "";
         text += fmt::format("{:<14} {} ({}, Vulkan {}, {}{})\n", "device", device.name, device.type,
                             device.api, device.driver, threads);
+        text += fmt::format("{:<14} {}\n", "profile",
+                            device.profile.empty() ? "none" : device.profile);
+        for (const auto& [name, choice] : device.variants)
+            text += fmt::format("{:<14} {}\n", "  " + name, choice);
     } else {
         text += fmt::format("{:<14} none: {}\n", "device", facts.why_no_device);
     }
@@ -72,7 +79,7 @@ struct Options {
 std::optional<double> exposure_of(app::Request& request, const Options& options) {
     if (!request.auto_exposure) return request.exposure;
     try {
-        app::Engine engine(engine_options(options.common.device, options.common.validate));
+        app::Engine engine(engine_options(options.common.device));
         introduce(engine, options.common.manners);
         app::Session session(engine, request.scene);
         return app::auto_exposure(session, request);
@@ -140,8 +147,7 @@ void add_info(CommandLine& program) {
     verb.flag("--write", "what is said of the scene here also becomes SCENE.catoptric.json",
               options->writes);
     verb.flag("--force", "--write may replace one", options->replaces);
-    verb.option("--device", "D", "index from 0 or part of a name (the fastest kind)",
-                options->common.device);
+    add_device(verb, options->common.device);
     add_view(verb, options->common);
     add_wishes(verb, options->common);
     add_manners(verb, options->common.manners);

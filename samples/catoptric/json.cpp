@@ -1,9 +1,13 @@
 #include "json.hpp"
 
+#include "app/compare_row.hpp"
+#include "app/device_facts.hpp"
 #include "measure/quantity.hpp"
 #include "report/json.hpp"
 
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace catoptric::cli {
 
@@ -17,41 +21,23 @@ std::string written(const Json& document) {
 
 Json to_json(const dvec3& v) { return {v.x, v.y, v.z}; }
 
-Json to_json(const measure::Summary& s) {
-    return {{"median", s.median}, {"p05", s.p05}, {"p95", s.p95},
-            {"mad", s.mad},       {"n", s.n},     {"samples", s.samples}};
-}
-
 Json to_json(const app::DeviceInfo& device) {
-    Json row{{"name", device.name},
-             {"driver", device.driver},
-             {"api", device.api},
-             {"type", device.type},
-             {"threads", device.threads}};
+    Json row = report::device_json(app::facts_of(device));
+    row["id"] = device.id;
     row["usable"] = device.missing.empty();
     if (!device.missing.empty()) row["missing"] = device.missing;
     return row;
 }
 
-template <typename Value>
-Json over_frames(const std::vector<app::FrameTimes>& frames, Value&& value) {
-    std::vector<double> samples;
-    for (const app::FrameTimes& frame : frames) samples.push_back(value(frame));
-    return to_json(measure::summarise(samples));
-}
-
-/// Of the last frame's passes; 0 in frames that had none of that name.
-Json passes_json(const std::vector<app::FrameTimes>& frames) {
-    Json passes = Json::array();
-    for (const app::PassTime& pass : frames.back().passes)
-        passes.push_back(
-            {{"name", pass.name}, {"gpu_ms", over_frames(frames, [&](const auto& frame) {
-                                       double ms = 0;
-                                       for (const app::PassTime& other : frame.passes)
-                                           if (other.name == pass.name) ms += other.ms();
-                                       return ms;
-                                   })}});
-    return passes;
+/// As report.json has them.
+Json times_of(const app::Result& result, const app::DeviceInfo& device) {
+    report::Row row;
+    app::fill_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
+    const std::vector<app::PassTime>& last = result.frames.back().passes;
+    std::erase_if(row.passes, [&](const report::PassFacts& pass) { // that only others had
+        return std::ranges::find(last, pass.name, &app::PassTime::name) == last.end();
+    });
+    return report::times_json(row);
 }
 
 Json left_out_json(const app::Part& part) {
@@ -124,12 +110,9 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
     // The frames of a still compile what they use first: their times say nothing.
-    const bool timed = !request.until_settled;
-    const auto times = [&](auto get) { return timed ? over_frames(result.frames, get) : Json(); };
-    document["gpu_ms"] = times([](const auto& f) { return f.gpu_ms; });
-    document["cpu_record_ms"] = times([](const auto& f) { return f.record_ms; });
-    document["wall_ms"] = times([](const auto& f) { return f.wall_ms; });
-    document["passes"] = timed ? passes_json(result.frames) : Json();
+    const Json times = times_of(result, device);
+    for (const auto& [name, value] : times.items())
+        document[name] = request.until_settled ? Json() : value;
     document["memory_bytes"] = part.memory_bytes;
     if (part.rays)
         document["rays"] = {{"primary", part.rays->primary},

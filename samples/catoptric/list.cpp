@@ -45,8 +45,9 @@ std::string devices_text(const std::vector<app::DeviceInfo>& devices) {
     std::string text;
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const app::DeviceInfo& device = devices[i];
-        text += fmt::format("{}  {}  {}, Vulkan {}, {}{}\n", i, device.name, device.type,
+        text += fmt::format("{}  {}  {}, Vulkan {}, {}{}{}\n", i, device.name, device.type,
                             device.api, device.driver,
+                            device.profile.empty() ? "" : ", profile " + device.profile,
                             device.missing.empty() ? "" : "; not usable, lacks " + device.missing);
     }
     return text;
@@ -89,8 +90,12 @@ std::string metrics_text() {
 std::string listing(const std::string& kind, bool json) {
     if (kind == "techniques")
         return json ? techniques_json(app::techniques()) : techniques_text(app::techniques());
-    if (kind == "devices")
-        return json ? devices_json(app::devices()) : devices_text(app::devices());
+    if (kind == "devices") {
+        const std::vector<app::DeviceInfo> devices = app::devices(app::profile_folder());
+        for (const app::DeviceInfo& device : devices)
+            if (!device.warning.empty()) warn(device.warning);
+        return json ? devices_json(devices) : devices_text(devices);
+    }
     if (kind == "metrics") return json ? metrics_json() : metrics_text();
     return json ? named_json(kind, scenes()) : named_text(scenes());
 }

@@ -53,9 +53,7 @@ void add_choices(Verb& verb, Common& common) {
                           "--reference: wanted one technique for all mirrors, found '", text, "'");
                     common.reference = choice.label;
                 });
-    verb.option("--device", "D",
-                "index from 0 or part of a name, see 'list devices' (the fastest kind)",
-                [&](const std::string& text) { common.device = text; });
+    add_device(verb, common.device);
     verb.option(
         "--timing", "T",
         "isolated: times of passes add up. pipelined: passes may overlap (isolated)",
@@ -63,8 +61,7 @@ void add_choices(Verb& verb, Common& common) {
             const bool isolated = parse_choice("--timing", text, {"isolated", "pipelined"}) == 0;
             common.timing = isolated ? app::Timing::isolated : app::Timing::pipelined;
         });
-    verb.flag("--validate", "watched by the Vulkan validation layer; any message fails the run",
-              common.validate);
+    add_validate(verb, common.device);
 }
 
 scene::Camera choose_camera(const Common& common, app::Wanted& wanted) {
@@ -101,6 +98,21 @@ void add_manners(Verb& verb, Manners& manners) {
                     manners.progress = static_cast<ProgressMode>(
                         parse_choice("--progress", text, {"auto", "always", "never"}));
                 });
+}
+
+void add_device(Verb& verb, DeviceAsked& device) {
+    verb.option("--device", "D",
+                "index from 0 or part of a name, see 'list devices' (the fastest kind)",
+                device.name);
+    verb.option("--device-profile", "FILE",
+                "what its shaders are to be, as 'bench --tune' wrote it; none: all as by default "
+                "(the device's in the user's configuration, if there is one)",
+                device.profile);
+}
+
+void add_validate(Verb& verb, DeviceAsked& device) {
+    verb.flag("--validate", "watched by the Vulkan validation layer; any message fails the run",
+              device.validate);
 }
 
 void add_view(Verb& verb, Common& common) {
@@ -181,13 +193,19 @@ app::Request make_request(const Common& common,
     return make_asked(common, check).request;
 }
 
-app::EngineOptions engine_options(const std::string& device, bool validate) {
-    return {.device = device, .validate = validate, .cache = app::cache_folder()};
+app::EngineOptions engine_options(const DeviceAsked& device) {
+    const bool by_default = device.profile == kNoProfile;
+    return {.device = device.name,
+            .validate = device.validate,
+            .profile = by_default ? "" : device.profile,
+            .profiles = by_default ? std::filesystem::path() : app::profile_folder(),
+            .cache = app::cache_folder()};
 }
 
 void introduce(const app::Engine& engine, const Manners& manners) {
     detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
     if (!engine.warning().empty()) warn(engine.warning());
+    if (!engine.device().warning.empty()) warn(engine.device().warning);
 }
 
 } // namespace catoptric::cli

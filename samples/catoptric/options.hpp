@@ -13,6 +13,15 @@
 
 namespace catoptric::cli {
 
+/// Which device, and how it is opened.
+struct DeviceAsked {
+    std::string name;      ///< index or part of a name; empty: the fastest kind
+    std::string profile;   ///< a file, or kNoProfile; empty: the user's own, if any
+    bool validate = false; ///< watched by the validation layer
+};
+/// All as by default, whatever the user's profile says.
+inline constexpr const char* kNoProfile = "none";
+
 /// The options that the verbs which render share; their defaults are here and in the help.
 struct Common {
     Manners manners;
@@ -27,11 +36,10 @@ struct Common {
     scene::Wishes wishes; ///< of the scene: mirrors, lights, environment, camera, exposure ...
     bool use_scene_file = true;
     std::string reference = "raytrace:depth=16";
-    std::string device;
+    DeviceAsked device;
     std::optional<app::Modelling> model; ///< none: the verb's own
     bool both_models = false;            ///< of compare: each row with both
     app::Timing timing = app::Timing::isolated;
-    bool validate = false;
 };
 
 /// --json --quiet -v --progress.
@@ -42,6 +50,10 @@ void add_common(Verb& verb, Common& common);
 void add_common_without_scene(Verb& verb, Common& common);
 /// The options that say what the scene is: --root to --no-scene-file.
 void add_wishes(Verb& verb, Common& common);
+/// --device and --device-profile; `device` must outlive the parsing.
+void add_device(Verb& verb, DeviceAsked& device);
+/// --validate.
+void add_validate(Verb& verb, DeviceAsked& device);
 /// --size, --time and --seed.
 void add_view(Verb& verb, Common& common);
 /// -64 to 64.
@@ -66,7 +78,7 @@ struct Asked {
     app::Wanted wanted; ///< without its scene, which the request has
 };
 Asked make_asked(const Common& common, const std::function<void(const scene::Scene&)>& check = {});
-app::EngineOptions engine_options(const std::string& device, bool validate);
+app::EngineOptions engine_options(const DeviceAsked& device);
 /// The device, and what the engine warns of, on stderr.
 void introduce(const app::Engine& engine, const Manners& manners);
 

@@ -32,8 +32,8 @@ constexpr const char* kExamples = R"(Examples:
   catoptric render --plan "1=hybrid 2,3=secant:face=64 *=reuse" -o mixed.png
 
 A still takes the frames that it needs: one, or with last frame's captures as many as change anything, at most
-28. With --animate, --frames, --warmup or --trace frames are counted and timed as in compare; the picture is the
-last one. EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
+28. With --animate, --frames, --warmup, --profile or --trace frames are counted and timed as in compare; the
+picture is the last one. EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
 
 struct Options {
     Common common;
@@ -41,6 +41,7 @@ struct Options {
     std::string technique; ///< of the two, checked
     std::string output;
     std::string trace;
+    std::string profile;
 };
 
 bool is_stdout(const Options& options) { return options.output == "-"; }
@@ -58,21 +59,24 @@ void check_output(const Options& options) {
         check(is_exr(options) || options.output.ends_with(".png"), Failure::usage,
               "-o: wanted a name ending in .exr or .png, or -, found '", options.output, "'");
     }
-    if (!options.trace.empty()) check_file_can_be_made(options.trace);
+    for (const std::string& file : {options.trace, options.profile})
+        if (!file.empty()) check_file_can_be_made(file);
 }
 
 void check_places(const Options& options, const scene::Scene& scene) {
     std::vector<std::filesystem::path> outputs;
     if (is_stdout(options) || options.common.manners.json) outputs.push_back(kStdout);
     if (!is_stdout(options)) outputs.push_back(options.output);
-    if (!options.trace.empty()) outputs.push_back(options.trace);
+    for (const std::string& file : {options.trace, options.profile})
+        if (!file.empty()) outputs.push_back(file);
     check_apart(outputs, scene.files);
 }
 
 /// A picture, no measurement: nothing asks for times or for a certain number of frames.
 bool is_still(const Options& options) {
     const Common& common = options.common;
-    return !common.animate && !common.frames && !common.warmup && options.trace.empty();
+    return !common.animate && !common.frames && !common.warmup && options.trace.empty() &&
+           options.profile.empty();
 }
 
 app::Request make_render_request(const Options& options) {
@@ -132,7 +136,7 @@ int run(const Options& options) {
     app::Request request = make_render_request(options);
     check_places(options, request.scene);
     if (is_exr(options)) image_codecs(); // where they are missing nothing need be rendered
-    app::Engine engine(engine_options(options.common.device, options.common.validate));
+    app::Engine engine(engine_options(options.common.device));
     introduce(engine, options.common.manners);
 
     Progress progress(manners);
@@ -151,9 +155,11 @@ int run(const Options& options) {
     if (!options.trace.empty())
         write_file(options.trace,
                    trace_json(result.frames.back(), choice.label + " on " + engine.device().name));
-    if (manners.json) put(render_json(request, engine.device(), result, options.output));
+    const std::string document = render_json(request, engine.device(), result, options.output);
+    if (!options.profile.empty()) write_file(options.profile, document);
+    if (manners.json) put(document);
     describe(options, request, result);
-    if (options.common.validate) engine.check_validation();
+    if (options.common.device.validate) engine.check_validation();
     return 0;
 }
 
@@ -169,9 +175,10 @@ void add_render(CommandLine& program) {
     verb.option("--trace", "T.json",
                 "times of the last frame's passes for chrome://tracing or Perfetto",
                 options->trace);
-    verb.option("--profile", "P.json", "not there yet", [](const std::string&) {
-        fail(Failure::usage, "--profile: is not there yet; give --technique name:knob=value,...");
-    });
+    verb.option("--profile", "P.json",
+                "what --json prints, in a file: times of the frames, their passes and the host's "
+                "work, with their spread",
+                options->profile);
     add_common(verb, options->common);
     verb.does([options] {
         options->technique = checked(options->drawn, "render");

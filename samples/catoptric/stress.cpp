@@ -32,8 +32,7 @@ struct Options {
     std::vector<std::string> only;
     uvec2 size{256, 256};
     std::uint64_t seed = 1;
-    std::string device;
-    bool validate = false;
+    DeviceAsked device;
     std::vector<std::string> command;
 };
 
@@ -63,7 +62,7 @@ int run(const Options& options) {
             outputs.push_back(entry.path());
         check_apart(outputs, {});
     }
-    app::Engine engine(engine_options(options.device, options.validate));
+    app::Engine engine(engine_options(options.device));
     introduce(engine, options.manners);
     if (!options.folder.empty()) report::create_folder(options.folder);
     Progress progress(options.manners);
@@ -84,7 +83,7 @@ int run(const Options& options) {
         fail_incomplete(*found.stopped, found.rows.size(), found.asked, "", options.folder);
     if (!options.folder.empty()) note(options.manners, "written: " + options.folder);
     for (const std::string& part : found.not_run()) note(options.manners, "not run: " + part);
-    if (options.validate) engine.check_validation();
+    if (options.device.validate) engine.check_validation();
     return found.failed() ? static_cast<int>(Failure::threshold) : 0;
 }
 
@@ -104,9 +103,8 @@ void add_stress(CommandLine& program, std::vector<std::string> command) {
                 [options](const std::string& text) { options->size = parse_size("--size", text); });
     verb.option("--seed", "N", "of the scenes, which are made for the run (1)",
                 [options](const std::string& text) { options->seed = parse_seed("--seed", text); });
-    verb.option("--device", "INDEX|NAME", "index or part of a name", options->device);
-    verb.flag("--validate", "the validation layer watches; any message is an error",
-              options->validate);
+    add_device(verb, options->device);
+    add_validate(verb, options->device);
     add_manners(verb, options->manners);
     verb.does([options] { return run(*options); });
 }

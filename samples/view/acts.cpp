@@ -134,8 +134,9 @@ void Loop::load(const std::string& file) {
         common.root = defaults.root, common.seed = defaults.seed;
         common.use_scene_file = defaults.use_scene_file;
         options_.words = {file};
-        if (!common.device.empty())
-            options_.words.insert(options_.words.end(), {"--device", common.device});
+        for (const auto& [option, value] : {std::pair{"--device", common.device.name},
+                                            {"--device-profile", common.device.profile}})
+            if (!value.empty()) options_.words.insert(options_.words.end(), {option, value});
         request_ = ask(options_).request;
         state_.plan = without_mirrors(state_.plan), state_.other = without_mirrors(state_.other);
         open(Scene::another);

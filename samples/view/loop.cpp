@@ -47,8 +47,7 @@ uvec2 Loop::first_window() const {
 void Loop::open(Scene scene) {
     viewer_.reset(); // gives its surface back before another is made
     entries_of_.clear();
-    app::EngineOptions options = cli::engine_options(options_.common.device,
-                                                     options_.common.validate);
+    app::EngineOptions options = cli::engine_options(options_.common.device);
     viewer_ = std::make_unique<Viewer>(window_, options, request_);
     controls_.give_font(viewer_->screen());
     if (scene == Scene::same) return; // the state is as it was
@@ -164,7 +163,7 @@ void Loop::tell_times() const {
 int Loop::end() {
     tell_times();
     if (!options_.screenshot.empty()) viewer_->write(options_.screenshot);
-    if (options_.common.validate) viewer_->engine().check_validation();
+    if (options_.common.device.validate) viewer_->engine().check_validation();
     if (is_scripted()) return 0;
     try {
         save_settings({uvec2(glm::round(dvec2(last_) / scale_)), state_.shows_panels, state_.flies,

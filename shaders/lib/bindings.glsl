@@ -26,6 +26,9 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define DETAILS_BINDING 40
 #define ATTRIBUTES_BINDING 41
 #define TEXELS_BINDING 42
+// See lib/trace.glsl:
+#define BVH_STORED_NODES_BINDING 43
+#define BVH_STORED_TRIANGLES_BINDING 44
 
 const uint kShadowNone = 0u, kShadowMap = 1u, kShadowRay = 2u;
 

@@ -6,6 +6,8 @@
 
 layout(set = 0, binding = COUNTERS_BINDING, scalar) buffer CountersBuffer { Counters value; } counters;
 
+layout(constant_id = GROUPS_IN_ORDER_CONSTANT) const uint groups_in_order = 0u;
+
 // Neighbouring work groups cost alike, and a software driver gives each of its threads one contiguous
 // run of them: scattered, the threads finish together. Rows of work groups follow each other.
 uint work_group() {
@@ -15,7 +17,7 @@ uint work_group() {
 #else
     const uint kPrime = 2531u;
     uint count = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-    return count % kPrime == 0u || count > 0xffffffffu / kPrime ? group : group * kPrime % count;
+    return groups_in_order != 0u || count % kPrime == 0u || count > 0xffffffffu / kPrime ? group : group * kPrime % count;
 #endif
 }
 

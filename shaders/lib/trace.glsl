@@ -1,6 +1,7 @@
 // Ray tracing in compute shaders: a walk over the two-child hierarchy of engine/bvh/bvh.hpp.
 // The including shader defines BVH_NODES_BINDING and BVH_TRIANGLES_BINDING (set 0), and
-// TRACE_LOCAL_SIZE where its work group has not 64 invocations.
+// TRACE_LOCAL_SIZE where its work group has not 64 invocations. One with BVH_STORED_NODES_BINDING and
+// BVH_STORED_TRIANGLES_BINDING can be specialised to fetch both from storage buffers (bvh_in_storage).
 // TRACE_PRIVATE_STACK: for stages that have no shared memory. TRACE_SEES(object): false for objects that
 // rays pass through. TRACE_BALLS: whether the hierarchy may hold some. TRACE_IS_THERE(stored triangle, object,
 // barycentric): false where one of kBvhMasked is cut out.
@@ -28,16 +29,27 @@
 #define TRACE_PRIVATE_STACK
 #endif
 
-#ifdef NAIVE
-layout(set = 0, binding = BVH_NODES_BINDING, std430) readonly buffer BvhNodes { vec4 bvh_nodes[]; };
-layout(set = 0, binding = BVH_TRIANGLES_BINDING, std430) readonly buffer BvhTriangles {
-    vec4 bvh_triangles[];
-};
-#define NODE_TEXEL(i) bvh_nodes[i]
-#define TRIANGLE_TEXEL(i) bvh_triangles[i]
-#else
 layout(set = 0, binding = BVH_NODES_BINDING) uniform samplerBuffer bvh_nodes;
 layout(set = 0, binding = BVH_TRIANGLES_BINDING) uniform samplerBuffer bvh_triangles;
+#ifdef BVH_STORED_NODES_BINDING
+layout(set = 0, binding = BVH_STORED_NODES_BINDING, std430) readonly buffer BvhNodes { vec4 stored_nodes[]; };
+layout(set = 0, binding = BVH_STORED_TRIANGLES_BINDING, std430) readonly buffer BvhTriangles { vec4 stored_triangles[]; };
+#ifdef NAIVE
+const uint bvh_in_storage = 1u;
+#else
+layout(constant_id = BVH_IN_STORAGE_CONSTANT) const uint bvh_in_storage = 0u;
+#endif
+vec4 node_texel(uint i) {
+    if (bvh_in_storage != 0u) return stored_nodes[i];
+    return texelFetch(bvh_nodes, int(i));
+}
+vec4 triangle_texel(uint i) {
+    if (bvh_in_storage != 0u) return stored_triangles[i];
+    return texelFetch(bvh_triangles, int(i));
+}
+#define NODE_TEXEL(i) node_texel(i)
+#define TRIANGLE_TEXEL(i) triangle_texel(i)
+#else
 #define NODE_TEXEL(i) texelFetch(bvh_nodes, int(i))
 #define TRIANGLE_TEXEL(i) texelFetch(bvh_triangles, int(i))
 #endif

@@ -97,13 +97,93 @@ TEST_F(Cli, BenchSaysWhatIsWrong) {
                    {"technique 'reuse' is asked for twice"});
     expect_refused({"bench", "--model", "both"}, 2,
                    {"--model both: wanted everything or required"});
-    expect_refused({"bench", "--tune"}, 2, {"--tune: is not there yet"});
     expect_refused({"bench", "--rounds", "0"}, 2, {"--rounds: wanted a whole number from 1"});
     expect_refused({"bench", "--against", "./none", "--rounds", "5"}, 2,
                    {"rounds: wanted at least 6", "found 5"});
     expect_refused({"bench", "--against", "./none"}, 66, {"./none: cannot be run: No such file"});
     expect_refused({"bench", "--against", "./none", "--compare", "a", "b"}, 2,
                    {"--compare and --against: wanted one of them, found both"});
+}
+
+class BenchTune : public Cli {
+protected:
+    /// As the user's configuration lies in this folder.
+    test::Ended cli_at_home(const Words& words) const {
+        test::Start asked = start(words);
+        asked.environment = {{"XDG_CONFIG_HOME", (folder / "mine").string()}};
+        return test::run_process(asked);
+    }
+    json device_of(const Words& words) const {
+        const test::Ended ended = cli_at_home(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_EQ(ended.err, "");
+        const json document = json::parse(ended.out);
+        return document.contains("device") ? document["device"] : document["devices"][0];
+    }
+};
+
+TEST_F(BenchTune, WritesTheProfileThatThenHolds) {
+    const test::Ended tuned = cli_at_home({"bench", "flat", "--tune", "--size", "16x16", "--frames",
+                                           "6", "--warmup", "0", "--quiet"});
+    ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
+    EXPECT_THAT(tuned.out, HasSubstr("frame/flat/16x16/raytrace:depth=4, 6 rounds"));
+    const std::filesystem::path devices = folder / "mine/catoptric/devices";
+    ASSERT_TRUE(std::filesystem::exists(devices)) << tuned.err;
+    const std::filesystem::path file = std::filesystem::directory_iterator(devices)->path();
+    const json profile = json::parse(read_path(file));
+    const json info = device_of({"info", "--json"});
+    EXPECT_EQ(profile["device"]["driver"], info["driver"]);
+    EXPECT_EQ(info["profile"], file.filename().string());
+    EXPECT_EQ(info["variants"], profile["variants"]);
+    for (const json& one : profile["measured"]) {
+        const bool below = one["ci95"][1] < 1;
+        EXPECT_EQ(one["taken"], below) << one;
+        EXPECT_EQ(profile["variants"][one["variant"]], one[below ? "choice" : "against"]) << one;
+        EXPECT_THAT(tuned.out, testing::ContainsRegex(one["variant"].get<std::string>() + " .*" +
+                                                      (below ? "  taken" : "not taken")));
+    }
+    EXPECT_EQ(device_of({"list", "devices", "--json"}), info);
+    const json none = device_of({"info", "--json", "--device-profile", "none"});
+    EXPECT_TRUE(none["profile"].is_null());
+    EXPECT_EQ(none["variants"]["groups"], "scattered");
+}
+
+TEST_F(BenchTune, AProfileThatIsNamedHoldsOrIsRefused) {
+    const json device = device_of({"info", "--json"});
+    json profile{{"schema", "catoptric/device-profile/1"},
+                 {"variants", {{"hierarchy", "storage"}}}};
+    profile["device"] = {
+        {"name", device["name"]}, {"driver", device["driver"]}, {"id", device["id"]}};
+    write("p.json", profile.dump());
+    const Words render{"render", "flat",  "--technique", "raytrace:depth=1",
+                       "--size", "16x16", "--json",      "--quiet"};
+    const auto with = [&](Words more) {
+        more.insert(more.begin(), render.begin(), render.end());
+        return more;
+    };
+    const json stored = device_of(with({"-o", "a.png", "--device-profile", "p.json"}));
+    EXPECT_EQ(stored["profile"], "p.json");
+    EXPECT_EQ(stored["variants"]["hierarchy"], "storage");
+    EXPECT_EQ(device_of(with({"-o", "b.png"}))["variants"]["hierarchy"], "texel");
+    EXPECT_EQ(read("a.png"), read("b.png"));
+    expect_refused({"info", "--device-profile", "none.json"}, 66, {"none.json: "});
+    profile["device"]["driver"] = "of last year";
+    write("p.json", profile.dump());
+    expect_refused({"info", "--device-profile", "p.json"}, 65,
+                   {"p.json: is another device's or driver's profile: device.driver: wanted '",
+                    "', found 'of last year'"});
+}
+
+TEST_F(BenchTune, SaysWhatIsWrong) {
+    expect_refused({"bench", "--tune", "--compare", "a", "b"}, 2,
+                   {"--tune and --compare: wanted one of them, found both"});
+    expect_refused({"bench", "--tune", "--against", "a"}, 2,
+                   {"--tune and --against: wanted one of them, found both"});
+    expect_refused({"bench", "--tune", "--device-profile", "a"}, 2,
+                   {"--tune and --device-profile: wanted one of them, found both"});
+    expect_refused({"bench", "flat", "room", "--tune"}, 2, {"--tune: wanted at most one SCENE"});
+    expect_refused({"bench", "--tune", "--frames", "5"}, 2, {"wanted at least 6", "found 5"});
+    expect_refused({"bench", "--tune", "-o", "none/p.json"}, 73, {"none/p.json"});
 }
 
 TEST(BenchAgainst, EachRoundIsAskedForWhatTheLineAsksFor) {

@@ -14,6 +14,8 @@ TEST_F(Cli, IntoAMissingFolder) {
                    {"none/x.png", "no folder none"});
     expect_refused({"render", "--technique", "reuse", "-o", "x.png", "--trace", "none/t.json"}, 73,
                    {"none/t.json"});
+    expect_refused({"render", "--technique", "reuse", "-o", "x.png", "--profile", "none/p.json"},
+                   73, {"none/p.json"});
     EXPECT_FALSE(fs::exists(folder / "none"));
 }
 

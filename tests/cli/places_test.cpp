@@ -43,7 +43,8 @@ TEST_F(Places, TheSceneAndItsFilesAreNotWritten) {
           std::tuple{"room.obj", "also/../sub/link.png", "room.obj"},
           std::tuple{"scene.obj", "sub/link.png", ".obj"},
           std::tuple{"./sub/../room.obj", "hard.png", "room.mtl"}})
-        for (const Words& outputs : {Words{"-o", output}, Words{"-o", "x.png", "--trace", output}})
+        for (const Words& outputs : {Words{"-o", output}, Words{"-o", "x.png", "--trace", output},
+                                     Words{"-o", "x.png", "--profile", output}})
             expect_refused(render(scene, outputs), 2,
                            {std::string(output) + ": cannot be written: it is the same file as ",
                             std::string(input) + ", which the scene is read from"});
@@ -95,6 +96,9 @@ TEST_F(Places, OutputsAreApart) {
                     "too"});
     expect_refused(render("room.obj", {"-o", "x.png", "--trace", "x.png"}), 2,
                    {"x.png: wanted one output in a place, found two"});
+    expect_refused(
+        render("room.obj", {"-o", "x.png", "--trace", "t.json", "--profile", "./t.json"}), 2,
+        {"./t.json", "the same file as t.json, which is written too"});
     fs::create_symlink("t.json", folder / "later.png"); // neither is there yet
     expect_refused(render("room.obj", {"-o", "later.png", "--trace", "t.json"}), 2,
                    {"t.json", "the same file as later.png, which is written too"});

@@ -129,6 +129,23 @@ TEST_F(Cli, RenderJsonAndTrace) {
     EXPECT_EQ(passes, document["passes"].size());
 }
 
+/// As --json prints it; the frames are timed, also where nothing else asks for that.
+TEST_F(Cli, RenderProfile) {
+    const test::Ended ended = cli({"render", "flat", "--technique", "reuse:face=16", "--size",
+                                   "16x16", "-o", "x.png", "--profile", "p.json", "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(read("p.json"), ended.out);
+    const json document = json::parse(ended.out);
+    EXPECT_TRUE(document["settled"].is_null());
+    for (const char* times : {"gpu_ms", "frame_ms", "host_ms", "cpu_record_ms", "wall_ms"})
+        EXPECT_EQ(document[times]["n"], 20) << times;
+    EXPECT_EQ(document["cpu_ms"].is_null(), document["device"]["type"] != "cpu");
+    EXPECT_EQ(document["gpu_ms"]["samples"].size(), 20U);
+    EXPECT_EQ(document["host_parts"].size(), 4U);
+    for (const json& pass : document["passes"]) EXPECT_EQ(pass["gpu_ms"]["n"], 20) << pass;
+    EXPECT_THAT(document["passes"].back()["name"], "compose");
+}
+
 /// A still takes no more frames than change anything, and shows what compare's 28 show.
 TEST_F(Cli, RenderOfAStillStopsWhereNothingChanges) {
     const auto render = [&](const std::string& technique, Words more) {

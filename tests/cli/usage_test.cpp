@@ -38,6 +38,7 @@ TEST_F(Cli, HelpNamesEveryCommonOption) {
                                "--model",
                                "--reference",
                                "--device",
+                               "--device-profile",
                                "--timing",
                                "--validate",
                                "--json",
@@ -204,8 +205,7 @@ TEST_F(Cli, WishesForNothingThatIsThere) {
     expect_refused({"info", "--force"}, 2, {"--force: wanted --write"});
 }
 
-TEST_F(Cli, WhatIsNotThereYetSaysSo) {
-    expect_refused({"render", "--profile", "p.json"}, 2, {"--profile", "not there yet"});
+TEST_F(Cli, ModelsThatCannotBe) {
     expect_refused({"render", "--model", "evrything"}, 2, {"--model", "did you mean 'everything'"});
     expect_refused({"render", "--technique", "reuse", "--model", "both", "-o", "x.png"}, 2,
                    {"--model both: wanted everything or required, of which a picture has one"});

@@ -11,7 +11,7 @@ namespace {
 using namespace catoptric::gpu;
 
 TEST(Constants, AreNumberedOnce) {
-    constexpr std::uint32_t kOwn = 32; // OWN_CONSTANTS
+    constexpr std::uint32_t kOwn = 40; // OWN_CONSTANTS
     std::map<std::string, std::set<std::uint32_t>> ids;
     std::map<std::uint32_t, std::set<std::string>> names;
     for (const EmbeddedShader& shader : embedded_shaders()) {

@@ -1,0 +1,25 @@
+#include "gpu/variants.hpp"
+
+namespace catoptric::gpu {
+
+namespace {
+
+constexpr std::array<Variant, kVariants> kTable{
+    {{"groups",
+      {"scattered", "in order"},
+      "groups_in_order",
+      "work groups of the ray tracer: scattered over the picture, or row by row"},
+     {"hierarchy",
+      {"texel", "storage"},
+      "bvh_in_storage",
+      "buffers that rays fetch nodes and triangles from"},
+     {"pixels",
+      {"blocks", "rows"},
+      "pixels_in_rows",
+      "how eight pixels that run together lie: 4x2, or 8x1"}}};
+
+} // namespace
+
+std::span<const Variant, kVariants> variants() { return kTable; }
+
+} // namespace catoptric::gpu

@@ -1,0 +1,78 @@
+// Variants of shaders that a device's profile chooses: each is in force, and none changes a byte.
+#include "gpu/variants.hpp"
+#include "render/gpu_scene.hpp"
+#include "support/rendering.hpp"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace catoptric;
+using testing::Contains;
+using testing::Not;
+
+/// Names of what the tracer's shader is bound to when it is built with these constants.
+std::vector<std::string> bindings_with(const gpu::Constants& constants) {
+    std::vector<std::string> names;
+    for (const gpu::Binding& binding :
+         test::bench().pipelines.compute({"raytrace.comp", {}, constants}).bindings)
+        names.push_back(binding.name);
+    return names;
+}
+
+TEST(Variants, EachIsAConstantOfTheTracer) {
+    std::vector<std::string> known;
+    for (const char* build : {"raytrace.comp", "raytrace.comp#listed"})
+        for (const gpu::Constant& constant :
+             gpu::reflect(build, gpu::find_shader(build).words).constants)
+            known.push_back(constant.name);
+    for (const gpu::Variant& variant : gpu::variants())
+        EXPECT_THAT(known, Contains(std::string(variant.constant)));
+}
+
+TEST(Variants, WhatIsNotFetchedFromIsNotBound) {
+    const std::vector<std::string> texels = bindings_with({}),
+                                   stored = bindings_with({{"bvh_in_storage", 1u}});
+    EXPECT_THAT(texels, testing::IsSupersetOf({"bvh_nodes", "bvh_triangles"}));
+    EXPECT_THAT(texels, Not(Contains("BvhNodes")));
+    EXPECT_THAT(stored, testing::IsSupersetOf({"BvhNodes", "BvhTriangles"}));
+    EXPECT_THAT(stored, Not(Contains("bvh_nodes")));
+}
+
+/// The linear picture of a technique.
+std::vector<vec3> picture(const char* technique, const app::Variants& variants) {
+    app::Engine engine({.device = test::wanted_device(), .validate = true, .variants = variants});
+    for (const auto& variant : variants) EXPECT_THAT(engine.device().variants, Contains(variant));
+    app::Session session(engine, test::with_coarse_balls(scene::cornell_mirrors()));
+    app::Request request = test::request(scene::cornell_mirrors(), {technique}, {61, 53});
+    // Another picture before, wherever this one may lie: a pixel that is left out shows it.
+    request.ambient += .5, request.frames = 3;
+    app::run(session, request);
+    request.ambient -= .5, request.frames = 1;
+    std::vector<vec3> pixels = app::run(session, request).parts.front().hdr.pixels;
+    engine.check_validation();
+    return pixels;
+}
+void expect_same_bytes(const std::vector<vec3>& a, const std::vector<vec3>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(vec3)), 0);
+}
+
+TEST(Variants, ShowTheSamePictureToTheByte) {
+    const std::vector<vec3> wanted = picture("raytrace:depth=3", {});
+    for (const gpu::Variant& variant : gpu::variants()) {
+        SCOPED_TRACE(variant.name);
+        expect_same_bytes(wanted, picture("raytrace:depth=3", {{std::string(variant.name),
+                                                                std::string(variant.choices[1])}}));
+    }
+}
+
+/// Of pixels on a list, all of them together.
+TEST(Variants, ShowTheSameOfListedPixels) {
+    app::Variants all;
+    for (const gpu::Variant& variant : gpu::variants())
+        all.emplace_back(variant.name, variant.choices[1]);
+    expect_same_bytes(picture("hybrid:face=16", {}), picture("hybrid:face=16", all));
+}
+
+} // namespace

@@ -1,0 +1,161 @@
+// Device profiles: what becomes one, and which of them is believed.
+#include "app/profile.hpp"
+#include "render/tracing.hpp"
+#include "support/folder.hpp"
+#include "support/refusal.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace {
+
+using namespace catoptric;
+using nlohmann::json;
+using testing::Pair;
+
+app::DeviceInfo device_of(const std::string& driver = "driver 1.2 (build 3)") {
+    app::DeviceInfo device;
+    device.name = "A device";
+    device.driver = driver;
+    device.id = "10de-2330";
+    return device;
+}
+
+/// The second choice of a variant, `ratio` times as long as the default in each of the rounds.
+measure::Tried tried(std::size_t variant, const std::vector<double>& ratios) {
+    const gpu::Variant& row = gpu::variants()[variant];
+    measure::Tried one{.variant = std::string(row.name),
+                       .choice = std::string(row.choices[1]),
+                       .standard = std::string(row.choices[0]),
+                       .benchmark = "frame/x"};
+    for (const double ratio : ratios) one.ms.push_back(10 * ratio), one.standard_ms.push_back(10);
+    return one;
+}
+
+const std::vector<double> kFaster{.9, .91, .92, .93, .94, .95},
+    kSlower{1.1, 1.2, 1.3, 1.1, 1.2, 1.3}, kBoth{.5, .6, .7, .8, .9, 1.01};
+
+TEST(Profile, KeepsWhatIsFasterForCertain) {
+    const std::string text = app::profile_text(
+        device_of(), {tried(0, kFaster), tried(1, kSlower), tried(2, kBoth)});
+    EXPECT_EQ(app::read_profile(text, "p.json", device_of()), (gpu::Choices{1, 0, 0}));
+    const json document = json::parse(text);
+    EXPECT_EQ(document["variants"],
+              (json{{"groups", "in order"}, {"hierarchy", "texel"}, {"pixels", "blocks"}}));
+    EXPECT_EQ(document["measured"][0]["taken"], true);
+    EXPECT_DOUBLE_EQ(document["measured"][0]["ratio"], .925);
+    EXPECT_DOUBLE_EQ(document["measured"][0]["ci95"][1], .95);
+    EXPECT_EQ(document["measured"][2]["taken"], false) << "its interval holds 1";
+    EXPECT_FALSE(tried(0, {.5, .5, .5, .5, .5}).is_taken()) << "too few rounds";
+    EXPECT_FALSE(tried(0, {1, 1, 1, 1, 1, 1}).is_taken());
+}
+
+TEST(Profile, IsOfOneDeviceAndDriver) {
+    const std::string text = app::profile_text(device_of(), {tried(0, kFaster)});
+    const auto refuses = [&](const app::DeviceInfo& device, const std::string& member,
+                             const std::string& wanted, const std::string& found) {
+        test::expect_refused([&] { app::read_profile(text, "p.json", device); }, Failure::bad_data,
+                             {"p.json: is another device's or driver's profile: device." + member +
+                              ": wanted '" + wanted + "', found '" + found + "'"});
+    };
+    refuses(device_of("driver 1.3"), "driver", "driver 1.3", "driver 1.2 (build 3)");
+    app::DeviceInfo other = device_of();
+    other.name = "B";
+    refuses(other, "name", "B", "A device");
+    other = device_of(), other.id = "10de-2331";
+    refuses(other, "id", "10de-2331", "10de-2330");
+}
+
+TEST(Profile, SaysWhatIsNoProfile) {
+    json good = json::parse(app::profile_text(device_of(), {tried(0, kFaster)}));
+    const auto refuses = [&](const std::string& text, const std::string& part) {
+        test::expect_refused([&] { app::read_profile(text, "p.json", device_of()); },
+                             Failure::bad_data, {"p.json: ", part});
+    };
+    refuses("{", "wanted JSON, found ");
+    refuses("[]", "wanted a device profile, schema 'catoptric/device-profile/1', found nothing");
+    json bad = good;
+    bad["schema"] = "catoptric/device-profile/2";
+    refuses(bad.dump(), "found 'catoptric/device-profile/2'");
+    bad = good, bad["variants"] = 3;
+    refuses(bad.dump(), "variants: wanted an object, found '3'");
+    bad = good, bad["variants"] = {{"colour", "red"}};
+    refuses(bad.dump(), "variants: wanted one of groups, hierarchy, pixels, found 'colour'");
+    bad = good, bad["variants"]["pixels"] = "storage";
+    refuses(bad.dump(), "variants.pixels: wanted 'blocks' or 'rows', found 'storage'");
+    good["variants"] = json::object(); // what it leaves out is as by default
+    EXPECT_EQ(app::read_profile(good.dump(), "p.json", device_of()), gpu::Choices{});
+}
+
+TEST(Profile, HasANameThatEveryFolderTakes) {
+    EXPECT_EQ(app::profile_name(device_of("../a b:c\\d\n")), "10de-2330-.._a_b_c_d_.json");
+}
+
+class ProfilePlace : public test::InFolder {
+protected:
+    void put(const std::string& name, const std::string& text) const {
+        std::ofstream(folder / name) << text;
+    }
+    std::string good() const { return app::profile_text(device_of(), {tried(0, kFaster)}); }
+};
+
+TEST_F(ProfilePlace, TheUsersOwnIsUsedOrWarnedOf) {
+    app::EngineOptions options;
+    options.profiles = folder;
+    app::DeviceInfo device = device_of();
+    EXPECT_EQ(app::choose(options, device), gpu::Choices{}) << "there is none";
+    EXPECT_EQ(device.profile + device.warning, "");
+    EXPECT_THAT(device.variants,
+                testing::ElementsAre(Pair("groups", "scattered"), Pair("hierarchy", "texel"),
+                                     Pair("pixels", "blocks")));
+    const std::string name = app::profile_name(device);
+    put(name, good());
+    EXPECT_EQ(app::choose(options, device), (gpu::Choices{1, 0, 0}));
+    EXPECT_EQ(device.profile, name);
+    EXPECT_EQ(device.variants[0].second, "in order");
+    for (const std::string& text :
+         {std::string("{"), app::profile_text(device_of("another"), {tried(0, kFaster)})}) {
+        put(name, text);
+        device = device_of();
+        EXPECT_EQ(app::choose(options, device), gpu::Choices{});
+        EXPECT_EQ(device.profile, "");
+        EXPECT_THAT(device.warning, testing::StartsWith((folder / name).string() + ": "));
+        EXPECT_THAT(device.warning, testing::HasSubstr("; shaders are as by default"));
+    }
+}
+
+TEST_F(ProfilePlace, OneThatIsNamedMustDo) {
+    app::DeviceInfo device = device_of();
+    const auto choose = [&](const std::string& name) {
+        return app::choose({.profile = folder / name, .profiles = folder}, device);
+    };
+    put("good.json", good()), put("bad.json", "3");
+    put("other.json", app::profile_text(device_of("another"), {tried(0, kFaster)}));
+    EXPECT_EQ(choose("good.json"), (gpu::Choices{1, 0, 0}));
+    EXPECT_EQ(device.profile, "good.json");
+    test::expect_refused([&] { choose("bad.json"); }, Failure::bad_data, {"bad.json: wanted "});
+    test::expect_refused([&] { choose("other.json"); }, Failure::bad_data, {"device.driver: "});
+    test::expect_refused([&] { choose("none.json"); }, Failure::missing_input, {"none.json: "});
+    test::expect_refused([&] { choose("."); }, Failure::bad_data,
+                         {": wanted a file with a device"});
+    test::expect_refused(
+        [&] {
+            app::choose({.variants = {{"pixels", "round"}}}, device);
+        },
+        Failure::usage, {"variants.pixels: wanted 'blocks' or 'rows'"});
+}
+
+TEST(Variants, AreConstantsButForDefaults) {
+    EXPECT_TRUE(render::constants_of({}, 16, 128).empty());
+    const gpu::Constants all = render::constants_of({1, 1, 1}, 128, 128);
+    EXPECT_THAT(
+        all, testing::ElementsAre(Pair("groups_in_order", testing::VariantWith<std::uint32_t>(1U)),
+                                  Pair("bvh_in_storage", testing::VariantWith<std::uint32_t>(1U)),
+                                  Pair("pixels_in_rows", testing::VariantWith<std::uint32_t>(1U))));
+    const gpu::Constants large = render::constants_of({0, 1, 0}, 129, 128);
+    EXPECT_TRUE(large.empty()) << "more bytes than a storage buffer may have";
+}
+
+} // namespace
