@@ -207,6 +207,9 @@ struct Overlaying {
     uvec2 font;   // texels of its picture
 };
 
+// Texels of four floats of each in the lists that shaders/lib/bindings.glsl reads.
+const uint kSurfaceTexels = 4u, kProbeTexels = 5u;
+
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);

@@ -4,17 +4,15 @@
 #extension GL_ARB_shader_viewport_layer_array : require
 #endif
 #extension GL_GOOGLE_include_directive : require
-#include "lib/bindings.glsl"
+#define VERTEX_STAGE
+#include "lib/drawn.glsl"
 #include "lib/eye.glsl"
 
-layout(push_constant, scalar) uniform Push { Draw draw; };
 layout(location = 0) in vec3 corner; // in the picture, from -1 to 1
-layout(location = 0) flat out vec3 out_eye;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_from_eye;
-layout(location = 3) flat out uint out_layer;
-layout(location = 4) out vec4 out_uv;
-layout(location = 5) out vec4 out_colour;
+layout(location = 3) out vec4 out_uv;
+layout(location = 4) out vec4 out_colour;
 
 const float kBehindAll = 1e-36; // of reversed depth, whose picture begins with 0
 
@@ -24,12 +22,11 @@ void main() {
 #ifdef LAYERED
     gl_Layer = gl_InstanceIndex;
 #endif
-    out_eye = view.eye;
+    write_drawn(view, gl_InstanceIndex);
     out_normal = vec3(0);
     out_from_eye = view.forward;
     if (orthographic == 0u)
         out_from_eye += corner.x * view.right / dot(view.right, view.right) + corner.y * view.down / dot(view.down, view.down);
-    out_layer = uint(gl_InstanceIndex);
     out_uv = vec4(0);
     out_colour = vec4(1);
 }

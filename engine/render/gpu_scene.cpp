@@ -5,6 +5,7 @@
 #include "render/face_needs.hpp"
 #include "render/footprint.hpp"
 #include "render/limits.hpp"
+#include "render/texels.hpp"
 #include "render/views.hpp"
 
 #include <algorithm>
@@ -73,9 +74,9 @@ GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t s
     : device_(device), space_(space_of(fitting(device, scene))),
       vertices_(expected_motion(scene), slots), view_buffer_("views", gpu::BufferUse::plain, slots),
       frame_("frame", gpu::BufferUse::uniform, slots),
-      surface_buffer_("surfaces", gpu::BufferUse::plain, slots),
+      surface_buffer_("surfaces", gpu::BufferUse::texels, slots),
       light_buffer_("lights", gpu::BufferUse::uniform, slots),
-      probe_buffer_("probes", gpu::BufferUse::plain, slots),
+      probe_buffer_("probes", gpu::BufferUse::texels, slots),
       mirror_tree_("mirror_tree", gpu::BufferUse::texels, slots), details_(slots), sky_(slots),
       tracing_(std::make_unique<Tracing>(slots)) {}
 
@@ -167,7 +168,7 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
     std::vector<shared::Surface> listed = surfaces_;
     for (std::size_t i = 0; i < listed.size(); ++i)
         if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;
-    surface_buffer_.set(listed);
+    surface_buffer_.set(texels_of(listed));
 }
 
 bool GpuScene::has_other_mirrors() const {
@@ -213,7 +214,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
     }
     for (const shared::Light& light : lights_)
         std::ranges::copy(shadow_views(light), std::back_inserter(scene_views_));
-    probe_buffer_.set(probes_);
+    probe_buffer_.set(texels_of(probes_));
     if (is_crowd()) mirror_tree_.set(mirror_tree(probes_));
 }
 
@@ -238,9 +239,9 @@ void GpuScene::write(std::size_t slot) {
 void GpuScene::bind(graph::Commands& commands) const {
     commands.bind("frame", frame_.at(slot_));
     commands.bind("Views", view_buffer_.at(slot_));
-    commands.bind("Surfaces", surface_buffer_.at(slot_));
+    commands.bind("surface_texels", surface_buffer_.at(slot_));
     commands.bind("Lights", light_buffer_.at(slot_));
-    commands.bind("Probes", probe_buffer_.at(slot_));
+    commands.bind("probe_texels", probe_buffer_.at(slot_));
     commands.bind("mirror_nodes", mirror_tree_.at(slot_));
     details_.bind(commands, slot_);
     sky_.bind(commands, slot_);

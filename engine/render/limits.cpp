@@ -46,7 +46,8 @@ void check_limits(const std::string& scene, const Amounts& amounts, const Limits
     within(3 * amounts.triangles, std::numeric_limits<std::uint32_t>::max(), "indices");
     within(texels, limits.texels, "texels of triangles");
     within(amounts.environment_texels, limits.texels, "texels of the environment");
-    within(amounts.objects * sizeof(shared::Surface), limits.storage_bytes, "bytes of surfaces");
+    within(amounts.objects * shared::kSurfaceTexels, limits.texels, "texels of surfaces");
+    within(amounts.mirrors * shared::kProbeTexels, limits.texels, "texels of mirrors");
     within((1 + 6 * amounts.mirrors) * sizeof(shared::View), limits.storage_bytes,
            "bytes of views");
     within(vertex_bytes, limits.piece_bytes, "bytes of vertices");

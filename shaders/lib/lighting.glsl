@@ -10,29 +10,30 @@
 
 // As light_term, for lights of every kind.
 bool arrives(uint light, vec3 position, vec3 normal, out vec3 direction, out float distance, out float factor) {
-    if (is_directional(light)) return parallel_term(normal, lights[light].forward, direction, distance, factor);
-    if (!light_term(position, normal, lights[light].position, lights[light].normal, direction, distance, factor)) return false;
+    if (is_directional(light)) return parallel_term(normal, light_at(light).forward, direction, distance, factor);
+    if (!light_term(position, normal, light_at(light).position, light_at(light).normal, direction, distance, factor)) return false;
     if (light_kinds == 0u) return true;
-    float cosine = -dot(direction, lights[light].forward);
-    factor *= range_share(distance, lights[light].reach) * cone_share(cosine, lights[light].cos_outer, lights[light].sharpness);
+    float cosine = -dot(direction, light_at(light).forward);
+    factor *= range_share(distance, light_at(light).reach) * cone_share(cosine, light_at(light).cos_outer, light_at(light).sharpness);
     return factor > 0.0;
 }
 
 vec3 shade(Surface surface, vec3 position, vec3 normal) {
     vec3 direct = vec3(0);
-    uint count = surface.albedo == vec3(0) ? 0u : frame.value.light_count;
+    uint all = one_light != 0u ? 1u : frame.value.light_count;
+    uint count = surface.albedo == vec3(0) ? 0u : all;
     uint light = 0u;
     do { // asked at its end: see lib/trace.glsl
         vec3 direction;
         float distance, factor;
         if (light < count && arrives(light, position, normal, direction, distance, factor)) {
             float visible = light_visible(light, position, normal, direction, distance);
-            direct += lights[light].intensity * (factor * visible);
+            direct += light_at(light).intensity * (factor * visible);
         }
         ++light;
     } while (one_light == 0u && light < count);
     if (environment_kind != kNoEnvironment) direct += sky_light(normal);
-    return lambert(surface.emission, surface.albedo, direct, frame.value.ambient);
+    return lambert(surface.emission, surface.albedo, direct, ambient());
 }
 
 #endif

@@ -10,7 +10,7 @@
 
 // A mirror that rays pass through, from 1: a capture does not show its own. 0: none.
 uint left_out;
-bool is_seen(uint object) { return left_out == 0u || surfaces[object].mirror != left_out; }
+bool is_seen(uint object) { return left_out == 0u || surface_of(object).mirror != left_out; }
 // Shadows as the row makes them, or by rays.
 uint shadow_by;
 
@@ -31,7 +31,7 @@ bool mends(uint cause) { return (draw.mended & cause) != 0u; }
 float exact_distance(uint mirror, vec3 direction) {
     left_out = mirror + 1u;
     Hit hit;
-    bool found = closest_hit(Ray(probes[mirror].centre, direction, 0u), kLargest, kBvhOneSided, hit);
+    bool found = closest_hit(Ray(probe_at(mirror).centre, direction, 0u), kLargest, kBvhOneSided, hit);
     left_out = 0u;
     return found ? hit.t * length(direction) : uintBitsToFloat(0x7f800000u);
 }
@@ -46,7 +46,7 @@ struct End {
 End end_of(Ray ray, uint skipped) {
     End end;
     end.meets = trace_ray(ray, skipped, end.point);
-    end.mirror = end.meets ? surfaces[end.point.object].mirror : 0u;
+    end.mirror = end.meets ? surface_of(end.point.object).mirror : 0u;
     return end;
 }
 
@@ -59,7 +59,7 @@ Ray reflected(Ray ray, Point at) {
 // that faces the centre.
 End captured_end(uint mirror, Lookup lookup) {
     left_out = mirror + 1u;
-    Ray ray = Ray(probes[mirror].centre, lookup.direction, 0u);
+    Ray ray = Ray(probe_at(mirror).centre, lookup.direction, 0u);
     End end;
     bool goes_on, is_first = true;
     do {

@@ -48,8 +48,8 @@ vec4 captured_surface(uint mirror, vec3 direction) {
 // Of a ray that meets the mirror. A mirror without a capture is black where others show it.
 vec3 reflectance_of(uint mirror, vec3 direction, vec3 n) {
     if (!is_captured(mirror)) return vec3(0);
-    vec3 reflectance = probes[mirror].reflectance;
-    bool is_metal = details != 0u && probes[mirror].kind == kProbeMetal;
+    vec3 reflectance = probe_at(mirror).reflectance;
+    bool is_metal = details != 0u && probe_at(mirror).kind == kProbeMetal;
     return is_metal ? schlick(reflectance, vec3(1), abs(dot(n, direction))) : reflectance;
 }
 
@@ -60,12 +60,12 @@ bool follow_sphere(inout Path path) {
     Ray ray = Ray(path.at, path.direction, 0u);
     if (!first_sphere(ray, path.mirror, next, t)) return false;
     vec3 error;
-    vec3 met = sphere_point(probes[next].sphere, probes[next].radius, ray, t, error);
+    vec3 met = sphere_point(probe_at(next).sphere, probe_at(next).radius, ray, t, error);
     // Something that stands more than the sphere's radius in front of it hides it.
     vec3 seen = met - path.centre;
-    if (captured_distance(path.mirror, normalize(seen)) + probes[next].radius < length(seen)) return false;
-    vec3 n = (met - probes[next].sphere) / probes[next].radius;
-    path = Path(next, met, mirror_direction(path.direction, n, n), probes[next].centre,
+    if (captured_distance(path.mirror, normalize(seen)) + probe_at(next).radius < length(seen)) return false;
+    vec3 n = (met - probe_at(next).sphere) / probe_at(next).radius;
+    path = Path(next, met, mirror_direction(path.direction, n, n), probe_at(next).centre,
                 path.weight * reflectance_of(next, path.direction, n), path.hops + 1u);
     return true;
 }
@@ -75,13 +75,13 @@ bool follow_captured(inout Path path, Lookup lookup) {
     vec4 surface = captured_surface(path.mirror, lookup.direction);
     if (lookup.state != kHit || lookup.layer != 0.0 || !is_mirror(surface)) return false;
     uint next = uint(surface.x) - 1u;
-    if (probes[next].radius > 0.0) return false; // an exact sphere that the ray is known to miss
-    if (details != 0u && probes[next].kind == kProbeLit) return false; // only the capture knows its own light
+    if (probe_at(next).radius > 0.0) return false; // an exact sphere that the ray is known to miss
+    if (details != 0u && probe_at(next).kind == kProbeLit) return false; // only the capture knows its own light
     vec3 n = normalize(surface.yzw);
     vec3 seen = path.centre + lookup.direction * captured_distance(path.mirror, lookup.direction);
     float t = dot(seen - path.at, n) / dot(path.direction, n);
     if (!(is_finite(t) && t > 0.0)) return false;
-    path = Path(next, path.at + path.direction * t, mirror_direction(path.direction, n, n), probes[next].centre,
+    path = Path(next, path.at + path.direction * t, mirror_direction(path.direction, n, n), probe_at(next).centre,
                 path.weight * reflectance_of(next, path.direction, n), path.hops + 1u);
     return true;
 }
@@ -96,7 +96,7 @@ void look_at(float distance) {}
 // How far along the path a search in capture `mirror` ends.
 float end_of(uint mirror, Path path, Lookup lookup) {
     float distance = looked_at() > 0.0 ? looked_at() : captured_distance(mirror, lookup.direction);
-    vec3 end = probes[mirror].centre + lookup.direction * distance;
+    vec3 end = probe_at(mirror).centre + lookup.direction * distance;
     return lookup.state == kMiss ? kLargest : dot(end - path.at, path.direction);
 }
 
@@ -112,12 +112,12 @@ void ask_others(inout Path path, inout Lookup lookup) {
     do { // loops ask at their end: see lib/trace.glsl
         uint i = next++;
         if (i == path.mirror || !is_captured(i)) continue;
-        Lookup other = search(i, path.at - probes[i].centre, path.direction);
+        Lookup other = search(i, path.at - probe_at(i).centre, path.direction);
         if (other.state == kUnknown || is_mirror(captured_surface(i, other.direction))) continue;
         float end = end_of(i, path, other);
         if (mirror_tree != 0u ? meets && !(end < met) : meets_mirror_before(ray, path.mirror, end)) continue;
         path.mirror = i;
-        path.centre = probes[i].centre;
+        path.centre = probe_at(i).centre;
         lookup = other;
         return;
     } while (next < frame.value.mirror_count);

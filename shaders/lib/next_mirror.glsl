@@ -17,7 +17,7 @@ const float kSphereSlack = 3.0;
 
 // Where the ray meets a mirror that is an exact sphere, or the bounds of any other.
 bool meets_mirror(uint mirror, Ray ray, out float t) {
-    Probe probe = probes[mirror];
+    Probe probe = probe_at(mirror);
     return probe.radius > 0.0
                ? sphere_test(probe.sphere, probe.radius, ray, kLargest, t)
                : slab_test(probe.lowest, probe.highest, box_ray(ray, probe.lowest, probe.highest, 1.0), kLargest, t);
@@ -40,7 +40,7 @@ bool first_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out 
         node = inside ? node + 1u : floatBitsToUint(high.w) & kBvhIdMask;
         uint number = floatBitsToUint(low.w) & kBvhIdMask; // from 1
         uint mirror = number - 1u;
-        if (!inside || number == 0u || mirror == except || (only_spheres && !(probes[mirror].radius > 0.0))) continue;
+        if (!inside || number == 0u || mirror == except || (only_spheres && !(probe_at(mirror).radius > 0.0))) continue;
         if (!meets_mirror(mirror, ray, met)) continue;
         if (met < t || (found && met == t && mirror < first)) {
             t = met;
@@ -58,8 +58,9 @@ bool first_sphere(Ray ray, uint except, out uint first, out float t) {
     t = kLargest;
     uint i = 0u;
     do {
+        Probe probe = probe_at(i);
         float t_sphere;
-        if (i != except && probes[i].radius > 0.0 && sphere_test(probes[i].sphere, probes[i].radius, ray, t, t_sphere)) {
+        if (i != except && probe.radius > 0.0 && sphere_test(probe.sphere, probe.radius, ray, t, t_sphere)) {
             t = t_sphere;
             first = i;
             found = true;

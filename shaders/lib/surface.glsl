@@ -3,15 +3,14 @@
 #define CATOPTRIC_SURFACE_GLSL
 
 #include "lib/constants.glsl"
+#include "lib/drawn.glsl"
 #include "lib/eye.glsl"
 #include "lib/material.glsl"
 
-layout(push_constant, scalar) uniform Push { Draw draw; };
-layout(location = 0) flat in vec3 eye;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 from_eye; // position - eye
-layout(location = 4) in vec4 in_uv; // see Attribute
-layout(location = 5) in vec4 in_colour;
+layout(location = 3) in vec4 in_uv; // see Attribute
+layout(location = 4) in vec4 in_colour;
 
 layout(location = 0) out vec4 out_colour;
 // Captures that hold distances keep them. A view that leaves pixels to tracing keeps which tracer takes each, from 1;
@@ -23,7 +22,7 @@ layout(location = 2) out vec4 out_more;
 
 // Where the surface is. A perspective interpolation errs along the ray from the eye, by a part of its length: the floor
 // that a low eye sees stays a floor. Interpolated itself, the position would err towards the origin instead.
-vec3 surface_position() { return eye + from_eye; }
+vec3 surface_position() { return eye() + from_eye; }
 
 // The way that who looks looks here, of any length.
 vec3 seen_along() { return orthographic != 0u ? views[draw.first_view].forward : from_eye; }
@@ -31,7 +30,7 @@ vec3 seen_along() { return orthographic != 0u ? views[draw.first_view].forward :
 // How far that may be off along a unit normal. No specification bounds what a rasteriser's interpolation may do:
 // 2^-16 of the way along the ray and 2^-20 across it are some ten times what was seen (docs/extremes.md).
 float surface_error(vec3 n) {
-    return (abs(dot(n, from_eye)) + length(from_eye) / 16.0) / 65536.0 + dot(abs(n), gamma_bound(2) * abs(eye + from_eye));
+    return (abs(dot(n, from_eye)) + length(from_eye) / 16.0) / 65536.0 + dot(abs(n), gamma_bound(2) * abs(eye() + from_eye));
 }
 
 // 1 stores scene units; unorm8 stores distance / range.
@@ -40,7 +39,6 @@ layout(constant_id = DISTANCE_SCALE_CONSTANT) const float distance_scale = 1.0;
 layout(constant_id = KEEPS_SURFACE_CONSTANT) const uint keeps_surface = 0u;
 
 #ifdef PEEL
-layout(location = 3) flat in uint view_layer;
 // Rounding of a stored distance, beside the relative one.
 layout(constant_id = HALF_STEP_CONSTANT) const float half_step = 0.0;
 layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_layer; // distances of this capture
@@ -48,7 +46,7 @@ layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_laye
 // Depth peeling keeps only what faces the capture's centre behind the first layer. 2^-10 lies above the
 // relative rounding of a binary16 and of an interpolated distance.
 bool is_peeled() {
-    float first = texelFetch(first_layer, ivec3(gl_FragCoord.xy, view_layer), 0).r;
+    float first = texelFetch(first_layer, ivec3(gl_FragCoord.xy, view_layer()), 0).r;
     return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + half_step) || !(dot(normal, from_eye) < 0.0);
 }
 #endif
@@ -60,7 +58,7 @@ void leave_out_what_is_cut() {
 
 // The object's surface here. `facet`: along its triangle's normal.
 Surface surface_here(inout vec3 n, vec3 facet) {
-    Surface surface = draw.surface;
+    Surface surface = drawn_surface();
     if (details != 0u) {
         vec3 direction = normalize(seen_along());
         n = turned_normal(draw.object, n, facet, direction);

@@ -4,23 +4,17 @@
 #ifndef CATOPTRIC_VERTEX_GLSL
 #define CATOPTRIC_VERTEX_GLSL
 
+#define VERTEX_STAGE
+#include "lib/drawn.glsl"
 #include "lib/eye.glsl"
 #include "lib/material.glsl"
 
-layout(push_constant, scalar) uniform Push {
-    Draw draw;
-#ifdef PLACED
-    Placement placement;
-#endif
-};
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 0) flat out vec3 out_eye;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec3 out_from_eye;
-layout(location = 3) flat out uint out_layer;
-layout(location = 4) out vec4 out_uv;
-layout(location = 5) out vec4 out_colour;
+layout(location = 3) out vec4 out_uv;
+layout(location = 4) out vec4 out_colour;
 
 invariant gl_Position;
 
@@ -50,14 +44,13 @@ void main() {
 #ifdef LAYERED
     gl_Layer = gl_InstanceIndex;
 #endif
-    out_eye = view.eye;
+    write_drawn(view, gl_InstanceIndex);
 #ifdef PLACED
     out_normal = scene_direction(normal);
 #else
     out_normal = normal;
 #endif
     out_from_eye = v;
-    out_layer = uint(gl_InstanceIndex);
     Attribute at = kNoAttribute;
     if (details != 0u && (detail_of[draw.object].flags & kDetailAttributes) != 0u)
         at = attributes[uint(gl_VertexIndex) + detail_of[draw.object].first_attribute];

@@ -125,12 +125,13 @@ Point on_triangle(Hit hit) {
 
 Point on_sphere(Ray ray, float t, uint object) {
     Point p;
-    p.position = sphere_point(surfaces[object].centre, surfaces[object].radius, ray, t, p.error);
+    Surface of = surface_of(object);
+    p.position = sphere_point(of.centre, of.radius, ray, t, p.error);
 #ifdef DOUBLES
-    exact_sphere_hit(dvec3(surfaces[object].centre), double(surfaces[object].radius), t);
+    exact_sphere_hit(dvec3(of.centre), double(of.radius), t);
     p.position = vec3(exact_point);
 #endif
-    p.normal = p.facet = (p.position - surfaces[object].centre) / surfaces[object].radius;
+    p.normal = p.facet = (p.position - of.centre) / of.radius;
     p.at = kNoAttribute;
     p.object = object;
     p.leaves = 0u;
@@ -164,14 +165,14 @@ bool trace_ray(Ray ray, uint skipped, out Point p) {
     vec3 low = trace_low;
     bool found = closest_hit(ray, kLargest, skipped | kBvhOneSided | passed_by(), hit);
     if (found && own_spaces != 0u && hit.place == kOnSphere) p = on_own_sphere(ray, low, hit);
-    else if (found && exact_spheres != 0u && surfaces[hit.object].radius > 0.0) p = on_sphere(ray, hit.t, hit.object);
+    else if (found && exact_spheres != 0u && surface_of(hit.object).radius > 0.0) p = on_sphere(ray, hit.t, hit.object);
     else if (found) p = on_triangle(hit);
     return found;
 }
 
 // What the surface is at the point, whose normal turns to where `direction` comes from if it has two sides.
 Surface surface_at(inout Point p, vec3 direction) {
-    Surface surface = surfaces[p.object];
+    Surface surface = surface_of(p.object);
     if (details != 0u) {
         p.normal = turned_normal(p.object, p.normal, p.facet, direction);
         evaluate(surface, p.object, p.at, -dot(p.normal, direction));
@@ -193,7 +194,7 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
 #endif
     ++shadow_rays;
     vec3 origin = leaving(point, direction);
-    Ray ray = Ray(origin, lights[light].position - origin, point.leaves);
+    Ray ray = Ray(origin, light_at(light).position - origin, point.leaves);
     float t = keeps(kShadowEnd) ? kShadowRayEnd : 1.0;
     if (is_directional(light)) {
         ray.direction = direction;
@@ -203,9 +204,10 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
 }
 #include "lib/lighting.glsl"
 
+View camera_view = views[0]; // read before lanes go different ways
 // Through a place in a picture of `size` pixels.
 Ray camera_ray(vec2 place, uvec2 size) {
-    View view = views[0];
+    View view = camera_view;
     vec2 ndc = place / vec2(size) * 2.0 - 1.0;
     if (own_spaces != 0u) trace_low = view.eye_low;
     if (orthographic != 0u)

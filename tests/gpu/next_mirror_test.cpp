@@ -32,7 +32,7 @@ std::vector<Answer> answers(const std::vector<shared::Probe>& probes,
     auto& [device, pipelines] = test::bench();
     gpu::Buffer input, mirrors, tree, frame;
     upload(device, input, "rays", rays, gpu::BufferUse::plain);
-    upload(device, mirrors, "probes", probes, gpu::BufferUse::plain);
+    upload(device, mirrors, "probes", render::texels_of(probes), gpu::BufferUse::texels);
     upload(device, tree, "tree", render::mirror_tree(probes), gpu::BufferUse::texels);
     const auto count = static_cast<std::uint32_t>(probes.size());
     upload(device, frame, "frame", std::vector{shared::Frame{.mirror_count = count}},
@@ -44,7 +44,7 @@ std::vector<Answer> answers(const std::vector<shared::Probe>& probes,
         .writes(out, graph::Use::storage_write)
         .record([&](graph::Commands& commands) {
             commands.bind("frame", frame);
-            commands.bind("Probes", mirrors);
+            commands.bind("probe_texels", mirrors);
             commands.bind("mirror_nodes", tree);
             commands.bind("Rays", input);
             commands.bind("Answers", out);

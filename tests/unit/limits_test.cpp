@@ -88,11 +88,15 @@ TEST(Limits, NameWhatIsWantedAndWhatThereIs) {
     limits.texels = 299;
     EXPECT_EQ(refusal(one, limits),
               "scene 's' wants 300 texels of triangles, the device allows 299");
-    limits = kRoomy, limits.storage_bytes = 5599;
+    limits.texels = 399;
     EXPECT_EQ(refusal(one, limits),
-              "scene 's' wants 5600 bytes of surfaces, the device allows 5599");
-    limits.storage_bytes = 5600;
-    EXPECT_EQ(refusal(one, limits), "scene 's' wants 50484 bytes of views, the device allows 5600");
+              "scene 's' wants 400 texels of surfaces, the device allows 399");
+    limits.texels = 499;
+    EXPECT_EQ(refusal(one, limits),
+              "scene 's' wants 500 texels of mirrors, the device allows 499");
+    limits = kRoomy, limits.storage_bytes = 50483;
+    EXPECT_EQ(refusal(one, limits),
+              "scene 's' wants 50484 bytes of views, the device allows 50483");
     limits = kRoomy, limits.piece_bytes = 2399;
     EXPECT_EQ(refusal(one, limits),
               "scene 's' wants 2400 bytes of vertices, the device allows 2399");

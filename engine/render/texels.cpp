@@ -1,0 +1,28 @@
+#include "render/texels.hpp"
+
+#include "bvh/words.hpp"
+
+namespace catoptric::render {
+
+std::vector<vec4> texels_of(std::span<const shared::Surface> surfaces) {
+    std::vector<vec4> texels;
+    texels.reserve(shared::kSurfaceTexels * surfaces.size());
+    for (const shared::Surface& surface : surfaces)
+        texels.insert(texels.end(), {vec4(surface.albedo, bvh::id_word(surface.mirror)),
+                                     vec4(surface.emission, 0), vec4(surface.reflectance, 0),
+                                     vec4(surface.centre, surface.radius)});
+    return texels;
+}
+
+std::vector<vec4> texels_of(std::span<const shared::Probe> probes) {
+    std::vector<vec4> texels;
+    texels.reserve(shared::kProbeTexels * probes.size());
+    for (const shared::Probe& probe : probes)
+        texels.insert(texels.end(),
+                      {vec4(probe.sphere, probe.radius),
+                       vec4(probe.centre, static_cast<float>(probe.kind)),
+                       vec4(probe.reflectance, 0), vec4(probe.lowest, 0), vec4(probe.highest, 0)});
+    return texels;
+}
+
+} // namespace catoptric::render
