@@ -208,14 +208,14 @@ struct Overlaying {
 };
 
 // Texels of four floats of each in the lists that shaders/lib/bindings.glsl reads.
-const uint kSurfaceTexels = 4u, kProbeTexels = 5u;
+const uint kSurfaceTexels = 4u, kProbeTexels = 5u, kDetailQuads = 10u; // the last of whole numbers
 
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 56);
 static_assert(sizeof(Light) == 92);
 static_assert(sizeof(TextureUse) == 36);
-static_assert(sizeof(Detail) == 160);
+static_assert(sizeof(Detail) == 16 * kDetailQuads);
 static_assert(sizeof(Attribute) == 32);
 static_assert(sizeof(Probe) == 68);
 static_assert(sizeof(CaptureTable) == 8256); // every device has uniform buffers of 16 KiB

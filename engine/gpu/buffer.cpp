@@ -6,7 +6,19 @@ namespace catoptric::gpu {
 
 namespace {
 
-constexpr std::uint64_t kTexelBytes = 16; // rgba32f
+constexpr std::uint64_t kFewestBytes = 16; // a texel of any kind
+
+struct TexelFormat {
+    VkFormat format = VK_FORMAT_UNDEFINED; ///< none: the buffer is read as no texels
+    std::uint64_t bytes = 0;
+};
+
+TexelFormat texels_of(BufferUse use) {
+    if (has(use, BufferUse::texels)) return {VK_FORMAT_R32G32B32A32_SFLOAT, 16};
+    if (has(use, BufferUse::quads)) return {VK_FORMAT_R32G32B32A32_UINT, 16};
+    if (has(use, BufferUse::words)) return {VK_FORMAT_R32_UINT, 4};
+    return {};
+}
 
 VkBufferUsageFlags usage(BufferUse use) {
     VkBufferUsageFlags flags = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
@@ -14,7 +26,7 @@ VkBufferUsageFlags usage(BufferUse use) {
     if (has(use, BufferUse::vertex)) flags |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
     if (has(use, BufferUse::index)) flags |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
     if (has(use, BufferUse::uniform)) flags |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
-    if (has(use, BufferUse::texels)) flags |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    if (texels_of(use).bytes > 0) flags |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     return flags;
 }
 
@@ -88,19 +100,20 @@ void copy(Device& device, const std::string& doing, VkBuffer from, std::uint64_t
 
 Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use)
     : device_(&device), name_(std::move(name)),
-      bytes_(std::max<std::uint64_t>(bytes, kTexelBytes)) {
+      bytes_(std::max<std::uint64_t>(bytes, kFewestBytes)) {
     buffer_ = make_buffer(device, bytes_, usage(use), name_);
     memory_ = back(device, buffer_,
                    has(use, BufferUse::read_back) ? Home::host_reads : Home::device, name_,
                    mapped_);
-    if (!has(use, BufferUse::texels)) return;
-    check(bytes_ / kTexelBytes <= device.limits().maxTexelBufferElements, Failure::exhausted,
-          "buffer '", name_, "' wants ", bytes_ / kTexelBytes, " texels, the device allows ",
+    const auto [format, texel_bytes] = texels_of(use);
+    if (texel_bytes == 0) return;
+    check(bytes_ / texel_bytes <= device.limits().maxTexelBufferElements, Failure::exhausted,
+          "buffer '", name_, "' wants ", bytes_ / texel_bytes, " texels, the device allows ",
           device.limits().maxTexelBufferElements);
     VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     view.buffer = buffer_;
-    view.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    view.range = bytes_ / kTexelBytes * kTexelBytes;
+    view.format = format;
+    view.range = bytes_ / texel_bytes * texel_bytes;
     VkBufferView handle = VK_NULL_HANDLE;
     check_vk(vkCreateBufferView(device.handle(), &view, nullptr, &handle),
              "view buffer '" + name_ + "'");

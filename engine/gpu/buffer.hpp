@@ -14,8 +14,10 @@ enum class BufferUse : std::uint32_t {
     vertex = 1,
     index = 2,
     uniform = 4,
-    texels = 8,
-    read_back = 16
+    texels = 8, ///< of four floats
+    read_back = 16,
+    words = 32, ///< texels of a whole number
+    quads = 64  ///< texels of four whole numbers
 };
 constexpr BufferUse operator|(BufferUse a, BufferUse b) {
     return static_cast<BufferUse>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
@@ -29,7 +31,7 @@ class Buffer {
 public:
     Buffer() = default;
     /// At least 16 bytes are made, so that an empty list can still be bound.
-    /// Throws `exhausted` naming the bytes, or the limit for texel buffers (rgba32f).
+    /// Throws `exhausted` naming the bytes, or the limit for texel buffers.
     Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use);
 
     /// Copies `data` to `offset`; through a staging buffer where device memory cannot be mapped.

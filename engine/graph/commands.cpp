@@ -206,7 +206,7 @@ void Commands::write_buffer(const gpu::Binding& binding, const Bound& bound,
     buffer = {owned ? (*owned)->handle() : std::get<VkBuffer>(bound), 0, VK_WHOLE_SIZE};
     if (binding.kind != gpu::BindingKind::texel_buffer) return;
     check(owned && (*owned)->texels(), Failure::internal, "pass '", pass_.name, "': '",
-          binding.name, "' wants a buffer made with BufferUse::texels");
+          binding.name, "' wants a buffer of texels");
     texels = (*owned)->texels();
 }
 

@@ -31,9 +31,9 @@ shared::Detail detail_of(const scene::Material& material, const DrawRange& range
 } // namespace
 
 Details::Details(std::size_t slots)
-    : details_("details", gpu::BufferUse::plain, slots),
-      attributes_("attributes", gpu::BufferUse::plain, slots),
-      texels_("texels", gpu::BufferUse::plain, slots) {}
+    : details_("details", gpu::BufferUse::quads, slots),
+      attributes_("attributes", gpu::BufferUse::texels, slots),
+      texels_("texels", gpu::BufferUse::words, slots) {}
 
 shared::TextureUse Details::use_of(const std::optional<scene::Texture>& texture) const {
     shared::TextureUse use{};
@@ -110,9 +110,9 @@ std::size_t Details::write(gpu::Device& device, std::size_t slot) {
 }
 
 void Details::bind(graph::Commands& commands, std::size_t slot) const {
-    commands.bind("Details", details_.at(slot));
-    commands.bind("Attributes", attributes_.at(slot));
-    commands.bind("Texels", texels_.at(slot));
+    commands.bind("detail_quads", details_.at(slot));
+    commands.bind("attribute_texels", attributes_.at(slot));
+    commands.bind("texture_words", texels_.at(slot));
 }
 
 } // namespace catoptric::render

@@ -8,18 +8,40 @@
 
 layout(constant_id = DETAILS_CONSTANT) const uint details = 0u; // 1: some surface is more than one colour, or has two sides
 layout(constant_id = MASKS_CONSTANT) const uint masks = 0u;     // 1: something is cut out
-layout(set = 0, binding = DETAILS_BINDING, scalar) readonly buffer Details { Detail detail_of[]; };
-layout(set = 0, binding = ATTRIBUTES_BINDING, scalar) readonly buffer Attributes { Attribute attributes[]; };
+// See Detail, and lib/bindings.glsl for why these are texels.
+layout(set = 0, binding = DETAILS_BINDING) uniform usamplerBuffer detail_quads;
+layout(set = 0, binding = ATTRIBUTES_BINDING) uniform samplerBuffer attribute_texels; // two each
 // First what 256 bytes of sRGB are in linear light, as floats; then texels, red in the low byte.
-layout(set = 0, binding = TEXELS_BINDING, scalar) readonly buffer Texels { uint texels[]; };
+layout(set = 0, binding = TEXELS_BINDING) uniform usamplerBuffer texture_words;
+
+// Four words of an object's detail.
+uvec4 detail_quad(uint object, int quad) { return texelFetch(detail_quads, int(kDetailQuads * object) + quad); }
+
+// What is not used is not read.
+Detail detail_of(uint object) {
+    uvec4 q0 = detail_quad(object, 0), q1 = detail_quad(object, 1), q2 = detail_quad(object, 2), q3 = detail_quad(object, 3);
+    uvec4 q4 = detail_quad(object, 4), q5 = detail_quad(object, 5), q6 = detail_quad(object, 6), q7 = detail_quad(object, 7);
+    uvec4 q8 = detail_quad(object, 8), q9 = detail_quad(object, 9);
+    vec4 f1 = uintBitsToFloat(q1), f2 = uintBitsToFloat(q2), f5 = uintBitsToFloat(q5), f9 = uintBitsToFloat(q9);
+    return Detail(q0.x, q0.y, uintBitsToFloat(q0.z), uintBitsToFloat(q0.w), f1.x, f1.y, f1.z, vec3(f1.w, f2.xy),
+                  vec3(f2.zw, uintBitsToFloat(q3.x)),
+                  TextureUse(q3.y, q3.z, q3.w, uintBitsToFloat(q4.xyz), vec3(uintBitsToFloat(q4.w), f5.xy)),
+                  TextureUse(q5.z, q5.w, q6.x, uintBitsToFloat(q6.yzw), uintBitsToFloat(q7.xyz)),
+                  TextureUse(q7.w, q8.x, q8.y, vec3(uintBitsToFloat(q8.zw), f9.x), f9.yzw));
+}
+Attribute attribute_at_vertex(uint vertex) {
+    int i = 2 * int(vertex);
+    return Attribute(texelFetch(attribute_texels, i), texelFetch(attribute_texels, i + 1));
+}
+uint texture_word(uint i) { return texelFetch(texture_words, int(i)).r; }
 
 const Attribute kNoAttribute = Attribute(vec4(0), vec4(1));
 
 vec4 texel_colour(TextureUse use, int x, int y) {
-    uint texel = texels[use.first + uint(y) * (use.size & 0xffffu) + uint(x)];
+    uint texel = texture_word(use.first + uint(y) * (use.size & 0xffffu) + uint(x));
     if ((use.how & kTextureSrgb) == 0u) return unpackUnorm4x8(texel);
-    return vec4(uintBitsToFloat(texels[texel & 0xffu]), uintBitsToFloat(texels[texel >> 8u & 0xffu]),
-                uintBitsToFloat(texels[texel >> 16u & 0xffu]), float(texel >> 24u) / 255.0);
+    return vec4(uintBitsToFloat(texture_word(texel & 0xffu)), uintBitsToFloat(texture_word(texel >> 8u & 0xffu)),
+                uintBitsToFloat(texture_word(texel >> 16u & 0xffu)), float(texel >> 24u) / 255.0);
 }
 
 // `uv`: both texture spaces. White where there is no texture.
@@ -41,7 +63,7 @@ vec4 texture_colour(TextureUse use, vec4 uv) {
 
 // Whether the surface is not there.
 bool is_cut_out(uint object, Attribute at) {
-    Detail detail = detail_of[object];
+    Detail detail = detail_of(object);
     float alpha = detail.alpha * at.colour.a;
     if (detail.alpha_cutoff <= 0.0) return false;
     return !(alpha * texture_colour(detail.albedo, at.uv).a >= detail.alpha_cutoff);
@@ -49,14 +71,14 @@ bool is_cut_out(uint object, Attribute at) {
 
 // The normal on the side of the facet that `direction` comes from, where the surface has two sides.
 vec3 turned_normal(uint object, vec3 normal, vec3 facet, vec3 direction) {
-    if ((detail_of[object].flags & kDetailTurns) == 0u) return normal;
+    if ((detail_of(object).flags & kDetailTurns) == 0u) return normal;
     return dot(normal, facet) * dot(direction, facet) > 0.0 ? -normal : normal;
 }
 
 // What the surface is here: albedo becomes what is left for diffuse light, reflectance what a ray that is mirrored
 // counts. `cosine`: between the normal and the direction to who looks.
 void evaluate(inout Surface surface, uint object, Attribute at, float cosine) {
-    Detail detail = detail_of[object];
+    Detail detail = detail_of(object);
     bool is_constant = (detail.flags & kDetailConstant) != 0u;
     if (!is_constant) surface.reflectance = vec3(0);
     if ((detail.flags & kDetailVaries) == 0u) return;

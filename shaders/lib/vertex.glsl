@@ -52,8 +52,8 @@ void main() {
 #endif
     out_from_eye = v;
     Attribute at = kNoAttribute;
-    if (details != 0u && (detail_of[draw.object].flags & kDetailAttributes) != 0u)
-        at = attributes[uint(gl_VertexIndex) + detail_of[draw.object].first_attribute];
+    if (details != 0u && (detail_of(draw.object).flags & kDetailAttributes) != 0u)
+        at = attribute_at_vertex(uint(gl_VertexIndex) + detail_of(draw.object).first_attribute);
     out_uv = at.uv;
     out_colour = at.colour;
 }

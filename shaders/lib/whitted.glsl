@@ -21,7 +21,7 @@ layout(set = 0, binding = NORMALS_BINDING) uniform samplerBuffer normals;
 #endif
 #define NORMAL(i) CORNER(i).xyz
 
-Attribute attribute_of(uint corner) { return attributes[floatBitsToUint(CORNER(corner).w) & kBvhIdMask]; }
+Attribute attribute_of(uint corner) { return attribute_at_vertex(floatBitsToUint(CORNER(corner).w) & kBvhIdMask); }
 
 // At a place of the triangle whose corners are stored from `corner` on.
 Attribute attribute_at(uint corner, vec3 barycentric) {
@@ -29,7 +29,7 @@ Attribute attribute_at(uint corner, vec3 barycentric) {
     return Attribute(barycentric.x * a.uv + barycentric.y * b.uv + barycentric.z * c.uv,
                      barycentric.x * a.colour + barycentric.y * b.colour + barycentric.z * c.colour);
 }
-bool has_attributes(uint object) { return (detail_of[object].flags & kDetailAttributes) != 0u; }
+bool has_attributes(uint object) { return (detail_of(object).flags & kDetailAttributes) != 0u; }
 bool is_there(uint triangle, uint object, vec3 barycentric) {
     return !is_cut_out(object, has_attributes(object) ? attribute_at(3u * triangle, barycentric) : kNoAttribute);
 }
