@@ -22,12 +22,10 @@ bool has_pixel(out uvec2 pixel) {
     pixel = uvec2(list[place] % trace.size.x, list[place] / trace.size.x);
     return true;
 }
-void keep_hits(uvec2 pixel, uint met) {}
 
 #else
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = HITS_BINDING, r32ui) writeonly uniform uimage2D hits;
 layout(constant_id = PIXELS_IN_ROWS_CONSTANT) const uint pixels_in_rows = 0u;
 
 // Eight that run together are a block of 4x2 pixels, or a row.
@@ -41,7 +39,6 @@ bool has_pixel(out uvec2 pixel) {
     pixel = uvec2(group % across, group / across) * 8u + place_in_group(gl_LocalInvocationIndex);
     return all(lessThan(pixel, trace.size));
 }
-void keep_hits(uvec2 pixel, uint met) { imageStore(hits, ivec2(pixel), uvec4(met)); }
 
 #endif
 
@@ -51,12 +48,11 @@ void main() {
     if (inside) {
         uint met;
         vec3 sum = radiance(camera_ray(vec2(pixel) + trace.sample_offset, trace.size), 0u, met);
-        if (trace.sample_index == 0u)
-            keep_hits(pixel, met);
-        else
-            sum += imageLoad(picture, ivec2(pixel)).rgb;
+        vec4 before = vec4(vec3(0), uintBitsToFloat(met | kBvhTag)); // what is met goes where a picture has its alpha
+        if (trace.sample_index > 0u) before = imageLoad(picture, ivec2(pixel));
+        sum += before.rgb;
         if (trace.sample_index + 1u == trace.sample_count) sum /= float(trace.sample_count);
-        imageStore(picture, ivec2(pixel), vec4(sum, 1));
+        imageStore(picture, ivec2(pixel), vec4(sum, before.a));
     }
     count(inside);
 }

@@ -170,10 +170,14 @@ const uint kMendShadows = 64u;   // shadow map -> shadow ray
 // Push constants of one dispatch of the ray tracer.
 struct Trace {
     vec2 sample_offset; // inside the pixel, (0.5, 0.5) is its centre
-    uint sample_index;  // 0 writes the hits and starts the sum
+    uint sample_index;  // 0 starts the sum
     uint sample_count;  // the last sample divides the sum
     uvec2 size;         // of the picture
 };
+
+// A traced picture's alpha, as a word of engine/bvh/words.hpp: the mirror that a pixel's first ray meets, from 1, and the
+// one after that << kMetBits; 0: none.
+const uint kMetBits = 15u, kMostMirrors = 32767u;
 
 // What ray tracing counts, over all dispatches of the frame.
 struct Counters {

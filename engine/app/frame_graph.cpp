@@ -3,6 +3,7 @@
 
 #include "app/plan_file.hpp"
 #include "app/table.hpp"
+#include "bvh/words.hpp"
 #include "core/error.hpp"
 #include "core/half.hpp"
 
@@ -43,6 +44,16 @@ std::vector<Value> values_of(const std::vector<std::byte>& bytes) {
     std::vector<Value> values(bytes.size() / sizeof(Value));
     std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
+}
+
+/// Of a traced picture's alpha: see Part::hits.
+std::vector<std::uint32_t> to_hits(const std::vector<std::byte>& texels) {
+    std::vector<std::uint32_t> hits;
+    for (const vec4& texel : values_of<vec4>(texels)) {
+        const std::uint32_t met = bvh::bits(texel.w) & ~f32::kBvhTag;
+        hits.push_back((met & shared::kMostMirrors) | met >> shared::kMetBits << 16);
+    }
+    return hits;
 }
 
 /// Adds what one tracing counted.
@@ -115,7 +126,6 @@ FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plan
                                                          spec.exposure);
         frame.graph.want(outputs.hdr);
         frame.graph.want(display);
-        if (outputs.hits) frame.graph.want(*outputs.hits);
         for (const graph::Buffer counters : outputs.counters) frame.graph.want(counters);
         if (outputs.lookup) frame.graph.want(*outputs.lookup);
         if (outputs.captures && (spec.with_lookup || spec.with_captures)) {
@@ -183,10 +193,11 @@ Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& fr
             part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};
     for (const graph::Buffer counters : outputs.counters)
         add_counters(runner.read(ticket, counters), part);
-    part.hdr = read_hdr(runner, ticket, declared, spec.size);
+    const std::vector<std::byte> texels = runner.read(ticket, outputs.hdr);
+    part.hdr = to_picture(texels, spec.size, Format::rgba32f);
+    if (outputs.has_hits) part.hits = to_hits(texels);
     part.display = to_picture(runner.read(ticket, declared.display), spec.size,
                               Format::rgba8_unorm);
-    if (outputs.hits) part.hits = values_of<std::uint32_t>(runner.read(ticket, *outputs.hits));
     if (spec.with_lookup && outputs.captures)
         for (const render::Cubes& cubes : outputs.captures->arrays)
             if (frame.graph.images()[cubes.colour.id].format == Format::rgba16f)

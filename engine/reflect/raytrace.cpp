@@ -58,7 +58,7 @@ Tracer tracer_of(const Settings& settings, const render::Lighting& lighting) {
 Outputs picture(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
                 const render::Lighting& lighting) {
     const Traced traced = add_traced(graph, inputs, tracer_of(settings, lighting));
-    return {traced.hdr, traced.hits, {traced.counters}, {}, {}};
+    return {traced.hdr, true, {traced.counters}, {}, {}};
 }
 
 Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,

@@ -119,7 +119,6 @@ List add_list(graph::Graph& graph, const render::FrameInputs& inputs, const std:
 Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const Tracer& tracer) {
     const uvec2 size = inputs.size;
     const Traced traced{graph.image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y}),
-                        graph.image({inputs.prefix + "hits", Format::r32ui, size.x, size.y}),
                         graph.buffer({inputs.prefix + "counters", sizeof(shared::Counters)})};
     graph.pass(inputs.prefix + "raytrace/reset")
         .writes(traced.counters, Use::copy_to)
@@ -128,12 +127,10 @@ Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const 
     graph::PassBuilder pass = graph.pass(inputs.prefix + "raytrace");
     if (tracer.shadow == Tracer::Shadow::map) pass.reads(*tracer.lighting.shadow_map, Use::sampled);
     pass.writes(traced.hdr, Use::storage_write)
-        .writes(traced.hits, Use::storage_write)
         .writes(traced.counters, Use::storage)
         .record([=, &scene = inputs.scene, seed = inputs.seed](graph::Commands& commands) {
             bind(commands, scene, tracer);
             commands.bind("picture", traced.hdr);
-            commands.bind("hits", traced.hits);
             commands.bind("counters", traced.counters);
             commands.use(state_of(tracer, scene, false));
             const std::uint32_t groups = (size.x + 7) / 8 * ((size.y + 7) / 8),

@@ -18,8 +18,7 @@ struct Tracer {
 };
 
 struct Traced {
-    graph::Image hdr;  ///< linear radiance, rgba32f
-    graph::Image hits; ///< r32ui: mirror of the first hit, second hit << 16 (0: none)
+    graph::Image hdr; ///< linear radiance, rgba32f; alpha: what was met (shared::kMetBits)
     graph::Buffer counters;
 };
 Traced add_traced(graph::Graph& graph, const render::FrameInputs& inputs, const Tracer& tracer);

@@ -42,6 +42,8 @@ void check_limits(const std::string& scene, const Amounts& amounts, const Limits
                         index_bytes = 3 * amounts.triangles * sizeof(std::uint32_t),
                         texels = kTexelsOfTriangle * amounts.triangles,
                         node_texels = kTexelsOfNode * (amounts.triangles / bvh::kMaxLeaf);
+    check(amounts.mirrors <= shared::kMostMirrors, Failure::exhausted, "scene '", scene, "' has ",
+          amounts.mirrors, " mirrors, ", shared::kMostMirrors, " are allowed");
     within(amounts.vertices, std::numeric_limits<std::uint32_t>::max(), "vertices");
     within(3 * amounts.triangles, std::numeric_limits<std::uint32_t>::max(), "indices");
     within(texels, limits.texels, "texels of triangles");

@@ -18,7 +18,6 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define BVH_TRIANGLES_BINDING 10
 #define NORMALS_BINDING 11
 #define PICTURE_BINDING 12
-#define HITS_BINDING 13
 #define COUNTERS_BINDING 14
 #define HDR_BINDING 15
 #define FIRST_LAYER_BINDING 16

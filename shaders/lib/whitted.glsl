@@ -218,7 +218,7 @@ Ray camera_ray(vec2 place, uvec2 size) {
 }
 
 // Radiance along a ray that has met `first` mirrors before; `met` = number of the first that it meets, and
-// of the second << 16. Camera rays, which have met none, do not see what is hidden from them.
+// of the second << kMetBits. Camera rays, which have met none, do not see what is hidden from them.
 vec3 radiance(Ray ray, uint first, out uint met) {
     vec3 weight = vec3(1);
     vec3 result = vec3(0);
@@ -236,7 +236,7 @@ vec3 radiance(Ray ray, uint first, out uint met) {
             continue;
         }
         Surface surface = surface_at(point, ray.direction);
-        if (bounce < first + 2u) met |= surface.mirror << (16u * (bounce - first));
+        if (bounce < first + 2u) met |= surface.mirror << (kMetBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
         // One call for both: the driver's compiler inlines each, with the walk of its shadow ray.

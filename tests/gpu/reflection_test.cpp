@@ -44,7 +44,6 @@ TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
           Expected{"Views", 1, BindingKind::storage_buffer},
           Expected{"bvh_nodes", 9, BindingKind::texel_buffer},
           Expected{"picture", 12, BindingKind::storage_image},
-          Expected{"hits", 13, BindingKind::storage_image},
           Expected{"counters", 14, BindingKind::storage_buffer}}) {
         const gpu::Binding* one = find(found, name);
         ASSERT_TRUE(one) << name;

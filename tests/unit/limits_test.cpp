@@ -105,6 +105,8 @@ TEST(Limits, NameWhatIsWantedAndWhatThereIs) {
               "scene 's' wants 2412 bytes of indices, the device allows 2400");
     limits = kRoomy, limits.memory_bytes = 14799;
     EXPECT_EQ(refusal(one, limits), "scene 's' wants 14800 bytes, the device allows 14799");
+    EXPECT_EQ(refusal({.mirrors = 32768}, kRoomy),
+              "scene 's' has 32768 mirrors, 32767 are allowed");
     EXPECT_EQ(refusal({.vertices = 1ull << 32}, kRoomy),
               "scene 's' wants 4294967296 vertices, the device allows 4294967295");
 }
