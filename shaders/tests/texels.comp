@@ -1,0 +1,29 @@
+// tests/gpu/texels_test.cpp: every member of one of each structure that lists of texels hold, word by word in order of
+// declaration.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/material.glsl"
+
+layout(local_size_x = 1) in;
+layout(set = 0, binding = 50, scalar) writeonly buffer Words { uint words[]; };
+layout(push_constant) uniform Push { uint number; };
+
+uint next = 0u;
+void put(uint word) { words[next++] = word; }
+void put(float number) { put(floatBitsToUint(number)); }
+void put(vec3 v) { put(v.x), put(v.y), put(v.z); }
+void put(vec4 v) { put(v.x), put(v.y), put(v.z), put(v.w); }
+void put(TextureUse use) { put(use.first), put(use.size), put(use.how), put(use.u_row), put(use.v_row); }
+
+void main() {
+    Surface s = surface_of(number);
+    put(s.albedo), put(s.emission), put(s.reflectance), put(s.mirror), put(s.centre), put(s.radius);
+    Probe p = probe_at(number);
+    put(p.centre), put(p.sphere), put(p.radius), put(p.reflectance), put(p.lowest), put(p.highest), put(p.kind);
+    Detail d = detail_of(number);
+    put(d.flags), put(d.first_attribute), put(d.metallic), put(d.roughness), put(d.sharp_below), put(d.alpha);
+    put(d.alpha_cutoff), put(d.f0), put(d.f90), put(d.albedo), put(d.emission), put(d.rough);
+    Attribute a = attribute_at_vertex(number);
+    put(a.uv), put(a.colour);
+    put(texture_word(number));
+}

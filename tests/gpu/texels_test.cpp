@@ -1,0 +1,80 @@
+// What C++ puts into lists of texels is what GLSL reads out of them, member by member.
+#include "render/texels.hpp"
+#include "support/device.hpp"
+
+#include <cstring>
+
+namespace {
+
+using namespace catoptric;
+
+/// A structure whose words all differ. As floats they are ordinary numbers.
+template <typename T>
+T filled(std::uint32_t& next) {
+    std::array<std::uint32_t, sizeof(T) / 4> words{};
+    for (std::uint32_t& word : words) word = 0x3f800000u + next++;
+    T value;
+    std::memcpy(static_cast<void*>(&value), words.data(), sizeof value);
+    return value;
+}
+
+template <typename T>
+void append(const T& value, std::vector<std::uint32_t>& words) {
+    const std::size_t before = words.size();
+    words.resize(before + sizeof value / 4);
+    std::memcpy(&words[before], &value, sizeof value);
+}
+
+TEST(Texels, HoldEveryMemberOfTheOneThatIsAskedFor) {
+    constexpr std::uint32_t kAsked = 2;
+    std::uint32_t next = 0;
+    std::vector<shared::Surface> surfaces;
+    std::vector<shared::Probe> probes;
+    std::vector<shared::Detail> details;
+    std::vector<shared::Attribute> attributes;
+    std::vector<std::uint32_t> texels;
+    for (std::uint32_t i = 0; i < kAsked + 2; ++i) {
+        surfaces.push_back(filled<shared::Surface>(next));
+        surfaces.back().mirror = 1000 + i;
+        probes.push_back(filled<shared::Probe>(next));
+        probes.back().kind = i % 3;
+        details.push_back(filled<shared::Detail>(next));
+        details.back().flags = 1 + i; // as a float too small for some devices
+        attributes.push_back(filled<shared::Attribute>(next));
+        texels.push_back(0x7fc00001u + i); // as a float no number
+    }
+    std::vector<std::uint32_t> expected;
+    append(surfaces[kAsked], expected), append(probes[kAsked], expected);
+    append(details[kAsked], expected), append(attributes[kAsked], expected);
+    append(texels[kAsked], expected);
+
+    auto& [device, pipelines] = test::bench();
+    gpu::Buffer surface_list, probe_list, detail_list, attribute_list, texture_list;
+    using gpu::BufferUse;
+    upload(device, surface_list, "surfaces", render::texels_of(surfaces), BufferUse::texels);
+    upload(device, probe_list, "probes", render::texels_of(probes), BufferUse::texels);
+    upload(device, detail_list, "details", details, BufferUse::quads);
+    upload(device, attribute_list, "attributes", attributes, BufferUse::texels);
+    upload(device, texture_list, "texels", texels, BufferUse::words);
+    graph::Runner runner(device, pipelines);
+    graph::Graph graph;
+    const graph::Buffer output = graph.buffer({"output", 4 * expected.size()});
+    graph.pass("texels")
+        .writes(output, graph::Use::storage_write)
+        .record([&](graph::Commands& commands) {
+            commands.bind("surface_texels", surface_list);
+            commands.bind("probe_texels", probe_list);
+            commands.bind("detail_quads", detail_list);
+            commands.bind("attribute_texels", attribute_list);
+            commands.bind("texture_words", texture_list);
+            commands.bind("Words", output);
+            commands.use(gpu::ComputeState{"tests/texels.comp", {}});
+            commands.push(kAsked);
+            commands.dispatch(1, 1);
+        });
+    graph.want(output);
+    test::run(runner, graph);
+    EXPECT_EQ(test::read_as<std::uint32_t>(runner, output), expected);
+}
+
+} // namespace
