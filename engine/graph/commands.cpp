@@ -92,6 +92,11 @@ void Commands::draw(std::uint32_t first_index, std::uint32_t index_count, std::u
     vkCmdDrawIndexed(commands_, index_count, end - first, first_index, 0, first);
 }
 
+void Commands::cover() {
+    flush();
+    vkCmdDraw(commands_, 3, 1, 0, 0);
+}
+
 void Commands::scissor(const Area& area) {
     const VkRect2D scissor{{static_cast<std::int32_t>(area.x), static_cast<std::int32_t>(area.y)},
                            {area.width, area.height}};

@@ -59,6 +59,8 @@ public:
                      reinterpret_cast<const std::byte*>(&value) + sizeof value);
     }
     /// 32-bit indices into vertices as shaders/shared.h has them.
+    /// Three vertices without attributes: screen.vert makes them a triangle over the whole picture.
+    void cover();
     void geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices);
     /// Draws into layers [first_layer, first_layer + layer_count) of the pass.
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,

@@ -17,8 +17,8 @@ namespace catoptric::reflect {
 
 /// What a technique leaves in the graph.
 struct Outputs {
-    graph::Image hdr; ///< linear radiance, rgba32f
-    bool has_hits = false; ///< its alpha says what was met (shared::kMetBits)
+    graph::Image hdr;                    ///< linear radiance, rgba32f
+    bool has_hits = false;               ///< its alpha says what was met (shared::kMetBits)
     std::vector<graph::Buffer> counters; ///< shared::Counters of each tracing
     std::optional<graph::Image> lookup; ///< rgba32f: where mirrors looked, if the inputs ask for it
     std::shared_ptr<const render::Captures> captures; ///< that the view looks into; may be none

@@ -277,14 +277,13 @@ Image add_compose(graph::Graph& graph, const FrameInputs& inputs, Image hdr,
     const uvec2 size = inputs.size;
     const Image picture = graph.image({inputs.prefix + "ldr", Format::rgba8_unorm, size.x, size.y});
     graph.pass(inputs.prefix + "compose")
-        .reads(hdr, Use::storage_read)
-        .writes(picture, Use::storage_write)
+        .reads(hdr, Use::sampled)
+        .writes(picture, Use::colour, kBlack)
         .record([=](Commands& commands) {
-            commands.use(gpu::ComputeState{"compose.comp", {}});
+            commands.use(gpu::RasterState{"screen.vert", "compose.frag", {}});
             commands.bind("hdr", hdr);
-            commands.bind("picture", picture);
             commands.push(static_cast<float>(std::exp2(exposure_stops)));
-            commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
+            commands.cover();
         });
     return picture;
 }

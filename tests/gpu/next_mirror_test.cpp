@@ -1,5 +1,6 @@
 // Which mirror a ray meets first: a walk over the tree against looking at all of them.
 #include "render/mirror_tree.hpp"
+#include "render/texels.hpp"
 #include "support/device.hpp"
 #include "support/numbers.hpp"
 

@@ -73,7 +73,7 @@ TEST(Reflection, TellsTheShapesOfImages) {
     const gpu::Reflection diffuse = reflection("diffuse.frag");
     ASSERT_TRUE(find(diffuse, "shadow_map"));
     EXPECT_EQ(find(diffuse, "shadow_map")->shape, ImageShape::flat_array);
-    EXPECT_EQ(reflection("compose.comp").push_bytes, 4u);
+    EXPECT_EQ(reflection("compose.frag").push_bytes, 4u);
 }
 
 TEST(Reflection, RefusesWhatIsNoShader) {
@@ -82,7 +82,7 @@ TEST(Reflection, RefusesWhatIsNoShader) {
     const std::vector<std::uint32_t> text(10, 0x20202020);
     test::expect_refused([&] { gpu::reflect("text", text); }, Failure::internal,
                          {"'text' is not SPIR-V"});
-    const auto words = gpu::find_shader("compose.comp").words;
+    const auto words = gpu::find_shader("compose.frag").words;
     test::expect_refused([&] { gpu::reflect("half", words.first(6)); }, Failure::internal,
                          {"'half' is cut off"});
 }

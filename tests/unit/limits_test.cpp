@@ -92,8 +92,7 @@ TEST(Limits, NameWhatIsWantedAndWhatThereIs) {
     EXPECT_EQ(refusal(one, limits),
               "scene 's' wants 400 texels of surfaces, the device allows 399");
     limits.texels = 499;
-    EXPECT_EQ(refusal(one, limits),
-              "scene 's' wants 500 texels of mirrors, the device allows 499");
+    EXPECT_EQ(refusal(one, limits), "scene 's' wants 500 texels of mirrors, the device allows 499");
     limits = kRoomy, limits.storage_bytes = 50483;
     EXPECT_EQ(refusal(one, limits),
               "scene 's' wants 50484 bytes of views, the device allows 50483");

@@ -1,0 +1,13 @@
+// What the screen shows: exposure, clamp, sRGB curve, 8 bits.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/bindings.glsl"
+
+layout(set = 0, binding = HDR_BINDING) uniform sampler2D hdr;
+layout(push_constant, scalar) uniform Push { float gain; };
+layout(location = 0) out vec4 picture;
+
+void main() {
+    vec3 c = texelFetch(hdr, ivec2(gl_FragCoord.xy), 0).rgb * gain;
+    picture = vec4(srgb_encoded(c.r), srgb_encoded(c.g), srgb_encoded(c.b), 1);
+}
