@@ -43,15 +43,16 @@ bool has_pixel(out uvec2 pixel) {
 #endif
 
 void main() {
+    Trace asked = trace; // read before lanes go different ways
     uvec2 pixel;
     bool inside = has_pixel(pixel);
     if (inside) {
         uint met;
-        vec3 sum = radiance(camera_ray(vec2(pixel) + trace.sample_offset, trace.size), 0u, met);
+        vec3 sum = radiance(camera_ray(vec2(pixel) + asked.sample_offset, asked.size), 0u, met);
         vec4 before = vec4(vec3(0), uintBitsToFloat(met | kBvhTag)); // what is met goes where a picture has its alpha
-        if (trace.sample_index > 0u) before = imageLoad(picture, ivec2(pixel));
+        if (asked.sample_index > 0u) before = imageLoad(picture, ivec2(pixel));
         sum += before.rgb;
-        if (trace.sample_index + 1u == trace.sample_count) sum /= float(trace.sample_count);
+        if (asked.sample_index + 1u == asked.sample_count) sum /= float(asked.sample_count);
         imageStore(picture, ivec2(pixel), vec4(sum, before.a));
     }
     count(inside);

@@ -108,7 +108,7 @@ void ask_others(inout Path path, inout Lookup lookup) {
     uint first;
     float met;
     bool meets = mirror_tree != 0u && first_by_tree(ray, path.mirror, false, first, met);
-    uint next = 0u;
+    uint next = 0u, count = frame.value.mirror_count;
     do { // loops ask at their end: see lib/trace.glsl
         uint i = next++;
         if (i == path.mirror || !is_captured(i)) continue;
@@ -120,7 +120,7 @@ void ask_others(inout Path path, inout Lookup lookup) {
         path.centre = probe_at(i).centre;
         lookup = other;
         return;
-    } while (next < frame.value.mirror_count);
+    } while (next < count);
     look_at(distance);
 }
 

@@ -56,7 +56,7 @@ bool first_sphere(Ray ray, uint except, out uint first, out float t) {
     if (mirror_tree != 0u) return first_by_tree(ray, except, true, first, t);
     bool found = false;
     t = kLargest;
-    uint i = 0u;
+    uint i = 0u, count = frame.value.mirror_count;
     do {
         Probe probe = probe_at(i);
         float t_sphere;
@@ -66,19 +66,19 @@ bool first_sphere(Ray ray, uint except, out uint first, out float t) {
             found = true;
         }
         ++i;
-    } while (i < frame.value.mirror_count);
+    } while (i < count);
     return found;
 }
 
 // Whether the ray meets another mirror than `except`, or its bounds, not after `end`.
 bool meets_mirror_before(Ray ray, uint except, float end) {
-    uint i = 0u;
+    uint i = 0u, count = frame.value.mirror_count;
     bool meets = false;
     do {
         float t;
         meets = i != except && meets_mirror(i, ray, t) && !(end < t);
         ++i;
-    } while (!meets && i < frame.value.mirror_count);
+    } while (!meets && i < count);
     return meets;
 }
 
