@@ -146,7 +146,7 @@ int run(const Options& options) {
     app::settle_exposure(session, request);
     app::Frames frames(session, request);
     watcher.check_stopped();
-    while (frames.next()) watcher.frame(frames.number(), request.total());
+    while (frames.next()) watcher.frame(frames.number(), frames.most_frames());
     const app::Result result = frames.result();
     progress.clear();
 
