@@ -128,9 +128,9 @@ void add_view(Verb& verb, Common& common) {
 void add_budget(Verb& verb, Common& common) {
     verb.option(
         "--budget-ms", "MS",
-        "milliseconds that captures may take in a frame: as many mirrors as fit by what was "
-        "measured, one at least, are drawn anew, the others in a later frame; with --model "
-        "required. What moves then looks different on a faster machine (no limit)",
+        "milliseconds that captures may take in a frame: as many mirrors are drawn anew as fit by "
+        "what was measured, at least one, the others in later frames; with --model required. A "
+        "moving picture then depends on the machine's speed (no limit)",
         [&](const std::string& text) {
             common.budget_ms = parse_real("--budget-ms", text);
             check(common.budget_ms > 0, Failure::usage,

@@ -32,8 +32,9 @@ constexpr const char* kExamples = R"(Examples:
   catoptric render --plan "1=hybrid 2,3=secant:face=64 *=reuse" -o mixed.png
 
 A still takes the frames that it needs: one, or with last frame's captures as many as change anything, at most
-28; with --budget-ms at most 28 rounds of all mirrors, and it ends in the same picture. With --animate, --frames, --warmup, --profile or --trace frames are counted and timed as in compare; the
-picture is the last one. EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
+28 (with --budget-ms rounds of all mirrors), and ends in the same picture whatever the budget. With --animate,
+--frames, --warmup, --profile or --trace frames are counted and timed as in compare; the picture is the last one.
+EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
 
 struct Options {
     Common common;
