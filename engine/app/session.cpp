@@ -9,7 +9,6 @@
 #include "scene/pose.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 namespace catoptric::app {
@@ -31,15 +30,7 @@ bool same(const std::vector<reflect::Plan>& a, const std::vector<reflect::Plan>&
 }
 
 void check_spec(const FrameSpec& spec) {
-    const bool is_limited = spec.most_captures > 0 || spec.budget_ms != 0;
-    check(!is_limited || spec.model == Modelling::required, Failure::usage,
-          "a limit of captures that a frame draws is of the model required, not of everything");
-    check(spec.most_captures == 0 || spec.budget_ms == 0, Failure::usage,
-          "captures that a frame draws are limited by number (", spec.most_captures,
-          ") and by milliseconds (", spec.budget_ms, "): wanted one of them");
-    check(spec.budget_ms == 0 || (spec.budget_ms > 0 && std::isfinite(spec.budget_ms)),
-          Failure::usage, "the milliseconds for captures must be finite and above 0, not ",
-          spec.budget_ms);
+    check_limit(spec);
     check(spec.size.x > 0 && spec.size.y > 0, Failure::usage, "the size must be at least 1x1, not ",
           spec.size.x, "x", spec.size.y);
 }
@@ -61,6 +52,7 @@ struct Sequence::Impl {
     std::vector<reflect::Plan> remembered;
     Modelling remembered_model = Modelling::everything;
     std::vector<std::shared_ptr<render::KeptCaptures>> kept;
+    std::vector<Pace> paces;
     std::vector<double> face_needs;
     std::optional<Standing> standing; ///< from which its next frame moves on
     std::uint64_t units = 0;          ///< in which distances were captured
@@ -224,9 +216,11 @@ void Session::forget() {
 
 Sequence Session::set_aside() {
     Impl& self = *impl_;
+    self.measure();
     auto sequence = std::make_unique<Sequence::Impl>(Sequence::Impl{
         self.runner.set_aside(), std::exchange(self.remembered, {}), self.remembered_model,
-        std::exchange(self.kept, {}), self.resident->face_needs(), self.standing, self.units});
+        std::exchange(self.kept, {}), std::exchange(self.paces, {}), self.resident->face_needs(),
+        self.standing, self.units});
     self.resident->forget_face_needs();
     return Sequence(std::move(sequence));
 }
@@ -241,6 +235,7 @@ void Session::resume(Sequence sequence) {
     self.remembered = std::move(sequence.impl_->remembered);
     self.remembered_model = sequence.impl_->remembered_model;
     self.kept = std::move(sequence.impl_->kept);
+    self.paces = std::move(sequence.impl_->paces);
     self.resident->put_face_needs(std::move(sequence.impl_->face_needs));
     if (sequence.impl_->standing) self.stand(*sequence.impl_->standing);
 }

@@ -53,7 +53,9 @@ struct Session::Impl {
     /// Mirrors whose captures the frame draws again at most; 0: all.
     std::uint32_t most_captures(const FrameSpec& spec, std::size_t part,
                                 const require::Model& model) const;
-    /// The frame was submitted: it tells how long captures take.
+    /// Learns from the frame under a budget that was submitted last how long captures take; waits.
+    void measure();
+    /// The frame was submitted: it tells that.
     void time(const FrameGraph& frame, graph::Ticket ticket);
     /// The frame was submitted: the next one goes on from it.
     void keep(const FrameGraph& frame, graph::Ticket ticket);
@@ -108,6 +110,9 @@ struct Frame::Impl {
               " was rendered over it");
     }
 };
+
+/// Refuses (`usage`) a limit of captures that means nothing.
+void check_limit(const FrameSpec& spec);
 
 /// The runner's times with the names that callers know.
 FrameTimes to_times(const graph::FrameTimes& times);

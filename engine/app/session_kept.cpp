@@ -2,6 +2,7 @@
 #include "app/session_impl.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace catoptric::app {
 
@@ -18,6 +19,18 @@ double capture_ms(const graph::FrameTimes& times, const std::string& prefix) {
 }
 
 } // namespace
+
+void check_limit(const FrameSpec& spec) {
+    const bool is_limited = spec.most_captures > 0 || spec.budget_ms != 0;
+    check(!is_limited || spec.model == Modelling::required, Failure::usage,
+          "a limit of captures that a frame draws is of the model required, not of everything");
+    check(spec.most_captures == 0 || spec.budget_ms == 0, Failure::usage,
+          "captures that a frame draws are limited by number (", spec.most_captures,
+          ") and by milliseconds (", spec.budget_ms, "): wanted one of them");
+    check(spec.budget_ms == 0 || (spec.budget_ms > 0 && std::isfinite(spec.budget_ms)),
+          Failure::usage, "the milliseconds for captures must be finite and above 0, not ",
+          spec.budget_ms);
+}
 
 std::vector<reflect::Keeping> Session::Impl::keeping(const FrameSpec& spec,
                                                      const require::Model& model, bool follows) {
@@ -48,6 +61,10 @@ void Session::Impl::catch_up(const FrameSpec& spec) {
     const auto learns = std::ranges::find_if(kept, must_learn);
     if (learns != kept.end() && !runner.has_ended({(*learns)->frame}))
         runner.wait({(*learns)->frame});
+    measure();
+}
+
+void Session::Impl::measure() {
     if (!timed) return;
     // Frames beside the sequence may have taken its place.
     if (last->frame < timed->ticket.frame + read_by.size()) {

@@ -187,6 +187,11 @@ TEST(Slices, FollowMilliseconds) {
         app::FrameSpec aside = spec;
         aside.is_aside = true;
         EXPECT_FALSE(little.frame(aside).slices()) << "beside the sequence all are drawn";
+        if (k == 3) { // measured on both sides of what comes between
+            app::Sequence sequence = little.set_aside();
+            EXPECT_EQ(little.frame(spec).slices()->drawn, 3u) << "the first of its own";
+            little.resume(std::move(sequence));
+        }
         spec.budget_ms = 1e9;
         EXPECT_EQ(much.frame(spec).slices()->drawn, 3u);
     }
