@@ -1,5 +1,6 @@
 // Captures of which a frame draws only some: how old pictures can become, that they end as
 // everything's, and that nothing is put off for ever.
+#include "support/drawn_hall.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"
 
@@ -140,6 +141,38 @@ TEST(Slices, EndAsEverythingDoes) {
         place[3].x -= .2;
         change(scene::move(scene.objects.size() - 1, place));
         follow();
+    }
+}
+
+// Cameras, edits and movements at random in a drawn hall, sooner than mirrors have had their turn.
+TEST(Slices, EndAsEverythingDoesWhateverHappened) {
+    for (const std::uint64_t seed : {3, 11}) {
+        const scene::Scene hall = test::drawn_hall(seed, 4);
+        app::Session all(test::engine(), hall), few(test::engine(), hall);
+        app::FrameSpec spec = limited(hall, 1, "parallax:face=16,shadow_map=64");
+        test::Numbers numbers(seed);
+        const std::vector<std::size_t> mirrors = scene::mirrors(hall);
+        for (int k = 0; k < 24; ++k) {
+            if (k % 3 == 0) {
+                const std::size_t mirror = mirrors[numbers.below(mirrors.size())];
+                const dvec3 place(hall.objects[mirror].world_from_object[3]);
+                spec.camera = {.eye = place + dvec3(.3, .2, -1.7), .target = place};
+            }
+            const std::size_t moved = numbers.below(hall.objects.size());
+            dmat4 to = hall.objects[moved].world_from_object;
+            to[3] += dvec4(dvec3(numbers.in_cube()) * .3, 0);
+            for (app::Session* session : {&all, &few}) session->change(scene::move(moved, to));
+            expect_told(few.frame(spec), 1);
+        }
+        constexpr int kMostBounces = 12;
+        for (int k = 0; k < kMostBounces * 4; ++k) few.frame(spec);
+        spec.model = app::Modelling::everything, spec.most_captures = 0;
+        for (int k = 0; k < kMostBounces; ++k) all.frame(spec);
+        const measure::Picture wanted = all.frame(spec).hdr();
+        spec.model = app::Modelling::required, spec.most_captures = 1;
+        const app::Frame last = few.frame(spec);
+        EXPECT_TRUE(test::same_bytes(last.hdr(), wanted)) << seed;
+        EXPECT_EQ(drawn(last.times()), std::set<int>()) << seed;
     }
 }
 
