@@ -22,7 +22,7 @@ set(headers
     measure/lag.hpp measure/light_edges.hpp measure/lookup.hpp measure/picture.hpp measure/picture_file.hpp
     measure/statistics.hpp
     report/comparison.hpp report/write.hpp
-    app/compare.hpp app/engine.hpp app/run.hpp app/session.hpp app/technique.hpp app/watcher.hpp
+    app/compare.hpp app/engine.hpp app/run.hpp app/session.hpp app/slices.hpp app/technique.hpp app/watcher.hpp
     embed/embed.hpp)
 foreach(header IN LISTS headers)
     get_filename_component(folder ${header} DIRECTORY)

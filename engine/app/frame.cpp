@@ -18,6 +18,7 @@ const FrameTimes& Frame::times() const {
         impl_->times->host.update = impl_->update_ms;
         impl_->times->host.hierarchy = impl_->hierarchy_ms;
         impl_->times->host.compile += impl_->declare_ms;
+        impl_->times->wait_ms += impl_->waited_ms;
     }
     return *impl_->times;
 }
@@ -26,6 +27,17 @@ std::size_t Frame::size() const { return impl_->frame.parts.size(); }
 
 bool Frame::remembers(std::size_t part) const {
     return app::remembers(impl_->frame, impl_->plan(), impl_->part(part));
+}
+
+const std::optional<Slices>& Frame::slices(std::size_t part) const {
+    return impl_->part(part).slices;
+}
+
+std::uint32_t Frame::waiting() const {
+    std::uint32_t waiting = 0;
+    for (const Declared& part : impl_->frame.parts)
+        waiting += part.slices ? part.slices->waiting : 0;
+    return waiting;
 }
 
 const require::Model& Frame::model() const { return *impl_->model; }
@@ -40,6 +52,7 @@ Part Frame::read(std::size_t part) const {
                           impl_->session->mirrors, *impl_->session->resident, impl_->spec);
     read.model = impl_->spec.model;
     read.left_out = impl_->model->left_out;
+    read.slices = slices(part);
     return read;
 }
 

@@ -73,6 +73,21 @@ void add_counters(const std::vector<std::byte>& bytes, Part& part) {
                                static_cast<double>(counters.listed) / counters.mirror_pixels;
 }
 
+/// What became of captures that are kept under a limit.
+std::optional<Slices> slices_of(const reflect::Outputs& outputs, const reflect::Keeping& keeping) {
+    if (!outputs.kept || keeping.most == 0) return std::nullopt;
+    const render::KeptCaptures& kept = *outputs.kept;
+    Slices slices;
+    for (std::size_t i = 0; i < kept.options.size(); ++i) {
+        slices.mirrors += kept.options[i].face > 0 && keeping.model.mirrors[i].is_captured;
+        slices.drawn += kept.changes[i] != render::Change::none;
+        slices.waiting += kept.waited[i] > 0;
+        slices.longest = std::max(slices.longest, kept.waited[i]);
+    }
+    slices.most = std::min(keeping.most, slices.mirrors);
+    return slices;
+}
+
 /// Of what is kept and the frame does not need.
 std::uint64_t idle_bytes(const graph::Runner& runner, const graph::Graph& graph) {
     std::uint64_t bytes = 0;
@@ -134,7 +149,8 @@ FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plan
                 if (spec.with_captures && cubes.distance) frame.graph.want(*cubes.distance);
             }
         }
-        frame.parts.push_back({plan, assignment, prefix, std::move(outputs), display});
+        const std::optional<Slices> slices = slices_of(outputs, kept);
+        frame.parts.push_back({plan, assignment, prefix, std::move(outputs), display, slices});
     }
     return frame;
 }

@@ -18,6 +18,7 @@ struct Declared {
     std::string prefix;
     reflect::Outputs outputs;
     graph::Image display;
+    std::optional<Slices> slices; ///< see Frame::slices
 };
 
 struct FrameGraph {

@@ -3,6 +3,8 @@
 #include "app/processor.hpp"
 #include "core/error.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace catoptric::app {
@@ -15,7 +17,7 @@ Frames::Frames(Session& session, const Request& request) : session_(session), re
 }
 
 bool Frames::next() {
-    if (settled_ || number_ == request_.total()) return false;
+    if (settled_ || number_ >= most_frames()) return false;
     if (aside_) session_.resume(std::move(*aside_));
     aside_.reset();
     ++number_;
@@ -31,10 +33,19 @@ bool Frames::next() {
     }
     if (request_.until_settled) {
         std::vector<std::byte> state = frame_->state();
-        settled_ = state.empty() || state == state_;
+        settled_ = state.empty() || (state == state_ && frame_->waiting() == 0);
         state_ = std::move(state);
     }
     return true;
+}
+
+/// A still takes as many rounds of all its mirrors as it takes frames where each draws all.
+int Frames::most_frames() const {
+    std::uint32_t round = 1;
+    for (std::size_t i = 0; request_.until_settled && frame_ && i < frame_->size(); ++i)
+        round = std::max(round, frame_->slices(i) ? frame_->slices(i)->round() : 1);
+    return static_cast<int>(std::min<std::int64_t>(std::int64_t{request_.total()} * round,
+                                                   std::numeric_limits<int>::max()));
 }
 
 Result Frames::result() const { return {frame_->read_all(), times_, settled_}; }
@@ -42,7 +53,7 @@ Result Frames::result() const { return {frame_->read_all(), times_, settled_}; }
 Result run(Session& session, const Request& request, const Watcher& watcher) {
     Frames frames(session, request);
     watcher.check_stopped();
-    while (frames.next()) watcher.frame(frames.number(), request.total());
+    while (frames.next()) watcher.frame(frames.number(), frames.most_frames());
     return frames.result();
 }
 

@@ -16,7 +16,8 @@ struct Request : FrameSpec {
     int warmup = 8; ///< before them; frames count from 1 at cold history, these included
     /// End with the first frame that cannot change any more: at once where nothing is remembered,
     /// else when a frame's linear pictures and all captures equal those of the frame before, byte
-    /// for byte.
+    /// for byte, and no capture is put off. Under a limit (FrameSpec::most_captures, budget_ms) a
+    /// frame counts as the round in which each capture has its turn.
     bool until_settled = false;
     bool auto_exposure = false; ///< `exposure` is still to be found (app/exposure.hpp)
     bool animate = false;       ///< frame k at time + (k-1)/60 s; otherwise all at `time`
@@ -45,6 +46,8 @@ public:
     /// there had been none. What is not read of the last frame by then is lost.
     void set_aside() { aside_.emplace(session_.set_aside()); }
     int number() const { return number_; } ///< of the frame that was rendered last, from 1
+    /// Frames that there will be, where they do not settle.
+    CATOPTRIC_API int most_frames() const;
     const Frame& frame() const { return *frame_; }
     bool settled() const { return settled_; }
     const std::vector<FrameTimes>& times() const { return times_; } ///< of the measured ones so far

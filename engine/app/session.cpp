@@ -4,6 +4,7 @@
 #include "app/suggested.hpp"
 #include "core/error.hpp"
 #include "core/stamp.hpp"
+#include "core/stopwatch.hpp"
 #include "graph/dump.hpp"
 #include "scene/pose.hpp"
 
@@ -29,6 +30,7 @@ bool same(const std::vector<reflect::Plan>& a, const std::vector<reflect::Plan>&
 }
 
 void check_spec(const FrameSpec& spec) {
+    check_limit(spec);
     check(spec.size.x > 0 && spec.size.y > 0, Failure::usage, "the size must be at least 1x1, not ",
           spec.size.x, "x", spec.size.y);
 }
@@ -50,6 +52,7 @@ struct Sequence::Impl {
     std::vector<reflect::Plan> remembered;
     Modelling remembered_model = Modelling::everything;
     std::vector<std::shared_ptr<render::KeptCaptures>> kept;
+    std::vector<Pace> paces;
     std::vector<double> face_needs;
     std::optional<Standing> standing; ///< from which its next frame moves on
     std::uint64_t units = 0;          ///< in which distances were captured
@@ -110,27 +113,6 @@ const std::shared_ptr<const require::Model>& Session::Impl::model_of(Modelling m
     return model;
 }
 
-std::vector<reflect::Keeping> Session::Impl::keeping(const require::Model& model, std::size_t parts,
-                                                     bool follows, bool is_aside) {
-    std::vector<reflect::Keeping> keeping(parts,
-                                          {model, nullptr, is_aside ? nullptr : &comparisons});
-    for (std::size_t i = 0; follows && i < kept.size(); ++i) {
-        keeping[i].before = kept[i];
-        render::learn(kept[i], [&](std::uint64_t frame) { return runner.has_ended({frame}); });
-    }
-    return keeping;
-}
-
-void Session::Impl::keep(const FrameGraph& frame, graph::Ticket ticket) {
-    kept.clear();
-    for (const Declared& part : frame.parts) {
-        kept.push_back(part.outputs.kept);
-        if (!kept.back()) continue;
-        kept.back()->frame = ticket.frame;
-        comparisons.used(kept.back()->differing, ticket.frame);
-    }
-}
-
 Session::Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight)
     : impl_(std::make_shared<Impl>(*engine.impl_, std::move(scene), in_flight)) {}
 Session::~Session() = default;
@@ -163,13 +145,19 @@ Frame Session::submit(const FrameSpec& spec,
     if (!spec.is_aside && !follows) {
         self.runner.forget();
         self.kept.clear();
+        self.paces.clear(), self.timed.reset();
         self.remembered = plans, self.remembered_model = spec.model;
+    }
+    double waited_ms = 0;
+    {
+        const Stopwatch watch(waited_ms);
+        self.catch_up(spec);
     }
     const double update_ms = self.stand(standing_of(spec));
     const Clock::time_point start = Clock::now();
     const std::shared_ptr<const require::Model> model = self.model_of(spec.model, spec.mended != 0);
     FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, self.runner.history(),
-                               self.keeping(*model, plans.size(), follows, spec.is_aside));
+                               self.keeping(spec, *model, follows));
     const double declare_ms = milliseconds_since(start);
     if (self.resident->has_new_views()) self.wait_for_readers(self.copy);
     const Clock::time_point trees = Clock::now();
@@ -183,9 +171,18 @@ Frame Session::submit(const FrameSpec& spec,
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
     if (!spec.is_aside) self.keep(frame, ticket);
+    if (!spec.is_aside && spec.budget_ms > 0) self.time(frame, ticket);
     ++self.counts.frames;
-    return Frame(std::make_shared<Frame::Impl>(Frame::Impl{
-        impl_, ticket, spec, std::move(frame), model, update_ms, declare_ms, hierarchy_ms, {}}));
+    return Frame(std::make_shared<Frame::Impl>(Frame::Impl{impl_,
+                                                           ticket,
+                                                           spec,
+                                                           std::move(frame),
+                                                           model,
+                                                           update_ms,
+                                                           declare_ms,
+                                                           hierarchy_ms,
+                                                           waited_ms,
+                                                           {}}));
 }
 
 void Session::change(const scene::Edit& edit) {
@@ -219,9 +216,11 @@ void Session::forget() {
 
 Sequence Session::set_aside() {
     Impl& self = *impl_;
+    self.measure();
     auto sequence = std::make_unique<Sequence::Impl>(Sequence::Impl{
         self.runner.set_aside(), std::exchange(self.remembered, {}), self.remembered_model,
-        std::exchange(self.kept, {}), self.resident->face_needs(), self.standing, self.units});
+        std::exchange(self.kept, {}), std::exchange(self.paces, {}), self.resident->face_needs(),
+        self.standing, self.units});
     self.resident->forget_face_needs();
     return Sequence(std::move(sequence));
 }
@@ -236,6 +235,7 @@ void Session::resume(Sequence sequence) {
     self.remembered = std::move(sequence.impl_->remembered);
     self.remembered_model = sequence.impl_->remembered_model;
     self.kept = std::move(sequence.impl_->kept);
+    self.paces = std::move(sequence.impl_->paces);
     self.resident->put_face_needs(std::move(sequence.impl_->face_needs));
     if (sequence.impl_->standing) self.stand(*sequence.impl_->standing);
 }

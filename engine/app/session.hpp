@@ -8,6 +8,7 @@
 #include "../scene/edit.hpp"
 #include "../scene/scene.hpp"
 #include "engine.hpp"
+#include "slices.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -53,6 +54,15 @@ struct FrameSpec {
     std::uint64_t seed = 1; ///< of sample patterns that are not a regular grid
     Timing timing = Timing::isolated;
     Modelling model = Modelling::everything;
+    /// With Modelling::required, of each technique: mirrors whose captures a frame draws again at
+    /// most; 0: all. The others show what they showed, and each is drawn in one of the next
+    /// ceil(captured mirrors / most_captures) frames. What comes into view is drawn beside them. A
+    /// frame `is_aside` draws all. A frame waits for the one before.
+    std::uint32_t most_captures = 0;
+    /// The same by milliseconds of the device that captures may take; 0: no limit. The first frame
+    /// draws all, later ones as many as fit by what the session measured, at least one: pictures
+    /// depend on how fast the device is.
+    double budget_ms = 0;
     /// Causes of error that mirrors are drawn without: a sum of shared::kMend...
     /// (shaders/shared.h).
     std::uint32_t mended = 0;
@@ -119,6 +129,7 @@ struct Part {
     std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
     Modelling model = Modelling::everything;
     std::vector<require::LeftOut> left_out; ///< by the model, of its picture
+    std::optional<Slices> slices;           ///< where captures are kept, and only some drawn
     int scene_passes = 0;
     int scene_draws = 0;            ///< scene passes times the layers that each renders
     bool remembers = false;         ///< it shows what the frame before left
@@ -151,6 +162,11 @@ public:
     CATOPTRIC_API bool remembers(std::size_t part = 0) const;
     /// What was rendered, and what was left out.
     CATOPTRIC_API const require::Model& model() const;
+    /// Where the technique keeps captures, and FrameSpec limits how many are drawn.
+    CATOPTRIC_API const std::optional<Slices>& slices(std::size_t part = 0) const;
+    /// Mirrors, of all techniques, whose captures are put off: the picture is not what it would be
+    /// without a limit.
+    CATOPTRIC_API std::uint32_t waiting() const;
     /// Linear radiance; the cheapest thing to read.
     CATOPTRIC_API measure::Picture hdr(std::size_t part = 0) const;
     /// Everything that one technique made.

@@ -2,6 +2,7 @@
 
 #include "app/engine_impl.hpp"
 #include "app/frame_graph.hpp"
+#include "app/pace.hpp"
 #include "app/plan_file.hpp"
 #include "app/session.hpp"
 #include "core/error.hpp"
@@ -45,8 +46,17 @@ struct Session::Impl {
     /// Of the scene as it stands.
     const std::shared_ptr<const require::Model>& model_of(Modelling modelling, bool is_mended);
     /// What the next frame of these techniques goes on from.
-    std::vector<reflect::Keeping> keeping(const require::Model& model, std::size_t parts,
-                                          bool follows, bool is_aside);
+    std::vector<reflect::Keeping> keeping(const FrameSpec& spec, const require::Model& model,
+                                          bool follows);
+    /// Waits for what the frame needs to know of those before.
+    void catch_up(const FrameSpec& spec);
+    /// Mirrors whose captures the frame draws again at most; 0: all.
+    std::uint32_t most_captures(const FrameSpec& spec, std::size_t part,
+                                const require::Model& model) const;
+    /// Learns from the frame under a budget that was submitted last how long captures take; waits.
+    void measure();
+    /// The frame was submitted: it tells that.
+    void time(const FrameGraph& frame, graph::Ticket ticket);
     /// The frame was submitted: the next one goes on from it.
     void keep(const FrameGraph& frame, graph::Ticket ticket);
 
@@ -63,7 +73,15 @@ struct Session::Impl {
     std::vector<reflect::Plan> remembered; ///< whose history the runner has
     Modelling remembered_model = Modelling::everything;
     std::vector<std::shared_ptr<render::KeptCaptures>> kept; ///< likewise, by technique
-    std::optional<require::Requirements> requirements;       ///< once somebody asks
+    std::vector<Pace> paces;                                 ///< by technique
+    /// A frame under a budget that was not looked at yet, and of each technique how its passes'
+    /// names begin and how many mirrors it drew.
+    struct Timed {
+        graph::Ticket ticket;
+        std::vector<std::pair<std::string, std::uint32_t>> drawn;
+    };
+    std::optional<Timed> timed;
+    std::optional<require::Requirements> requirements; ///< once somebody asks
     std::map<std::pair<Modelling, bool>, std::shared_ptr<const require::Model>>
         models;                         ///< of `standing` and `plans`
     std::optional<graph::Ticket> last;  ///< of the frame that was submitted last
@@ -79,7 +97,7 @@ struct Frame::Impl {
     FrameSpec spec;
     FrameGraph frame;
     std::shared_ptr<const require::Model> model;
-    double update_ms = 0, declare_ms = 0, hierarchy_ms = 0;
+    double update_ms = 0, declare_ms = 0, hierarchy_ms = 0, waited_ms = 0;
     mutable std::optional<FrameTimes> times; ///< once it was waited for
 
     graph::Runner& runner() const { return session->runner; }
@@ -92,6 +110,9 @@ struct Frame::Impl {
               " was rendered over it");
     }
 };
+
+/// Refuses (`usage`) a limit of captures that means nothing.
+void check_limit(const FrameSpec& spec);
 
 /// The runner's times with the names that callers know.
 FrameTimes to_times(const graph::FrameTimes& times);

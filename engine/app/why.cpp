@@ -45,10 +45,11 @@ Json mirror_of(const Required& required, const std::string& name, std::size_t i)
 
 } // namespace
 
-std::string why_text(const Request& request) {
+std::string why_text(const Request& request, const std::optional<Slices>& slices) {
     const auto [now, model, suggestion] = required(request);
     const std::vector<std::string> names = mirror_names(now);
     std::string text = require::to_text(model, now);
+    if (slices) text += to_text(*slices) + "\n";
     if (names.empty()) return text;
     text += "suggested --plan \"" + suggestion.plan + "\"\n";
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -57,7 +58,7 @@ std::string why_text(const Request& request) {
     return text;
 }
 
-std::string why_json(const Request& request) {
+std::string why_json(const Request& request, const std::optional<Slices>& slices) {
     const Required required = app::required(request);
     const std::vector<std::string> names = mirror_names(required.now);
     Json document{{"schema", "catoptric/why/1"},
@@ -74,7 +75,25 @@ std::string why_json(const Request& request) {
                                         {"why", thing.why},
                                         {"saves", thing.saves},
                                         {"error", thing.error}});
+    document["captures"] = slices ? Json{{"mirrors", slices->mirrors},
+                                         {"most", slices->most},
+                                         {"oldest_frames", slices->round() - 1},
+                                         {"round_frames", slices->round()},
+                                         {"said", to_text(*slices)}}
+                                  : Json();
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::optional<Slices> measured_slices(Engine& engine, const Request& request) {
+    constexpr int kCuts = 5; // the first ones compile what they use
+    Session session(engine, request.scene);
+    FrameSpec spec = request;
+    spec.time = request.instant(1);
+    for (int k = 0; k < kCuts; ++k) {
+        session.forget();
+        session.frame(spec);
+    }
+    return session.frame(spec).slices();
 }
 
 } // namespace catoptric::app

@@ -125,9 +125,9 @@ render::Feeding add_feedback(graph::Graph& graph, const render::FrameInputs& inp
     const render::Feeding feeding = keeping.model.is_everything
                                         ? render::feed_all(graph, inputs, "capture",
                                                            std::move(options))
-                                        : render::feed_required(graph, inputs, "capture", options,
-                                                                keeping.model, keeping.before,
-                                                                keeping.comparisons);
+                                        : render::feed_required(
+                                              graph, inputs, "capture", options, keeping.model,
+                                              {keeping.before, keeping.comparisons, keeping.most});
     render::add_captures(graph, inputs, *feeding.captures, looks_in_captures(feeding, assignment),
                          feeding.work);
     render::add_comparison(graph, inputs, feeding);

@@ -10,7 +10,8 @@ struct Keeping {
     const require::Model& model;
     /// Outputs::kept of the frame before; null: there was none.
     std::shared_ptr<render::KeptCaptures> before;
-    render::Comparisons* comparisons = nullptr; ///< see render::feed_required
+    render::Comparisons* comparisons = nullptr; ///< see render::Sequel
+    std::uint32_t most = 0;                     ///< likewise
 };
 /// Nothing is left out.
 inline const require::Model kEverything;

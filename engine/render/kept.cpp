@@ -1,10 +1,10 @@
 #include "render/kept.hpp"
 
-#include "core/stamp.hpp"
-#include "render/views.hpp"
+#include "core/error.hpp"
+#include "render/decider.hpp"
+#include "render/turns.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace catoptric::render {
 
@@ -12,7 +12,6 @@ namespace {
 
 /// Of a sequence, and of what is rendered beside it and follows nothing.
 constexpr std::array<const char*, 3> kSets{"a", "b", "aside"};
-constexpr std::uint64_t kCleared = 1; // the drawing of a face that holds nothing
 
 /// A mirror that is not captured is one without a capture, unless that would leave none.
 std::vector<CaptureOptions> required_options(const std::vector<CaptureOptions>& options,
@@ -41,95 +40,6 @@ std::vector<CaptureOptions> layout_of(std::vector<CaptureOptions> wanted,
 bool same_layout(const std::vector<CaptureOptions>& a, const std::vector<CaptureOptions>& b) {
     return std::ranges::equal(a, b, same_contents);
 }
-
-/// Tells what a frame has to do, mirror by mirror.
-class Decider {
-public:
-    Decider(const GpuScene& scene, const require::Model& model,
-            const std::vector<CaptureOptions>& layout, const KeptCaptures* before, bool compares)
-        : scene_(scene), model_(model), layout_(layout), before_(before), compares_(compares) {
-        if (before) changed_ = changed(*before);
-        Stamp lit;
-        for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
-            lit.add_all(std::span(scene.backdrops(light)));
-            for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
-                lit.add(scene.views()[scene.shadow_view(light) + face]);
-        }
-        shadow_views_ = lit.value();
-    }
-
-    bool was_there(std::uint32_t mirror) const {
-        return before_ && layout_[mirror].face > 0 &&
-               same_contents(before_->options[mirror], layout_[mirror]);
-    }
-
-    void decide(std::uint32_t mirror, CaptureWork& work, KeptCaptures& kept) const {
-        Change change = Change::none;
-        std::vector<std::uint32_t>& saw = kept.saw[mirror];
-        for (std::uint32_t face = 0; face < 6; ++face) {
-            const std::vector<std::uint32_t> seen = seen_by(mirror, face);
-            const FaceWork what = decide(mirror, face, seen, kept.faces[mirror][face]);
-            work.faces[mirror][face] = what;
-            if (what == FaceWork::draw) change = Change::some;
-            if (what != FaceWork::compare) continue;
-            change = std::max(change, Change::unknown);
-            saw.insert(saw.end(), seen.begin(), seen.end());
-        }
-        kept.changes[mirror] = change;
-    }
-
-private:
-    /// The other mirrors that the face shows by their captures.
-    std::vector<std::uint32_t> seen_by(std::uint32_t mirror, std::uint32_t face) const {
-        const shared::View& view = scene_.views()[scene_.capture_view(mirror) + face];
-        std::vector<std::uint32_t> seen;
-        for (const std::uint32_t other : model_.mirrors[mirror].sees)
-            if (layout_[other].face > 0 &&
-                may_meet(view, scene_.ranges()[scene_.mirror_object(other)]))
-                seen.push_back(other);
-        return seen;
-    }
-
-    FaceWork decide(std::uint32_t mirror, std::uint32_t face,
-                    const std::vector<std::uint32_t>& seen, KeptFace& now) const {
-        const require::MirrorNeeds& needs = model_.mirrors[mirror];
-        Stamp shown = Stamp(shadow_views_)
-                          .add(needs.stamps[face])
-                          .add(scene_.views()[scene_.capture_view(mirror) + face]);
-        for (const std::uint32_t other : seen) shown.add(other);
-        const std::uint64_t stamp = shown.value();
-        now = was_there(mirror) ? before_->faces[mirror][face] : KeptFace();
-        const bool shows_same = now.drawing > 0 && now.stamp == stamp;
-        const auto has_changed = [&](std::uint32_t other) { return changed_[other] != 0; };
-        if (shows_same && std::ranges::none_of(seen, has_changed)) return FaceWork::keep;
-        if (!needs.is_captured || !(needs.faces >> face & 1)) {
-            now.stamp = 0; // should somebody look again
-            if (now.drawing > 0) return FaceWork::keep;
-            now.drawing = kCleared;
-            return FaceWork::clear;
-        }
-        now = {stamp, drawing(stamp, seen)};
-        return shows_same && compares_ ? FaceWork::compare : FaceWork::draw;
-    }
-
-    /// By what it is made from, to the captures that it shows.
-    std::uint64_t drawing(std::uint64_t stamp, const std::vector<std::uint32_t>& seen) const {
-        Stamp number;
-        number.add(stamp);
-        for (const std::uint32_t other : seen)
-            for (std::uint32_t face = 0; face < 6; ++face)
-                number.add(was_there(other) ? before_->faces[other][face].drawing : 0);
-        return std::max<std::uint64_t>(number.value(), kCleared + 1);
-    }
-
-    const GpuScene& scene_;
-    const require::Model& model_;
-    const std::vector<CaptureOptions>& layout_;
-    const KeptCaptures* before_;
-    bool compares_;
-    std::vector<char> changed_;
-    std::uint64_t shadow_views_ = 0; ///< of all lights
-};
 
 /// Calls visit for each image of both that is there.
 template <typename Visit>
@@ -212,9 +122,16 @@ Feeding feed_all(graph::Graph& graph, const FrameInputs& inputs, const std::stri
     return feeding;
 }
 
+bool must_learn(const KeptCaptures& captures, std::uint32_t most) {
+    return captures.differing && (most > 0 || captures.is_late);
+}
+
 Feeding feed_required(graph::Graph& graph, const FrameInputs& inputs, const std::string& name,
                       const std::vector<CaptureOptions>& options, const require::Model& model,
-                      const std::shared_ptr<KeptCaptures>& before, Comparisons* comparisons) {
+                      const Sequel& sequel) {
+    const auto& [before, comparisons, most] = sequel;
+    check(!before || !must_learn(*before, most), Failure::internal, "captures '", name,
+          "' are put off before it is known what changed");
     const std::size_t mirrors = options.size();
     const bool follows = before && before->options.size() == mirrors;
     const KeptCaptures* const known = follows ? before.get() : nullptr;
@@ -233,13 +150,24 @@ Feeding feed_required(graph::Graph& graph, const FrameInputs& inputs, const std:
     KeptCaptures& kept = *feeding.kept;
     kept.options = layout;
     kept.faces.resize(mirrors), kept.changes.resize(mirrors), kept.saw.resize(mirrors);
+    kept.waited.resize(mirrors);
     const Decider decider(inputs.scene, model, layout, known, comparisons != nullptr);
     bool any_there = false;
+    std::vector<Asking> asking;
     for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
         feeding.was_there.push_back(decider.was_there(mirror));
         any_there = any_there || feeding.was_there.back();
-        if (layout[mirror].face > 0) decider.decide(mirror, feeding.work, kept);
+        if (layout[mirror].face == 0) continue;
+        decider.decide(mirror, feeding.work, kept);
+        if (most > 0 && kept.changes[mirror] != Change::none &&
+            decider.can_wait(mirror, feeding.work))
+            asking.push_back({mirror, decider.waited(mirror)});
     }
+    for (const std::uint32_t mirror : put_off(std::move(asking), most))
+        decider.put_off(mirror, feeding.work, kept);
+    for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror)
+        kept.is_late = kept.is_late ||
+                       (kept.changes[mirror] != Change::none && decider.waited(mirror) > 0);
     if (known && same_layout(layout, known->options) && is_idle(feeding.work)) {
         kept.set = known->set;
         feeding.captures = declare(layout, kept);

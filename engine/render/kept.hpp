@@ -19,6 +19,7 @@ namespace catoptric::render {
 struct KeptFace {
     std::uint64_t stamp = 0;   ///< of what it shows but for mirrors; 0: of nothing any more
     std::uint64_t drawing = 0; ///< which picture it is: the same number, the same bytes; 0: none
+    bool is_behind = false;    ///< it was to be drawn anew and was put off
     bool operator==(const KeptFace&) const = default;
 };
 
@@ -35,6 +36,8 @@ struct KeptCaptures {
     std::uint32_t set = 0;                      ///< of the two
     std::vector<std::array<KeptFace, 6>> faces; ///< of each mirror
     std::vector<Change> changes;                ///< of each mirror
+    std::vector<std::uint32_t> waited; ///< of each mirror: frames for which it has been put off
+    bool is_late = false; ///< somebody was drawn who had waited: `saw` does not tell of it
     // While some change is unknown:
     std::vector<std::vector<std::uint32_t>> saw; ///< of each mirror: whom those faces show
     std::shared_ptr<KeptCaptures> before;
@@ -108,13 +111,26 @@ private:
 Feeding feed_all(graph::Graph& graph, const FrameInputs& inputs, const std::string& name,
                  std::vector<CaptureOptions> options);
 
-/// What of the captures has to be drawn, given those of the frame before (null: none); declares the
-/// arrays, and the pass that brings what stays into the set that the frame fills. `comparisons`:
-/// null where the frame is beside the sequence, and so tells the next one nothing.
-/// O(mirrors seen by mirrors).
+/// What captures of a sequence go on from.
+struct Sequel {
+    std::shared_ptr<KeptCaptures> before; ///< of the frame before; null: there was none
+    /// null: the frame is beside the sequence, and so tells the next one nothing.
+    Comparisons* comparisons = nullptr;
+    /// Mirrors that are drawn again at most; 0: all. Others are put off and stay as they are;
+    /// whoever holds nothing of what is looked at, or something that nobody kept up, is drawn
+    /// beside them.
+    std::uint32_t most = 0;
+};
+
+/// Whether the next frame must know what comparisons found: whose turn it is depends on that.
+bool must_learn(const KeptCaptures& captures, std::uint32_t most);
+
+/// What of the captures has to be drawn, given those of the frame before; declares the arrays, and
+/// the pass that brings what stays into the set that the frame fills. Throws `internal` where it
+/// must_learn and did not. O(mirrors seen by mirrors).
 Feeding feed_required(graph::Graph& graph, const FrameInputs& inputs, const std::string& name,
                       const std::vector<CaptureOptions>& options, const require::Model& model,
-                      const std::shared_ptr<KeptCaptures>& before, Comparisons* comparisons);
+                      const Sequel& sequel);
 
 /// After the captures are drawn: declares the pass that tells which of those that were to be
 /// compared differ from the frame before. None where none was.

@@ -21,6 +21,7 @@ constexpr const char* kExamples = R"(Examples:
   catoptric graph --technique parallax --json
   catoptric graph --plan "1=reuse:face=64 *=raytrace"
   catoptric graph gallery --why
+  catoptric graph gallery --why --technique parallax --budget-ms 40
 
 The plan of a frame with a frame before it: passes in order, what each reads and writes, what was
 left out and why, memory that images share. With --why what the picture requires of mirrors and
@@ -45,19 +46,34 @@ app::PlanFormat format_of(const Options& options) {
     return format;
 }
 
+void put_why(const app::Request& request, app::PlanFormat format,
+             const std::optional<app::Slices>& slices) {
+    put(format == app::PlanFormat::json ? app::why_json(request, slices)
+                                        : app::why_text(request, slices));
+}
+
 int run(const Options& options) {
     const app::PlanFormat format = format_of(options);
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a plan has one");
+    const bool is_limited = options.common.budget_ms > 0;
+    check_budget(options.common);
+    check(!is_limited || options.why, Failure::usage,
+          "--budget-ms: wanted --why, since the plan is that of a frame at rest");
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
     check_apart({kStdout}, request.scene.files);
-    if (options.why) {
-        put(format == app::PlanFormat::json ? app::why_json(request) : app::why_text(request));
+    if (options.why && !is_limited) {
+        put_why(request, format, std::nullopt);
         return 0;
     }
     app::Engine engine(engine_options(options.common.device));
     introduce(engine, options.common.manners);
+    if (options.why) {
+        request.model = app::Modelling::required;
+        put_why(request, format, app::measured_slices(engine, request));
+        return 0;
+    }
     std::string plan = app::Session(engine, request.scene).plan(request, format);
     if (!plan.ends_with('\n')) plan += '\n';
     put(plan);
@@ -79,12 +95,14 @@ void add_graph(CommandLine& program) {
     });
     verb.flag("--why",
               "what the picture requires, and why the rest is left out, in place of the plan; "
-              "asks no device and needs no technique",
+              "asks no device and needs no technique, but for --budget-ms, which is measured",
               options->why);
+    add_budget(verb, options->common);
     add_common(verb, options->common);
     verb.does([options] {
         const bool is_given = !options->drawn.technique.empty() || !options->drawn.plan.empty();
-        if (is_given || !options->why) options->technique = checked(options->drawn, "graph");
+        if (is_given || !options->why || options->common.budget_ms > 0)
+            options->technique = checked(options->drawn, "graph");
         return run(*options);
     });
 }

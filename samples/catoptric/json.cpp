@@ -47,6 +47,19 @@ Json left_out_json(const app::Part& part) {
     return list;
 }
 
+/// How many captures a frame draws again, and how old what they show can be.
+Json slices_json(const std::optional<app::Slices>& slices, double budget_ms) {
+    if (!slices) return nullptr;
+    return {{"budget_ms", budget_ms},
+            {"mirrors", slices->mirrors},
+            {"most", slices->most},
+            {"drawn", slices->drawn},
+            {"waiting", slices->waiting},
+            {"oldest_frames", slices->round() - 1},
+            {"round_frames", slices->round()},
+            {"said", app::to_text(*slices)}};
+}
+
 Json settings_json(const std::vector<Setting>& list) {
     Json settings = Json::object();
     for (const Setting& setting : list)
@@ -107,6 +120,7 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["notes"] = part.notes;
     document["model"] = name_of(part.model);
     document["left_out"] = left_out_json(part);
+    document["captures"] = slices_json(part.slices, request.budget_ms);
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
     // The frames of a still compile what they use first: their times say nothing.

@@ -125,6 +125,24 @@ void add_view(Verb& verb, Common& common) {
                 [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
 }
 
+void add_budget(Verb& verb, Common& common) {
+    verb.option(
+        "--budget-ms", "MS",
+        "milliseconds that captures may take in a frame: as many mirrors are drawn anew as fit by "
+        "what was measured, at least one, the others in later frames; with --model required. A "
+        "moving picture then depends on the machine's speed (no limit)",
+        [&](const std::string& text) {
+            common.budget_ms = parse_real("--budget-ms", text);
+            check(common.budget_ms > 0, Failure::usage,
+                  "--budget-ms: wanted a number above 0, found '", text, "'");
+        });
+}
+
+void check_budget(const Common& common) {
+    check(common.budget_ms == 0 || common.model != app::Modelling::everything, Failure::usage,
+          "--budget-ms and --model everything: wanted --model required, which keeps captures");
+}
+
 void add_common_without_scene(Verb& verb, Common& common) {
     verb.heading(kCommonGroup);
     add_view(verb, common);
@@ -184,6 +202,7 @@ Asked make_asked(const Common& common, const std::function<void(const scene::Sce
     request.auto_exposure = !exposure;
     request.timing = common.timing;
     request.model = common.model.value_or(request.model);
+    request.budget_ms = common.budget_ms;
     request.scene = std::move(asked.wanted.scene);
     return asked;
 }

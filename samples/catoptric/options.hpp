@@ -39,6 +39,7 @@ struct Common {
     DeviceAsked device;
     std::optional<app::Modelling> model; ///< none: the verb's own
     bool both_models = false;            ///< of compare: each row with both
+    double budget_ms = 0;                ///< of captures in a frame; 0: no limit
     app::Timing timing = app::Timing::isolated;
 };
 
@@ -58,6 +59,11 @@ void add_validate(Verb& verb, DeviceAsked& device);
 void add_view(Verb& verb, Common& common);
 /// -64 to 64.
 double parse_stops(const std::string& text);
+
+/// --budget-ms.
+void add_budget(Verb& verb, Common& common);
+/// Throws `usage` for a budget with --model everything, which draws all.
+void check_budget(const Common& common);
 
 /// Throws `usage` saying that `verb` needs `option`, unless it was given.
 void require_given(bool given, const std::string& verb, const std::string& option,

@@ -32,8 +32,9 @@ constexpr const char* kExamples = R"(Examples:
   catoptric render --plan "1=hybrid 2,3=secant:face=64 *=reuse" -o mixed.png
 
 A still takes the frames that it needs: one, or with last frame's captures as many as change anything, at most
-28. With --animate, --frames, --warmup, --profile or --trace frames are counted and timed as in compare; the
-picture is the last one. EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
+28 (with --budget-ms rounds of all mirrors), and ends in the same picture whatever the budget. With --animate,
+--frames, --warmup, --profile or --trace frames are counted and timed as in compare; the picture is the last one.
+EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
 
 struct Options {
     Common common;
@@ -50,6 +51,7 @@ bool is_exr(const Options& options) { return options.output.ends_with(".exr"); }
 void check_output(const Options& options) {
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a picture has one");
+    check_budget(options.common);
     require_given(!options.output.empty(), "render", "-o OUT",
                   "a name ending in .exr or .png, or - for stdout");
     check(!is_stdout(options) || !options.common.manners.json, Failure::usage,
@@ -117,6 +119,7 @@ void describe(const Options& options, const app::Request& request, const app::Re
     }
     note(manners, fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}", part.label,
                               part.scene_passes, frames, mean.all, output));
+    if (part.slices) detail(manners, app::to_text(*part.slices));
     if (request.until_settled) return;
     for (const app::PassTime& pass : result.frames.back().passes)
         detail(manners, fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
@@ -146,7 +149,7 @@ int run(const Options& options) {
     app::settle_exposure(session, request);
     app::Frames frames(session, request);
     watcher.check_stopped();
-    while (frames.next()) watcher.frame(frames.number(), request.total());
+    while (frames.next()) watcher.frame(frames.number(), frames.most_frames());
     const app::Result result = frames.result();
     progress.clear();
 
@@ -179,6 +182,7 @@ void add_render(CommandLine& program) {
                 "what --json prints, in a file: times of the frames, their passes and the host's "
                 "work, with their spread",
                 options->profile);
+    add_budget(verb, options->common);
     add_common(verb, options->common);
     verb.does([options] {
         options->technique = checked(options->drawn, "render");

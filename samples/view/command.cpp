@@ -13,9 +13,9 @@ namespace catoptric::view {
 namespace {
 
 /// What the state says, or what a picture has no use for.
-constexpr std::array<std::string_view, 12> kReplaced{
-    "--camera", "--time",   "--size",       "--technique", "--plan",   "--model",
-    "--frames", "--warmup", "--screenshot", "--exposure",  "--timing", "--progress"};
+constexpr std::array<std::string_view, 13> kReplaced{
+    "--camera", "--time",       "--size",     "--technique", "--plan",     "--model",    "--frames",
+    "--warmup", "--screenshot", "--exposure", "--timing",    "--progress", "--budget-ms"};
 constexpr std::array<std::string_view, 5> kFlags{"--animate", "--validate", "--json", "--quiet",
                                                  "--verbose"};
 

@@ -43,6 +43,7 @@ std::function<int()> parse(const std::vector<std::string>& words,
     verb.option("--screenshot", "OUT",
                 "OUT.png or OUT.exr: the picture of the last of --frames, without controls",
                 options->screenshot);
+    add_budget(verb, options->common);
     add_common(verb, options->common);
     verb.does([options, run] {
         if (options->drawn.technique.empty() && options->drawn.plan.empty())
@@ -50,6 +51,7 @@ std::function<int()> parse(const std::vector<std::string>& words,
         options->technique = checked(options->drawn, "catoptric-view");
         check(!options->common.both_models, Failure::usage,
               "--model both: wanted everything or required, of which a picture has one");
+        check_budget(options->common);
         check_screenshot(*options);
         return run(*options);
     });

@@ -35,6 +35,7 @@ Viewer::Viewer(Window& window, app::EngineOptions options, const app::Request& r
     screen_ = std::make_unique<app::Screen>(*engine_);
     session_ = std::make_unique<app::Session>(*engine_, request.scene, kInFlight);
     spec_ = request;
+    budget_ms_ = request.budget_ms;
 }
 
 Viewer::~Viewer() = default;
@@ -68,6 +69,7 @@ void Viewer::follow(const State& state, uvec2 size) {
     next.time = state.motion.time;
     next.exposure = state.exposure;
     next.model = state.model;
+    next.budget_ms = state.model == app::Modelling::required ? budget_ms_ : 0;
     const bool same = same_picture(next, spec_);
     const bool same_view = next.camera == spec_.camera && next.size == spec_.size &&
                            next.time == spec_.time && next.exposure == spec_.exposure;
@@ -101,7 +103,8 @@ void Viewer::work_at_rest(const State& state) {
         reference_.advance(*session_, spec_);
     }
     // What a search says of itself is no picture to be judged.
-    if (still_ >= kSettled && state.judges && state.mode != Mode::answers && !error_ &&
+    const bool waits = last_ && last_->waiting() > 0; // the picture is still to come
+    if (still_ >= kSettled && !waits && state.judges && state.mode != Mode::answers && !error_ &&
         reference_.passes() > 0) {
         last_ = session_->frame(spec_);
         error_ = reference_.judge(last_->hdr(), spec_.exposure);
@@ -157,6 +160,7 @@ void Viewer::frame(const State& state, uvec2 size, app::Overlay overlay, bool is
     began_ = begin;
     last_ = made;
     left_out_ = made.model().left_out;
+    slices_ = made.slices();
     pending_.push_back({std::move(made), std::move(sample)});
     ++frames_;
 }

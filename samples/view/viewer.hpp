@@ -30,6 +30,8 @@ public:
     /// How each mirror was drawn in the last frame, and what was left out of it.
     std::vector<PlanEntry> entries() const;
     const std::vector<require::LeftOut>& left_out() const { return left_out_; }
+    /// Of the first technique, where there is a budget.
+    const std::optional<app::Slices>& slices() const { return slices_; }
 
     /// Renders a frame of `size` and shows it where the window can (`is_seen`). Throws `usage` for
     /// a plan that does not fit the scene, `device_lost` and `exhausted`.
@@ -65,6 +67,8 @@ private:
     Reference reference_;
     std::optional<measure::Difference> error_;
     std::vector<require::LeftOut> left_out_;
+    std::optional<app::Slices> slices_;
+    double budget_ms_ = 0;
     std::shared_ptr<const measure::Picture> made_; ///< for `made_mode_`
     Mode made_mode_ = Mode::plan;
     std::uint32_t made_cause_ = 0;

@@ -202,6 +202,23 @@ TEST_F(Cli, GraphInThreeFormats) {
     EXPECT_EQ(cli({"graph", "--technique", "reuse", "--json"}).out, document);
 }
 
+TEST_F(Cli, SaysHowOldCapturesCanBe) {
+    const std::string said = "captures: at most 1 of 4 mirrors a frame; none shows what is older "
+                             "than 3 frames, and 4 more for each further mirror that it is seen by";
+    const Words small{"--technique", "parallax:face=8,shadow_map=16", "--size", "16x16"};
+    const auto run = [&](Words words) {
+        words.insert(words.end(), small.begin(), small.end());
+        return cli(words).out;
+    };
+    EXPECT_THAT(run({"graph", "--why", "--budget-ms", "1e-9"}), testing::HasSubstr(said + "\n"));
+    const json moving = json::parse(run({"render", "--json", "--animate", "--frames", "6",
+                                         "--warmup", "0", "--budget-ms", "1e-9", "-o", "x.exr"}));
+    EXPECT_EQ(moving["captures"]["said"], said);
+    EXPECT_EQ(moving["captures"]["drawn"], 1);
+    EXPECT_EQ(moving["captures"]["waiting"], 3);
+    EXPECT_EQ(moving["captures"]["round_frames"], 4);
+}
+
 TEST_F(Cli, GraphSaysWhatAPictureRequires) {
     const std::string text = cli({"graph", "flat", "--why"}).out;
     EXPECT_THAT(text, testing::HasSubstr("mirror 1 'mirror': in the camera's view; captured, faces "

@@ -163,6 +163,8 @@ TEST_F(Cli, NumbersThatCannotBe) {
     for (const std::string count : {"-1", "x"}) refused("--warmup", count, "from 0 to");
     for (const std::string time : {"nan", "inf", "-inf", "1e999", "soon", "1s"})
         refused("--time", time, "finite");
+    for (const std::string ms : {"nan", "inf", "soon"}) refused("--budget-ms", ms, "finite");
+    for (const std::string ms : {"0", "-1"}) refused("--budget-ms", ms, "above 0");
     for (const std::string light : {"nan", "-0.1", "inf"})
         refused("--ambient", light, "at least 0");
     for (const std::string stops : {"nan", "65", "-65", "Auto"})
@@ -213,6 +215,12 @@ TEST_F(Cli, ModelsThatCannotBe) {
                    {"--model both: wanted everything or required, of which a plan has one"});
     expect_refused({"compare", "-o", "x", "--techniques", "reuse", "--model", "both", "--together"},
                    2, {"--model both and --together"});
+    expect_refused({"render", "--technique", "reuse", "--model", "everything", "--budget-ms", "4",
+                    "-o", "x.png"},
+                   2, {"--budget-ms and --model everything: wanted --model required"});
+    expect_refused({"graph", "--technique", "reuse", "--budget-ms", "4"}, 2,
+                   {"--budget-ms: wanted --why"});
+    expect_refused({"graph", "--why", "--budget-ms", "4"}, 2, {"'graph'", "--technique T"});
 }
 
 TEST_F(Cli, WhatIsNeeded) {

@@ -188,9 +188,20 @@ TEST(ViewCommand, KeepsWhatSaysHowTheSceneIsRead) {
     State state;
     state.plan = plan_of("1=planar *=reuse");
     state.motion.time = .25, state.exposure = -1;
-    const std::vector<std::string> words{
-        "hall of mirrors.glb", "--mirror",      "wall*=.9", "--size=9x9", "--technique", "reuse",
-        "--animate",           "--environment", "studio",   "--frames",   "9",           "-q"};
+    const std::vector<std::string> words{"hall of mirrors.glb",
+                                         "--mirror",
+                                         "wall*=.9",
+                                         "--size=9x9",
+                                         "--technique",
+                                         "reuse",
+                                         "--animate",
+                                         "--environment",
+                                         "studio",
+                                         "--frames",
+                                         "9",
+                                         "-q",
+                                         "--budget-ms",
+                                         "4"};
     EXPECT_EQ(
         render_command(words, state, "0,1,2:3,4,5:40", {64, 48}),
         "catoptric render 'hall of mirrors.glb' --mirror 'wall*=.9' --environment studio --plan "

@@ -1,0 +1,114 @@
+#include "render/decider.hpp"
+
+#include "core/stamp.hpp"
+#include "render/views.hpp"
+
+#include <algorithm>
+
+namespace catoptric::render {
+
+namespace {
+
+constexpr std::uint64_t kCleared = 1; // the drawing of a face that holds nothing
+
+} // namespace
+
+Decider::Decider(const GpuScene& scene, const require::Model& model,
+                 const std::vector<CaptureOptions>& layout, const KeptCaptures* before,
+                 bool compares)
+    : scene_(scene), model_(model), layout_(layout), before_(before), compares_(compares) {
+    if (before) changed_ = changed(*before);
+    Stamp lit;
+    for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
+        lit.add_all(std::span(scene.backdrops(light)));
+        for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
+            lit.add(scene.views()[scene.shadow_view(light) + face]);
+    }
+    shadow_views_ = lit.value();
+}
+
+bool Decider::was_there(std::uint32_t mirror) const {
+    return before_ && layout_[mirror].face > 0 &&
+           same_contents(before_->options[mirror], layout_[mirror]);
+}
+
+std::uint32_t Decider::waited(std::uint32_t mirror) const {
+    return was_there(mirror) ? before_->waited[mirror] : 0;
+}
+
+void Decider::decide(std::uint32_t mirror, CaptureWork& work, KeptCaptures& kept) const {
+    Change change = Change::none;
+    std::vector<std::uint32_t>& saw = kept.saw[mirror];
+    for (std::uint32_t face = 0; face < 6; ++face) {
+        const std::vector<std::uint32_t> seen = seen_by(mirror, face);
+        const FaceWork what = decide(mirror, face, seen, kept.faces[mirror][face]);
+        work.faces[mirror][face] = what;
+        if (what == FaceWork::draw) change = Change::some;
+        if (what != FaceWork::compare) continue;
+        change = std::max(change, Change::unknown);
+        saw.insert(saw.end(), seen.begin(), seen.end());
+    }
+    kept.changes[mirror] = change;
+}
+
+bool Decider::can_wait(std::uint32_t mirror, const CaptureWork& work) const {
+    if (!was_there(mirror)) return false;
+    for (std::uint32_t face = 0; face < 6; ++face)
+        if (work.is_drawn(mirror, face) && before_->faces[mirror][face].stamp == 0) return false;
+    return true;
+}
+
+void Decider::put_off(std::uint32_t mirror, CaptureWork& work, KeptCaptures& kept) const {
+    for (std::uint32_t face = 0; face < 6; ++face) {
+        if (!work.is_drawn(mirror, face)) continue;
+        kept.faces[mirror][face] = before_->faces[mirror][face];
+        kept.faces[mirror][face].is_behind = true;
+        work.faces[mirror][face] = FaceWork::keep;
+    }
+    kept.changes[mirror] = Change::none;
+    kept.saw[mirror].clear();
+    kept.waited[mirror] = before_->waited[mirror] + 1;
+}
+
+std::vector<std::uint32_t> Decider::seen_by(std::uint32_t mirror, std::uint32_t face) const {
+    const shared::View& view = scene_.views()[scene_.capture_view(mirror) + face];
+    std::vector<std::uint32_t> seen;
+    for (const std::uint32_t other : model_.mirrors[mirror].sees)
+        if (layout_[other].face > 0 && may_meet(view, scene_.ranges()[scene_.mirror_object(other)]))
+            seen.push_back(other);
+    return seen;
+}
+
+FaceWork Decider::decide(std::uint32_t mirror, std::uint32_t face,
+                         const std::vector<std::uint32_t>& seen, KeptFace& now) const {
+    const require::MirrorNeeds& needs = model_.mirrors[mirror];
+    Stamp shown = Stamp(shadow_views_)
+                      .add(needs.stamps[face])
+                      .add(scene_.views()[scene_.capture_view(mirror) + face]);
+    for (const std::uint32_t other : seen) shown.add(other);
+    const std::uint64_t stamp = shown.value();
+    now = was_there(mirror) ? before_->faces[mirror][face] : KeptFace();
+    const bool shows_same = now.drawing > 0 && now.stamp == stamp;
+    const auto has_changed = [&](std::uint32_t other) { return changed_[other] != 0; };
+    if (shows_same && !now.is_behind && std::ranges::none_of(seen, has_changed))
+        return FaceWork::keep;
+    if (!needs.is_captured || !(needs.faces >> face & 1)) {
+        now.stamp = 0, now.is_behind = false; // should somebody look again
+        if (now.drawing > 0) return FaceWork::keep;
+        now.drawing = kCleared;
+        return FaceWork::clear;
+    }
+    now = {stamp, drawing(stamp, seen), false};
+    return shows_same && compares_ ? FaceWork::compare : FaceWork::draw;
+}
+
+std::uint64_t Decider::drawing(std::uint64_t stamp, const std::vector<std::uint32_t>& seen) const {
+    Stamp number;
+    number.add(stamp);
+    for (const std::uint32_t other : seen)
+        for (std::uint32_t face = 0; face < 6; ++face)
+            number.add(was_there(other) ? before_->faces[other][face].drawing : 0);
+    return std::max<std::uint64_t>(number.value(), kCleared + 1);
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,291 @@
+// Captures of which a frame draws only some: how old pictures can become, that they end as
+// everything's, and that nothing is put off for ever.
+#include "support/drawn_hall.hpp"
+#include "support/refusal.hpp"
+#include "support/rendering.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr uvec2 kSize{64, 64};
+
+std::uint32_t round_of(std::uint32_t mirrors, std::uint32_t most) {
+    return (mirrors + most - 1) / most;
+}
+
+/// Mirrors of which passes have drawn a capture.
+std::set<int> drawn(const app::FrameTimes& times) {
+    std::set<int> mirrors;
+    for (const app::PassTime& pass : times.passes)
+        if (pass.name.starts_with("capture/") && !pass.name.ends_with(".clear"))
+            mirrors.insert(std::stoi(pass.name.substr(8)));
+    return mirrors;
+}
+
+scene::Scene coarse_room() { return test::with_coarse_balls(test::room(3, 1)); }
+
+app::FrameSpec limited(const scene::Scene& scene, std::uint32_t most,
+                       const std::string& technique = "parallax:face=32,shadow_map=64") {
+    app::FrameSpec spec = test::request(scene, {technique}, kSize);
+    spec.model = app::Modelling::required;
+    spec.most_captures = most;
+    return spec;
+}
+
+/// What a frame says of itself is what its passes do.
+void expect_told(const app::Frame& frame, std::uint32_t most) {
+    ASSERT_TRUE(frame.slices());
+    const app::Slices& slices = *frame.slices();
+    EXPECT_EQ(drawn(frame.times()).size(), slices.drawn);
+    EXPECT_EQ(slices.most, std::min(most, slices.mirrors));
+    EXPECT_LT(slices.longest, slices.round());
+    EXPECT_EQ(frame.waiting(), slices.waiting);
+}
+
+constexpr int kCells = 5;
+
+/// Mirror balls, each in a cell of its own whose walls are seen from inside alone: no ball shows
+/// another, and each shows what the cells emit.
+scene::Scene cells() {
+    scene::Scene scene{.name = "cells"};
+    const std::size_t hot = add_material(scene,
+                                         {.name = "hot", .front_only = true, .light = vec3(0)});
+    const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
+    scene::Mesh walls{.name = "cells"};
+    for (int i = 0; i < kCells; ++i)
+        for (int face = 0; face < 6; ++face) {
+            const scene::Mesh side = test::wall(face, {3. * i - 1.4, -1.4, -1.4},
+                                                {3. * i + 1.4, 1.4, 1.4});
+            const auto first = static_cast<std::uint32_t>(walls.positions.size());
+            walls.positions.insert(walls.positions.end(), side.positions.begin(),
+                                   side.positions.end());
+            walls.normals.insert(walls.normals.end(), side.normals.begin(), side.normals.end());
+            for (const auto& triangle : side.triangles) walls.triangles.push_back(triangle + first);
+        }
+    test::add_mesh(scene, walls, hot);
+    for (int i = 0; i < kCells; ++i)
+        test::add_ball(scene, "ball" + std::to_string(i + 1), mirror, {3. * i, 0, 0}, 1);
+    scene.cameras.push_back({.eye = {6, 0, -20}, .target = {6, 0, 0}, .vertical_fov_degrees = 50});
+    return test::with_coarse_balls(std::move(scene));
+}
+
+// The cells emit the number of the frame, so a ball's pixel says of which frame its capture is.
+TEST(Slices, ShowNothingOlderThanARound) {
+    for (const std::uint32_t most : {1u, 2u, 3u}) {
+        app::Session session(test::engine(), cells());
+        const app::FrameSpec spec = limited(session.scene(), most, "parallax:face=32,shadow=none");
+        const int round = static_cast<int>(round_of(kCells, most));
+        std::vector<int> oldest(kCells, 0);
+        for (int k = 1; k <= 4 * round; ++k) {
+            scene::Material hot = session.scene().materials[0];
+            hot.emission = vec3(static_cast<float>(k));
+            session.change(scene::set_material(0, hot));
+            const app::Frame frame = session.frame(spec);
+            expect_told(frame, most);
+            const measure::Picture picture = frame.hdr();
+            for (int i = 0; i < kCells; ++i) {
+                const vec3 pixel = picture.at(32 + (i - 2) * 10, 32);
+                const int age = k - static_cast<int>(std::round(pixel.x));
+                EXPECT_NEAR(pixel.x, std::round(pixel.x), .01) << "of one frame";
+                oldest[static_cast<std::size_t>(i)] = std::max(oldest[static_cast<std::size_t>(i)],
+                                                               age);
+            }
+            EXPECT_EQ(drawn(frame.times()).size(), k == 1 ? kCells : most);
+        }
+        EXPECT_THAT(oldest, testing::Each(testing::Le(round - 1))) << most;
+        EXPECT_EQ(std::ranges::max(oldest), round - 1) << most;
+    }
+}
+
+// A bounce takes a round in place of a frame.
+TEST(Slices, EndAsEverythingDoes) {
+    for (const std::uint32_t most : {1u, 2u}) {
+        const scene::Scene scene = coarse_room();
+        app::Session all(test::engine(), scene), few(test::engine(), scene);
+        const app::FrameSpec spec = limited(scene, most);
+        app::FrameSpec everything = spec;
+        everything.model = app::Modelling::everything, everything.most_captures = 0;
+        const auto settle = [&] {
+            std::vector<std::byte> state, next = all.frame(everything).state();
+            int bounces = 0;
+            for (; state != next; ++bounces)
+                state = std::move(next), next = all.frame(everything).state();
+            return bounces;
+        };
+        const auto follow = [&] {
+            const int frames = settle() * static_cast<int>(round_of(3, most));
+            for (int k = 1; k <= frames; ++k) {
+                const app::Frame frame = few.frame(spec);
+                expect_told(frame, most);
+                EXPECT_LE(drawn(frame.times()).size(), few.counts().frames == 1 ? 3 : most);
+            }
+            const app::Frame last = few.frame(spec);
+            EXPECT_EQ(drawn(last.times()), std::set<int>()) << "at rest";
+            EXPECT_EQ(last.waiting(), 0u);
+            EXPECT_TRUE(test::same_bytes(last.hdr(), all.frame(everything).hdr()));
+        };
+        follow();
+        const auto change = [&](const scene::Edit& edit) { all.change(edit), few.change(edit); };
+        scene::Material lamp = scene.materials[3];
+        lamp.emission *= .25f;
+        change(scene::set_material(3, lamp));
+        follow();
+        dmat4 place = scene.objects.back().world_from_object;
+        place[3].x -= .2;
+        change(scene::move(scene.objects.size() - 1, place));
+        follow();
+    }
+}
+
+// Cameras, edits and movements at random in a drawn hall, sooner than mirrors have had their turn.
+TEST(Slices, EndAsEverythingDoesWhateverHappened) {
+    for (const std::uint64_t seed : {3, 11}) {
+        const scene::Scene hall = test::drawn_hall(seed, 4);
+        app::Session all(test::engine(), hall), few(test::engine(), hall);
+        app::FrameSpec spec = limited(hall, 1, "parallax:face=16,shadow_map=64");
+        test::Numbers numbers(seed);
+        const std::vector<std::size_t> mirrors = scene::mirrors(hall);
+        for (int k = 0; k < 24; ++k) {
+            if (k % 3 == 0) {
+                const std::size_t mirror = mirrors[numbers.below(mirrors.size())];
+                const dvec3 place(hall.objects[mirror].world_from_object[3]);
+                spec.camera = {.eye = place + dvec3(.3, .2, -1.7), .target = place};
+            }
+            const std::size_t moved = numbers.below(hall.objects.size());
+            dmat4 to = hall.objects[moved].world_from_object;
+            to[3] += dvec4(dvec3(numbers.in_cube()) * .3, 0);
+            for (app::Session* session : {&all, &few}) session->change(scene::move(moved, to));
+            expect_told(few.frame(spec), 1);
+        }
+        constexpr int kMostBounces = 12;
+        for (int k = 0; k < kMostBounces * 4; ++k) few.frame(spec);
+        spec.model = app::Modelling::everything, spec.most_captures = 0;
+        for (int k = 0; k < kMostBounces; ++k) all.frame(spec);
+        const measure::Picture wanted = all.frame(spec).hdr();
+        spec.model = app::Modelling::required, spec.most_captures = 1;
+        const app::Frame last = few.frame(spec);
+        EXPECT_TRUE(test::same_bytes(last.hdr(), wanted)) << seed;
+        EXPECT_EQ(drawn(last.times()), std::set<int>()) << seed;
+    }
+}
+
+// Something moves in every frame.
+TEST(Slices, DrawEachMirrorInARound) {
+    const scene::Scene scene = test::with_coarse_balls(scene::cornell_mirrors());
+    app::Session session(test::engine(), scene);
+    app::FrameSpec spec = limited(scene, 1);
+    std::vector<int> since(4, 0);
+    for (int k = 1; k <= 14; ++k) {
+        const app::Frame frame = session.frame(spec);
+        expect_told(frame, 1);
+        for (int& frames : since) ++frames;
+        for (const int mirror : drawn(frame.times()))
+            since[static_cast<std::size_t>(mirror - 1)] = 0;
+        EXPECT_THAT(since, testing::Each(testing::Lt(4))) << k;
+        spec.time += 1 / 20.0;
+    }
+}
+
+TEST(Slices, OfAllMirrorsAreNone) {
+    const scene::Scene scene = test::with_coarse_balls(scene::cornell_mirrors());
+    app::Session one(test::engine(), scene), other(test::engine(), scene);
+    for (int k = 0; k < 6; ++k) {
+        app::FrameSpec spec = limited(scene, 4), whole = limited(scene, 0);
+        spec.time = whole.time = k < 4 ? k / 20.0 : .2;
+        const app::Frame found = one.frame(spec), wanted = other.frame(whole);
+        EXPECT_TRUE(test::same_bytes(found.hdr(), wanted.hdr())) << k;
+        EXPECT_EQ(drawn(found.times()), drawn(wanted.times())) << k;
+        EXPECT_FALSE(wanted.slices());
+    }
+}
+
+// Whatever the device: hardly any time is one mirror a frame, much of it all.
+TEST(Slices, FollowMilliseconds) {
+    const scene::Scene scene = coarse_room();
+    app::Session little(test::engine(), scene), much(test::engine(), scene);
+    app::FrameSpec spec = limited(scene, 0);
+    for (int k = 1; k <= 5; ++k) {
+        spec.ambient = .05 * k; // all are to be drawn
+        spec.budget_ms = 1e-6;
+        const app::Frame frame = little.frame(spec);
+        expect_told(frame, k == 1 ? 3 : 1);
+        EXPECT_EQ(frame.slices()->drawn, k == 1 ? 3u : 1u);
+        app::FrameSpec aside = spec;
+        aside.is_aside = true;
+        EXPECT_FALSE(little.frame(aside).slices()) << "beside the sequence all are drawn";
+        if (k == 3) { // measured on both sides of what comes between
+            app::Sequence sequence = little.set_aside();
+            EXPECT_EQ(little.frame(spec).slices()->drawn, 3u) << "the first of its own";
+            little.resume(std::move(sequence));
+        }
+        spec.budget_ms = 1e9;
+        EXPECT_EQ(much.frame(spec).slices()->drawn, 3u);
+    }
+}
+
+TEST(Slices, AreTheSameWithSeveralInFlight) {
+    const scene::Scene scene = coarse_room();
+    app::Session one(test::engine(), scene), more(test::engine(), scene, 3);
+    for (int k = 0; k < 8; ++k) {
+        app::FrameSpec spec = limited(scene, 1);
+        spec.ambient = k < 3 ? .05 * (k + 1) : .2;
+        const app::Frame wanted = one.frame(spec), found = more.frame(spec);
+        EXPECT_TRUE(test::same_bytes(found.hdr(), wanted.hdr())) << k;
+    }
+    app::FrameSpec whole = limited(scene, 0); // goes on from what was put off
+    std::optional<app::Frame> wanted, found;
+    for (int k = 0; k < 40; ++k) wanted = one.frame(whole), found = more.frame(whole);
+    EXPECT_TRUE(test::same_bytes(found->hdr(), wanted->hdr()));
+    EXPECT_EQ(drawn(found->times()), std::set<int>());
+}
+
+// The first ball, whose turn comes first, is hidden by what is no wall: it changes nothing.
+TEST(Slices, AreNotSettledWhileSomebodyWaits) {
+    scene::Scene scene = coarse_room();
+    scene::Object shell = scene.objects[scene::mirrors(scene).front()];
+    shell.name = "shell", shell.material = 0, shell.sphere.reset();
+    shell.world_from_object = shell.world_from_object * glm::scale(dmat4(1), dvec3(1.05));
+    scene.objects.push_back(shell);
+    app::Request request = test::request(scene, {"parallax:face=32,shadow_map=64"}, kSize);
+    request.model = app::Modelling::required;
+    request.frames = 28, request.until_settled = true;
+    app::Session session(test::engine(), scene);
+    const app::Result whole = app::run(session, request);
+    request.most_captures = 1;
+    const app::Result sliced = app::run(session, request);
+    EXPECT_TRUE(whole.settled && sliced.settled);
+    EXPECT_GT(sliced.frames.size(), whole.frames.size());
+    EXPECT_TRUE(test::same_bytes(sliced.parts.front().hdr, whole.parts.front().hdr));
+    EXPECT_EQ(sliced.parts.front().slices->waiting, 0u);
+    request.frames = 1; // a round of three mirrors
+    EXPECT_EQ(app::run(session, request).frames.size(), 3u);
+}
+
+TEST(Slices, AreRefusedWhereTheyMeanNothing) {
+    const scene::Scene scene = coarse_room();
+    app::Session session(test::engine(), scene);
+    const auto refused = [&](app::FrameSpec spec, const std::string& text) {
+        test::expect_refused([&] { session.frame(spec); }, Failure::usage, {text});
+    };
+    app::FrameSpec spec = limited(scene, 2);
+    spec.model = app::Modelling::everything;
+    refused(spec, "a limit of captures that a frame draws is of the model required, not of "
+                  "everything");
+    spec = limited(scene, 2);
+    spec.budget_ms = 4;
+    refused(spec, "limited by number (2) and by milliseconds (4): wanted one of them");
+    spec = limited(scene, 0);
+    for (const double ms : {-1., double{INFINITY}, double{NAN}}) {
+        spec.budget_ms = ms;
+        refused(spec, "the milliseconds for captures must be finite and above 0, not ");
+    }
+}
+
+} // namespace

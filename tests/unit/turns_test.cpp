@@ -1,0 +1,75 @@
+// Whose captures a frame draws that may not draw all: nobody waits longer than a round.
+#include "app/pace.hpp"
+#include "app/slices.hpp"
+#include "render/turns.hpp"
+#include "support/numbers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace catoptric;
+using Mirrors = std::vector<std::uint32_t>;
+
+TEST(Turns, AreOfThoseWhoWaitedLongest) {
+    EXPECT_EQ(render::put_off({{4, 0}, {2, 1}, {7, 3}, {1, 0}}, 2), (Mirrors{1, 4}));
+    EXPECT_EQ(render::put_off({{4, 2}, {2, 2}, {3, 2}}, 1), (Mirrors{3, 4})) << "of equals";
+    EXPECT_EQ(render::put_off({{4, 2}, {2, 2}}, 2), Mirrors());
+    EXPECT_EQ(render::put_off({}, 1), Mirrors());
+}
+
+// Mirrors begin and cease to ask at random: of those that do until they are drawn nobody waits for
+// more than a round of all.
+TEST(Turns, ComeWithinARound) {
+    for (const std::uint32_t most : {1u, 2u, 3u, 5u}) {
+        constexpr std::uint32_t kMirrors = 13;
+        test::Numbers numbers(most);
+        std::vector<std::uint32_t> waited(kMirrors, 0);
+        std::uint32_t longest = 0;
+        for (int frame = 0; frame < 2000; ++frame) {
+            std::vector<render::Asking> asking;
+            for (std::uint32_t i = 0; i < kMirrors; ++i) {
+                // All of them for a while, then few, so that the one or the other is tight.
+                const bool asks = waited[i] > 0 || numbers.between(0, 1) < (frame % 200) / 150.;
+                if (asks) asking.push_back({i, waited[i]});
+            }
+            const Mirrors later = render::put_off(asking, most);
+            EXPECT_EQ(later.size(), asking.size() - std::min<std::size_t>(asking.size(), most));
+            for (std::uint32_t i = 0; i < kMirrors; ++i)
+                waited[i] = std::ranges::find(later, i) != later.end() ? waited[i] + 1 : 0;
+            longest = std::max(longest, std::ranges::max(waited));
+        }
+        EXPECT_EQ(longest + 1, (kMirrors + most - 1) / most) << most;
+    }
+}
+
+TEST(Pace, SaysHowManyMirrorsFit) {
+    app::Pace pace;
+    EXPECT_EQ(pace.fitting(1, 16), 16u) << "nothing was measured";
+    pace.add(100, 0);
+    EXPECT_EQ(pace.fitting(1, 16), 16u) << "no mirror was drawn";
+    pace.add(16, 8); // 2 ms each
+    EXPECT_EQ(pace.fitting(7.9, 16), 3u);
+    EXPECT_EQ(pace.fitting(.1, 16), 1u) << "one at least";
+    EXPECT_EQ(pace.fitting(1000, 16), 16u);
+    for (int k = 0; k < 4; ++k) pace.add(900, 1);
+    for (int k = 0; k < 5; ++k) pace.add(4, 1);
+    EXPECT_EQ(pace.fitting(8, 16), 2u) << "the median of the last nine";
+    app::Pace at_once;
+    at_once.add(0, 1);
+    EXPECT_EQ(at_once.fitting(1, 16), 16u);
+}
+
+TEST(Slices, SayHowOldPicturesCanBe) {
+    EXPECT_EQ(app::to_text({.mirrors = 16, .most = 3}),
+              "captures: at most 3 of 16 mirrors a frame; none shows what is older than 5 frames, "
+              "and 6 more for each further mirror that it is seen by");
+    EXPECT_EQ(app::to_text({.mirrors = 4, .most = 2}),
+              "captures: at most 2 of 4 mirrors a frame; none shows what is older than 1 frame, "
+              "and 2 more for each further mirror that it is seen by");
+    EXPECT_EQ((app::Slices{.mirrors = 0, .most = 0}).round(), 1u);
+}
+
+} // namespace
