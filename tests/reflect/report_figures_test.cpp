@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <numeric>
 
 namespace {
@@ -109,8 +110,15 @@ TEST(ReportFigures, AreThoseOfThePictures) {
     const app::Part finer = rendered("raytrace:depth=16,samples=4");
     // The first of four rays meets nearly everywhere what the one through the middle does.
     std::size_t others = 0;
-    for (std::size_t i = 0; i < truth.hits.size(); ++i)
+    std::array<std::size_t, 4> second{}; // by number: all three are seen in others, none in itself
+    for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         others += finer.hits[i] != truth.hits[i] ? 1 : 0;
+        const std::uint32_t first = truth.hits[i] & 0xffff, next = truth.hits[i] >> 16;
+        ASSERT_LE(std::max(first, next), 3U);
+        EXPECT_TRUE(next == 0 || next != first) << i;
+        ++second[next];
+    }
+    for (const std::size_t pixels : second) EXPECT_GT(pixels, 0U);
     EXPECT_GT(others, 0U);
     EXPECT_LT(others, truth.hits.size() / 20);
     const std::map<std::string, Chosen> masks{
