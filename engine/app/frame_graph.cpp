@@ -49,6 +49,7 @@ std::vector<Value> values_of(const std::vector<std::byte>& bytes) {
 /// Of a traced picture's alpha: see Part::hits.
 std::vector<std::uint32_t> to_hits(const std::vector<std::byte>& texels) {
     std::vector<std::uint32_t> hits;
+    hits.reserve(texels.size() / sizeof(vec4));
     for (const vec4& texel : values_of<vec4>(texels)) {
         const std::uint32_t met = bvh::bits(texel.w) & ~f32::kBvhTag;
         hits.push_back((met & shared::kMostMirrors) | met >> shared::kMetBits << 16);

@@ -50,7 +50,7 @@ shared::TextureUse Details::use_of(const std::optional<scene::Texture>& texture)
     return use;
 }
 
-void Details::fill_texels(const scene::Scene& now, std::uint64_t most_bytes) {
+void Details::fill_texels(const scene::Scene& now, std::uint64_t most) {
     std::vector<std::shared_ptr<const scene::Image>> images;
     std::uint64_t count = kTableTexels;
     for (const scene::Object& object : now.objects) {
@@ -60,9 +60,9 @@ void Details::fill_texels(const scene::Scene& now, std::uint64_t most_bytes) {
             if (!*texture || std::ranges::find(images, (*texture)->image) != images.end()) continue;
             images.push_back((*texture)->image);
             count += images.back()->texels.size();
-            check(count * sizeof(std::uint32_t) <= most_bytes, Failure::exhausted, "scene '",
-                  now.name, "': its images up to ", in_quotes(images.back()->name), " take ",
-                  count * sizeof(std::uint32_t), " bytes, the device allows ", most_bytes);
+            check(count <= most, Failure::exhausted, "scene '", now.name, "': its images up to ",
+                  in_quotes(images.back()->name), " take ", count, " texels, the device allows ",
+                  most);
         }
     }
     if (images == images_ && !first_texels_.empty()) return;
@@ -80,8 +80,8 @@ void Details::fill_texels(const scene::Scene& now, std::uint64_t most_bytes) {
 }
 
 void Details::fill(const scene::Scene& now, const Geometry& geometry, const Vertices& vertices,
-                   std::uint64_t most_bytes) {
-    fill_texels(now, most_bytes);
+                   std::uint64_t most) {
+    fill_texels(now, most);
     std::vector<shared::Detail> details;
     any_ = masks_ = false;
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {

@@ -14,9 +14,9 @@ public:
     explicit Details(std::size_t slots);
 
     /// Of a geometry laid out anew, O(n) in attributes, and in texels where images are others.
-    /// Throws `exhausted` where the images have more texels than a buffer may.
+    /// Throws `exhausted` where the images have more than `most` texels, some of them a table.
     void fill(const scene::Scene& now, const Geometry& geometry, const Vertices& vertices,
-              std::uint64_t most_bytes);
+              std::uint64_t most);
     /// As Resident::write.
     std::size_t write(gpu::Device& device, std::size_t slot);
     void bind(graph::Commands& commands, std::size_t slot) const;
@@ -26,7 +26,7 @@ public:
 
 private:
     shared::TextureUse use_of(const std::optional<scene::Texture>& texture) const;
-    void fill_texels(const scene::Scene& now, std::uint64_t most_bytes);
+    void fill_texels(const scene::Scene& now, std::uint64_t most);
 
     std::vector<std::shared_ptr<const scene::Image>> images_; ///< in the buffer, one after another
     std::vector<std::uint32_t> first_texels_;                 ///< by image

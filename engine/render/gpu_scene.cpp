@@ -93,7 +93,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         move(now, changes.moved);
     if (changes.shapes() || changes.materials) fill_surfaces(now);
     if (changes.layout || changes.materials || vertices_.layouts() != known_layouts_)
-        details_.fill(now, geometry_, vertices_, device_.limits().maxStorageBufferRange);
+        details_.fill(now, geometry_, vertices_, device_.limits().maxTexelBufferElements);
     known_layouts_ = vertices_.layouts();
     if (changes.shapes() || changes.lights) fill_lights(now, changes.lights);
     if (changes.shapes() || changes.lights) {

@@ -6,7 +6,8 @@
 #include "shared.h"
 
 // Uniform buffers where every invocation reads the same, uniform texel buffers where they do not: a software driver
-// reads storage buffers lane by lane (docs/performance.md). Texels are laid out by engine/render/texels.hpp.
+// reads storage buffers lane by lane (docs/performance.md). Texels are laid out by engine/render/texels.hpp. Views are
+// read by vertex shaders, for which texels were no cheaper.
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame value; } frame;
 layout(set = 0, binding = 1, scalar) readonly buffer Views { View views[]; };
 layout(set = 0, binding = 2) uniform samplerBuffer surface_texels;

@@ -1,4 +1,5 @@
 // What a device cannot hold is refused by its numbers, before anything is made of it.
+#include "render/details.hpp"
 #include "render/geometry.hpp"
 #include "render/limits.hpp"
 #include "support/refusal.hpp"
@@ -41,6 +42,24 @@ TEST(Limits, CountTheEnvironment) {
     few.triangles = 2;
     EXPECT_EQ(refusal(few, limits),
               "scene 's' wants 32 texels of the environment, the device allows 31");
+}
+
+TEST(Limits, CountTheTexelsOfImages) {
+    scene::Scene room = test::room(0, 1);
+    const auto image = std::make_shared<const scene::Image>(
+        scene::Image{"wood.png", {8, 4}, std::vector<std::uint32_t>(32)});
+    room.materials[room.objects.front().material].albedo_texture = scene::Texture{.image = image};
+    const render::Geometry geometry = render::make_geometry(room, render::space_of(room),
+                                                            render::Spaces::own);
+    render::Vertices vertices(std::vector<bool>(room.objects.size()), 1);
+    vertices.lay_out(geometry);
+    const auto fill = [&](std::uint64_t most) {
+        render::Details(1).fill(room, geometry, vertices, most);
+    };
+    EXPECT_NO_THROW(fill(256 + 32));
+    EXPECT_EQ(test::refusal(Failure::exhausted, [&] { fill(256 + 31); }),
+              "scene '" + room.name +
+                  "': its images up to 'wood.png' take 288 texels, the device allows 287");
 }
 
 /// Balls of 4096 triangles that are all one mesh, on top of a room.
