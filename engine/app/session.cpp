@@ -40,7 +40,8 @@ void check_spec(const FrameSpec& spec) {
 /// The light that each surface gets anyway is no part of a scene, but of what is kept.
 void add_ambient(require::Model& model, double ambient) {
     for (require::MirrorNeeds& mirror : model.mirrors)
-        for (std::uint64_t& stamp : mirror.stamps) stamp = Stamp().add(stamp).add(ambient).value();
+        for (auto* const stamps : {&mirror.stamps, &mirror.settings})
+            for (std::uint64_t& stamp : *stamps) stamp = Stamp().add(stamp).add(ambient).value();
 }
 
 std::string name_of(Modelling modelling) {

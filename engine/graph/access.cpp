@@ -7,7 +7,7 @@ namespace catoptric::graph {
 namespace {
 
 Access access_of(const ImageUse& use) {
-    const bool loads = is_attachment(use.use) && !use.clear;
+    const bool loads = is_attachment(use.use) && (!use.clear || use.stays);
     return {.is_buffer = false,
             .id = use.image.id,
             .previous = use.image.previous,

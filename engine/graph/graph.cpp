@@ -58,6 +58,12 @@ PassBuilder& PassBuilder::writes(Buffer buffer, Use use) {
     return *this;
 }
 
+PassBuilder& PassBuilder::updates(Image image, Use use, const Clear& clear) {
+    pass_.images.push_back(
+        {.image = image, .use = use, .write = true, .clear = clear, .stays = true});
+    return *this;
+}
+
 PassBuilder& PassBuilder::layers(std::uint32_t count) {
     pass_.layer_count = count;
     return *this;

@@ -108,6 +108,7 @@ struct ImageUse {
     Use use = Use::sampled;
     bool write = false;
     std::optional<Clear> clear; ///< an attachment without it keeps (and needs) what was there
+    bool stays = false;         ///< ... and outside of the pass's area one with it does
 };
 
 struct BufferUse {
@@ -129,8 +130,8 @@ struct Pass {
     std::vector<ImageUse> images; ///< in order of declaration
     std::vector<BufferUse> buffers;
     std::uint32_t layer_count = 1; ///< layers rendered at once
-    /// All that is cleared and drawn of attachments; what they hold elsewhere is nobody's. Nothing:
-    /// the whole. No part of the shape: it may differ from frame to frame.
+    /// All that is cleared and drawn of attachments; what they hold elsewhere is nobody's, unless it
+    /// stays. Nothing: the whole. No part of the shape: it may differ from frame to frame.
     std::optional<Area> area;
     std::function<void(Commands&)> body;
 
@@ -145,6 +146,8 @@ public:
     PassBuilder& reads(Buffer buffer, Use use);
     PassBuilder& writes(Image image, Use use, std::optional<Clear> clear = std::nullopt);
     PassBuilder& writes(Buffer buffer, Use use);
+    /// An attachment that is cleared within the pass's area and elsewhere keeps what was there.
+    PassBuilder& updates(Image image, Use use, const Clear& clear);
     PassBuilder& layers(std::uint32_t count);
     PassBuilder& area(const Area& area);
     void record(std::function<void(Commands&)> body);

@@ -47,7 +47,8 @@ void add(Hash& hash, const Pass& pass) {
              static_cast<std::uint32_t>(pass.buffers.size()));
     for (const ImageUse& use : pass.images) {
         add(hash, use.image);
-        hash.add(number(use.use), std::uint32_t{use.write} << 1 | use.clear.has_value());
+        hash.add(number(use.use), std::uint32_t{use.stays} << 2 | std::uint32_t{use.write} << 1 |
+                                      use.clear.has_value());
     }
     for (const BufferUse& use : pass.buffers)
         hash.add(use.buffer.id, number(use.use) << 1 | use.write);
@@ -86,7 +87,7 @@ bool same_lifetime(const Graph& a, const Graph& b, std::uint32_t image) {
 
 bool same(const ImageUse& a, const ImageUse& b) {
     return a.image == b.image && a.use == b.use && a.write == b.write &&
-           a.clear.has_value() == b.clear.has_value();
+           a.clear.has_value() == b.clear.has_value() && a.stays == b.stays;
 }
 
 bool same(const Pass& a, const Pass& b) {

@@ -66,6 +66,7 @@ void check_image(const ImageDesc& desc, const Limits& limits) {
                               const std::string& missing) {
     const char* verb = !a.write                ? "reads "
                        : a.use == Use::storage ? "reads and writes "
+                       : a.clears              ? "updates "
                                                : "loads (has no clear for) ";
     fail(kWrong, "pass '", pass.name, "' ", verb, describe(graph, a), " as ", name_of(a.use),
          " before any pass writes ", missing);

@@ -73,6 +73,9 @@ void check_use(const Graph& graph, const Pass& pass, const Access& a) {
     if (a.clears && !is_attachment(a.use))
         fail(kWrong, "pass '", pass.name, "' clears ", describe(graph, a), " as ", name_of(a.use),
              ", but only attachments are cleared");
+    if (a.clears && a.needs && !pass.area)
+        fail(kWrong, "pass '", pass.name, "' updates ", describe(graph, a), " as ", name_of(a.use),
+             ", but has no area to do it in");
     if (pass.is_raster() && (a.use == Use::copy_from || a.use == Use::copy_to))
         fail(kWrong, "pass '", pass.name, "' has attachments and uses ", describe(graph, a), " as ",
              name_of(a.use), ": copies need a pass of their own");

@@ -1,6 +1,7 @@
 #include "render/decider.hpp"
 
 #include "core/stamp.hpp"
+#include "render/face_area.hpp"
 #include "render/views.hpp"
 
 #include <algorithm>
@@ -43,6 +44,8 @@ void Decider::decide(std::uint32_t mirror, CaptureWork& work, KeptCaptures& kept
         const std::vector<std::uint32_t> seen = seen_by(mirror, face);
         const FaceWork what = decide(mirror, face, seen, kept.faces[mirror][face]);
         work.faces[mirror][face] = what;
+        if (work.is_drawn(mirror, face))
+            work.parts[mirror][face] = changing(mirror, face, seen, kept.faces[mirror][face]);
         if (what == FaceWork::draw) change = Change::some;
         if (what != FaceWork::compare) continue;
         change = std::max(change, Change::unknown);
@@ -63,7 +66,7 @@ void Decider::put_off(std::uint32_t mirror, CaptureWork& work, KeptCaptures& kep
         if (!work.is_drawn(mirror, face)) continue;
         kept.faces[mirror][face] = before_->faces[mirror][face];
         kept.faces[mirror][face].is_behind = true;
-        work.faces[mirror][face] = FaceWork::keep;
+        work.faces[mirror][face] = FaceWork::keep, work.parts[mirror][face] = {};
     }
     kept.changes[mirror] = Change::none;
     kept.saw[mirror].clear();
@@ -82,11 +85,9 @@ std::vector<std::uint32_t> Decider::seen_by(std::uint32_t mirror, std::uint32_t 
 FaceWork Decider::decide(std::uint32_t mirror, std::uint32_t face,
                          const std::vector<std::uint32_t>& seen, KeptFace& now) const {
     const require::MirrorNeeds& needs = model_.mirrors[mirror];
-    Stamp shown = Stamp(shadow_views_)
-                      .add(needs.stamps[face])
-                      .add(scene_.views()[scene_.capture_view(mirror) + face]);
+    Stamp shown = Stamp(shadow_views_).add(scene_.views()[scene_.capture_view(mirror) + face]);
     for (const std::uint32_t other : seen) shown.add(other);
-    const std::uint64_t stamp = shown.value();
+    const std::uint64_t stamp = Stamp(shown).add(needs.stamps[face]).value();
     now = was_there(mirror) ? before_->faces[mirror][face] : KeptFace();
     const bool shows_same = now.drawing > 0 && now.stamp == stamp;
     const auto has_changed = [&](std::uint32_t other) { return changed_[other] != 0; };
@@ -98,8 +99,27 @@ FaceWork Decider::decide(std::uint32_t mirror, std::uint32_t face,
         now.drawing = kCleared;
         return FaceWork::clear;
     }
-    now = {stamp, drawing(stamp, seen), false};
+    now = {stamp, drawing(stamp, seen), false, Stamp(shown).add(needs.settings[face]).value(),
+           needs.pieces};
     return shows_same && compares_ ? FaceWork::compare : FaceWork::draw;
+}
+
+require::FacePart Decider::changing(std::uint32_t mirror, std::uint32_t face,
+                                    const std::vector<std::uint32_t>& seen,
+                                    const KeptFace& now) const {
+    if (!was_there(mirror)) return {};
+    const KeptFace& before = before_->faces[mirror][face];
+    if (before.stamp == 0 || before.is_behind || before.settings != now.settings ||
+        !before.pieces || !now.pieces)
+        return {};
+    require::FacePart part = require::differing(before.pieces->faces[face],
+                                                now.pieces->faces[face]);
+    const shared::View& view = scene_.views()[scene_.capture_view(mirror) + face];
+    // All of them: what one shows may change before its capture does, by where others are.
+    for (const std::uint32_t other : seen)
+        part = united(part, part_with(view, static_cast<int>(face),
+                                      scene_.ranges()[scene_.mirror_object(other)].bounds));
+    return part.empty() ? require::FacePart() : part;
 }
 
 std::uint64_t Decider::drawing(std::uint64_t stamp, const std::vector<std::uint32_t>& seen) const {

@@ -33,6 +33,9 @@ private:
     std::vector<std::uint32_t> seen_by(std::uint32_t mirror, std::uint32_t face) const;
     FaceWork decide(std::uint32_t mirror, std::uint32_t face,
                     const std::vector<std::uint32_t>& seen, KeptFace& now) const;
+    /// Of a face that is drawn: all that may be another than it was.
+    require::FacePart changing(std::uint32_t mirror, std::uint32_t face,
+                               const std::vector<std::uint32_t>& seen, const KeptFace& now) const;
     /// By what it is made from, to the captures that it shows.
     std::uint64_t drawing(std::uint64_t stamp, const std::vector<std::uint32_t>& seen) const;
 

@@ -70,7 +70,9 @@ void add_keeping(graph::Graph& graph, const std::string& name, const Feeding& fe
                    !graph.holds(faces_of(captures, mirror, face, 1).colour, drawing(face));
         };
         const auto is_copied = [&](std::uint32_t face) {
-            return is_made(face) && feeding.work.of(mirror, face) == FaceWork::keep;
+            const CaptureWork& work = feeding.work;
+            return is_made(face) &&
+                   (work.of(mirror, face) == FaceWork::keep || !work.part(mirror, face).is_whole());
         };
         for_each_run(is_copied, [&](std::uint32_t first, std::uint32_t end) {
             for_each_pair(
@@ -145,7 +147,7 @@ Feeding feed_required(graph::Graph& graph, const FrameInputs& inputs, const std:
         return std::make_shared<const Captures>(std::move(captures));
     };
     Feeding feeding;
-    feeding.work.faces.resize(mirrors);
+    feeding.work.faces.resize(mirrors), feeding.work.parts.resize(mirrors);
     feeding.kept = std::make_shared<KeptCaptures>();
     KeptCaptures& kept = *feeding.kept;
     kept.options = layout;

@@ -3,6 +3,7 @@
 #include "gpu/buffer.hpp"
 #include "render/captures.hpp"
 #include "require/model.hpp"
+#include "require/pieces.hpp"
 
 #include <array>
 #include <functional>
@@ -20,6 +21,8 @@ struct KeptFace {
     std::uint64_t stamp = 0;   ///< of what it shows but for mirrors; 0: of nothing any more
     std::uint64_t drawing = 0; ///< which picture it is: the same number, the same bytes; 0: none
     bool is_behind = false;    ///< it was to be drawn anew and was put off
+    std::uint64_t settings = 0; ///< of what it shows but for mirrors and `pieces`
+    std::shared_ptr<const require::Pieces> pieces; ///< of the mirror, when the stamp was this
     bool operator==(const KeptFace&) const = default;
 };
 
@@ -69,8 +72,13 @@ enum class FaceWork : std::uint8_t {
 /// What a frame does with its captures.
 struct CaptureWork {
     std::vector<std::array<FaceWork, 6>> faces; ///< of each mirror; empty: all six are drawn
+    /// Of those that are drawn: outside of it they are what they were in the frame before.
+    std::vector<std::array<require::FacePart, 6>> parts;
     FaceWork of(std::uint32_t mirror, std::uint32_t face) const {
         return faces.empty() ? FaceWork::draw : faces[mirror][face];
+    }
+    require::FacePart part(std::uint32_t mirror, std::uint32_t face) const {
+        return parts.empty() ? require::FacePart() : parts[mirror][face];
     }
     bool is_drawn(std::uint32_t mirror, std::uint32_t face) const {
         return of(mirror, face) == FaceWork::draw || of(mirror, face) == FaceWork::compare;

@@ -30,6 +30,7 @@ struct Question {
 
 /// Six bits, one a face of a capture, as render::cube_views has them.
 using Faces = std::uint8_t;
+struct Pieces; // of what moves in a capture's faces: require/pieces.hpp
 inline constexpr Faces kAllFaces = 0x3f;
 
 struct MirrorNeeds {
@@ -44,6 +45,9 @@ struct MirrorNeeds {
     /// Of what each face shows but for mirrors, and how it is lit: while the number and the views
     /// of face and shadow maps stay, so do the bytes.
     std::array<std::uint64_t, 6> stamps{};
+    /// Of the same but for what `pieces` has.
+    std::array<std::uint64_t, 6> settings{};
+    std::shared_ptr<const Pieces> pieces; ///< null: they are not told apart
     std::vector<std::uint32_t>
         sees; ///< the other mirrors that its capture shows, from 0, ascending
 };

@@ -57,10 +57,12 @@ void Requirements::Impl::find_captured(std::size_t mirror, bool asks_all) {
     if (!needs.is_captured) {
         listed[mirror] = false;
         needs.sees.clear();
-        needs.stamps = {};
+        needs.stamps = needs.settings = {};
+        needs.pieces = nullptr;
         return;
     }
-    needs.stamps = stamps.of_faces(world, mirror);
+    const Stamps::Faces6& faces = stamps.of_faces(world, mirror);
+    needs.stamps = faces.stamps, needs.settings = faces.settings, needs.pieces = faces.pieces;
     if (listed[mirror] && !sight.has_changed(mirror)) return;
     listed[mirror] = true;
     needs.sees.clear();

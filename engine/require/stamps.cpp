@@ -41,25 +41,18 @@ void Stamps::follow(const World& world, std::uint32_t shadow_edge) {
     is_much_ = landings_.size() * mirrors > kMostLandings;
 }
 
-Faces Stamps::look(const World& world, const dvec3& centre, std::size_t mover) const {
-    const Thing& thing = world.things()[mover];
-    if (thing.box.empty()) return 0;
-    return may_be_small(world, thing) ? kAllFaces
-                                      : faces_with(seen_from(centre, thing.box)) &
-                                            faces_with(thing.middle - centre, thing.radius);
-}
-
-const std::array<std::uint64_t, 6>& Stamps::of_faces(const World& world, std::size_t mirror) {
+const Stamps::Faces6& Stamps::of_faces(const World& world, std::size_t mirror) {
     Faces6& faces = mirrors_[mirror];
     const std::size_t object = world.mirrors()[mirror];
     const Thing& own = world.things()[object];
-    if (faces.made_at == changes_) return faces.stamps;
+    if (faces.made_at == changes_) return faces;
     faces.made_at = changes_;
+    faces.pieces = nullptr;
     if (is_much_ || own.has_moved || own.box.empty())
         faces.stamps.fill(Stamp(all_).add(mirror).value());
     else
         add_up(world, faces, mirror);
-    return faces.stamps;
+    return faces;
 }
 
 void Stamps::add_up(const World& world, Faces6& faces, std::size_t mirror) const {
@@ -68,24 +61,42 @@ void Stamps::add_up(const World& world, Faces6& faces, std::size_t mirror) const
     const dvec3 centre = own.tight.centre();
     // Sums, since the order in which movers are looked at says nothing.
     std::array<std::uint64_t, 6> sums{};
-    const auto add = [&](Faces which, std::uint64_t stamp) {
-        for (std::size_t face = 0; face < 6; ++face)
-            if ((which >> face & 1) != 0) sums[face] += stamp;
+    const auto pieces = std::make_shared<Pieces>();
+    bool are_many = false;
+    const auto add = [&](Faces which, std::uint64_t stamp, auto&& part_of) {
+        for (int face = 0; face < 6; ++face) {
+            if ((which >> face & 1) == 0) continue;
+            sums[face] += stamp;
+            are_many = are_many || pieces->faces[face].size() == kMostPieces;
+            if (!are_many) pieces->faces[face].push_back({stamp, part_of(face)});
+        }
     };
-    for (const std::size_t mover : world.movers())
-        if (mover != object) add(look(world, centre, mover), world.things()[mover].stamp);
+    for (const std::size_t mover : world.movers()) {
+        const Thing& thing = world.things()[mover];
+        if (mover == object || thing.box.empty()) continue;
+        const Bounds<double> box = seen_from(centre, thing.box);
+        if (may_be_small(world, thing))
+            add(kAllFaces, thing.stamp, [](int) { return FacePart(); });
+        else
+            add(faces_with(box) & faces_with(thing.middle - centre, thing.radius), thing.stamp,
+                [&](int face) { return part_with(face, box); });
+    }
     for (const Landing& landing : landings_) {
         if (landing.receiver == object) continue;
-        const std::uint64_t stamp =
-            Stamp(world.things()[landing.caster].stamp).add(landing.receiver).value();
-        const auto& [box, shade] = std::tie(landing.box, landing.shade);
-        add(faces_with(seen_from(centre, box)) &
-                faces_with(seen_from(centre, shade.from), seen_from(centre, shade.to)),
-            stamp);
+        const Bounds<double> box = seen_from(centre, landing.box),
+                             from = seen_from(centre, landing.shade.from),
+                             to = seen_from(centre, landing.shade.to);
+        add(faces_with(box) & faces_with(from, to),
+            Stamp(world.things()[landing.caster].stamp).add(landing.receiver).value(),
+            [&](int face) { return common(part_with(face, box), part_with(face, from, to)); });
     }
-    for (std::size_t face = 0; face < 6; ++face)
-        faces.stamps[face] =
-            Stamp(epoch_).add(own.stamp).add(mirror).add(face).add(sums[face]).value();
+    for (std::size_t face = 0; face < 6; ++face) {
+        faces.settings[face] = Stamp(epoch_).add(own.stamp).add(mirror).add(face).value();
+        faces.stamps[face] = Stamp(faces.settings[face]).add(sums[face]).value();
+    }
+    if (are_many) return;
+    pieces->sort();
+    faces.pieces = pieces;
 }
 
 std::vector<Caster> Stamps::casters(const World& world) const {

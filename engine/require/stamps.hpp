@@ -1,6 +1,7 @@
 #pragma once
 
 #include "require/model.hpp"
+#include "require/pieces.hpp"
 #include "require/shadows.hpp"
 
 #include <vector>
@@ -27,18 +28,19 @@ class Stamps {
 public:
     /// After World::follow. O(movers * (lights * objects + walls)).
     void follow(const World& world, std::uint32_t shadow_edge);
-    /// Of a mirror's six faces; O(movers + landings), nothing where nothing has changed since it
-    /// was asked last.
-    const std::array<std::uint64_t, 6>& of_faces(const World& world, std::size_t mirror);
+    /// Of a mirror's six faces.
+    struct Faces6 {
+        std::uint64_t made_at = 0; ///< value of `changes_`
+        std::array<std::uint64_t, 6> stamps{}, settings{};
+        std::shared_ptr<const Pieces> pieces;
+    };
+    /// See MirrorNeeds. O(movers + landings), nothing where nothing has changed since it was asked
+    /// last.
+    const Faces6& of_faces(const World& world, std::size_t mirror);
     /// Movers that cast shadows.
     std::vector<Caster> casters(const World& world) const;
 
 private:
-    struct Faces6 {
-        std::uint64_t made_at = 0; ///< value of `changes_`
-        std::array<std::uint64_t, 6> stamps{};
-    };
-    Faces look(const World& world, const dvec3& centre, std::size_t mover) const;
     void add_up(const World& world, Faces6& faces, std::size_t mirror) const;
 
     std::vector<Faces6> mirrors_;

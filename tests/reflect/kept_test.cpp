@@ -1,5 +1,6 @@
 // Captures that stay, by models made by hand: which faces are drawn when, and what is there of the
 // others.
+#include "require/pieces.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"
 #include "support/techniques.hpp"
@@ -73,6 +74,51 @@ TEST_F(KeptFrames, DrawTheFacesWhoseStampChanged) {
     model_.mirrors[0].stamps[5] += 1;
     EXPECT_EQ(frame(), Names{"capture/1.6-6"});
     EXPECT_EQ(frame(), Names());
+}
+
+// Nobody tells of the other light, so that texels say by it whether they were drawn.
+TEST_F(KeptFrames, DrawThePartOfAFaceInWhichSomethingMoved) {
+    const std::string technique = "parallax:face=32";
+    for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
+    const auto tell = [&](std::uint64_t stamp, const require::FacePart& part) {
+        const auto pieces = std::make_shared<require::Pieces>();
+        pieces->faces[5] = {{stamp, part}};
+        model_.mirrors[0].pieces = pieces;
+        model_.mirrors[0].stamps[5] += 1;
+    };
+    const auto drawn = [&](const Names& names, const uvec2& first, const uvec2& end) {
+        const std::vector<std::byte> before = colours(0, 5, 1);
+        EXPECT_EQ(frame(technique), names);
+        const std::vector<std::byte> after = colours(0, 5, 1);
+        constexpr std::size_t kTexel = 8; // four halves
+        for (std::uint32_t i = 0; i < 32 * 32; ++i) {
+            const uvec2 at(i % 32, i / 32);
+            const bool is_inside = all(lessThanEqual(first, at)) && all(lessThan(at, end));
+            EXPECT_EQ(std::memcmp(&before[kTexel * i], &after[kTexel * i], kTexel) != 0, is_inside)
+                << at.x << ", " << at.y;
+        }
+    };
+    tell(1, {dvec2(-.5, -.25), dvec2(0)});
+    settle(technique);
+    scene_.update(room_, room_.cameras.front(), kSize, .5);
+    // From where it was to where it is, and a texel around.
+    tell(2, {dvec2(.5, 0), dvec2(.75, .25)});
+    drawn({"capture.keep", "capture/1.6-6"}, {7, 11}, {29, 21});
+    scene_.update(room_, room_.cameras.front(), kSize, 1);
+    tell(3, {dvec2(.5, 0), dvec2(.9, .25)});
+    drawn({"capture.keep", "capture/1.6-6"}, {23, 15}, {32, 21});
+    // Whoever was put off does not know where what he missed had been.
+    most_ = 1;
+    scene_.update(room_, room_.cameras.front(), kSize, 2);
+    model_.mirrors[1].stamps.fill(9), model_.mirrors[1].pieces = nullptr;
+    tell(4, {dvec2(.6, 0), dvec2(.7, .25)});
+    frame(technique); // the first mirror, and a hand's width of it
+    EXPECT_EQ(kept_->waited, (std::vector<std::uint32_t>{0, 1, 0}));
+    tell(5, {dvec2(.6, 0), dvec2(.8, .25)});
+    frame(technique);
+    EXPECT_EQ(kept_->waited, (std::vector<std::uint32_t>{1, 0, 0}));
+    scene_.update(room_, room_.cameras.front(), kSize, 3);
+    drawn({"capture.keep", "capture/1.6-6"}, {0, 0}, {32, 32});
 }
 
 // Of all six faces together, and of each mirror by itself.

@@ -46,6 +46,20 @@ TEST_F(WrongGraph, ReadBeforeWrite) {
                           "layers [0,24)");
 }
 
+TEST_F(WrongGraph, UpdateOfNothing) {
+    g.pass("mend").updates(out, Use::colour, kBlack).area({1, 1, 2, 2}).record(nothing);
+    g.want(out);
+    EXPECT_EQ(refusal(g), "pass 'mend' updates 'out' [0,1) as colour before any pass writes layers "
+                          "[0,1)");
+}
+
+TEST_F(WrongGraph, UpdateOfTheWhole) {
+    make(out);
+    g.pass("mend").updates(out, Use::colour, kBlack).record(nothing);
+    EXPECT_EQ(refusal(g),
+              "pass 'mend' updates 'out' [0,1) as colour, but has no area to do it in");
+}
+
 TEST_F(WrongGraph, ReadOfPartiallyWritten) {
     g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
     g.pass("b").writes(cubes.layers(12, 12), Use::colour, kBlack).layers(12).record(nothing);

@@ -1,0 +1,97 @@
+#include "require/pieces.hpp"
+
+#include "core/shader_math.hpp"
+#include "require/wall.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace catoptric::require {
+
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// The least s in [-1, 1] with aside <= s * ahead for all places, 1 where there is none.
+class Slope {
+public:
+    void add(double aside, double ahead) {
+        if (ahead > 0)
+            least_ = std::max(least_, aside / ahead);
+        else if (ahead < 0)
+            most_ = std::min(most_, aside / ahead);
+        else if (aside > 0)
+            most_ = -kNever;
+    }
+    double value() const { return least_ <= most_ ? std::clamp(least_, -1., 1.) : 1; }
+    /// Nothing of the hull is ahead and on this side of the face's edge, -1.
+    bool is_outside() const { return least_ <= most_ && least_ < -1; }
+
+private:
+    double least_ = -kNever, most_ = kNever;
+};
+
+auto order(const Piece& piece) {
+    const FacePart& part = piece.part;
+    return std::tuple(piece.stamp, part.low.x, part.low.y, part.high.x, part.high.y);
+}
+
+} // namespace
+
+FacePart common(const FacePart& a, const FacePart& b) {
+    return {max(a.low, b.low), min(a.high, b.high)};
+}
+
+FacePart united(const FacePart& a, const FacePart& b) {
+    if (a.empty()) return b;
+    if (b.empty()) return a;
+    return {min(a.low, b.low), max(a.high, b.high)};
+}
+
+FacePart part_with(int face, std::span<const dvec3> places) {
+    const dvec3 right = f64::cube_direction(face, dvec3(1, 0, 0)),
+                down = f64::cube_direction(face, dvec3(0, 1, 0)),
+                forward = f64::cube_direction(face, dvec3(0, 0, 1));
+    std::array<Slope, 4> slopes; // to the right, left, down and up
+    for (const dvec3& place : places) {
+        const double ahead = dot(forward, place), x = dot(right, place), y = dot(down, place);
+        slopes[0].add(x, ahead), slopes[1].add(-x, ahead);
+        slopes[2].add(y, ahead), slopes[3].add(-y, ahead);
+    }
+    if (std::ranges::any_of(slopes, &Slope::is_outside)) return kNoPart;
+    return {dvec2(-slopes[1].value(), -slopes[3].value()),
+            dvec2(slopes[0].value(), slopes[2].value())};
+}
+
+FacePart part_with(int face, const Bounds<double>& box) {
+    return part_with(face, corners_of(box));
+}
+
+FacePart part_with(int face, const Bounds<double>& a, const Bounds<double>& b) {
+    std::array<dvec3, 16> corners;
+    std::ranges::copy(corners_of(b), std::ranges::copy(corners_of(a), corners.begin()).out);
+    return part_with(face, corners);
+}
+
+void Pieces::sort() {
+    for (std::vector<Piece>& pieces : faces)
+        std::ranges::sort(pieces, {}, order);
+}
+
+FacePart differing(std::span<const Piece> before, std::span<const Piece> after) {
+    FacePart part = kNoPart;
+    for (std::size_t i = 0, k = 0; i < before.size() || k < after.size();) {
+        const bool ends = i == before.size() || k == after.size();
+        if (!ends && order(before[i]) == order(after[k])) {
+            ++i, ++k;
+            continue;
+        }
+        const bool is_before = k == after.size() ||
+                               (i < before.size() && order(before[i]) < order(after[k]));
+        part = united(part, (is_before ? before[i++] : after[k++]).part);
+    }
+    return part;
+}
+
+} // namespace catoptric::require

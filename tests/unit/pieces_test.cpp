@@ -1,0 +1,97 @@
+// Parts of faces: rectangles that hold what moves.
+#include "core/shader_math.hpp"
+#include "require/pieces.hpp"
+#include "support/numbers.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::require;
+
+/// Where a face shows a place that is ahead of it.
+dvec2 shown(int face, const dvec3& place) {
+    const dvec3 coordinates = f64::cube_coordinates(face, place);
+    return dvec2(coordinates) / coordinates.z;
+}
+
+bool holds(const FacePart& part, const dvec2& at) {
+    return all(lessThanEqual(part.low, at + 1e-12)) && all(lessThanEqual(at, part.high + 1e-12));
+}
+
+TEST(Pieces, OfABoxAheadReachFromCornerToCorner) {
+    // +X sees -Z on its right and -Y below; (2, 4) ahead: the near side is the wider one.
+    const FacePart part = part_with(0, {{2, -.5, .2}, {4, .5, 1}});
+    EXPECT_EQ(part.low, dvec2(-.5, -.25));
+    EXPECT_EQ(part.high, dvec2(-.05, .25));
+    // What goes on beyond the edge ends there.
+    EXPECT_EQ(part_with(0, {{2, -.5, .2}, {4, .5, 3}}).low, dvec2(-1, -.25));
+    // Of the hull of two, what lies between them as well.
+    const FacePart both = part_with(0, {{2, -.5, .2}, {4, .5, 1}}, {{2, 1, -1}, {2, 1, -1}});
+    EXPECT_EQ(both.low, dvec2(-.5, -.5));
+    EXPECT_EQ(both.high, dvec2(.5, .25));
+}
+
+TEST(Pieces, AreNoneBehindOrBesideAndAllAround) {
+    const Bounds<double> right{{2, -.5, -.5}, {4, .5, .5}};
+    for (int face = 1; face < 6; ++face) EXPECT_TRUE(part_with(face, right).empty()) << face;
+    for (int face = 0; face < 6; ++face)
+        EXPECT_TRUE(part_with(face, {dvec3(-1), dvec3(2)}).is_whole()) << face;
+    // A floor that begins behind the centre: to the horizon's lower half, its whole width.
+    const FacePart floor = part_with(0, {{-3, -1.5, -9}, {6, -1, 9}});
+    EXPECT_EQ(floor.low, dvec2(-1, 1 / 6.));
+    EXPECT_EQ(floor.high, dvec2(1));
+}
+
+TEST(Pieces, HoldEveryPlaceOfABoxAndOfAHull) {
+    test::Numbers numbers(7);
+    const auto place = [&](double size) {
+        return size * dvec3(numbers.between(-1, 1), numbers.between(-1, 1), numbers.between(-1, 1));
+    };
+    int inside = 0, partly = 0;
+    for (int k = 0; k < 400; ++k) {
+        std::array<Bounds<double>, 2> boxes;
+        for (Bounds<double>& box : boxes) {
+            const dvec3 middle = place(3), half = abs(place(1.5));
+            box = {middle - half, middle + half};
+        }
+        for (int face = 0; face < 6; ++face) {
+            const FacePart one = part_with(face, boxes[0]),
+                           both = part_with(face, boxes[0], boxes[1]);
+            partly += !one.empty() && !one.is_whole() ? 1 : 0;
+            for (int i = 0; i < 40; ++i) {
+                std::array<dvec3, 2> at;
+                for (std::size_t box = 0; box < 2; ++box)
+                    at[box] = mix(boxes[box].lo, boxes[box].hi, place(.5) + .5);
+                const dvec3 between = mix(at[0], at[1], numbers.between(0, 1));
+                for (const auto& [where, part] : {std::pair(at[0], one), {between, both}}) {
+                    if (f64::cube_face(where) != face) continue;
+                    ++inside;
+                    EXPECT_TRUE(holds(part, shown(face, where))) << k << ", face " << face;
+                }
+            }
+        }
+    }
+    EXPECT_GT(inside, 20000);
+    EXPECT_GT(partly, 400);
+}
+
+TEST(Pieces, DifferByWhatOneOfTwoStatesHas) {
+    const FacePart a{dvec2(-1), dvec2(-.5)}, b{dvec2(0), dvec2(.25)}, c{dvec2(.5), dvec2(.75)};
+    const auto states = [](std::vector<Piece> before, std::vector<Piece> after) {
+        Pieces old, now;
+        old.faces[2] = std::move(before), now.faces[2] = std::move(after);
+        old.sort(), now.sort();
+        return differing(old.faces[2], now.faces[2]);
+    };
+    EXPECT_TRUE(states({}, {}).empty());
+    EXPECT_TRUE(states({{9, a}, {4, b}}, {{4, b}, {9, a}}).empty());
+    EXPECT_EQ(states({{9, a}, {4, b}}, {{4, b}}), a) << "it has gone";
+    EXPECT_EQ(states({{4, b}}, {{4, b}, {9, c}}), c) << "it has come";
+    EXPECT_EQ(states({{4, b}}, {{5, c}}), united(b, c)) << "both, where it was and where it is";
+    EXPECT_EQ(states({{4, b}}, {{4, c}}), united(b, c)) << "the shadow of what stays, elsewhere";
+    EXPECT_EQ(states({{4, b}, {4, b}, {4, c}}, {{4, b}, {4, c}}), b) << "one of two alike";
+}
+
+} // namespace
