@@ -130,8 +130,8 @@ struct Pass {
     std::vector<ImageUse> images; ///< in order of declaration
     std::vector<BufferUse> buffers;
     std::uint32_t layer_count = 1; ///< layers rendered at once
-    /// All that is cleared and drawn of attachments; what they hold elsewhere is nobody's, unless it
-    /// stays. Nothing: the whole. No part of the shape: it may differ from frame to frame.
+    /// All that is cleared and drawn of attachments; what they hold elsewhere is nobody's, unless
+    /// it stays. Nothing: the whole. No part of the shape: it may differ from frame to frame.
     std::optional<Area> area;
     std::function<void(Commands&)> body;
 

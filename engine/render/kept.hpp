@@ -18,9 +18,9 @@ namespace catoptric::render {
 
 /// A face of a mirror's capture.
 struct KeptFace {
-    std::uint64_t stamp = 0;   ///< of what it shows but for mirrors; 0: of nothing any more
-    std::uint64_t drawing = 0; ///< which picture it is: the same number, the same bytes; 0: none
-    bool is_behind = false;    ///< it was to be drawn anew and was put off
+    std::uint64_t stamp = 0;    ///< of what it shows but for mirrors; 0: of nothing any more
+    std::uint64_t drawing = 0;  ///< which picture it is: the same number, the same bytes; 0: none
+    bool is_behind = false;     ///< it was to be drawn anew and was put off
     std::uint64_t settings = 0; ///< of what it shows but for mirrors and `pieces`
     std::shared_ptr<const require::Pieces> pieces; ///< of the mirror, when the stamp was this
     bool operator==(const KeptFace&) const = default;

@@ -23,8 +23,8 @@ std::optional<graph::Image> add_shadow(graph::Graph& graph, const FrameInputs& i
                                        const std::string& suffix = "");
 
 /// One pass a mirror that has a capture, all faces that are drawn at once (neighbours, where some
-/// are not); two with a second layer. `looks`: of the other mirrors; mirror n is left out of its
-/// own capture.
+/// are not; each by itself of which only a part is); two with a second layer. `looks`: of the other
+/// mirrors; mirror n is left out of its own capture.
 void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
                   Looks looks, const CaptureWork& work = {});
 

@@ -64,9 +64,7 @@ FacePart part_with(int face, std::span<const dvec3> places) {
             dvec2(slopes[0].value(), slopes[2].value())};
 }
 
-FacePart part_with(int face, const Bounds<double>& box) {
-    return part_with(face, corners_of(box));
-}
+FacePart part_with(int face, const Bounds<double>& box) { return part_with(face, corners_of(box)); }
 
 FacePart part_with(int face, const Bounds<double>& a, const Bounds<double>& b) {
     std::array<dvec3, 16> corners;
@@ -75,8 +73,7 @@ FacePart part_with(int face, const Bounds<double>& a, const Bounds<double>& b) {
 }
 
 void Pieces::sort() {
-    for (std::vector<Piece>& pieces : faces)
-        std::ranges::sort(pieces, {}, order);
+    for (std::vector<Piece>& pieces : faces) std::ranges::sort(pieces, {}, order);
 }
 
 FacePart differing(std::span<const Piece> before, std::span<const Piece> after) {

@@ -49,7 +49,8 @@ std::string kept_text(const Model& model) {
         << "kept: " << faces << (faces == 1 ? " face" : " faces") << " of captures, " << maps
         << (maps == 1 ? " shadow map" : " shadow maps")
         << "\n    why: what they show stays until something in it moves, is lit in another way or "
-           "mirrors something else\n    saves: each of them in each frame in which it stays\n"
+           "mirrors something else\n    saves: each of them in each frame in which it stays; of a face in which something "
+           "moves what lies around it\n"
            "    changes: no pixel; in a mirror that nobody saw before, other such mirrors appear a "
            "bounce a frame\n";
     return text.str();

@@ -139,7 +139,7 @@ dvec3 ray_of(int face, int k) {
 
 /// What rays of one face of a capture meet, and which lights shine there.
 std::vector<std::vector<double>> seen_in_face(const test::Tree& tree, const scene::Scene& now,
-                                 std::size_t mirror, int face) {
+                                              std::size_t mirror, int face) {
     const dvec3 centre = scene::bounds(now, now.objects[mirror]).centre();
     const std::vector<scene::PointLight> lights = scene::lights(now);
     std::vector<std::vector<double>> seen;

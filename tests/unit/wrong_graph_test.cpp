@@ -56,8 +56,7 @@ TEST_F(WrongGraph, UpdateOfNothing) {
 TEST_F(WrongGraph, UpdateOfTheWhole) {
     make(out);
     g.pass("mend").updates(out, Use::colour, kBlack).record(nothing);
-    EXPECT_EQ(refusal(g),
-              "pass 'mend' updates 'out' [0,1) as colour, but has no area to do it in");
+    EXPECT_EQ(refusal(g), "pass 'mend' updates 'out' [0,1) as colour, but has no area to do it in");
 }
 
 TEST_F(WrongGraph, ReadOfPartiallyWritten) {

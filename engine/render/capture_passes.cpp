@@ -1,0 +1,136 @@
+// Captures of mirrors' surroundings: all that is drawn anew of them.
+#include "core/half.hpp"
+#include "render/draw.hpp"
+#include "render/face_area.hpp"
+#include "render/pass_faces.hpp"
+#include "render/passes.hpp"
+
+#include <limits>
+
+namespace catoptric::render {
+
+namespace {
+
+using graph::Clear;
+using graph::Commands;
+using graph::Image;
+using graph::Tag;
+using graph::Use;
+
+/// They are cleared; with an area within it, and keep what is around it.
+void write_cubes(graph::PassBuilder& pass, const CaptureOptions& options, const Cubes& cubes,
+                 const std::optional<graph::Area>& area = {}) {
+    // "Nothing there" is +infinity; unorm8 has none, so there it is the end of the range.
+    const float nothing = options.distance == Format::r8_unorm
+                              ? 1.0f
+                              : std::numeric_limits<float>::infinity();
+    const auto write = [&](Image image, const Clear& clear) {
+        area ? pass.updates(image, Use::colour, clear) : pass.writes(image, Use::colour, clear);
+    };
+    write(cubes.colour, kBlack);
+    if (cubes.distance) write(*cubes.distance, Clear{nothing, 0, 0, 0});
+    if (cubes.surfaces) write(*cubes.surfaces, Clear{});
+    if (area) pass.area(*area);
+}
+
+/// Whether the part shows some of the object.
+bool may_show(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
+              const require::FacePart& part, std::size_t object) {
+    return part.is_whole() ||
+           !common(part, part_with(scene.views()[scene.capture_view(mirror) + face],
+                                   static_cast<int>(face), scene.ranges()[object].bounds))
+                .empty();
+}
+
+/// Faces of a mirror; with `peeled`, of what lies behind these distances.
+void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
+                 const Faces& faces, const std::string& pass_name, const Cubes& cubes,
+                 const std::shared_ptr<const Looks>& looks, std::optional<Image> peeled,
+                 const require::FacePart& changing) {
+    const std::string name = inputs.prefix + pass_name;
+    const Image depth = graph.image(
+        {name + ".depth", Format::d32f, options.face, options.face, faces.count, faces.count == 6});
+    graph::PassBuilder pass = graph.pass(name, Tag::scene);
+    read_surroundings(pass, options.lighting, *looks);
+    if (peeled) pass.reads(*peeled, Use::sampled);
+    const require::FacePart part = in_texels(changing, options.face);
+    write_cubes(pass, options, cubes, area_of(part, options.face));
+    Drawing drawing{.first_view = inputs.scene.capture_view(faces.owner) + faces.first,
+                    .layers = faces.count,
+                    .lighting = options.lighting,
+                    .looks = looks,
+                    .store = {{"distance_scale", 1 / options.stored_unit}},
+                    .peeled = peeled};
+    if (options.colour == Format::rgba16f && options.saturates)
+        drawing.store.emplace_back("largest_colour", kLargestHalf);
+    if (cubes.surfaces) drawing.store.emplace_back("keeps_surface", 1u);
+    if (peeled && options.distance == Format::r8_unorm)
+        drawing.store.emplace_back("half_step", 0.5f / 255);
+    pass.writes(depth, Use::depth, kFarthest)
+        .layers(faces.count)
+        .record([&scene = inputs.scene, mirror = faces.owner, face = faces.first, part,
+                 drawing = std::move(drawing),
+                 leaves_out = options.leaves_out_spheres](Commands& commands) {
+            draw_scene(commands, scene, drawing, [&](std::size_t object) {
+                const DrawRange& range = scene.ranges()[object];
+                return object != scene.mirror_object(mirror) &&
+                       !(leaves_out && range.mirror && range.exact_sphere && !range.lit) &&
+                       may_show(scene, mirror, face, part, object);
+            });
+            if (!drawing.peeled)
+                draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
+        });
+}
+
+/// Faces that nobody looks at hold nothing.
+void add_clear(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
+               const Faces& faces, const std::string& name, const Cubes& cubes) {
+    graph::PassBuilder pass = graph.pass(inputs.prefix + name_of(name, faces) + ".clear");
+    write_cubes(pass, options, cubes);
+    if (cubes.colour2)
+        write_cubes(pass, options, {cubes.face, *cubes.colour2, cubes.distance2, {}, {}, {}});
+    pass.layers(faces.count).record([](Commands&) {});
+}
+
+} // namespace
+
+void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
+                  Looks looks, const CaptureWork& work) {
+    const auto shared = std::make_shared<const Looks>(std::move(looks));
+    for (std::uint32_t mirror = 0; mirror < captures.options.size(); ++mirror) {
+        if (!captures.places[mirror].exists()) continue;
+        const auto& [array, cube] = captures.places[mirror];
+        const CaptureOptions& options = captures.options[mirror];
+        const std::string number = "/" + std::to_string(mirror + 1);
+        const auto draw = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
+                              std::uint32_t first, std::uint32_t end) {
+            const Faces faces{mirror, first, end - first};
+            const require::FacePart changing = work.part(mirror, first);
+            const Cubes part = part_of(cubes, first_layer + first, faces.count);
+            const Cubes front{part.face, part.colour, part.distance, {}, {}, part.surfaces};
+            add_capture(graph, inputs, options, faces, name_of(captures.name + number, faces),
+                        front, shared, {}, changing);
+            if (part.colour2)
+                add_capture(graph, inputs, options, faces,
+                            name_of(captures.name + "2" + number, faces),
+                            {part.face, *part.colour2, part.distance2, {}, {}, {}}, shared,
+                            part.distance, changing);
+        };
+        const auto clear = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
+                               std::uint32_t first, std::uint32_t end) {
+            add_clear(graph, inputs, options, {mirror, first, end - first}, captures.name + number,
+                      part_of(cubes, first_layer + first, end - first));
+        };
+        for_each_run(
+            [&](std::uint32_t face) {
+                return work.is_drawn(mirror, face) && work.part(mirror, face).is_whole();
+            },
+            draw);
+        for (std::uint32_t face = 0; face < 6; ++face)
+            if (!work.part(mirror, face).is_whole()) draw(face, face + 1);
+        for_each_run([&](std::uint32_t face) { return work.of(mirror, face) == FaceWork::clear; },
+                     clear);
+    }
+}
+
+} // namespace catoptric::render

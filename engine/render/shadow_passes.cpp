@@ -1,0 +1,92 @@
+// Shadow maps: all of them, or what is to be drawn anew.
+#include "core/stamp.hpp"
+#include "render/draw.hpp"
+#include "render/pass_faces.hpp"
+#include "render/passes.hpp"
+#include "render/views.hpp"
+
+#include <array>
+
+namespace catoptric::render {
+
+namespace {
+
+using graph::Commands;
+using graph::Image;
+using graph::Tag;
+using graph::Use;
+
+/// Of what a face of a light's shadow map may show, and of the view that it is drawn with.
+std::uint64_t shadow_stamp(const GpuScene& scene, const require::Model& model, std::uint32_t light,
+                           std::uint32_t face) {
+    const require::LightNeeds& needs = model.lights[light];
+    Stamp stamp;
+    stamp.add(needs.has_map);
+    if (!needs.has_map || face >= scene.drawn_shadow_faces(light)) return stamp.value();
+    const shared::View& view = scene.views()[scene.shadow_view(light) + face];
+    stamp.add(needs.stamp).add(view);
+    stamp.add_all(std::span(scene.backdrops(light)));
+    for (const require::Caster& caster : model.casters)
+        if (may_meet(view, scene.ranges()[caster.object]))
+            stamp.add(caster.object).add(caster.stamp);
+    return stamp.value();
+}
+
+/// Neighbouring faces of a light's shadow map; without a map nothing is nearer than what is lit.
+void add_shadow_faces(graph::Graph& graph, const GpuScene& scene, std::uint32_t light,
+                      const Faces& faces, bool has_map, const std::string& name, Image part) {
+    graph.pass(name, Tag::scene)
+        .writes(part, Use::depth, kFarthest)
+        .layers(faces.count)
+        .record([&scene, light, faces, has_map](Commands& commands) {
+            const std::uint32_t drawn = scene.drawn_shadow_faces(light);
+            if (!has_map || faces.first >= drawn) return;
+            scene.bind(commands);
+            for (const bool masked : {false, true})
+                draw_fronts(commands, scene, {"", masked ? "masked.frag" : "", {}},
+                            scene.shadow_view(light) + faces.first,
+                            std::min(faces.count, drawn - faces.first), 0, [&](std::size_t i) {
+                                const DrawRange& range = scene.ranges()[i];
+                                return range.casts_shadow && range.masked == masked &&
+                                       !scene.backdrops(light)[i];
+                            });
+        });
+}
+
+} // namespace
+
+std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, std::uint32_t edge,
+                                const require::Model& model, const std::string& suffix) {
+    const GpuScene& scene = inputs.scene;
+    if (scene.light_count() == 0) return std::nullopt;
+    const std::uint32_t faces = scene.shadow_faces();
+    const graph::ImageDesc desc{inputs.prefix + "shadow_map" + suffix, Format::d32f, edge, edge,
+                                faces * scene.light_count()};
+    const Image map = model.is_everything ? graph.image(desc) : graph.kept(desc);
+    for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
+        const bool has_map = model.is_everything || model.lights[light].has_map;
+        const std::string name = scene.light_count() == 1 ? "shadow"
+                                                          : "shadow/" + std::to_string(light + 1);
+        const auto part = [&](std::uint32_t first, std::uint32_t count) {
+            return map.layers(faces * light + first, count);
+        };
+        std::array<std::uint64_t, 6> stamps{};
+        for (std::uint32_t face = 0; face < faces && !model.is_everything; ++face)
+            stamps[face] = shadow_stamp(scene, model, light, face);
+        const auto is_drawn = [&](std::uint32_t face) {
+            return face < faces &&
+                   (model.is_everything || !graph.holds(part(face, 1), stamps[face]));
+        };
+        for_each_run(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
+            const Faces run{light, first, end - first};
+            for (std::uint32_t face = first; face < end && !model.is_everything; ++face)
+                graph.made_from(part(face, 1), stamps[face]);
+            const std::string text = run.count == faces ? name : name_of(name, run);
+            add_shadow_faces(graph, scene, light, run, has_map, inputs.prefix + text + suffix,
+                             part(first, run.count));
+        });
+    }
+    return map;
+}
+
+} // namespace catoptric::render
