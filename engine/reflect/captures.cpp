@@ -46,8 +46,12 @@ render::MirrorLook look_into(const Surroundings& around, std::string fragment,
                                          {"captures", "asks_others"},
                                          {"show", "show"}})
         if (settings.has(knob)) set(constant, settings.integer(knob));
-    const std::uint32_t array = around.captures->places[around.mirrors.front()].array;
-    if (around.captures->arrays[array].surfaces) set("has_surfaces", 1);
+    // Of those that share it all captures keep them, or none; not every mirror is captured.
+    if (std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
+            const render::Cubes* const cubes = around.captures->array_of(mirror);
+            return cubes && cubes->surfaces;
+        }))
+        set("has_surfaces", 1);
     look.captures = around.captures;
     return look;
 }

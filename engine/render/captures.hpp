@@ -61,6 +61,11 @@ struct Captures {
     /// Of each mirror's faces, where captures are kept: with the same options the same number, the
     /// same texels.
     std::vector<std::array<std::uint64_t, 6>> drawings;
+
+    /// That a mirror's capture is part of; null: it has none.
+    const Cubes* array_of(std::uint32_t mirror) const {
+        return places[mirror].exists() ? &arrays[places[mirror].array] : nullptr;
+    }
 };
 
 /// Declares the arrays, one for each size and format that some mirror wants and as many more as the
