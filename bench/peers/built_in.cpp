@@ -32,7 +32,7 @@ bool check_prototypes(app::Session& session, app::Request request, Prototypes& p
     bool same = true;
     for (const std::string& name : Prototypes::tracers()) {
         const std::size_t other = other_pixels(traced, prototypes.read(name));
-        std::printf("%-22s %zu pixels differ by more than %g\n", name.c_str(), other,
+        std::printf("%-23s %zu pixels differ by more than %g\n", name.c_str(), other,
                     static_cast<double>(kSame));
         same = same && other <= kMostOther;
     }
@@ -46,7 +46,7 @@ bool check_prototypes(app::Session& session, app::Request request, Prototypes& p
             const vec3 apart = ours.pixels[i] - vec3(theirs[i].x, theirs[i].y, theirs[i].z);
             squares += dot(dvec3(apart), dvec3(apart)) / 3;
         }
-        std::printf("%-22s rmse %.4f from %s, %zu pixels differ by more than %g\n",
+        std::printf("%-23s rmse %.4f from %s, %zu pixels differ by more than %g\n",
                     Prototypes::name_of(face).c_str(),
                     std::sqrt(squares / static_cast<double>(theirs.size())), technique,
                     other_pixels(ours, theirs), static_cast<double>(kSame));

@@ -40,7 +40,7 @@ Shown show(const EmbreeDevice& device, std::shared_ptr<app::Session> session, ap
     request.techniques = {pair.technique};
     const app::Part ours = session->frame(request).read();
     const app::RayCounts rays = ours.rays.value();
-    std::printf("%-22s %llu rays\n", our_name(pair.name).c_str(),
+    std::printf("%-23s %llu rays\n", our_name(pair.name).c_str(),
                 static_cast<unsigned long long>(rays.primary + rays.mirror + rays.shadow));
     Shown shown{.same = true};
     shown.subjects.push_back(app::frame_subject(std::move(session), request, frames));
@@ -50,7 +50,7 @@ Shown show(const EmbreeDevice& device, std::shared_ptr<app::Session> session, ap
         const Traced theirs = peer->trace(width, threads);
         const std::size_t other = other_pixels(ours.hdr, theirs.pixels);
         const std::string name = peer_name(pair.name, width);
-        std::printf("%-22s %llu rays, %zu pixels differ by more than %g\n", name.c_str(),
+        std::printf("%-23s %llu rays, %zu pixels differ by more than %g\n", name.c_str(),
                     static_cast<unsigned long long>(theirs.rays.all()), other,
                     static_cast<double>(kSame));
         shown.same = shown.same && other <= kMostOther;
@@ -63,7 +63,7 @@ Shown show(const EmbreeDevice& device, std::shared_ptr<app::Session> session, ap
 
 void print(const Benchmark& benchmark, const char* what, double millions) {
     const double ms = measure::percentile(costs_of(benchmark, Cost::real_time), .5);
-    std::printf("%-22s %9.2f ms %9.2f ms of processors", benchmark.name.c_str(), ms,
+    std::printf("%-23s %9.2f ms %9.2f ms of processors", benchmark.name.c_str(), ms,
                 measure::percentile(costs_of(benchmark, Cost::cpu_time), .5));
     if (benchmark.rounds.front().cycles)
         std::printf(" %9.1f Mcycles",
@@ -77,7 +77,7 @@ void print_ratio(const Benchmark& a, const Benchmark& b) {
     const measure::Ratio ratio = measure::ratio_of(costs_of(a, cost), costs_of(b, cost));
     const measure::Ratio real = measure::ratio_of(costs_of(a, Cost::real_time),
                                                   costs_of(b, Cost::real_time));
-    std::printf("%-19s / %-22s %6.3f [%.3f - %.3f] of %s, %6.3f [%.3f - %.3f] on the clock\n",
+    std::printf("%-19s / %-23s %6.3f [%.3f - %.3f] of %s, %6.3f [%.3f - %.3f] on the clock\n",
                 a.name.c_str(), b.name.c_str(), ratio.median, ratio.ci95.low, ratio.ci95.high,
                 measure::name_of(cost).c_str(), real.median, real.ci95.low, real.ci95.high);
 }

@@ -54,7 +54,7 @@ bool meet_the_same(const std::string& name, const std::vector<Met>& ours,
         triangles += theirs[i].triangle != ours[i].triangle;
         places += is_elsewhere(theirs[i], ours[i]);
     }
-    std::printf("%-22s %zu rays, %zu hits; %zu another triangle, %zu another place\n", name.c_str(),
+    std::printf("%-23s %zu rays, %zu hits; %zu another triangle, %zu another place\n", name.c_str(),
                 theirs.size(), hits_of(theirs), triangles, places);
     return places <= kMostOther;
 }
@@ -71,7 +71,7 @@ bool compare_rays(const Bench& bench, const NamedScene& of) {
     RayList list(device, pipelines, triangles, rays);
     list.trace();
     const std::vector<Met> ours = list.read();
-    std::printf("%-22s %zu rays, %zu hits\n", our_name(name).c_str(), ours.size(), hits_of(ours));
+    std::printf("%-23s %zu rays, %zu hits\n", our_name(name).c_str(), ours.size(), hits_of(ours));
     bool same = std::ranges::count(ours, Met::kUntraced, &Met::triangle) == 0;
     EmbreeScene tree(bench.device, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
     tree.add_and_release(triangle_geometry(bench.device, triangles));
