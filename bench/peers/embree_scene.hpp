@@ -50,8 +50,7 @@ inline RTCGeometry triangle_geometry(const EmbreeDevice& device,
     return geometry;
 }
 
-/// The tree over geometries, numbered in the order in which they were added; the device must
-/// outlive it.
+/// The tree over geometries; the device must outlive it.
 class EmbreeScene {
 public:
     EmbreeScene(const EmbreeDevice& device, RTCSceneFlags flags, RTCBuildQuality quality)
@@ -65,9 +64,12 @@ public:
 
     RTCScene get() const { return scene_; }
 
-    void add(RTCGeometry geometry) { rtcAttachGeometry(scene_, geometry); }
-    void add_and_release(RTCGeometry geometry) {
-        add(geometry);
+    /// `number`: no other's of the scene; comes back with a hit.
+    void add(RTCGeometry geometry, unsigned number = 0) {
+        rtcAttachGeometryByID(scene_, geometry, number);
+    }
+    void add_and_release(RTCGeometry geometry, unsigned number = 0) {
+        add(geometry, number);
         rtcReleaseGeometry(geometry);
     }
     void commit() {

@@ -106,7 +106,8 @@ Real dot(Three<Real> a, Three<Real> b) {
 }
 template <typename Real>
 Three<Real> normalize(Three<Real> a) {
-    return (Real{} + 1.0f) / root(dot(a, a)) * a;
+    const Real length = root(dot(a, a));
+    return {a.x / length, a.y / length, a.z / length};
 }
 template <typename Mask, typename Real>
 Three<Real> select(Mask mask, Three<Real> a, Three<Real> b) {
@@ -120,5 +121,10 @@ template <typename Real>
 void put(Three<Real>& to, int i, Vector v) {
     put(to.x, i, v.x), put(to.y, i, v.y), put(to.z, i, v.z);
 }
+template <typename Real>
+Three<float> lane(const Three<Real>& a, int i) {
+    return {lane(a.x, i), lane(a.y, i), lane(a.z, i)};
+}
+inline Vector plain(Three<float> a) { return {a.x, a.y, a.z}; }
 
 } // namespace peers

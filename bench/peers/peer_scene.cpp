@@ -1,7 +1,7 @@
 #include "peer_scene.hpp"
 
-#include "render/geometry.hpp"
 #include "render/views.hpp"
+#include "scene/texel.hpp"
 #include "spheres.hpp"
 
 #include <algorithm>
@@ -14,10 +14,38 @@ namespace {
 
 Vector plain(const vec3& v) { return {v.x, v.y, v.z}; }
 
-Surface surface_of(const scene::Scene& scene, const scene::Object& object) {
+Surface surface_of(const scene::Scene& scene, const scene::Object& object,
+                   const render::DrawRange& range) {
     const scene::Material& material = scene.materials[object.material];
-    return {plain(material.albedo), plain(material.emission), plain(material.reflectance),
-            scene::is_mirror(scene, object)};
+    Surface surface{.albedo = plain(material.albedo), .emission = plain(material.emission)};
+    surface.is_mirror = scene::is_mirror(scene, object);
+    surface.is_sharp = range.varies && !surface.is_mirror &&
+                       material.roughness <= scene.mirror_max_roughness;
+    surface.turns = range.turns;
+    if (surface.is_mirror) surface.reflectance = plain(material.reflectance);
+    if (surface.is_sharp) surface.reflectance = plain(material.dielectric_f0);
+    if (material.albedo_texture) surface.texture = object.material;
+    return surface;
+}
+
+/// Of a material's albedo; empty where it has none.
+Texture texture_of(const scene::Material& material) {
+    if (!material.albedo_texture) return {};
+    const scene::Image& image = *material.albedo_texture->image;
+    Texture texture{{}, static_cast<int>(image.size.x), static_cast<int>(image.size.y)};
+    for (const std::uint32_t texel : image.texels)
+        texture.texels.push_back({scene::linear_from_srgb(texel & 255),
+                                  scene::linear_from_srgb(texel >> 8 & 255),
+                                  scene::linear_from_srgb(texel >> 16 & 255)});
+    return texture;
+}
+
+/// The geometry's triangles are no longer in the way of shadow rays.
+void let_shadow_rays_pass(RTCGeometry geometry) {
+    rtcSetGeometryOccludedFilterFunction(geometry, [](const RTCFilterFunctionNArguments* asked) {
+        std::fill_n(asked->valid, asked->N, 0);
+    });
+    rtcCommitGeometry(geometry);
 }
 
 /// Triangle k of the geometry, of one object.
@@ -45,38 +73,67 @@ void PeerScene::add_objects(const EmbreeDevice& device, const app::Request& requ
     const scene::Scene& scene = request.scene;
     const render::Space space = render::space_of(scene);
     const render::Geometry geometry = render::make_geometry(scene::at(scene, request.time), space);
+    std::ranges::transform(scene.materials, std::back_inserter(whitted_.textures), texture_of);
     std::vector<bvh::Triangle> triangles;
+    std::vector<std::size_t> lamps; // which shadow rays would meet from within
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
-        whitted_.surfaces.push_back(surface_of(scene, object));
+        const render::DrawRange& range = geometry.ranges[i];
+        whitted_.surfaces.push_back(surface_of(scene, object, range));
         if (exact && object.sphere) {
             whitted_.spheres.push_back(
                 {plain(space.point(object.sphere->centre)), space.length(object.sphere->radius)});
             whitted_.sphere_objects.push_back(static_cast<std::uint32_t>(i));
-            continue;
-        }
-        const render::DrawRange& range = geometry.ranges[i];
-        for (std::size_t k = range.first_index / 3; k < (range.first_index + range.index_count) / 3;
-             ++k) {
-            const auto normal = [&](std::size_t j) {
-                return plain(geometry.vertices[geometry.indices[3 * k + j]].normal);
-            };
-            triangles.push_back(triangle_at(geometry, k));
-            whitted_.normals.push_back({normal(0), normal(1), normal(2)});
-            whitted_.triangle_objects.push_back(static_cast<std::uint32_t>(i));
+        } else if (!range.casts_shadow && !range.one_sided) {
+            lamps.push_back(i);
+        } else {
+            add_triangles(geometry, i, triangles);
         }
     }
-    tree_.add_and_release(triangle_geometry(device, triangles));
-    if (exact) tree_.add_and_release(user_spheres(device.get(), whitted_.spheres));
+    whitted_.first_lamp = triangles.size();
+    for (const std::size_t lamp : lamps) add_triangles(geometry, lamp, triangles);
+    const std::span all(triangles);
+    tree_.add_and_release(triangle_geometry(device, all.first(whitted_.first_lamp)), kTriangles);
+    if (exact) tree_.add_and_release(user_spheres(device.get(), whitted_.spheres), kSpheres);
+    if (lamps.empty()) return;
+    RTCGeometry geometry_of_lamps = triangle_geometry(device, all.subspan(whitted_.first_lamp));
+    let_shadow_rays_pass(geometry_of_lamps);
+    tree_.add_and_release(geometry_of_lamps, kLamps);
+}
+
+void PeerScene::add_triangles(const render::Geometry& geometry, std::size_t object,
+                              std::vector<bvh::Triangle>& triangles) {
+    const render::DrawRange& range = geometry.ranges[object];
+    const auto place = [&](std::uint32_t vertex) {
+        if (!range.first_attribute) return Place{};
+        const vec4& uv =
+            geometry.attributes[*range.first_attribute + vertex - range.first_vertex].uv;
+        return Place{uv.x, uv.y};
+    };
+    for (std::size_t k = range.first_index / 3; k < (range.first_index + range.index_count) / 3;
+         ++k) {
+        const std::uint32_t* const corners = &geometry.indices[3 * k];
+        const auto normal = [&](int j) { return plain(geometry.vertices[corners[j]].normal); };
+        triangles.push_back(triangle_at(geometry, k));
+        whitted_.normals.push_back({normal(0), normal(1), normal(2)});
+        whitted_.places.push_back({place(corners[0]), place(corners[1]), place(corners[2])});
+        whitted_.triangle_objects.push_back(static_cast<std::uint32_t>(object));
+    }
 }
 
 void PeerScene::add_view(const app::Request& request) {
     const render::Space space = render::space_of(request.scene);
-    const scene::PointLight light = scene::lights(request.scene).at(0);
-    whitted_.light_position = plain(space.point(light.position));
-    whitted_.light_normal = plain(vec3(light.normal));
-    whitted_.light_intensity = plain(light.emission *
-                                     static_cast<float>(light.area * space.scale * space.scale));
+    for (const scene::PointLight& light : scene::lights(request.scene)) {
+        Light& added = whitted_.lights.emplace_back();
+        const double area = light.area * space.scale * space.scale;
+        added.position = plain(space.point(light.position));
+        added.normal = plain(vec3(light.normal));
+        added.intensity = plain(light.emission * static_cast<float>(area));
+        added.is_spot = light.axis != dvec3(0);
+        added.axis = plain(vec3(light.axis));
+        added.cos_outer = static_cast<float>(light.cos_outer);
+        added.sharpness = static_cast<float>(1 / std::max(.001, light.cos_inner - light.cos_outer));
+    }
     whitted_.ambient = static_cast<float>(request.ambient);
     const shared::View view = render::camera_view(request.camera, space, request.size, 1);
     whitted_.eye = plain(view.eye), whitted_.forward = plain(view.forward);

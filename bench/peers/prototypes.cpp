@@ -1,7 +1,6 @@
 #include "prototypes.hpp"
 
 #include "capture_prototype.hpp"
-#include "prototype_shaders.hpp"
 #include "trace_prototype.hpp"
 
 #include <map>
@@ -17,10 +16,6 @@ constexpr std::pair<const char*, Tree> kTracers[] = {{"prototype/stack", Tree::s
                                                      {"prototype/links", Tree::skip_links}};
 constexpr int kFaces[] = {64, 256, 512};
 
-void add_shaders() {
-    for (const gpu::EmbeddedShader& shader : prototype_shaders()) gpu::add_shader(shader);
-}
-
 } // namespace
 
 struct Prototypes::Impl {
@@ -30,9 +25,8 @@ struct Prototypes::Impl {
     std::map<std::string, std::unique_ptr<CapturePrototype>> captures;
 };
 
-Prototypes::Prototypes(const app::Request& request, const PeerScene& mesh) {
-    add_shaders();
-    impl_ = std::make_unique<Impl>();
+Prototypes::Prototypes(const app::Request& request, const PeerScene& mesh)
+    : impl_(std::make_unique<Impl>()) {
     const std::vector<bvh::Triangle> triangles = triangles_of(request.scene);
     for (const auto& [name, tree] : kTracers)
         impl_->tracers[name] = std::make_unique<TracePrototype>(impl_->device, impl_->pipelines,

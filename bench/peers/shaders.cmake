@@ -1,4 +1,4 @@
-# prototype_shaders(TARGET): compiles the prototypes' shaders into prototype_shaders.inc, rows of
+# prototype_shaders(TARGET): compiles the shaders of prototypes and of ray lists into prototype_shaders.inc, rows of
 # name and words.
 function(prototype_shaders target)
     set(made ${CMAKE_CURRENT_BINARY_DIR}/shaders)
@@ -6,7 +6,7 @@ function(prototype_shaders target)
     set(includes)
     set(rows)
     set(headers)
-    foreach(build surface.vert diffuse.frag mirror.frag trace.comp "trace.comp#skip_links")
+    foreach(build surface.vert diffuse.frag mirror.frag trace.comp "trace.comp#skip_links" rays.comp)
         string(REGEX REPLACE "#.*" "" file ${build})
         set(source ${CMAKE_CURRENT_SOURCE_DIR}/shaders/${file})
         string(MAKE_C_IDENTIFIER "prototype_${build}" identifier)
@@ -18,6 +18,7 @@ function(prototype_shaders target)
         endif()
         add_custom_command(OUTPUT ${header}
             COMMAND Vulkan::glslangValidator --quiet -V --target-env vulkan1.3 ${define} -I${CMAKE_CURRENT_SOURCE_DIR}/shaders
+                    -I${CATOPTRIC_SHADER_FOLDER}
                     --vn ${identifier} --depfile ${header}.d -o ${header} ${source}
             MAIN_DEPENDENCY ${source} DEPFILE ${header}.d COMMENT "SPIR-V peers/${build}" VERBATIM)
         list(APPEND headers ${header})

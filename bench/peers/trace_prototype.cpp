@@ -30,6 +30,7 @@ TracePrototype::TracePrototype(gpu::Device& device, gpu::Pipelines& pipelines,
                                Tree tree)
     : device_(device), sets_(device) {
     const Whitted& scene = peer.whitted();
+    const Light& light = scene.lights.front();
     const auto width = static_cast<std::uint32_t>(scene.width),
                height = static_cast<std::uint32_t>(scene.height);
     picture_ = PlainImage(device, Format::rgba32f, {width, height}, 1,
@@ -39,9 +40,9 @@ TracePrototype::TracePrototype(gpu::Device& device, gpu::Pipelines& pipelines,
              texel(scene.forward, static_cast<float>(scene.depth)),
              texel(scene.right),
              texel(scene.down),
-             texel(scene.light_position, scene.shadow_end),
-             texel(scene.light_normal),
-             texel(scene.light_intensity),
+             texel(light.position, scene.shadow_end),
+             texel(light.normal),
+             texel(light.intensity),
              {}};
     upload(scene, triangles, tree);
     const char* const shader = tree == Tree::stack ? "peers/trace.comp"

@@ -3,6 +3,7 @@
 #include "whitted.hpp"
 
 #include "lanes.hpp"
+#include "texture.hpp"
 
 #include <atomic>
 #include <limits>
@@ -90,23 +91,55 @@ private:
         point_ = origin_ + load<Real>(hits.ray.tfar) * direction_;
         facet_ = {load<Real>(hits.hit.Ng_x), load<Real>(hits.hit.Ng_y), load<Real>(hits.hit.Ng_z)};
         normal_ = albedo_ = emission_ = reflectance_ = same<Real>({});
-        Mask mirrors{};
-        diffuse_ = Mask{};
+        diffuse_ = goes_on_ = Mask{};
         for (int i = 0; i < Kind::kCount; ++i) {
             if (!lane(active_, i) || lane(geometry, i) < 0) continue;
             const auto primitive = static_cast<std::size_t>(lane(number, i));
-            const bool sphere = lane(geometry, i) == 1;
-            if (sphere)
+            if (lane(geometry, i) == kSpheres)
                 put_on_sphere(primitive, i);
             else
-                put(normal_, i, normal_of(primitive, lane(u, i), lane(v, i)));
-            const Surface& surface = scene_.surfaces[sphere ? scene_.sphere_objects[primitive]
-                                                            : scene_.triangle_objects[primitive]];
-            put(surface.is_mirror ? mirrors : diffuse_, i, -1);
-            put(albedo_, i, surface.albedo), put(emission_, i, surface.emission);
-            put(reflectance_, i, surface.reflectance);
+                put_on_triangle(primitive + (lane(geometry, i) == kLamps ? scene_.first_lamp : 0),
+                                lane(u, i), lane(v, i), i);
         }
-        active_ = mirrors;
+        active_ = goes_on_;
+    }
+    void put_on_triangle(std::size_t triangle, float u, float v, int i) {
+        put(normal_, i, normal_of(triangle, u, v));
+        const Surface& surface = scene_.surfaces[scene_.triangle_objects[triangle]];
+        show(surface, i);
+        if (surface.turns) turn(i);
+        if (surface.texture) texture(surface, place_of(triangle, u, v), i);
+        if (surface.is_sharp) sharpen(surface, i);
+    }
+    void show(const Surface& surface, int i) {
+        put(surface.is_mirror ? goes_on_ : diffuse_, i, -1);
+        if (surface.is_sharp) put(goes_on_, i, -1);
+        put(albedo_, i, surface.albedo), put(emission_, i, surface.emission);
+        put(reflectance_, i, surface.reflectance);
+    }
+    /// The normal to the side of the facet where the ray comes from.
+    void turn(int i) {
+        const Three<float> normal = lane(normal_, i), facet = lane(facet_, i);
+        if (dot(normal, facet) * dot(lane(direction_, i), facet) > 0)
+            put(normal_, i, plain(-1.0f * normal));
+    }
+    void texture(const Surface& surface, Place place, int i) {
+        const Vector colour = colour_at(scene_.textures[*surface.texture], place);
+        put(albedo_, i, plain(lane(albedo_, i) * same<float>(colour)));
+    }
+    /// What is reflected at this angle (Schlick 1994), the rest of which is left to be diffuse.
+    void sharpen(const Surface& surface, int i) {
+        const float cosine = -dot(normalize(lane(normal_, i)), lane(direction_, i));
+        const float away = 1 - std::min(std::max(cosine, 0.0f), 1.0f);
+        const Three<float> all = same<float>({1, 1, 1}), least = same<float>(surface.reflectance);
+        const Three<float> reflected = least + away * away * away * away * away * (all - least);
+        put(reflectance_, i, plain(reflected));
+        put(albedo_, i, plain((all - reflected) * lane(albedo_, i)));
+    }
+    Place place_of(std::size_t triangle, float u, float v) const {
+        const auto& [a, b, c] = scene_.places[triangle];
+        const float w = 1 - u - v;
+        return {w * a.u + u * b.u + v * c.u, w * a.v + u * b.v + v * c.v};
     }
     Vector normal_of(std::size_t triangle, float u, float v) const {
         const auto& [a, b, c] = scene_.normals[triangle];
@@ -121,6 +154,7 @@ private:
         const float part = radius / std::sqrt(arm.x * arm.x + arm.y * arm.y + arm.z * arm.z);
         put(normal_, i, arm), put(facet_, i, arm);
         put(point_, i, {c.x + part * arm.x, c.y + part * arm.y, c.z + part * arm.z});
+        show(scene_.surfaces[scene_.sphere_objects[sphere]], i);
     }
 
     void fill(typename Kind::Rays& rays, V origin, V direction, float end) {
@@ -141,29 +175,43 @@ private:
     }
 
     void shade() {
-        const V normal = normalize(normal_);
-        const V to_light = same<Real>(scene_.light_position) - point_;
-        const Real distance = root(dot(to_light, to_light));
-        const V direction = (Real{} + 1.0f) / distance * to_light;
-        const Real at_light = -dot(direction, same<Real>(scene_.light_normal));
-        const Real at_surface = dot(normal, direction);
         const V zero = same<Real>({});
         colour_ = colour_ + select(diffuse_,
                                    weight_ * (emission_ + (Real{} + scene_.ambient) * albedo_),
                                    zero);
+        const V normal = normalize(normal_);
+        for (const Light& light : scene_.lights) add(light, normal);
+    }
+    void add(const Light& light, const V& normal) {
+        const V to_light = same<Real>(light.position) - point_;
+        const Real distance = root(dot(to_light, to_light));
+        const V direction = (Real{} + 1.0f) / distance * to_light;
+        const bool has_cosine = light.normal.x != 0 || light.normal.y != 0 || light.normal.z != 0;
+        const Real at_light = has_cosine ? -dot(direction, same<Real>(light.normal))
+                                         : Real{} + 1.0f;
+        const Real at_surface = dot(normal, direction);
+        const Real cone = light.is_spot ? share(light, direction) : Real{} + 1.0f;
         const Mask asks = diffuse_ & greater(at_light, Real{}) & greater(at_surface, Real{}) &
+                          greater(cone, Real{}) &
                           greater(albedo_.x + albedo_.y + albedo_.z, Real{});
         if (!any(asks)) return;
         count(rays_.shadow, asks);
         alignas(64) typename Kind::Rays rays;
         const V origin = leaving(direction);
-        fill(rays, origin, same<Real>(scene_.light_position) - origin, scene_.shadow_end);
+        fill(rays, origin, same<Real>(light.position) - origin, scene_.shadow_end);
         Kind::block(asks, scene_.tree, &context_, rays);
         const Mask lit = asks & greater(load<Real>(rays.tfar), Real{});
-        const Real factor = (at_light / distance) * (at_surface / distance) / kPi;
-        colour_ = colour_ +
-                  select(lit, factor * (weight_ * albedo_ * same<Real>(scene_.light_intensity)),
-                         zero);
+        const Real factor = cone * (at_light / distance) * (at_surface / distance) / kPi;
+        colour_ = colour_ + select(lit, factor * (weight_ * albedo_ * same<Real>(light.intensity)),
+                                   same<Real>({}));
+    }
+    /// What a spot sends against this direction.
+    Real share(const Light& light, const V& direction) const {
+        const Real inside = (-dot(direction, same<Real>(light.axis)) - light.cos_outer) *
+                            light.sharpness;
+        const Real one = Real{} + 1.0f, positive = select(greater(inside, Real{}), inside, Real{});
+        const Real part = select(greater(positive, one), one, positive);
+        return part * part;
     }
 
     /// As mirror_direction of shaders/lib/math/light.glsl.
@@ -183,7 +231,7 @@ private:
     RTCIntersectContext context_{};
     V origin_, direction_, weight_, colour_;
     V point_, facet_, normal_, albedo_, emission_, reflectance_; ///< facet, normal: any length
-    Mask active_, diffuse_;
+    Mask active_, diffuse_, goes_on_;
 };
 
 template <typename Kind>

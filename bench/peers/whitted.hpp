@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 /// What `raytrace` traces (shaders/lib/whitted.glsl), traced by Embree: same camera, light, mirrors
@@ -20,21 +21,49 @@ struct Sphere {
     float radius = 0;
 };
 
-/// What an object does with light.
-struct Surface {
-    Vector albedo, emission, reflectance;
-    bool is_mirror = false;
+/// A place in the space of a texture.
+struct Place {
+    float u = 0, v = 0;
 };
 
-/// A scene with one point light, one-sided. Geometry 0 of `tree` are triangles, geometry 1 spheres.
+/// Linear colours, row by row, that repeat along both axes and are mixed between four.
+struct Texture {
+    std::vector<Vector> texels;
+    int width = 0, height = 0;
+};
+
+/// What an object does with light.
+struct Surface {
+    Vector albedo, emission;
+    Vector reflectance; ///< of a mirror at any angle, of what is sharp straight on; else 0
+    bool is_mirror = false;
+    bool is_sharp = false;              ///< reflects as Schlick says, all of it along the surface
+    bool turns = false;                 ///< its normal turns to who looks
+    std::optional<std::size_t> texture; ///< by which its albedo is multiplied
+};
+
+struct Light {
+    Vector position, normal, intensity; ///< normal zero: no cosine at the light
+    bool is_spot = false;
+    Vector axis;                        ///< of a spot, along which it shines
+    float cos_outer = 0, sharpness = 1; ///< 1 / (cos inner - cos outer)
+};
+
+/// Numbers of geometries in a tree. Shadow rays pass through lamps' triangles.
+enum GeometryNumber { kTriangles, kSpheres, kLamps };
+
+/// A scene with point lights and spots.
 struct Whitted {
     RTCScene tree = nullptr;
     std::vector<std::array<Vector, 3>> normals; ///< of triangles, at their corners
+    std::vector<std::array<Place, 3>> places;   ///< likewise
     std::vector<std::uint32_t> triangle_objects;
+    std::size_t first_lamp = 0; ///< of triangles: those of lamps follow all others
     std::vector<Sphere> spheres;
     std::vector<std::uint32_t> sphere_objects;
     std::vector<Surface> surfaces; ///< of objects
-    Vector light_position, light_normal, light_intensity;
+    std::vector<Texture> textures; ///< of materials, of which some have none
+    std::vector<Light> lights;
     float ambient = 0;
     Vector eye, forward, right,
         down;                  ///< direction = forward + right * x + down * y, x and y in [-1, 1]

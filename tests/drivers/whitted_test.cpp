@@ -22,10 +22,10 @@ std::size_t other_pixels(const measure::Picture& a, const std::vector<peers::Vec
     return count;
 }
 
-void expect_the_same(int depth, bool exact) {
+void expect_the_same(const scene::Scene& scene, int depth, bool exact) {
     const std::string technique = "raytrace:depth=" + std::to_string(depth) +
                                   (exact ? ",sphere=exact" : "");
-    const app::Request asked = test::request(scene::cornell_mirrors(), {technique}, kSize);
+    const app::Request asked = test::request(scene, {technique}, kSize);
     const app::Part ours = std::move(app::run(test::engine(), asked).parts.front());
     const peers::EmbreeDevice device;
     const peers::PeerScene peer(device, asked, depth, exact);
@@ -39,11 +39,14 @@ void expect_the_same(int depth, bool exact) {
 }
 
 TEST(Whitted, MeshesAsEmbreeSeesThem) {
-    for (const int depth : {1, 4}) expect_the_same(depth, false);
+    for (const int depth : {1, 4}) expect_the_same(scene::cornell_mirrors(), depth, false);
 }
 
 TEST(Whitted, SpheresAsEmbreeSeesThem) {
-    for (const int depth : {1, 4}) expect_the_same(depth, true);
+    for (const int depth : {1, 4}) expect_the_same(scene::cornell_mirrors(), depth, true);
 }
+
+// Textures, smooth dielectrics, surfaces with two sides, lamps without a cosine, a spot.
+TEST(Whitted, TheRoomAsEmbreeSeesIt) { expect_the_same(scene::load("room"), 4, false); }
 
 } // namespace

@@ -1,0 +1,98 @@
+// The built-in scene: pictures beside Embree's, captures with a frame of Embree's as the unit, all
+// of them beside prototypes.
+#include "cases.hpp"
+#include "comparison.hpp"
+#include "prototypes.hpp"
+#include "scene/load.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace peers {
+
+using namespace catoptric;
+using measure::Benchmark;
+
+namespace {
+
+const Pair kPairs[] = {{"mesh", "raytrace:depth=4", false},
+                       {"exact", "raytrace:depth=4,sphere=exact", true}};
+/// Rows of ours beside which Embree's single rays are only a unit of time, and their faces.
+constexpr std::pair<const char*, int> kOthers[] = {
+    {"parallax:face=64", 64}, {"parallax", 256}, {"parallax:face=512", 512}};
+constexpr int kSettles = 14; // frames
+
+/// Prints how far the prototypes' pictures are from ours; whether those that trace show the same.
+bool check_prototypes(app::Session& session, app::Request request, Prototypes& prototypes) {
+    for (app::Subject& subject : prototypes.subjects(0))
+        for (int i = 0; i < kSettles; ++i) subject.work();
+    request.techniques = {kPairs[0].technique};
+    const measure::Picture traced = session.frame(request).read().hdr;
+    bool same = true;
+    for (const std::string& name : Prototypes::tracers()) {
+        const std::size_t other = other_pixels(traced, prototypes.read(name));
+        std::printf("%-23s %zu pixels differ by more than %g\n", name.c_str(), other,
+                    static_cast<double>(kSame));
+        same = same && other <= kMostOther;
+    }
+    request.frames = kSettles;
+    for (const auto& [technique, face] : kOthers) {
+        request.techniques = {technique};
+        const measure::Picture ours = app::run(session, request).parts.front().hdr;
+        const std::vector<Vector> theirs = prototypes.read(Prototypes::name_of(face));
+        double squares = 0;
+        for (std::size_t i = 0; i < theirs.size(); ++i) {
+            const vec3 apart = ours.pixels[i] - vec3(theirs[i].x, theirs[i].y, theirs[i].z);
+            squares += dot(dvec3(apart), dvec3(apart)) / 3;
+        }
+        std::printf("%-23s rmse %.4f from %s, %zu pixels differ by more than %g\n",
+                    Prototypes::name_of(face).c_str(),
+                    std::sqrt(squares / static_cast<double>(theirs.size())), technique,
+                    other_pixels(ours, theirs), static_cast<double>(kSame));
+    }
+    return same;
+}
+
+} // namespace
+
+bool compare_built_in(const Bench& bench) {
+    app::Request request = request_of(scene::cornell_mirrors());
+    const auto session = std::make_shared<app::Session>(bench.engine, request.scene);
+    const int frames = bench.rounds * kFramesARound;
+    std::vector<app::Subject> subjects;
+    bool same = true;
+    double rays = 0;
+    for (const Pair& pair : kPairs) {
+        Shown shown = show(bench.device, session, request, pair, bench.threads, frames);
+        std::ranges::move(shown.subjects, std::back_inserter(subjects));
+        rays = shown.rays;
+        same = same && shown.same;
+    }
+    const PeerScene mesh(bench.device, request, kDepth, false);
+    Prototypes prototypes(request, mesh);
+    same = check_prototypes(*session, request, prototypes) && same;
+    std::ranges::move(prototypes.subjects(kWarmup), std::back_inserter(subjects));
+    for (const auto& [technique, face] : kOthers) {
+        request.techniques = {technique};
+        subjects.push_back(app::frame_subject(session, request, frames));
+        subjects.back().name = technique, subjects.back().caller.clear();
+    }
+    const std::vector<Benchmark> list = app::measure_rounds(
+        subjects, bench.meter, {.iterations = frames, .rounds = bench.rounds, .watcher = {}});
+    std::printf("\n");
+    for (const Benchmark& benchmark : list)
+        print(benchmark, "rays", benchmark.name.starts_with("parallax") ? 0 : rays / 1e6);
+    std::printf("\n");
+    for (const Pair& pair : kPairs) print_ratios(list, pair.name);
+    print_ratio(named(list, "ours/exact"), named(list, "ours/mesh"));
+    for (const auto& [technique, face] : kOthers)
+        print_ratio(named(list, technique), named(list, peer_name("mesh", 1)));
+    for (const std::string& prototype : Prototypes::tracers())
+        print_ratio(named(list, "ours/mesh"), named(list, prototype));
+    for (const auto& [technique, face] : kOthers)
+        print_ratio(named(list, technique), named(list, Prototypes::name_of(face)));
+    return same;
+}
+
+} // namespace peers

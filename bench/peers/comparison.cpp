@@ -1,0 +1,94 @@
+#include "comparison.hpp"
+
+#include "measure/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace peers {
+
+using namespace catoptric;
+using measure::Benchmark;
+using measure::Cost;
+
+std::string our_name(const std::string& pair) { return "ours/" + pair; }
+std::string peer_name(const std::string& pair, int width) {
+    return "embree/" + pair + "/" + std::to_string(width);
+}
+
+app::Request request_of(scene::Scene scene) {
+    app::Request request;
+    request.scene = std::move(scene);
+    request.camera = request.scene.cameras.front();
+    request.warmup = kWarmup;
+    return request;
+}
+
+std::size_t other_pixels(const measure::Picture& ours, const std::vector<Vector>& theirs) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < theirs.size(); ++i) {
+        const auto& [x, y, z] = theirs[i];
+        const vec3 apart = abs(ours.pixels[i] - vec3(x, y, z));
+        count += !(std::max({apart.x, apart.y, apart.z}) <= kSame);
+    }
+    return count;
+}
+
+Shown show(const EmbreeDevice& device, std::shared_ptr<app::Session> session, app::Request request,
+           const Pair& pair, int threads, int frames) {
+    request.techniques = {pair.technique};
+    const app::Part ours = session->frame(request).read();
+    const app::RayCounts rays = ours.rays.value();
+    std::printf("%-23s %llu rays\n", our_name(pair.name).c_str(),
+                static_cast<unsigned long long>(rays.primary + rays.mirror + rays.shadow));
+    Shown shown{.same = true};
+    shown.subjects.push_back(app::frame_subject(std::move(session), request, frames));
+    shown.subjects.back().name = our_name(pair.name), shown.subjects.back().caller.clear();
+    const auto peer = std::make_shared<PeerScene>(device, request, kDepth, pair.exact);
+    for (const int width : kWidths) {
+        const Traced theirs = peer->trace(width, threads);
+        const std::size_t other = other_pixels(ours.hdr, theirs.pixels);
+        const std::string name = peer_name(pair.name, width);
+        std::printf("%-23s %llu rays, %zu pixels differ by more than %g\n", name.c_str(),
+                    static_cast<unsigned long long>(theirs.rays.all()), other,
+                    static_cast<double>(kSame));
+        shown.same = shown.same && other <= kMostOther;
+        shown.rays = static_cast<double>(theirs.rays.all());
+        shown.subjects.push_back(app::subject_of(
+            name, [peer, width, threads] { peer->trace(width, threads); }, kWarmup));
+    }
+    return shown;
+}
+
+void print(const Benchmark& benchmark, const char* what, double millions) {
+    const double ms = measure::percentile(costs_of(benchmark, Cost::real_time), .5);
+    std::printf("%-23s %9.2f ms %9.2f ms of processors", benchmark.name.c_str(), ms,
+                measure::percentile(costs_of(benchmark, Cost::cpu_time), .5));
+    if (benchmark.rounds.front().cycles)
+        std::printf(" %9.1f Mcycles",
+                    measure::percentile(costs_of(benchmark, Cost::cycles), .5) / 1e6);
+    if (millions > 0) std::printf(" %8.2f M%s/s", 1e3 * millions / ms, what);
+    std::printf("\n");
+}
+
+void print_ratio(const Benchmark& a, const Benchmark& b) {
+    const Cost cost = a.rounds.front().cycles ? Cost::cycles : Cost::cpu_time;
+    const measure::Ratio ratio = measure::ratio_of(costs_of(a, cost), costs_of(b, cost));
+    const measure::Ratio real = measure::ratio_of(costs_of(a, Cost::real_time),
+                                                  costs_of(b, Cost::real_time));
+    std::printf("%-19s / %-23s %6.3f [%.3f - %.3f] of %s, %6.3f [%.3f - %.3f] on the clock\n",
+                a.name.c_str(), b.name.c_str(), ratio.median, ratio.ci95.low, ratio.ci95.high,
+                measure::name_of(cost).c_str(), real.median, real.ci95.low, real.ci95.high);
+}
+
+void print_ratios(const std::vector<Benchmark>& list, const std::string& pair) {
+    for (const int width : kWidths)
+        print_ratio(named(list, our_name(pair)), named(list, peer_name(pair, width)));
+}
+
+const Benchmark& named(const std::vector<Benchmark>& list, const std::string& name) {
+    return *std::ranges::find(list, name, &Benchmark::name);
+}
+
+} // namespace peers

@@ -1,0 +1,46 @@
+#include "ray_list.hpp"
+
+#include <cstring>
+
+namespace peers {
+
+using namespace catoptric;
+using gpu::BufferUse;
+
+RayList::RayList(gpu::Device& device, gpu::Pipelines& pipelines,
+                 std::span<const bvh::Triangle> triangles, std::span<const Ray> rays)
+    : device_(device), met_(device, "met", rays.size() * sizeof(Met), BufferUse::read_back),
+      sets_(device), groups_(static_cast<std::uint32_t>(rays.size() / 64)) {
+    const bvh::Bvh tree = bvh::build(triangles);
+    std::vector<vec4> texels;
+    for (const auto& [origin, direction] : rays) {
+        texels.emplace_back(origin.x, origin.y, origin.z, 0);
+        texels.emplace_back(direction.x, direction.y, direction.z, 0);
+    }
+    gpu::upload(device_, nodes_, "nodes", tree.nodes, BufferUse::texels);
+    gpu::upload(device_, triangles_, "triangles", tree.triangles, BufferUse::texels);
+    gpu::upload(device_, rays_, "rays", texels, BufferUse::texels);
+    met_.write(std::span<const Met>(std::vector<Met>(rays.size())));
+    bound_ = sets_.bind(pipelines.compute({"peers/rays.comp", {}}),
+                        {{"bvh_nodes", {&nodes_}},
+                         {"bvh_triangles", {&triangles_}},
+                         {"rays", {&rays_}},
+                         {"Met", {&met_}}});
+}
+
+void RayList::trace() {
+    device_.submit_now("trace a list of rays", [&](VkCommandBuffer commands) {
+        bound_.bind(commands);
+        vkCmdDispatch(commands, groups_, 1, 1);
+        plain_barrier(commands);
+    });
+}
+
+std::vector<Met> RayList::read() const {
+    const std::vector<std::byte> bytes = met_.read();
+    std::vector<Met> met(bytes.size() / sizeof(Met));
+    std::memcpy(met.data(), bytes.data(), bytes.size());
+    return met;
+}
+
+} // namespace peers

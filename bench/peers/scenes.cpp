@@ -1,0 +1,31 @@
+#include "cases.hpp"
+#include "scene/build.hpp"
+#include "scene/load.hpp"
+#include "scene/shapes.hpp"
+
+namespace peers {
+
+using namespace catoptric;
+
+namespace {
+
+/// The built-in scene with balls of 4^(levels+1) triangles and a painted ring of around^2.
+scene::Scene finer(int levels, int around) {
+    scene::Scene scene = scene::cornell_mirrors();
+    scene.meshes[scene.objects.back().mesh] = scene::ball("ball", levels); // of all four
+    scene::add_mesh(scene, scene::torus("ring", 130, 50, around),
+                    scene::add_material(scene, {.name = "paint", .albedo = {.3f, .4f, .7f}}));
+    scene.objects.back().world_from_object[3] = dvec4(278, 330, 300, 1);
+    return scene;
+}
+
+constexpr NamedScene kScenes[] = {{"built-in", scene::cornell_mirrors},
+                                  {"100k", [] { return finer(6, 186); }},
+                                  {"1M", [] { return finer(7, 860); }},
+                                  {"room", [] { return scene::load("room"); }}};
+
+} // namespace
+
+std::span<const NamedScene> scenes() { return kScenes; }
+
+} // namespace peers

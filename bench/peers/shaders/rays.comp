@@ -1,0 +1,20 @@
+// Rays of a list, each to what it meets first by the engine's own walk.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define BVH_NODES_BINDING 0
+#define BVH_TRIANGLES_BINDING 1
+#include "lib/trace.glsl"
+
+layout(local_size_x = TRACE_LOCAL_SIZE) in;
+layout(set = 0, binding = 2) uniform samplerBuffer rays;                     // origin, direction
+layout(set = 0, binding = 3, std430) writeonly buffer Met { uvec2 met[]; }; // peers::Met
+
+const uint kNothing = 0xffffffffu;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    Ray ray = Ray(texelFetch(rays, int(2u * i)).xyz, texelFetch(rays, int(2u * i + 1u)).xyz, 0u);
+    Hit hit;
+    bool found = closest_hit(ray, kLargest, 0u, hit);
+    if (!trace_exhausted) met[i] = uvec2(floatBitsToUint(hit.t), found ? hit.triangle : kNothing);
+}
