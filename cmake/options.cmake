@@ -6,6 +6,9 @@ target_include_directories(catoptric_options INTERFACE ${PROJECT_SOURCE_DIR}/eng
 target_compile_options(catoptric_options INTERFACE -ffp-contract=off)
 # No implicit conversions in this tree; a public header sets nothing of GLM for programs outside.
 target_compile_definitions(catoptric_options INTERFACE GLM_FORCE_EXPLICIT_CTOR)
+# The standard library checks indices in builds that look for mistakes.
+target_compile_definitions(catoptric_options INTERFACE
+    $<$<OR:$<CONFIG:Debug>,$<BOOL:${CATOPTRIC_SANITIZE}>>:_GLIBCXX_ASSERTIONS>)
 if(CATOPTRIC_SANITIZE)
     target_compile_options(catoptric_options INTERFACE
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

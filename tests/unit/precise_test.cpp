@@ -46,7 +46,7 @@ std::map<std::string_view, Count> count(std::span<const std::uint32_t> words) {
     std::map<std::string_view, Count> result;
     Count* here = nullptr;
     for (std::size_t i = 5; i < words.size(); i += words[i] >> 16) {
-        const std::uint32_t op = words[i] & 0xffff, *operands = &words[i + 1];
+        const std::uint32_t op = words[i] & 0xffff, *operands = words.data() + i + 1;
         if (op == kName) names[operands[0]] = reinterpret_cast<const char*>(operands + 1);
         if (op == kDecorate && operands[1] == kNoContraction) fixed.insert(operands[0]);
         if (op == kFunction) {
