@@ -44,7 +44,8 @@ void draw_times(const Viewer& viewer) {
         draw_lines(times.host());
         ImGui::TreePop();
     }
-    ImGui::TextDisabled("medians of %zu frames, with 95 %% intervals", times.count());
+    ImGui::TextDisabled("medians of %zu %s, with 95 %% intervals", times.count(),
+                        times.count() == 1 ? "frame" : "frames");
 }
 
 void draw_scene(const Seen& seen, Wants& wants) {
