@@ -3,7 +3,6 @@
 #include "render/draw.hpp"
 #include "render/pass_faces.hpp"
 
-#include <array>
 #include <cmath>
 
 namespace catoptric::render {
