@@ -61,6 +61,7 @@ const uint kDetailAttributes = 2u; // its vertices have attributes
 const uint kDetailConstant = 4u;   // reflects Surface::reflectance at any angle
 const uint kDetailUnlit = 8u;
 const uint kDetailTurns = 16u;     // its normal turns to who looks
+const uint kDetailFacets = 32u;    // its normals leave those of its facets: light counts from above them
 
 // What a vertex has beside position and normal.
 struct Attribute {
@@ -68,13 +69,13 @@ struct Attribute {
     vec4 colour; // linear, with alpha
 };
 
-// A light as the shading formula sees it: one point with a one-sided cosine; or a light without a surface.
+// A light as the shading formula sees it: the one point of a lamp, or a light without a surface.
 // `right`, `down`, `forward`: axes of its shadow faces, unit, face +Z along `forward`, where a spot or a directional
 // light shines to.
 struct Light {
     vec3 position;
-    vec3 normal;      // zero: no cosine at the light
-    vec3 intensity;   // emission * area
+    vec3 normal;      // zero: no cosine at the light; kLightOfTwoSides: mean |cosine| to right, down and forward
+    vec3 intensity;   // emission * the area that counts
     vec3 right;
     vec3 down;
     vec3 forward;
@@ -82,8 +83,10 @@ struct Light {
     float reach;      // one over its range; 0: without end
     float cos_outer;  // of a spot's cone; below -1 where there is none
     float sharpness;  // 1 / max(.001, cos inner - cos outer) of it
-    uint directional; // 1: from infinitely far, along `forward`
+    uint kind;        // kLight...
 };
+// From infinitely far, along `forward`; an open lamp of two sides; anything else.
+const uint kLightAtPoint = 0u, kLightDirectional = 1u, kLightOfTwoSides = 2u;
 const uint kMaxLights = 128u; // the smallest uniform buffer that every device has, 16 KiB, holds 178
 
 // Where a mirror's surroundings are captured from: layers [6 n, 6 n + 6) of the cubes, n from 0.

@@ -1,8 +1,9 @@
 // Lists the pixels that the view has left to one tracer: one append a subgroup, and one work group of its
 // dispatch for each 64 of them.
+// No branch lies before a subgroup operation: after one, nothing promises that the lanes run together again.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
 #include "lib/trace_list.glsl"
@@ -25,25 +26,25 @@ uvec2 groups_for(uint pixels) {
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy;
     bool inside = all(lessThan(pixel, size));
+    ivec2 place = ivec2(min(pixel, size - 1u));
     // 0 where no tracer is to take over; a lookup of 0 where no mirror was looked up: see lib/surface.glsl.
-    float mark = inside ? imageLoad(marks, ivec2(pixel)).r : 0.0;
-    bool is_mirror = inside && (mark != 0.0 || imageLoad(lookup, ivec2(pixel)).w != 0.0);
-    bool is_listed = mark == float(tracer);
-    uint mirrors = subgroupAdd(is_mirror ? 1u : 0u);
-    uint listed = subgroupAdd(is_listed ? 1u : 0u);
-    uint before = subgroupExclusiveAdd(is_listed ? 1u : 0u);
-    uint first = 0u;
-    if (subgroupElect() && mirrors > 0u) {
-        atomicAdd(counters.value.mirror_pixels, mirrors);
-        if (listed > 0u) {
-            first = atomicAdd(counters.value.listed, listed);
-            // What the list grows by, so that the sum over all subgroups is what the whole list needs.
-            uvec2 more = groups_for(first + listed) - groups_for(first);
-            if (more.x > 0u) atomicAdd(arguments.groups.x, more.x);
-            if (more.y > 0u) atomicAdd(arguments.groups.y, more.y);
-        }
+    float mark = imageLoad(marks, place).r, looked_up = imageLoad(lookup, place).w;
+    uint is_mirror = uint(inside) & (uint(mark != 0.0) | uint(looked_up != 0.0));
+    uint is_listed = uint(inside) & uint(mark == float(tracer));
+    uvec4 lanes = subgroupBallot(is_listed != 0u);
+    uint mirrors = subgroupBallotBitCount(subgroupBallot(is_mirror != 0u));
+    uint listed = subgroupBallotBitCount(lanes), before = subgroupBallotExclusiveBitCount(lanes);
+    bool is_first = subgroupElect();
+    // All lanes add, all but one nothing. The lane that adds is the one whose value is broadcast: of those that are
+    // active that with the lowest number (SPIR-V, OpGroupNonUniformElect and OpGroupNonUniformBroadcastFirst).
+    uint first = subgroupBroadcastFirst(atomicAdd(counters.value.listed, is_first ? listed : 0u));
+    if (is_first && mirrors > 0u) atomicAdd(counters.value.mirror_pixels, mirrors);
+    if (is_first && listed > 0u) {
+        // What the list grows by, so that the sum over all subgroups is what the whole list needs.
+        uvec2 more = groups_for(first + listed) - groups_for(first);
+        if (more.x > 0u) atomicAdd(arguments.groups.x, more.x);
+        if (more.y > 0u) atomicAdd(arguments.groups.y, more.y);
     }
-    first = subgroupMax(first); // of the one elected
-    if (is_listed) list[first + before] = pixel.y * size.x + pixel.x;
+    if (is_listed != 0u) list[first + before] = pixel.y * size.x + pixel.x;
     if (all(equal(pixel, uvec2(0)))) arguments.groups.z = 1u;
 }

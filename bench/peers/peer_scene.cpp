@@ -1,5 +1,7 @@
 #include "peer_scene.hpp"
 
+#include "core/error.hpp"
+#include "render/facets.hpp"
 #include "render/views.hpp"
 #include "scene/texel.hpp"
 #include "spheres.hpp"
@@ -22,6 +24,7 @@ Surface surface_of(const scene::Scene& scene, const scene::Object& object,
     surface.is_sharp = range.varies && !surface.is_mirror &&
                        material.roughness <= scene.mirror_max_roughness;
     surface.turns = range.turns;
+    surface.fades = render::leaves_facets(scene.meshes[object.mesh]);
     if (surface.is_mirror) surface.reflectance = plain(material.reflectance);
     if (surface.is_sharp) surface.reflectance = plain(material.dielectric_f0);
     if (material.albedo_texture) surface.texture = object.material;
@@ -66,6 +69,7 @@ PeerScene::PeerScene(const EmbreeDevice& device, const app::Request& request, in
     whitted_.tree = tree_.get();
     whitted_.depth = depth;
     whitted_.shadow_end = f32::kShadowRayEnd;
+    whitted_.facet_fade = f32::kFacetFade;
     whitted_.lift = 0x1p-20F; // scene units, of which a scene is about one across
 }
 
@@ -125,7 +129,10 @@ void PeerScene::add_view(const app::Request& request) {
     const render::Space space = render::space_of(request.scene);
     for (const scene::PointLight& light : scene::lights(request.scene)) {
         Light& added = whitted_.lights.emplace_back();
-        const double area = light.area * space.scale * space.scale;
+        check(light.cosines == dvec3(0), Failure::usage, "a lamp of two sides is closed, or none");
+        const bool has_cosine = light.normal != dvec3(0);
+        const double share = has_cosine ? 1 : scene::share_towards(light, {0, 0, 1});
+        const double area = share * light.area * space.scale * space.scale;
         added.position = plain(space.point(light.position));
         added.normal = plain(vec3(light.normal));
         added.intensity = plain(light.emission * static_cast<float>(area));

@@ -91,7 +91,7 @@ private:
         point_ = origin_ + load<Real>(hits.ray.tfar) * direction_;
         facet_ = {load<Real>(hits.hit.Ng_x), load<Real>(hits.hit.Ng_y), load<Real>(hits.hit.Ng_z)};
         normal_ = albedo_ = emission_ = reflectance_ = same<Real>({});
-        diffuse_ = goes_on_ = Mask{};
+        diffuse_ = goes_on_ = fades_ = Mask{};
         for (int i = 0; i < Kind::kCount; ++i) {
             if (!lane(active_, i) || lane(geometry, i) < 0) continue;
             const auto primitive = static_cast<std::size_t>(lane(number, i));
@@ -114,6 +114,7 @@ private:
     void show(const Surface& surface, int i) {
         put(surface.is_mirror ? goes_on_ : diffuse_, i, -1);
         if (surface.is_sharp) put(goes_on_, i, -1);
+        if (surface.fades) put(fades_, i, -1);
         put(albedo_, i, surface.albedo), put(emission_, i, surface.emission);
         put(reflectance_, i, surface.reflectance);
     }
@@ -191,8 +192,9 @@ private:
                                          : Real{} + 1.0f;
         const Real at_surface = dot(normal, direction);
         const Real cone = light.is_spot ? share(light, direction) : Real{} + 1.0f;
+        const Real whole = select(fades_, facet_share(direction, normal), Real{} + 1.0f);
         const Mask asks = diffuse_ & greater(at_light, Real{}) & greater(at_surface, Real{}) &
-                          greater(cone, Real{}) &
+                          greater(cone, Real{}) & greater(whole, Real{}) &
                           greater(albedo_.x + albedo_.y + albedo_.z, Real{});
         if (!any(asks)) return;
         count(rays_.shadow, asks);
@@ -201,9 +203,20 @@ private:
         fill(rays, origin, same<Real>(light.position) - origin, scene_.shadow_end);
         Kind::block(asks, scene_.tree, &context_, rays);
         const Mask lit = asks & greater(load<Real>(rays.tfar), Real{});
-        const Real factor = cone * (at_light / distance) * (at_surface / distance) / kPi;
+        const Real factor = whole * cone * (at_light / distance) * (at_surface / distance) / kPi;
         colour_ = colour_ + select(lit, factor * (weight_ * albedo_ * same<Real>(light.intensity)),
                                    same<Real>({}));
+    }
+    /// What a facet takes of a light, as facet_share of shaders/lib/math/light.glsl.
+    Real facet_share(const V& direction, const V& normal) const {
+        const V unit = normalize(facet_);
+        const Real sine = dot(direction, unit), zero{}, one = Real{} + 1.0f;
+        const Real at_surface = dot(normal, direction), fade = Real{} + scene_.facet_fade;
+        const Real above = select(greater(zero, dot(normal, unit)), zero - sine, sine) /
+                           select(greater(fade, at_surface), at_surface, fade);
+        const Real positive = select(greater(above, zero), above, zero);
+        const Real part = select(greater(positive, one), one, positive);
+        return part * part * (3.0f - 2.0f * part);
     }
     /// What a spot sends against this direction.
     Real share(const Light& light, const V& direction) const {
@@ -231,7 +244,7 @@ private:
     RTCIntersectContext context_{};
     V origin_, direction_, weight_, colour_;
     V point_, facet_, normal_, albedo_, emission_, reflectance_; ///< facet, normal: any length
-    Mask active_, diffuse_, goes_on_;
+    Mask active_, diffuse_, goes_on_, fades_;
 };
 
 template <typename Kind>

@@ -39,6 +39,7 @@ struct Surface {
     bool is_mirror = false;
     bool is_sharp = false;              ///< reflects as Schlick says, all of it along the surface
     bool turns = false;                 ///< its normal turns to who looks
+    bool fades = false;                 ///< light at it fades towards its facets' planes
     std::optional<std::size_t> texture; ///< by which its albedo is multiplied
 };
 
@@ -70,6 +71,7 @@ struct Whitted {
     int width = 0, height = 0; ///< multiples of 16
     int depth = 0;             ///< mirror bounces; a path that meets more ends black
     float shadow_end = 1;      ///< of the way to the light
+    float facet_fade = 1;      ///< sine of the angle to a facet's plane within which light fades
     float lift = 0;            ///< how far off a surface rays start that leave it
 };
 

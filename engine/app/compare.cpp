@@ -17,6 +17,7 @@
 #include "reflect/technique.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <memory>
 #include <new>
 #include <span>
@@ -34,6 +35,15 @@ bool same(const TechniqueChoice& a, const TechniqueChoice& b) {
 bool same_pixels(const measure::Picture& a, const measure::Picture& b) {
     return std::ranges::equal(std::as_bytes(std::span(a.pixels)),
                               std::as_bytes(std::span(b.pixels)));
+}
+
+/// Returns the clock's time, "2026-11-24T03:05:10Z".
+std::string utc_now() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    ::gmtime_r(&now, &utc);
+    char text[32];
+    return {text, std::strftime(text, sizeof text, "%FT%TZ", &utc)};
 }
 
 /// Measures rows in rounds, one by one or together in each frame, and judges each against the
@@ -91,6 +101,7 @@ private:
         const DeviceInfo& device = engine_.device();
         comparison_.version = version();
         comparison_.commit = commit();
+        comparison_.date = utc_now();
         comparison_.command = request_.command;
         comparison_.images = request_.images;
         comparison_.complete = false;

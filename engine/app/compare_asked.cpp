@@ -14,10 +14,10 @@ namespace catoptric::app {
 
 std::vector<std::string> default_techniques(const Request& base) {
     const scene::Scene now = scene::at(base.scene, base.time);
-    std::vector<std::optional<scene::Flat>> flats;
+    std::vector<scene::FlatFaces> flats;
     for (const std::size_t object : scene::mirrors(now))
-        flats.push_back(scene::flat(now.meshes[now.objects[object].mesh],
-                                    now.objects[object].world_from_object));
+        flats.push_back(scene::flat_faces(now.meshes[now.objects[object].mesh],
+                                          now.objects[object].world_from_object));
     const double tolerance = scene::flat_tolerance(base.camera, base.size);
     std::vector<std::string> rows;
     for (const reflect::Technique* technique : reflect::techniques())

@@ -65,6 +65,11 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
 
 } // namespace
 
+std::vector<float> flip_map_of(const Part& part, const Part& truth, double exposure) {
+    return measure::flip(measure::to_unrounded_display(part.hdr, exposure),
+                         measure::to_unrounded_display(truth.hdr, exposure));
+}
+
 measure::Errors errors_of(const Part& part, const Part& truth, std::span<const float> flip_map,
                           const std::vector<std::uint32_t>& hits, std::size_t mirrors,
                           double exposure) {
@@ -73,10 +78,13 @@ measure::Errors errors_of(const Part& part, const Part& truth, std::span<const f
     const auto against = [&](const measure::Mask& mask) {
         return measure::difference(found, wanted, mask, flip_map);
     };
-    measure::Errors errors{
-        against(measure::mirrors(hits)),          against(measure::first_order(hits)),
-        against(measure::mirror_in_mirror(hits)), against(measure::non_mirror(hits)),
-        against(measure::all_pixels(hits)),       {}};
+    measure::Errors errors{against(measure::mirrors(hits)),
+                           against(measure::first_order(hits)),
+                           against(measure::mirror_in_mirror(hits)),
+                           against(measure::non_mirror(hits)),
+                           against(measure::all_pixels(hits)),
+                           against(measure::dielectrics(hits)),
+                           {}};
     for (std::size_t i = 0; i < mirrors; ++i)
         errors.error_per_mirror.push_back(against(measure::of_mirror(hits, MirrorId::at(i))));
     return errors;
@@ -86,7 +94,7 @@ void fill_errors(report::Row& row, const Part& part, const Part& truth,
                  const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
     row.hdr = part.hdr;
     row.display = part.display;
-    row.flip_map = measure::flip(part.display, truth.display);
+    row.flip_map = flip_map_of(part, truth, exposure);
     static_cast<measure::Errors&>(row) = errors_of(part, truth, row.flip_map, hits, mirrors,
                                                    exposure);
     row.mirrors_black = draws_mirrors_black(part.hdr, truth.hdr, hits);

@@ -17,6 +17,9 @@ report::Row make_row(const std::string& text, const Part& part);
 /// passes whose name begins with `prefix`. `on_processor`: the device is one.
 void fill_times(report::Row& row, const std::vector<std::vector<FrameTimes>>& rounds,
                 const std::string& prefix, bool on_processor);
+/// FLIP of the two as displayed at so many stops of exposure, not rounded to 8 bits.
+std::vector<float> flip_map_of(const Part& part, const Part& truth, double exposure);
+
 /// How far a picture is from the truth, over all masks. `flip_map`: of the two; `hits`: of the same
 /// picture, see Part::hits; `exposure`: stops.
 measure::Errors errors_of(const Part& part, const Part& truth, std::span<const float> flip_map,

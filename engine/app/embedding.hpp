@@ -10,7 +10,8 @@
 namespace catoptric::app {
 
 /// The way in for embed/: an engine on a given device, and frames with something added; and for
-/// tuning: another choice of shaders from the next frame on, which Engine::device does not say.
+/// tuning: another choice of shaders from the next frame on, which Engine::device does not say; and
+/// for what asks the device itself.
 struct Embedding {
     static Engine make(const EngineOptions& options, const gpu::GivenDevice& given) {
         return Engine(options, given);
@@ -18,6 +19,7 @@ struct Embedding {
     static void choose(Engine& engine, const gpu::Choices& choices) {
         engine.impl_->device.choose(choices);
     }
+    static gpu::Device& device(const Engine& engine) { return engine.impl_->device; }
     static Frame submit(Session& session, const FrameSpec& spec,
                         const std::function<void(FrameGraph&)>& finish) {
         return session.submit(spec, [&](FrameGraph& frame) {

@@ -6,9 +6,12 @@
 #include "bvh/words.hpp"
 #include "core/error.hpp"
 #include "core/half.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <utility>
 
 namespace catoptric::app {
 
@@ -174,7 +177,7 @@ measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Dec
 
 /// How each mirror was drawn, and which rule said so.
 std::vector<PlanEntry> plan_of(const Declared& declared, const std::vector<std::string>& mirrors) {
-    const auto& [choices, of_mirror, patterns, reasons] = declared.assignment;
+    const auto& [choices, of_mirror, patterns, reasons, lacks] = declared.assignment;
     std::vector<PlanEntry> entries;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
         const reflect::Choice& choice = choices[of_mirror[i]];
@@ -191,6 +194,32 @@ std::vector<PlanEntry> plan_of(const Declared& declared, const std::vector<std::
     return entries;
 }
 
+/// What mirrors lack that their technique cannot draw as asked: a sentence for all that lack the
+/// same, which names the first of them.
+std::vector<std::string> shortfalls_of(const Declared& declared,
+                                       const std::vector<std::string>& mirrors) {
+    constexpr std::size_t kMostNamed = 3;
+    std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
+    for (std::size_t i = 0; i < mirrors.size(); ++i) {
+        const std::string& lack = declared.assignment.lacks[i];
+        if (lack.empty()) continue;
+        auto group = std::ranges::find(groups, lack, [](const auto& known) { return known.first; });
+        if (group == groups.end()) group = groups.insert(group, {lack, {}});
+        group->second.push_back(i);
+    }
+    std::vector<std::string> said;
+    for (const auto& [lack, lacking] : groups) {
+        std::string names;
+        for (std::size_t k = 0; k < std::min(kMostNamed, lacking.size()); ++k)
+            names += (k ? ", " : "") + std::to_string(lacking[k] + 1) + " " +
+                     in_quotes(mirrors[lacking[k]]);
+        if (lacking.size() > kMostNamed)
+            names += " and " + std::to_string(lacking.size() - kMostNamed) + " more";
+        said.push_back((lacking.size() > 1 ? "mirrors " : "mirror ") + names + ": " + lack);
+    }
+    return said;
+}
+
 Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& frame,
                std::size_t index, const std::vector<std::string>& mirrors,
                const render::GpuScene& scene, const FrameSpec& spec) {
@@ -205,6 +234,7 @@ Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& fr
     part.remembers = app::remembers(frame, plan, declared);
     count_scene_passes(frame.graph, plan, part);
     part.notes = outputs.notes;
+    std::ranges::move(shortfalls_of(declared, mirrors), std::back_inserter(part.notes));
     for (const reflect::Choice& choice : declared.assignment.choices)
         if (choice.settings.has("face") && choice.settings.is_special("face"))
             part.auto_face = AutoFace{scene.common_face(), scene.face_needs()};

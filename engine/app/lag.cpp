@@ -66,9 +66,9 @@ Path path_of(const LagRequest& request) {
 /// All figures. `exposure`: stops.
 measure::Difference apart(const measure::Picture& a, const measure::Picture& b,
                           const measure::Mask& mask, double exposure) {
-    return measure::difference(
-        measure::exposed(a, exposure), measure::exposed(b, exposure), mask,
-        measure::flip(measure::to_display(a, exposure), measure::to_display(b, exposure)));
+    return measure::difference(measure::exposed(a, exposure), measure::exposed(b, exposure), mask,
+                               measure::flip(measure::to_unrounded_display(a, exposure),
+                                             measure::to_unrounded_display(b, exposure)));
 }
 
 /// Without FLIP, which takes longer than all others.

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/json.hpp"
 
 #include <filesystem>
 
@@ -73,12 +74,7 @@ reflect::Plan read_plan(const std::string& text) {
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
     check(error || bytes <= kMostBytes, Failure::bad_data, file, ": wanted a plan of at most ",
           kMostBytes, " bytes, found ", bytes);
-    Json document;
-    try {
-        document = Json::parse(read_file(file));
-    } catch (const Json::exception& broken) {
-        fail(Failure::bad_data, file, ": wanted JSON, found ", broken.what());
-    }
+    const Json document = parse_json<Json>(file, read_file(file));
     reflect::Plan plan{text, {}};
     const Json& rules = rules_of(document, file);
     for (std::size_t i = 0; i < rules.size(); ++i)

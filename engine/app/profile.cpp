@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 #include "report/json.hpp"
 
@@ -66,7 +67,7 @@ gpu::Choices read(const fs::path& file, const DeviceInfo& device) {
 gpu::Choices found_in(const fs::path& folder, DeviceInfo& device) {
     const fs::path file = folder / profile_name(device);
     std::error_code error;
-    if (!fs::exists(fs::symlink_status(file, error))) return {};
+    if (!fs::exists(fs::symlink_status(file, error))) return default_choices(device);
     try {
         const gpu::Choices choices = read(file, device);
         device.profile = file.filename().string();
@@ -74,11 +75,19 @@ gpu::Choices found_in(const fs::path& folder, DeviceInfo& device) {
     } catch (const Error& refused) {
         device.warning = std::string(refused.what()) +
                          "; shaders are as by default ('bench --tune' writes a profile anew)";
-        return {};
+        return default_choices(device);
     }
 }
 
 } // namespace
+
+gpu::Choices default_choices(const DeviceInfo& device) {
+    gpu::Choices choices{};
+    // Only a software driver gives each of its threads one contiguous run of work groups.
+    const std::size_t groups = find_variant("groups", Failure::internal, "variants");
+    choices[groups] = device.type == "cpu" ? 0 : 1;
+    return choices;
+}
 
 std::string profile_name(const DeviceInfo& device) {
     std::string name = device.id + "-" + device.driver;
@@ -111,12 +120,7 @@ std::string profile_text(const DeviceInfo& device, const std::vector<measure::Tr
 
 gpu::Choices read_profile(const std::string& text, const std::string& file,
                           const DeviceInfo& device) {
-    Json document;
-    try {
-        document = Json::parse(text);
-    } catch (const Json::exception& broken) {
-        fail(Failure::bad_data, file, ": wanted JSON, found ", broken.what());
-    }
+    const Json document = parse_json<Json>(file, text);
     const auto member = [](const Json& object, const char* name) {
         return object.is_object() ? object.value(name, Json()) : Json();
     };
@@ -131,7 +135,7 @@ gpu::Choices read_profile(const std::string& text, const std::string& file,
     const Json list = member(document, "variants");
     check(list.is_object(), Failure::bad_data, file, ": variants: wanted an object, found ",
           shown(list));
-    gpu::Choices choices{};
+    gpu::Choices choices = default_choices(device);
     const std::string place = file + ": variants";
     for (const auto& [name, choice] : list.items()) {
         const std::size_t i = find_variant(name, Failure::bad_data, place);
@@ -149,8 +153,8 @@ Variants variants_of(const gpu::Choices& choices) {
     return variants;
 }
 
-gpu::Choices choices_of(const Variants& variants) {
-    gpu::Choices choices{};
+gpu::Choices choices_of(const Variants& variants, const DeviceInfo& device) {
+    gpu::Choices choices = default_choices(device);
     for (const auto& [name, choice] : variants) {
         const std::size_t i = find_variant(name, Failure::usage, "variants");
         choices[i] = find_choice(gpu::variants()[i], choice, Failure::usage, "variants");
@@ -159,9 +163,9 @@ gpu::Choices choices_of(const Variants& variants) {
 }
 
 gpu::Choices choose(const EngineOptions& options, DeviceInfo& device) {
-    gpu::Choices choices{};
+    gpu::Choices choices = default_choices(device);
     if (!options.variants.empty()) {
-        choices = choices_of(options.variants);
+        choices = choices_of(options.variants, device);
     } else if (!options.profile.empty()) {
         choices = read(options.profile, device);
         device.profile = options.profile.filename().string();

@@ -25,7 +25,10 @@ gpu::Choices read_profile(const std::string& text, const std::string& file,
 /// Each variant with its choice, by name.
 Variants variants_of(const gpu::Choices& choices);
 /// The other way round; what is not named is as by default. Throws `usage` for unknown names.
-gpu::Choices choices_of(const Variants& variants);
+gpu::Choices choices_of(const Variants& variants, const DeviceInfo& device);
+/// What holds without a profile: work groups scattered on a processor, in order on any other
+/// device; all else the first of its choices.
+gpu::Choices default_choices(const DeviceInfo& device);
 
 /// What holds for the device by the options, said in `device` too: its variants, the profile, or
 /// why that is not used. Throws `bad_data`, `missing_input` for a profile that they name.

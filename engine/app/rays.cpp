@@ -1,5 +1,7 @@
 #include "app/rays.hpp"
 
+#include "bvh/copies.hpp"
+
 namespace catoptric::app {
 
 bvh::Bvh hierarchy_without(const render::Geometry& geometry, std::size_t left_out) {
@@ -18,7 +20,7 @@ bvh::Bvh hierarchy_without(const render::Geometry& geometry, std::size_t left_ou
                                      (range.one_sided ? bvh::kOneSided : 0)});
         }
     }
-    return bvh::build(triangles, geometry.core);
+    return bvh::build(triangles, geometry.core, bvh::Copies::of_all);
 }
 
 f32::Ray camera_ray(const shared::View& view, uvec2 size, std::size_t pixel) {

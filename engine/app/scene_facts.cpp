@@ -1,5 +1,6 @@
 #include "app/scene_facts.hpp"
 
+#include "app/coverage.hpp"
 #include "app/rays.hpp"
 #include "app/views.hpp"
 #include "bvh/closest_hit.hpp"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace catoptric::app {
@@ -25,8 +27,11 @@ std::vector<int> objects_seen(const Request& request, uvec2 size) {
     const scene::Scene now = scene::at(request.scene, request.time);
     const render::Space space = render::space_of(request.scene);
     const render::Geometry geometry = render::make_geometry(now, space);
-    const bvh::Bvh hierarchy = hierarchy_without(geometry, geometry.ranges.size());
     const shared::View view = render::camera_view(request.camera, space, size, 0);
+    // As many as a tree over a few million triangles costs.
+    constexpr std::uint64_t kMostTests = std::uint64_t{1} << 24;
+    if (auto covering = objects_covering(geometry, view, size, kMostTests)) return *covering;
+    const bvh::Bvh hierarchy = hierarchy_without(geometry, geometry.ranges.size());
     std::vector<int> seen;
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
         const auto hit = bvh::closest_hit<float>(hierarchy, camera_ray(view, size, pixel),
@@ -39,11 +44,10 @@ std::vector<int> objects_seen(const Request& request, uvec2 size) {
 
 double share_of(const std::vector<int>& seen, const scene::Scene& scene,
                 const std::vector<std::size_t>& materials) {
+    std::vector<bool> counts(scene.materials.size());
+    for (const std::size_t material : materials) counts[material] = true;
     const auto shows = [&](int object) {
-        return object >= 0 &&
-               std::ranges::find(materials,
-                                 scene.objects[static_cast<std::size_t>(object)].material) !=
-                   materials.end();
+        return object >= 0 && counts[scene.objects[static_cast<std::size_t>(object)].material];
     };
     return static_cast<double>(std::ranges::count_if(seen, shows)) /
            static_cast<double>(std::max<std::size_t>(1, seen.size()));
@@ -55,6 +59,10 @@ std::vector<measure::GapFacts> gap_facts(const scene::Scene& scene, const std::v
         facts.push_back({gap.id, gap.count, gap.first, {}});
         if (!gap.materials.empty()) facts.back().pixel_share = share_of(seen, scene, gap.materials);
     }
+    // No share (-1) comes last; equals stay in the order in which they came.
+    std::ranges::stable_sort(facts, std::greater<>(), [](const measure::GapFacts& gap) {
+        return gap.pixel_share.value_or(-1);
+    });
     return facts;
 }
 

@@ -8,15 +8,16 @@
 namespace catoptric::app {
 
 /// The object that the ray through each pixel's centre meets first, row by row; -1: none. Found on
-/// the processor, at the request's instant; what alpha masks cut out counts. Costs a hierarchy over
-/// all triangles and about a microsecond a pixel.
+/// the processor, at the request's instant; what alpha masks cut out counts. Costs a projection of
+/// each triangle; where many large ones lie behind each other, a hierarchy over all instead.
 std::vector<int> objects_seen(const Request& request, uvec2 size);
 
 /// Share of the pixels that show one of these materials.
 double share_of(const std::vector<int>& seen, const scene::Scene& scene,
                 const std::vector<std::size_t>& materials);
 
-/// Every gap of the scene with its share of the picture that `seen` (objects_seen) is of.
+/// Returns every gap of the scene with its share of the picture that `seen` (objects_seen) is of,
+/// the largest share first, those without one last.
 std::vector<measure::GapFacts> gap_facts(const scene::Scene& scene, const std::vector<int>& seen);
 
 /// Every light as the shading formula sees it.

@@ -57,6 +57,9 @@ struct Sequence::Impl {
     std::vector<double> face_needs;
     std::optional<Standing> standing; ///< from which its next frame moves on
     std::uint64_t units = 0;          ///< in which distances were captured
+    std::uint64_t edits = 0;          ///< that the scene had seen
+    std::vector<std::string> texts;
+    std::vector<reflect::Plan> plans; ///< of `texts`, as they were suggested at its first frame
 };
 
 Sequence::Sequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -204,6 +207,7 @@ void Session::change(const scene::Edit& edit) {
     self.now.reset();
     self.mirrors = mirror_names(self.scene);
     self.standing.reset();
+    ++self.edits;
     self.texts.clear(); // another plan may be suggested
 }
 
@@ -221,7 +225,9 @@ Sequence Session::set_aside() {
     auto sequence = std::make_unique<Sequence::Impl>(Sequence::Impl{
         self.runner.set_aside(), std::exchange(self.remembered, {}), self.remembered_model,
         std::exchange(self.kept, {}), std::exchange(self.paces, {}), self.resident->face_needs(),
-        self.standing, self.units});
+        self.standing, self.units, self.edits, std::exchange(self.texts, {}),
+        std::exchange(self.plans, {})});
+    self.models.clear();
     self.resident->forget_face_needs();
     return Sequence(std::move(sequence));
 }
@@ -238,6 +244,11 @@ void Session::resume(Sequence sequence) {
     self.kept = std::move(sequence.impl_->kept);
     self.paces = std::move(sequence.impl_->paces);
     self.resident->put_face_needs(std::move(sequence.impl_->face_needs));
+    if (sequence.impl_->edits == self.edits) {
+        self.texts = std::move(sequence.impl_->texts);
+        self.plans = std::move(sequence.impl_->plans);
+        self.models.clear();
+    }
     if (sequence.impl_->standing) self.stand(*sequence.impl_->standing);
 }
 

@@ -88,6 +88,7 @@ struct Session::Impl {
     std::vector<std::uint64_t> read_by; ///< by copy of what is written: the last frame to read it
     std::size_t copy = 0;               ///< that frames read now
     std::uint64_t units = 0;            ///< times that the scene's units on the device changed
+    std::uint64_t edits = 0;            ///< of the scene
     Counts counts;
 };
 

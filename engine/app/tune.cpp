@@ -2,6 +2,7 @@
 
 #include "app/bench_subjects.hpp"
 #include "app/embedding.hpp"
+#include "app/profile.hpp"
 
 #include <memory>
 
@@ -37,20 +38,21 @@ Tuned tune(Engine& engine, const Request& request, const BenchOptions& options) 
         subject.caller.clear();
         subjects.push_back(std::move(subject));
     };
-    add("default", {});
+    const gpu::Choices defaults = default_choices(engine.device());
+    add("default", defaults);
     for (std::size_t i = 0; i < gpu::kVariants; ++i) {
-        gpu::Choices choices{};
-        choices[i] = 1;
+        gpu::Choices choices = defaults;
+        choices[i] = 1 - choices[i];
         add(std::string(gpu::variants()[i].name), choices);
     }
     const measure::BenchmarkRun run = bench(subjects, meter, options, {}, {});
-    Embedding::choose(engine, {});
+    Embedding::choose(engine, defaults);
     Tuned tuned{.tried = {}, .noisy = run.noisy.value_or(false)};
     for (std::size_t i = 0; i < gpu::kVariants; ++i) {
         const gpu::Variant& variant = gpu::variants()[i];
         tuned.tried.push_back({.variant = std::string(variant.name),
-                               .choice = std::string(variant.choices[1]),
-                               .standard = std::string(variant.choices[0]),
+                               .choice = std::string(variant.choices[1 - defaults[i]]),
+                               .standard = std::string(variant.choices[defaults[i]]),
                                .benchmark = benchmark_of(request),
                                .ms = device_ms(run.benchmarks[i + 1]),
                                .standard_ms = device_ms(run.benchmarks.front())});

@@ -4,7 +4,6 @@
 #include "app/seeded_camera.hpp"
 #include "app/truths.hpp"
 #include "core/error.hpp"
-#include "measure/flip.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +54,7 @@ measure::Picture beside(const measure::Picture& left, const measure::Picture& ri
 
 void add_view(report::Row& row, const Part& part, const Part& truth,
               const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
-    const std::vector<float> flip_map = measure::flip(part.display, truth.display);
+    const std::vector<float> flip_map = flip_map_of(part, truth, exposure);
     row.views.push_back(errors_of(part, truth, flip_map, hits, mirrors, exposure));
     const double flip = row.views.back().error.flip;
     // A view without a judged pixel is the worst of none.

@@ -5,6 +5,8 @@
 #include "core/text.hpp"
 #include "measure/picture_file.hpp"
 #include "scene/camera_named.hpp"
+#include "scene/classify.hpp"
+#include "scene/inside_camera.hpp"
 #include "scene/scene_file.hpp"
 
 #include <algorithm>
@@ -26,10 +28,11 @@ bool is_built_in(const std::string& name) {
 }
 
 std::shared_ptr<scene::Environment> read_environment(const std::string& path) {
-    const measure::Picture picture = measure::read_picture(path);
-    check(picture.pixels.size() <= kMostTexels, Failure::bad_data, path,
-          ": wanted an environment of at most ", kMostTexels, " texels, found ", picture.width, "x",
-          picture.height);
+    const measure::Picture picture = measure::read_picture(path, [&](int width, int height) {
+        check(std::size_t(width) * std::size_t(height) <= kMostTexels, Failure::bad_data, path,
+              ": wanted an environment of at most ", kMostTexels, " texels, found ", width, "x",
+              height);
+    });
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         const vec3& texel = picture.pixels[i];
         const auto is_light = [](float value) { return std::isfinite(value) && value >= 0; };
@@ -179,6 +182,7 @@ Wanted load_wanted(const std::string& name, const WantedOptions& options) {
     apply(wanted, options.wishes, filed);
     if (wanted.is_file) scene::leave_out_lights(wanted.scene, kMostLights);
     surround(wanted, options.wishes);
+    scene::settle_gaps(wanted.scene);
     announce_mirrors(wanted.scene);
     return wanted;
 }
@@ -197,10 +201,14 @@ scene::Camera camera_of(Wanted& wanted, double aspect) {
     scene::Scene& scene = wanted.scene;
     if (wanted.camera) return *wanted.camera;
     if (!scene.cameras.empty()) return scene.cameras.front();
-    const scene::Camera camera = scene::default_camera(scene, aspect);
+    const scene::Camera outside = scene::default_camera(scene, aspect);
+    const std::optional<scene::Camera> inside = scene::inside_camera(scene, outside);
+    const scene::Camera camera = inside.value_or(outside);
     if (wanted.is_file)
         scene::add_gap(scene.gaps, "added-camera", "scene " + in_quotes(scene.name));
-    wanted.said.push_back("no camera: using --camera " + scene::camera_text(camera));
+    wanted.said.push_back(std::string("no camera") + (inside ? ", a closed room" : "") +
+                          ": using --camera " + scene::camera_text(camera) +
+                          (inside ? " (inside)" : ""));
     return camera;
 }
 

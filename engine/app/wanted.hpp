@@ -39,8 +39,8 @@ double ambient_of(const Wanted& wanted);
 /// As wished, or as the scene says; none: to be found (app/exposure.hpp), as files want it. Scenes
 /// built in code: 0.
 std::optional<double> exposure_of(const Wanted& wanted);
-/// The wished camera, or the scene's first; else one is added (scene::default_camera; gap
-/// "added-camera") and said.
+/// The wished camera, or the scene's first; else one is added (scene::inside_camera of a closed
+/// room, else scene::default_camera; gap "added-camera") and said.
 scene::Camera camera_of(Wanted& wanted, double aspect);
 
 } // namespace catoptric::app

@@ -1,11 +1,15 @@
 #include "app/why.hpp"
 
 #include "app/plan_file.hpp"
+#include "app/scene_facts.hpp"
 #include "core/text.hpp"
+#include "report/text.hpp"
 #include "require/left_out.hpp"
 #include "require/suggest.hpp"
 
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace catoptric::app {
 
@@ -18,6 +22,16 @@ struct Required {
     require::Model model;
     require::Suggestion suggestion;
 };
+
+/// What reflects in the picture, though no technique but ray tracing draws what it reflects.
+std::optional<measure::GapFacts> not_drawn(const Request& request) {
+    constexpr std::string_view kId = "smooth-dielectric";
+    const auto gap = std::ranges::find(request.scene.gaps, kId, &scene::Gap::id);
+    if (gap == request.scene.gaps.end()) return std::nullopt;
+    const std::vector<int> seen = objects_seen(request, small_size(request.size));
+    return measure::GapFacts{gap->id, gap->count, gap->first,
+                             share_of(seen, request.scene, gap->materials)};
+}
 
 Required required(const Request& request) {
     Required required{.now = scene::at(request.scene, request.time), .model = {}, .suggestion = {}};
@@ -43,29 +57,40 @@ Json mirror_of(const Required& required, const std::string& name, std::size_t i)
             {"suggested", required.suggestion.reasons[i]}};
 }
 
+constexpr const char* kNotDrawn = "what smooth surfaces that are no mirrors reflect";
+constexpr const char* kRemedy =
+    "no technique but raytrace draws it; --dielectric-mirrors makes mirrors of them";
+
 } // namespace
 
 std::string why_text(const Request& request, const std::optional<Slices>& slices) {
     const auto [now, model, suggestion] = required(request);
     const std::vector<std::string> names = mirror_names(now);
     std::string text = require::to_text(model, now);
+    if (const auto gap = not_drawn(request))
+        text += std::string("not drawn\n  ") + kNotDrawn + ": " +
+                report::fixed(100 * *gap->pixel_share, 1) +
+                " % of the picture (first: " + printable(gap->first) + ")\n    why: " + kRemedy +
+                "\n";
     if (slices) text += to_text(*slices) + "\n";
     if (names.empty()) return text;
     text += "suggested --plan \"" + suggestion.plan + "\"\n";
     for (std::size_t i = 0; i < names.size(); ++i)
         text += "  mirror " + std::to_string(i + 1) + " " + in_quotes(names[i]) + ": " +
                 suggestion.reasons[i] + "\n";
-    return text;
+    return text + require::to_text(suggestion.candidates);
 }
 
 std::string why_json(const Request& request, const std::optional<Slices>& slices) {
     const Required required = app::required(request);
     const std::vector<std::string> names = mirror_names(required.now);
-    Json document{{"schema", "catoptric/why/1"},
-                  {"mirrors", Json::array()},
-                  {"lights", Json::array()},
-                  {"left_out", Json::array()},
-                  {"suggested", required.suggestion.plan}};
+    Json document{{"schema", "catoptric/why/1"}, {"mirrors", Json::array()},
+                  {"lights", Json::array()},     {"left_out", Json::array()},
+                  {"not_drawn", Json::array()},  {"suggested", required.suggestion.plan},
+                  {"candidates", Json::array()}};
+    for (const require::Candidate& candidate : required.suggestion.candidates)
+        document["candidates"].push_back(
+            {{"name", candidate.name}, {"cost", candidate.cost}, {"flip", candidate.error}});
     for (std::size_t i = 0; i < names.size(); ++i)
         document["mirrors"].push_back(mirror_of(required, names[i], i));
     for (std::size_t i = 0; i < required.model.lights.size(); ++i)
@@ -75,13 +100,18 @@ std::string why_json(const Request& request, const std::optional<Slices>& slices
                                         {"why", thing.why},
                                         {"saves", thing.saves},
                                         {"error", thing.error}});
+    if (const auto gap = not_drawn(request))
+        document["not_drawn"].push_back({{"what", kNotDrawn},
+                                         {"why", kRemedy},
+                                         {"first", gap->first},
+                                         {"pixel_share", *gap->pixel_share}});
     document["captures"] = slices ? Json{{"mirrors", slices->mirrors},
                                          {"most", slices->most},
                                          {"oldest_frames", slices->round() - 1},
                                          {"round_frames", slices->round()},
                                          {"said", to_text(*slices)}}
                                   : Json();
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 std::optional<Slices> measured_slices(Engine& engine, const Request& request) {

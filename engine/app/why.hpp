@@ -11,7 +11,7 @@ namespace catoptric::app {
 /// For the user to read. `slices`: where there is a budget.
 std::string why_text(const Request& request, const std::optional<Slices>& slices = {});
 /// The same as {"schema": "catoptric/why/1", "mirrors": [...], "lights": [...], "left_out": [...],
-/// "suggested": PLAN, "captures": what `slices` say or null}, with a newline.
+/// "not_drawn": [...], "suggested": PLAN, "captures": what `slices` say or null}, with a newline.
 std::string why_json(const Request& request, const std::optional<Slices>& slices = {});
 /// How many captures fit into the request's budget, by a few frames that are rendered for it; none
 /// where no captures are kept.

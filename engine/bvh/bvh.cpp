@@ -1,5 +1,6 @@
 #include "bvh/bvh.hpp"
 
+#include "bvh/copies.hpp"
 #include "bvh/crown.hpp"
 #include "core/error.hpp"
 #include "core/large_pages.hpp"
@@ -53,6 +54,11 @@ Part refer_all(std::span<const Triangle> triangles, const Box& core, References 
 
 Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, std::uint32_t leaf,
           unsigned threads) {
+    return build(triangles, core, Copies::of_object, leaf, threads);
+}
+
+Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, Copies copies,
+          std::uint32_t leaf, unsigned threads) {
     check(triangles.size() <= kMaxTriangles, Failure::exhausted, "bounding volume hierarchy wants ",
           triangles.size(), " triangles, its words hold ", kMaxTriangles);
     if (threads == 0) threads = all_threads();
@@ -63,7 +69,8 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, std::u
     Workspace work{triangles,
                    {references.first(triangles.size()), references.last(triangles.size())},
                    nullptr,
-                   leaf};
+                   leaf,
+                   copies};
     const Part root = refer_all(triangles, core, work.buffers[0], threads);
     Bvh bvh;
     bvh.dropped = triangles.size() - root.count;

@@ -168,24 +168,27 @@ std::size_t halve(References references, const Extent& centres) {
     return middle;
 }
 
-References without_copies(References references, std::span<const Triangle> triangles) {
+References without_copies(References references, std::span<const Triangle> triangles,
+                          Copies copies) {
     const auto what = [&](const Reference& r) {
         const Triangle& t = triangles[r.triangle()];
         return std::array{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
     };
     const auto whose = [&](const Reference& r) {
         const Triangle& t = triangles[r.triangle()];
-        return std::pair{t.object, t.flags};
+        const bool is_told_apart = copies == Copies::of_object ||
+                                   (t.flags & (kMasked | kSphere)) != 0;
+        return std::pair{is_told_apart ? t.object : 0, t.flags};
     };
     std::ranges::sort(references, [&](const Reference& a, const Reference& b) {
         return std::tuple{what(a), whose(a), a.triangle()} <
                std::tuple{what(b), whose(b), b.triangle()};
     });
-    const auto copies = std::ranges::unique(references,
-                                            [&](const Reference& a, const Reference& b) {
-                                                return what(a) == what(b) && whose(a) == whose(b);
-                                            });
-    references = references.first(references.size() - copies.size());
+    const auto left_out = std::ranges::unique(references,
+                                              [&](const Reference& a, const Reference& b) {
+                                                  return what(a) == what(b) && whose(a) == whose(b);
+                                              });
+    references = references.first(references.size() - left_out.size());
     std::ranges::sort(references, {}, &Reference::triangle);
     return references;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bvh/bvh.hpp"
+#include "bvh/copies.hpp"
 #include "bvh/lanes.hpp"
 #include "bvh/words.hpp"
 
@@ -101,7 +102,8 @@ std::size_t halve(References references, const Extent& centres);
 
 /// One reference of each triangle, the lowest number, in order of number: where more lie around one
 /// centre than a leaf holds, a ray would have to look at all copies, since all are at the same t,
-/// and it cannot tell those of one object apart.
-References without_copies(References references, std::span<const Triangle> triangles);
+/// and the lowest number wins.
+References without_copies(References references, std::span<const Triangle> triangles,
+                          Copies copies);
 
 } // namespace catoptric::bvh

@@ -18,7 +18,7 @@ public:
 
     std::uint32_t add(Part part, std::uint32_t depth) {
         if (part.count > kMaxLeaf && part.centres.is_point() && !part.is_heap) {
-            part.count = without_copies(work_.of(part), work_.input).size();
+            part.count = without_copies(work_.of(part), work_.input, work_.copies).size();
             part.is_heap = true;
         }
         if (part.count <= work_.most &&

@@ -12,6 +12,7 @@ struct Workspace {
     std::array<References, 2> buffers;
     vec4* triangles;    ///< Bvh::triangles, with room for all
     std::uint32_t most; ///< in a leaf
+    Copies copies;
 
     References of(const Part& part) const {
         return buffers[part.in_second ? 1 : 0].subspan(part.first, part.count);

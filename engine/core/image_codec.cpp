@@ -1,9 +1,12 @@
 #include "core/image_codec.hpp"
 
 #include "core/error.hpp"
+#include "core/image_header.hpp"
 #include "core/image_module.hpp"
+#include "core/png_read.hpp"
 
 #include <new>
+#include <optional>
 #include <utility>
 
 namespace catoptric {
@@ -49,53 +52,110 @@ std::string image_format(std::string_view bytes) {
     return {};
 }
 
-struct ImageReader::Open {
-    Open(std::string its_format, std::string its_name)
-        : format(std::move(its_format)), name(std::move(its_name)) {}
-    ~Open() {
-        if (picture) codecs.close(picture);
-    }
-    Open(const Open&) = delete;
-    Open& operator=(const Open&) = delete;
+namespace {
 
-    template <typename Value>
-    std::vector<Value> read(CodecValue type) {
+void check_sides(const ImageShape& shape, const std::string& name) {
+    const auto fits = [](std::uint32_t side) {
+        return side > 0 && side <= ImageReader::kLargestSide;
+    };
+    check(fits(shape.size.x) && fits(shape.size.y) && shape.channel_count > 0, Failure::bad_data,
+          name, ": wanted a flat picture of 1 to ", ImageReader::kLargestSide,
+          " pixels a side, found ", shape.size.x, "x", shape.size.y, " with ", shape.channel_count,
+          " channels");
+}
+
+/// A picture that OpenImageIO reads.
+class CodecReader {
+public:
+    CodecReader(const ByteSource& bytes, const std::string& format, const std::string& name)
+        : format_(format), name_(name) {
+        check_decoded(codecs_.open(bytes, format, name, picture_, header_), name, format);
+    }
+    ~CodecReader() {
+        if (picture_) codecs_.close(picture_);
+    }
+    CodecReader(const CodecReader&) = delete;
+    CodecReader& operator=(const CodecReader&) = delete;
+
+    /// Throws for a deep picture.
+    ImageShape shape() const {
+        check(!header_.is_deep && header_.size.x > 0 && header_.size.y > 0, Failure::bad_data,
+              name_, ": wanted a flat picture of 1 to ", ImageReader::kLargestSide,
+              " pixels a side, found ", header_.is_deep ? "a deep one of " : "", header_.size.x,
+              "x", header_.size.y);
+        return {uvec2(header_.size), std::size_t(header_.channel_count), header_.channels};
+    }
+    void read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type, void* values) {
+        check_decoded(codecs_.read(*picture_, first, row_count, type, values), name_, format_);
+    }
+
+private:
+    std::string format_, name_;
+    const ImageCodecs& codecs_ = image_codecs();
+    ImageCodecs::Picture* picture_ = nullptr;
+    ImageCodecs::Header header_;
+};
+
+} // namespace
+
+struct ImageReader::Open {
+    void read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type, void* values) {
         try {
-            std::vector<Value> values(std::size_t(shape.size.x) * shape.size.y *
-                                      shape.channel_count);
-            check_decoded(codecs.read(*picture, type, values.data()), name, format);
-            return values;
+            if (png)
+                png->read_rows(first, row_count, type, values);
+            else
+                codec->read_rows(first, row_count, type, values);
         } catch (const std::bad_alloc&) {
             fail(Failure::exhausted, name, ": not enough memory to decode it");
         }
     }
+    template <typename Value>
+    std::vector<Value> read_all(CodecValue type) {
+        std::vector<Value> values;
+        try {
+            values.resize(std::size_t(shape.size.x) * shape.size.y * shape.channel_count);
+        } catch (const std::bad_alloc&) {
+            fail(Failure::exhausted, name, ": not enough memory to decode it");
+        }
+        read_rows(0, shape.size.y, type, values.data());
+        return values;
+    }
 
-    std::string format, name;
-    const ImageCodecs& codecs = image_codecs();
-    ImageCodecs::Picture* picture = nullptr;
+    std::string name;
     ImageShape shape;
+    std::optional<PngReader> png;
+    std::optional<CodecReader> codec; ///< of what is no PNG
 };
 
-ImageReader::ImageReader(std::string_view bytes, const std::string& format, std::string name)
-    : open_(std::make_unique<Open>(format, std::move(name))) {
-    ImageCodecs::Header header;
-    check_decoded(open_->codecs.open(bytes, format, open_->name, open_->picture, header),
-                  open_->name, format);
-    const auto fits = [](int side) { return side > 0 && std::uint32_t(side) <= kLargestSide; };
-    check(fits(header.size.x) && fits(header.size.y) && header.channel_count > 0 && !header.is_deep,
-          Failure::bad_data, open_->name, ": wanted a flat picture of 1 to ", kLargestSide,
-          " pixels a side, found ", header.is_deep ? "a deep one of " : "", header.size.x, "x",
-          header.size.y, " with ", header.channel_count, " channels");
-    open_->shape = {uvec2(header.size), std::size_t(header.channel_count),
-                    std::move(header.channels)};
+ImageReader::ImageReader(const ByteSource& bytes, const std::string& format, std::string name,
+                         const Judge& judge)
+    : open_(std::make_unique<Open>()) {
+    open_->name = std::move(name);
+    const auto accept = [&](const ImageShape& shape) {
+        check_sides(shape, open_->name);
+        if (judge) judge(shape);
+        open_->shape = shape;
+    };
+    if (format == "png") {
+        accept(open_->png.emplace(bytes, open_->name).shape());
+        open_->png->check_size();
+        return;
+    }
+    if (const auto shape = header_of(bytes, format, open_->name)) accept(*shape);
+    accept(open_->codec.emplace(bytes, format, open_->name).shape());
 }
 
 ImageReader::~ImageReader() = default;
 
 const ImageShape& ImageReader::shape() const { return open_->shape; }
-std::vector<float> ImageReader::floats() { return open_->read<float>(CodecValue::float32); }
+std::vector<float> ImageReader::floats() { return open_->read_all<float>(CodecValue::float32); }
 std::vector<std::uint8_t> ImageReader::bytes() {
-    return open_->read<std::uint8_t>(CodecValue::uint8);
+    return open_->read_all<std::uint8_t>(CodecValue::uint8);
+}
+void ImageReader::read_rows(std::uint32_t first, std::span<float> values) {
+    const std::size_t row = std::size_t(open_->shape.size.x) * open_->shape.channel_count;
+    open_->read_rows(first, static_cast<std::uint32_t>(values.size() / row), CodecValue::float32,
+                     values.data());
 }
 
 std::string openexr_bytes(const ImageShape& shape, std::span<const float> values) {

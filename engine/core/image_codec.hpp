@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/byte_source.hpp"
 #include "core/math.hpp"
 
 #include <cstdint>
@@ -10,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-// Pictures as files have them, in memory. All but the writing of PNG is OpenImageIO's, in a module
-// that is loaded when it is first asked for (core/image_module.hpp); `internal` where that is
-// missing.
+// Pictures as files have them. PNG is libpng's (core/png.cpp, core/png_read.cpp), the rest is
+// OpenImageIO's, in a module that is loaded when it is first asked for (core/image_module.hpp);
+// `internal` where that is missing.
 namespace catoptric {
 
 /// What the bytes begin as: "png", "jpeg", "openexr", "hdr", "bmp", "gif", "tiff", "webp", "dds",
@@ -31,9 +32,15 @@ class ImageReader {
 public:
     static constexpr std::uint32_t kLargestSide = 1 << 16;
 
-    /// `format` as OpenImageIO calls it; `name` begins every message. Throws `bad_data` for what
-    /// cannot be opened, is not flat, or has no side or one above 65536.
-    ImageReader(std::string_view bytes, const std::string& format, std::string name);
+    /// Refuses a picture by what its header claims, by throwing.
+    using Judge = std::function<void(const ImageShape&)>;
+
+    /// `format` as OpenImageIO calls it; `name` begins every message. `judge` is asked before
+    /// a decoder is opened, which may allocate, and once more with what the decoder says. Throws
+    /// `bad_data` for what cannot be opened, is not flat, has no side or one above 65536, or claims
+    /// more than a file of its size can hold.
+    ImageReader(const ByteSource& bytes, const std::string& format, std::string name,
+                const Judge& judge = {});
     ~ImageReader();
 
     const ImageShape& shape() const;
@@ -41,6 +48,9 @@ public:
     /// rounded to 8 bits. Throws `bad_data` for what cannot be decoded.
     std::vector<float> floats();
     std::vector<std::uint8_t> bytes();
+    /// Fills `values` with those of as many rows as it holds, from `first` on. Rows are read in
+    /// rising order; what one call takes follows on what the call before took.
+    void read_rows(std::uint32_t first, std::span<float> values);
 
 private:
     struct Open;

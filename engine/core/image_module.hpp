@@ -1,9 +1,10 @@
 #pragma once
 
+#include "core/byte_source.hpp"
 #include "core/math.hpp"
 
+#include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 // What lies between this library and the module that links OpenImageIO (engine/images): two hundred
@@ -43,9 +44,11 @@ struct ImageCodecs {
     };
 
     /// `picture` is to be closed where this is done, and null otherwise.
-    CodecResult (*open)(std::string_view bytes, const std::string& format, const std::string& name,
+    CodecResult (*open)(const ByteSource& bytes, const std::string& format, const std::string& name,
                         Picture*& picture, Header& header) noexcept;
-    CodecResult (*read)(Picture& picture, CodecValue type, void* values) noexcept;
+    /// `row_count` rows from `first` on; rows of tiled pictures may be read from their tiles anew.
+    CodecResult (*read)(Picture& picture, std::uint32_t first, std::uint32_t row_count,
+                        CodecValue type, void* values) noexcept;
     void (*close)(Picture* picture) noexcept;
     CodecResult (*encode)(const std::string& format, const Values& picture,
                           std::string& bytes) noexcept;
@@ -53,7 +56,7 @@ struct ImageCodecs {
 
 /// The one name that the module exports, a function that returns its `ImageCodecs`. It counts up
 /// with what stands above, so that a library and a module of two versions do not meet.
-constexpr const char* kImageCodecs = "catoptric_image_codecs_1";
+constexpr const char* kImageCodecs = "catoptric_image_codecs_2";
 using ImageCodecsFunction = const ImageCodecs* (*)();
 
 /// The module's functions; the first call loads it, a fifth of a second. Looked for beside the

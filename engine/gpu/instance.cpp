@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
+#include <string_view>
 #include <thread>
 
 namespace catoptric::gpu {
@@ -71,6 +73,19 @@ int preference(VkPhysicalDeviceType type) {
     }
 }
 
+/// What the software driver of Mesa 22 lacks of the vectors that the environment asks for. Of other
+/// widths than these it compiles code that crashes (tried from 0 to 1024 bits).
+std::string missing_width(const VkPhysicalDeviceDriverProperties& driver) {
+    const std::optional<long> asked = vector_bits_asked();
+    const bool is_sound = !asked || *asked == 128 || *asked == 256;
+    if (is_sound || driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE ||
+        std::string_view(driver.driverInfo).find("Mesa 22.") == std::string_view::npos)
+        return "";
+    return "sound code for vectors of " + std::to_string(*asked) +
+           " bits (LP_NATIVE_VECTOR_WIDTH: wanted 128, 256 or none, found " +
+           std::getenv("LP_NATIVE_VECTOR_WIDTH") + ")";
+}
+
 std::string id_of(const VkPhysicalDeviceProperties& properties) {
     char text[32];
     std::snprintf(text, sizeof text, "%04x-%04x", properties.vendorID, properties.deviceID);
@@ -99,14 +114,15 @@ bool allows(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags featu
     return (properties.optimalTilingFeatures & features) == features;
 }
 
-bool adds_in_subgroups(VkPhysicalDevice device) {
+/// In compute shaders.
+bool has_subgroups(VkPhysicalDevice device, VkSubgroupFeatureFlags wanted) {
     VkPhysicalDeviceSubgroupProperties subgroups{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                            &subgroups};
     vkGetPhysicalDeviceProperties2(device, &properties);
     return (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
-           (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT);
+           (subgroups.supportedOperations & wanted) == wanted;
 }
 
 std::uint32_t largest_work_group(VkPhysicalDevice device) {
@@ -117,6 +133,14 @@ std::uint32_t largest_work_group(VkPhysicalDevice device) {
 }
 
 } // namespace
+
+std::optional<long> vector_bits_asked() {
+    const char* const text = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+    if (text == nullptr) return std::nullopt;
+    char* end = nullptr;
+    const long bits = std::strtol(text, &end, 0); // as the driver reads it
+    return end == text ? std::nullopt : std::optional(bits);
+}
 
 void check_begun(VkResult result, const std::string& doing, const char* or_else) {
     const bool begun = result != VK_ERROR_INITIALIZATION_FAILED &&
@@ -134,7 +158,7 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
     check_address_space(kRoomForDriver, "a Vulkan driver");
     std::vector<const char*> layers, extensions;
     if (validate) {
-        check(has_layer(kValidationLayer), Failure::usage, "--validate needs the layer ",
+        check(has_layer(kValidationLayer), Failure::no_device, "--validate needs the layer ",
               kValidationLayer, ": apt-get install vulkan-validationlayers");
         layers.push_back(kValidationLayer);
         // The layer of Vulkan 1.3 takes this one from the environment only.
@@ -194,6 +218,7 @@ DeviceInfo describe(VkPhysicalDevice device) {
     info.missing = properties.properties.apiVersion < VK_API_VERSION_1_3
                        ? "Vulkan 1.3 (has " + info.api + ")"
                        : Features::missing(device);
+    if (info.missing.empty()) info.missing = missing_width(driver);
     if (info.missing.empty() && find_queue_family(device) < 0)
         info.missing = "a queue for graphics and compute with timestamps";
     return info;
@@ -266,7 +291,10 @@ std::string Features::missing(VkPhysicalDevice device) {
         {"synchronization2", has.v13.synchronization2},
         {"maintenance4", has.v13.maintenance4},
         {"shaderTerminateInvocation", has.v13.shaderTerminateInvocation},
-        {"subgroup arithmetic in compute shaders", adds_in_subgroups(device)},
+        {"subgroup arithmetic in compute shaders",
+         has_subgroups(device, VK_SUBGROUP_FEATURE_ARITHMETIC_BIT)},
+        {"subgroup ballots in compute shaders",
+         has_subgroups(device, VK_SUBGROUP_FEATURE_BALLOT_BIT)},
         {"work groups of 256", largest_work_group(device) >= 256},
         {"linear filtering of R32_SFLOAT", allows(device, VK_FORMAT_R32_SFLOAT, kCaptured)},
         {"linear filtering of R32G32B32A32_SFLOAT",

@@ -9,8 +9,9 @@ namespace catoptric::gpu {
 void check_begun(VkResult result, const std::string& doing, const char* or_else);
 
 /// Creates an instance, with the validation layer on request and VK_EXT_debug_utils where it
-/// exists, and the extensions that are wanted. Throws `no_device` when no driver is installed,
-/// `exhausted` when there is no memory for one, `usage` when validation is asked for and absent.
+/// exists, and the extensions that are wanted. Throws `no_device` when no driver is installed, or
+/// when the validation layer or an extension is absent, `exhausted` when there is no memory for
+/// one.
 VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_extensions,
                          bool& has_debug_utils);
 
@@ -21,6 +22,10 @@ DeviceInfo describe(VkPhysicalDevice device);
 
 /// Whether the device's queue can show pictures on the surface.
 bool can_show(VkPhysicalDevice device, VkSurfaceKHR surface);
+
+/// Bits of the vectors that the environment asks Mesa's software driver to compute with
+/// (LP_NATIVE_VECTOR_WIDTH); none where that is unset or no number.
+std::optional<long> vector_bits_asked();
 
 /// Index of the queue family that can draw, dispatch and copy, or -1.
 int find_queue_family(VkPhysicalDevice device);

@@ -41,6 +41,10 @@ void check_vk(VkResult result, const std::string& doing) {
     case VK_ERROR_MEMORY_MAP_FAILED:
     case VK_ERROR_TOO_MANY_OBJECTS: failure = Failure::exhausted; break;
     case VK_ERROR_DEVICE_LOST: failure = Failure::device_lost; break;
+    case VK_ERROR_LAYER_NOT_PRESENT:
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+    case VK_ERROR_FORMAT_NOT_SUPPORTED: failure = Failure::no_device; break;
     default: break;
     }
     fail(failure, "Vulkan: cannot ", doing, ": ", name_of(result), " (", static_cast<int>(result),

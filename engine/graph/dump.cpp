@@ -251,7 +251,7 @@ std::string to_json(const Graph& graph, const Plan& plan) {
     json["scene_passes"] = plan.scene_passes;
     json["bytes"] = plan.bytes;
     json["bytes_unshared"] = plan.bytes_unshared;
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace catoptric::graph

@@ -6,17 +6,49 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <new>
 #include <utility>
+#include <vector>
 
 namespace catoptric {
 
-struct ImageCodecs::Picture {
-    explicit Picture(std::string_view bytes) : memory(bytes.data(), bytes.size()) {}
+namespace {
 
-    OIIO::Filesystem::IOMemReader memory;
+/// A source of bytes as OpenImageIO reads one.
+class Proxy final : public OIIO::Filesystem::IOProxy {
+public:
+    explicit Proxy(const ByteSource& bytes) : IOProxy("", Read), bytes_(bytes) {}
+
+    const char* proxytype() const override { return "catoptric"; }
+    std::size_t size() const override { return bytes_.size(); }
+    std::size_t read(void* into, std::size_t size) override {
+        const std::size_t count = pread(into, size, m_pos);
+        m_pos += static_cast<std::int64_t>(count);
+        return count;
+    }
+    std::size_t pread(void* into, std::size_t size, std::int64_t offset) override {
+        try {
+            return bytes_.read(static_cast<std::uint64_t>(offset),
+                               {static_cast<char*>(into), size});
+        } catch (const std::exception&) {
+            return 0; // the reader finds less than it wanted
+        }
+    }
+
+private:
+    const ByteSource& bytes_;
+};
+
+} // namespace
+
+struct ImageCodecs::Picture {
+    explicit Picture(const ByteSource& bytes) : proxy(bytes) {}
+
+    Proxy proxy;
     std::unique_ptr<OIIO::ImageInput> input; // goes before what it reads from
     int channel_count = 0;
 };
@@ -49,7 +81,7 @@ CodecResult without_exceptions(const Work& work) noexcept {
     }
 }
 
-CodecResult open(std::string_view bytes, const std::string& format, const std::string& name,
+CodecResult open(const ByteSource& bytes, const std::string& format, const std::string& name,
                  ImageCodecs::Picture*& picture, ImageCodecs::Header& header) noexcept {
     picture = nullptr;
     return without_exceptions([&]() -> CodecResult {
@@ -58,7 +90,7 @@ CodecResult open(std::string_view bytes, const std::string& format, const std::s
         if (!opened->input) return {CodecAnswer::no_codec};
         OIIO::ImageSpec hints, spec;
         hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not times alpha
-        opened->input->set_ioproxy(&opened->memory);
+        opened->input->set_ioproxy(&opened->proxy);
         if (!opened->input->open(name, spec, hints)) return refused(*opened->input);
         header = {{spec.width, spec.height}, spec.nchannels, spec.deep, spec.channelnames};
         opened->channel_count = spec.nchannels;
@@ -67,11 +99,36 @@ CodecResult open(std::string_view bytes, const std::string& format, const std::s
     });
 }
 
-CodecResult read(ImageCodecs::Picture& picture, CodecValue type, void* values) noexcept {
+/// Rows of tiles that hold these rows, of which those are kept.
+bool read_tiles(OIIO::ImageInput& input, std::uint32_t first, std::uint32_t row_count,
+                int channel_count, OIIO::TypeDesc type, void* values) {
+    const OIIO::ImageSpec& spec = input.spec();
+    const int begin = static_cast<int>(first), end = begin + static_cast<int>(row_count);
+    const int from = begin / spec.tile_height * spec.tile_height;
+    const int to = std::min((end + spec.tile_height - 1) / spec.tile_height * spec.tile_height,
+                            spec.height);
+    const std::size_t row = std::size_t(spec.width) * std::size_t(channel_count) * type.size();
+    std::vector<char> tiles(row * std::size_t(to - from));
+    if (!input.read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + from, spec.y + to, spec.z,
+                          spec.z + 1, 0, channel_count, type, tiles.data()))
+        return false;
+    std::memcpy(values, tiles.data() + row * std::size_t(begin - from), row * row_count);
+    return true;
+}
+
+CodecResult read(ImageCodecs::Picture& picture, std::uint32_t first, std::uint32_t row_count,
+                 CodecValue type, void* values) noexcept {
     return without_exceptions([&]() -> CodecResult {
         OIIO::ImageInput& input = *picture.input;
-        if (!input.read_image(0, 0, 0, picture.channel_count, type_of(type), values))
-            return refused(input);
+        const OIIO::ImageSpec& spec = input.spec();
+        const int from = spec.y + static_cast<int>(first);
+        const bool is_read = spec.tile_width > 0
+                                 ? read_tiles(input, first, row_count, picture.channel_count,
+                                              type_of(type), values)
+                                 : input.read_scanlines(
+                                       0, 0, from, from + static_cast<int>(row_count), 0, 0,
+                                       picture.channel_count, type_of(type), values);
+        if (!is_read) return refused(input);
         return {};
     });
 }
@@ -109,6 +166,6 @@ constexpr ImageCodecs kCodecs{.open = open, .read = read, .close = close, .encod
 } // namespace catoptric
 
 extern "C" __attribute__((visibility("default"))) const catoptric::ImageCodecs*
-catoptric_image_codecs_1() {
+catoptric_image_codecs_2() {
     return &catoptric::kCodecs;
 }

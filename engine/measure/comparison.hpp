@@ -113,6 +113,7 @@ struct Errors {
     Difference error_mirror_in_mirror; ///< ... whose reflected ray does
     Difference error_non_mirror;       ///< everything else
     Difference error_all;
+    Difference error_dielectrics; ///< over the pixels whose first hit reflects, but is no mirror
     std::vector<Difference> error_per_mirror; ///< by MirrorId::index
 };
 
@@ -181,11 +182,12 @@ struct Row : Errors {
     std::vector<float> flip_map; ///< against the reference, row-major
     std::string image;           ///< file name without folder and ending: "naive-bounces1"
     bool is_reference = false;   ///< same technique and settings as the reference
-    bool mirrors_black = false;  ///< it draws nothing in them: a floor for time, no technique
+    bool mirrors_black = false;  ///< it draws nothing in them: see measure::is_candidate
 };
 
 struct Comparison {
     std::string version, commit;
+    std::string date; ///< when the run began: UTC, ISO 8601, "2026-11-24T03:05:10Z"
     std::vector<std::string> command;
     bool complete = true;         ///< false: the rows so far, of a run that goes on or was stopped
     std::size_t asked = 0;        ///< rows that it is to have
@@ -210,8 +212,9 @@ struct Comparison {
     std::optional<Summary> clear_ms;
     std::vector<View> views; ///< drawn, over which errors are known beside the one of the pictures
     std::vector<Row> rows;
-    std::vector<std::size_t> pareto; ///< rows on the front of gpu_ms.median against error.flip
-    std::optional<Lag> lag;          ///< of the rows that remember, when it was asked for
+    /// Rows on the front of gpu_ms.median against error.flip: measure::front_of.
+    std::vector<std::size_t> pareto;
+    std::optional<Lag> lag; ///< of the rows that remember, when it was asked for
     std::vector<std::string> warnings;
     std::string images; ///< folder of its pictures below images/, "1-room/"; empty: that itself
 };

@@ -1,10 +1,11 @@
 #include "measure/difference.hpp"
 
 #include "core/error.hpp"
+#include "measure/difference_sum.hpp"
 #include "measure/lines.hpp"
+#include "measure/percentile.hpp"
 #include "measure/pixel_error.hpp"
 #include "measure/quantity.hpp"
-#include "measure/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,6 @@
 
 namespace catoptric::measure {
 namespace {
-
-bool counts(const Mask& mask, std::size_t pixel) { return mask.empty() || mask[pixel] != 0; }
 
 void check_sizes(const Picture& a, const Picture& b, const Mask& mask, std::size_t flip_size) {
     check(a.width == b.width && a.height == b.height, Failure::bad_data,
@@ -110,62 +109,79 @@ const Registered kMeanClamped{
 
 } // namespace
 
+void DifferenceSum::add(std::span<const vec3> a, std::span<const vec3> b,
+                        std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
+    const std::size_t first = off_.size();
+    off_.resize(first + a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (!mask.empty() && mask[i] == 0) continue;
+        ++result_.pixels;
+        if (!is_finite(a[i]) || !is_finite(b[i])) {
+            ++result_.nonfinite;
+            continue;
+        }
+        const dvec3 channels = apart(a[i], b[i]);
+        const double largest = std::max({channels.x, channels.y, channels.z});
+        squares_ += glm::dot(channels, channels);
+        absolutes_ += channels.x + channels.y + channels.z;
+        flips_ += static_cast<double>(flip_map[i]);
+        largest_.push_back(largest);
+        off_[first + i] = largest > kOff;
+        off_count_ += off_[first + i];
+        if (largest_.size() == 1 || largest > result_.max) {
+            const auto width = static_cast<std::size_t>(width_);
+            result_.max = largest;
+            result_.max_x = static_cast<int>((first + i) % width);
+            result_.max_y = static_cast<int>((first + i) / width);
+        }
+    }
+}
+
+Difference DifferenceSum::take() {
+    Difference result = std::exchange(result_, {});
+    const Mask off = std::exchange(off_, {});
+    std::vector<double> largest = std::exchange(largest_, {});
+    if (largest.empty()) return result;
+    const auto judged = static_cast<double>(largest.size());
+    result.rmse = std::sqrt(squares_ / (3 * judged));
+    result.mae = absolutes_ / (3 * judged);
+    result.flip = flips_ / judged;
+    if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
+    result.off = static_cast<double>(off_count_) / judged;
+    result.p99 = percentile_of(std::move(largest), 0.99);
+    result.longest_line = longest_line(off, width_);
+    return result;
+}
+
 Difference difference(const Picture& a, const Picture& b, const Mask& mask,
                       std::span<const float> flip_map) {
     check_sizes(a, b, mask, flip_map.size());
-    Difference result;
+    DifferenceSum sum(a.width);
+    sum.add(a.pixels, b.pixels, mask, flip_map);
+    Difference result = sum.take();
     result.others = other_figures({a, b, mask, flip_map});
-    std::vector<double> largest; // of each judged pixel
-    Mask off(a.pixels.size());
-    std::size_t off_count = 0;
-    double squares = 0;
-    double absolutes = 0;
-    double flips = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        if (!counts(mask, i)) continue;
-        ++result.pixels;
-        if (!is_finite(a.pixels[i]) || !is_finite(b.pixels[i])) {
-            ++result.nonfinite;
-            continue;
-        }
-        const dvec3 channels = apart(a.pixels[i], b.pixels[i]);
-        squares += glm::dot(channels, channels);
-        absolutes += channels.x + channels.y + channels.z;
-        flips += static_cast<double>(flip_map[i]);
-        largest.push_back(std::max({channels.x, channels.y, channels.z}));
-        off[i] = largest.back() > kOff;
-        off_count += off[i];
-        if (largest.size() == 1 || largest.back() > result.max) {
-            result.max = largest.back();
-            result.max_x = static_cast<int>(i % static_cast<std::size_t>(a.width));
-            result.max_y = static_cast<int>(i / static_cast<std::size_t>(a.width));
-        }
-    }
-    if (largest.empty()) return result;
-
-    const auto judged = static_cast<double>(largest.size());
-    result.rmse = std::sqrt(squares / (3 * judged));
-    result.mae = absolutes / (3 * judged);
-    result.flip = flips / judged;
-    if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
-    result.off = static_cast<double>(off_count) / judged;
-    result.longest_line = longest_line(off, a.width);
-    result.p99 = percentile(std::move(largest), 0.99);
     return result;
+}
+
+void MeanSum::add(std::span<const vec3> pixels, std::span<const std::uint8_t> mask) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (!mask.empty() && mask[i] == 0) continue;
+        sum_ += range_ == Range::clamped ? clamped(pixels[i]) : dvec3(pixels[i]);
+        count_ += 1;
+    }
+}
+
+Mean MeanSum::mean() const {
+    const dvec3 rgb = sum_ / count_; // 0/0 is NaN
+    return {rgb, (rgb.x + rgb.y + rgb.z) / 3};
 }
 
 Mean mean_of(const Picture& picture, Range range, const Mask& mask) {
     check(mask.empty() || mask.size() == picture.pixels.size(), Failure::bad_data, "a mean of ",
           picture.pixels.size(), " pixels wants a mask of as many, found ", mask.size());
-    dvec3 sum(0);
-    double count = 0;
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-        if (!counts(mask, i)) continue;
-        sum += range == Range::clamped ? clamped(picture.pixels[i]) : dvec3(picture.pixels[i]);
-        count += 1;
-    }
-    const dvec3 rgb = sum / count; // 0/0 is NaN
-    return {rgb, (rgb.x + rgb.y + rgb.z) / 3};
+    MeanSum sum(range);
+    sum.add(picture.pixels, mask);
+    return sum.mean();
 }
 
 } // namespace catoptric::measure

@@ -4,8 +4,26 @@
 #include "measure/rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace catoptric::measure {
+
+std::optional<NotDrawnFinding> find_not_drawn(const Comparison& comparison) {
+    NotDrawnFinding finding;
+    for (const Row& row : comparison.rows) {
+        const Difference& error = row.error_dielectrics;
+        if (error.pixels == 0 || std::isnan(error.flip)) continue;
+        finding.share = static_cast<double>(error.pixels) /
+                        static_cast<double>(row.error_all.pixels);
+        const bool traces_all = row.rays && !row.traced_fraction;
+        if (traces_all)
+            finding.tracing.push_back(&row);
+        else if (finding.best == nullptr || error.flip < finding.best->error_dielectrics.flip)
+            finding.best = &row;
+    }
+    if (finding.best == nullptr) return {};
+    return finding;
+}
 
 std::optional<ClearFinding> find_clears(const Comparison& comparison) {
     using Verdict = ClearFinding::Verdict;

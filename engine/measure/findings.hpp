@@ -12,6 +12,15 @@ namespace catoptric::measure {
 /// One step of an 8-bit picture.
 inline constexpr double kStep = 1.0 / 255;
 
+/// What reflects without being a mirror, where rows leave its reflection out.
+struct NotDrawnFinding {
+    double share = 0;                ///< of the picture's pixels, 0..1
+    std::vector<const Row*> tracing; ///< rows that draw the reflection: they trace every pixel
+    const Row* best = nullptr;       ///< of the others, the lowest FLIP over these pixels
+};
+/// None where no pixel reflects without being a mirror's, or every row draws the reflection.
+std::optional<NotDrawnFinding> find_not_drawn(const Comparison& comparison);
+
 /// Whether clearing cubes explains that part one without inter-reflections, which renders and
 /// clears none, is behind part two.
 struct ClearFinding {

@@ -80,12 +80,16 @@ Plane blurred(const Plane& channel, const std::vector<Kernel>& kernels) {
     return sum;
 }
 
-/// Filtered, clamped into the gamut, in the perceptually even space.
-std::vector<dvec3> perceived(const Picture& display, double pixels_per_degree) {
+int colour_radius(double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi;
     constexpr double kWidest = 0.04; // the largest b below
-    const int radius = static_cast<int>(
+    return static_cast<int>(
         std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixels_per_degree));
+}
+
+/// Filtered, clamped into the gamut, in the perceptually even space.
+std::vector<dvec3> perceived(const Picture& display, double pixels_per_degree) {
+    const int radius = colour_radius(pixels_per_degree);
     const auto gaussian = [&](double a, double b) {
         return sensitivity(a, b, radius, pixels_per_degree);
     };
@@ -150,11 +154,16 @@ void normalise(Kernel& kernel) {
     for (double& w : kernel.weights) w /= w > 0 ? positive : negative;
 }
 
+double feature_deviation(double pixels_per_degree) { return 0.5 * 0.082 * pixels_per_degree; }
+int feature_radius(double pixels_per_degree) {
+    return static_cast<int>(std::ceil(3 * feature_deviation(pixels_per_degree)));
+}
+
 /// Gradient magnitudes of the luminance by the first (edge) and second (point) derivative of a
 /// Gaussian whose width is that of the eye's edge detector, 0.082 degrees.
 Features features(const Picture& display, double pixels_per_degree) {
-    const double deviation = 0.5 * 0.082 * pixels_per_degree;
-    const int radius = static_cast<int>(std::ceil(3 * deviation));
+    const double deviation = feature_deviation(pixels_per_degree);
+    const int radius = feature_radius(pixels_per_degree);
     Kernel smooth(radius), first(radius), second(radius);
     for (int i = -radius; i <= radius; ++i) {
         const double squared = i * i / (deviation * deviation);
@@ -215,6 +224,10 @@ std::vector<float> flip(const Picture& a, const Picture& b, double pixels_per_de
         }
     });
     return map;
+}
+
+int flip_reach(double pixels_per_degree) {
+    return std::max(colour_radius(pixels_per_degree), feature_radius(pixels_per_degree));
 }
 
 double flip_mean(std::span<const float> map, const Mask& mask) {

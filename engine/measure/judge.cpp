@@ -35,12 +35,14 @@ bool judged(const Row* row) {
 
 namespace {
 
-/// It has what a choice is made by.
+/// Returns whether the row has what a choice is made by.
 bool is_choice(const Row& row) {
-    return judged(&row) && !std::isnan(row.error.flip) && row.time_ms().median > 0;
+    return is_candidate(row) && !std::isnan(row.error.flip) && row.time_ms().median > 0;
 }
 
 } // namespace
+
+bool is_candidate(const Row& row) { return judged(&row) && !row.mirrors_black; }
 
 Interval time_ratio(const Row& a, const Row& b) {
     return ratio_interval(a.time_ms().rounds, b.time_ms().rounds);
@@ -90,11 +92,10 @@ bool on_front(const Comparison& comparison, const Row& row) {
 }
 
 std::vector<const Row*> fastest_rows(const Comparison& comparison) {
-    const auto counts = [](const Row& row) { return judged(&row) && !row.mirrors_black; };
     std::vector<const Row*> fastest;
     for (const Row& row : comparison.rows)
-        if (counts(row) && std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return counts(other) && is_faster(other, row);
+        if (is_candidate(row) && std::ranges::none_of(comparison.rows, [&](const Row& other) {
+                return is_candidate(other) && is_faster(other, row);
             }))
             fastest.push_back(&row);
     return fastest;
@@ -103,7 +104,7 @@ std::vector<const Row*> fastest_rows(const Comparison& comparison) {
 const Row* closest_row(const Comparison& comparison) {
     const Row* closest = nullptr;
     for (const Row& row : comparison.rows) {
-        if (row.is_reference || !judged(&row)) continue;
+        if (row.is_reference || !is_candidate(row)) continue;
         if (closest == nullptr || row.error.flip < closest->error.flip) closest = &row;
     }
     return closest;
@@ -123,6 +124,8 @@ Standing standing(const Comparison& comparison) {
     for (const Row& row : comparison.rows) {
         if (!judged(&row))
             result.not_judged.push_back(&row);
+        else if (row.mirrors_black)
+            result.black.push_back(&row);
         else if (!on_front(comparison, row) && winner_over(result.front, row) == nullptr)
             result.beaten_by_beaten.push_back(&row);
     }
@@ -133,7 +136,7 @@ TracingVerdict tracing_verdict(const Comparison& comparison) {
     TracingVerdict verdict;
     verdict.any_traced = std::ranges::any_of(comparison.rows, is_ray_traced);
     for (const Row& row : comparison.rows) {
-        if (is_ray_traced(row) || !judged(&row) || row.mirrors_black) continue;
+        if (is_ray_traced(row) || !is_candidate(row)) continue;
         ++verdict.others;
         if (std::ranges::none_of(comparison.rows, [&](const Row& other) {
                 return is_ray_traced(other) && beats(other, row);

@@ -11,6 +11,9 @@ namespace catoptric::measure {
 bool failed(const Row& row);
 /// Its error over the mirrors is known.
 bool judged(const Row* row);
+/// Returns whether the row takes part in fastest, closest and front: it is judged and draws
+/// something in its mirrors. One with black mirrors is a floor for time.
+bool is_candidate(const Row& row);
 /// Of the ratio of two rows' times, round by round: the rows are apart in time where it excludes 1.
 /// Unknown where they have too few rounds in common.
 Interval time_ratio(const Row& a, const Row& b);
@@ -21,8 +24,8 @@ bool is_tie(const Row& a, const Row& b);
 /// Whether a has less FLIP over the mirrors; where errors are known over views, whether the
 /// interval of the difference says so.
 bool is_closer(const Row& a, const Row& b);
-/// Whether a is the better choice: faster and not farther off, or closer and not slower. A row that
-/// is not judged or took no time beats nobody and is beaten by nobody.
+/// Returns whether a is the better choice: faster and not farther off, or closer and not slower. A
+/// row that is no candidate or took no time beats no row and is beaten by none.
 bool beats(const Row& a, const Row& b);
 
 /// Indices of the rows that no other row beats, in order of time, then index: Comparison::pareto.
@@ -41,9 +44,10 @@ std::vector<const Row*> noisy_rows(const Comparison& comparison);
 
 bool on_front(const Comparison& comparison, const Row& row);
 
-/// Rows that no other is faster than, mirrors drawn: one, or several that are not told apart.
+/// Candidates that no other candidate is faster than: one, or several that are not told apart.
 std::vector<const Row*> fastest_rows(const Comparison& comparison);
-/// The least FLIP over the mirrors but for the reference itself; null where none is judged.
+/// The candidate of least FLIP over the mirrors but for the reference itself; null where there is
+/// none.
 const Row* closest_row(const Comparison& comparison);
 
 /// Who beats whom.
@@ -56,6 +60,7 @@ struct Standing {
     std::vector<Win> wins;         ///< each loser under the first on the front that beats it
     std::vector<const Row*> beaten_by_beaten;
     std::vector<const Row*> not_judged;
+    std::vector<const Row*> black; ///< judged, but no candidates: their mirrors are black
 };
 Standing standing(const Comparison& comparison);
 

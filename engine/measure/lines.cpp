@@ -26,17 +26,20 @@ struct Grid {
 /// Where a square of kPatch x kPatch pixels that count ends, at its lower right.
 Mask patch_corners(const Grid& grid) {
     Mask corners(grid.mask.size());
-    std::vector<int> edge(grid.mask.size()); // of the largest square that ends there, up to kPatch
-    for (int y = 0; y < grid.height; ++y)
+    // Edges of the largest squares that end in this row and the one above, up to kPatch.
+    std::vector<int> edges(static_cast<std::size_t>(grid.width)), above(edges.size());
+    for (int y = 0; y < grid.height; ++y) {
+        std::swap(edges, above);
         for (int x = 0; x < grid.width; ++x) {
+            const auto i = static_cast<std::size_t>(x);
+            edges[i] = 0;
             if (!grid.counts(x, y)) continue;
-            int before = 0;
-            if (x > 0 && y > 0)
-                before = std::min({edge[grid.index(x - 1, y)], edge[grid.index(x, y - 1)],
-                                   edge[grid.index(x - 1, y - 1)]});
-            edge[grid.index(x, y)] = std::min(before + 1, kPatch);
-            corners[grid.index(x, y)] = edge[grid.index(x, y)] == kPatch;
+            const int before = x > 0 && y > 0 ? std::min({edges[i - 1], above[i], above[i - 1]})
+                                              : 0;
+            edges[i] = std::min(before + 1, kPatch);
+            corners[grid.index(x, y)] = edges[i] == kPatch;
         }
+    }
     return corners;
 }
 
@@ -51,11 +54,16 @@ struct Set {
 /// The set of pixel (x, y), which is taken out of `left`.
 Set take_set(const Grid& grid, const Mask& corners, Mask& left, int x, int y) {
     Set set{x, x, y, y};
-    std::vector<std::pair<int, int>> open{{x, y}};
+    // From the outline inwards: as many wait as the set's edge is long, where the last found first
+    // would let most of a large set wait.
+    std::vector<std::pair<int, int>> open{{x, y}}, next;
     left[grid.index(x, y)] = 0;
-    while (!open.empty()) {
-        const auto [at_x, at_y] = open.back();
-        open.pop_back();
+    for (std::size_t i = 0; !open.empty(); ++i) {
+        if (i == open.size()) {
+            open.clear(), std::swap(open, next), i = 0;
+            if (open.empty()) break;
+        }
+        const auto [at_x, at_y] = open[i];
         set.low_x = std::min(set.low_x, at_x), set.high_x = std::max(set.high_x, at_x);
         set.low_y = std::min(set.low_y, at_y), set.high_y = std::max(set.high_y, at_y);
         set.is_patch = set.is_patch || corners[grid.index(at_x, at_y)] != 0;
@@ -64,7 +72,7 @@ Set take_set(const Grid& grid, const Mask& corners, Mask& left, int x, int y) {
                  ++u) {
                 if (left[grid.index(u, v)] == 0) continue;
                 left[grid.index(u, v)] = 0;
-                open.emplace_back(u, v);
+                next.emplace_back(u, v);
             }
     }
     return set;

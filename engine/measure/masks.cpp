@@ -40,6 +40,10 @@ Mask non_mirror(std::span<const std::uint32_t> hits) {
     return where(hits, [](std::uint32_t hit) { return !first_mirror(hit); });
 }
 
+Mask dielectrics(std::span<const std::uint32_t> hits) {
+    return where(hits, [](std::uint32_t hit) { return !first_mirror(hit) && second_mirror(hit); });
+}
+
 std::size_t pixel_count(const Mask& mask) {
     return static_cast<std::size_t>(
         std::count_if(mask.begin(), mask.end(), [](std::uint8_t value) { return value != 0; }));

@@ -8,7 +8,8 @@
 
 // Which pixels count, from what the reference's camera rays met: one word a pixel, row-major; low
 // 16 bits: number of the mirror hit first, from 1, or 0 for none; high 16 bits: number of the
-// mirror that the ray reflected there meets next, or 0.
+// mirror that the ray reflected there meets next, or 0. Where the first is 0 and the second is not,
+// the surface that was hit first reflects, but is no numbered mirror: a smooth dielectric.
 namespace catoptric::measure {
 
 constexpr MirrorId first_mirror(std::uint32_t hit) { return MirrorId(hit & 0xFFFFU); }
@@ -27,6 +28,8 @@ Mask mirror_in_mirror(std::span<const std::uint32_t> hits);
 Mask of_mirror(std::span<const std::uint32_t> hits, MirrorId mirror);
 /// First hit no mirror, or nothing.
 Mask non_mirror(std::span<const std::uint32_t> hits);
+/// First hit reflects, but is no mirror.
+Mask dielectrics(std::span<const std::uint32_t> hits);
 
 /// How many pixels of a mask count.
 std::size_t pixel_count(const Mask& mask);

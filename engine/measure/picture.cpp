@@ -16,13 +16,17 @@ Picture exposed(Picture picture, double exposure_stops) {
     return picture;
 }
 
-Picture to_display(const Picture& picture, double exposure_stops) {
+namespace {
+
+/// `step` gets what the sRGB curve makes of a value between 0 and 1.
+template <typename Step>
+Picture displayed(const Picture& picture, double exposure_stops, Step&& step) {
     const double gain = std::exp2(exposure_stops);
-    const auto shown = [gain](float linear) {
+    const auto shown = [&](float linear) {
         const double value = gain * static_cast<double>(linear);
         if (!(value > 0)) return 0.0F; // NaN falls here
         if (value >= 1) return 1.0F;
-        return static_cast<float>(std::round(srgb_from_linear(value) * 255) / 255);
+        return static_cast<float>(step(srgb_from_linear(value)));
     };
     Picture display(picture.width, picture.height);
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -30,6 +34,17 @@ Picture to_display(const Picture& picture, double exposure_stops) {
         display.pixels[i] = vec3(shown(pixel.x), shown(pixel.y), shown(pixel.z));
     }
     return display;
+}
+
+} // namespace
+
+Picture to_display(const Picture& picture, double exposure_stops) {
+    return displayed(picture, exposure_stops,
+                     [](double value) { return std::round(value * 255) / 255; });
+}
+
+Picture to_unrounded_display(const Picture& picture, double exposure_stops) {
+    return displayed(picture, exposure_stops, [](double value) { return value; });
 }
 
 } // namespace catoptric::measure

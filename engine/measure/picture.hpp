@@ -41,4 +41,7 @@ CATOPTRIC_API Picture exposed(Picture picture, double exposure_stops);
 /// to 8 bits; values in [0,1] again (multiples of 1/255). NaN becomes 0.
 CATOPTRIC_API Picture to_display(const Picture& picture, double exposure_stops = 0);
 
+/// The same without the rounding to 8 bits: what FLIP of two renderings is figured on.
+CATOPTRIC_API Picture to_unrounded_display(const Picture& picture, double exposure_stops = 0);
+
 } // namespace catoptric::measure

@@ -9,25 +9,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <vector>
 
 namespace catoptric::measure {
 namespace {
-
-constexpr std::uint64_t kMostValues = std::uint64_t{1} << 29; // 2 GiB of float
-
-/// A picture as it is in the file.
-struct Raw {
-    std::string format; ///< "openexr", "hdr" or "png"
-    ImageShape shape;
-    std::array<std::size_t, 3> rgb = {}; ///< which channels; the same one three times for grey
-    std::vector<float> values;
-
-    bool is_png() const { return format == "png"; }
-    float value(std::size_t pixel, std::size_t c) const {
-        return values[pixel * shape.channel_count + rgb[c]];
-    }
-};
 
 /// Where R, G and B are; a picture without them is grey in its first channel.
 std::array<std::size_t, 3> find_rgb(const std::vector<std::string>& channels) {
@@ -42,22 +28,43 @@ std::array<std::size_t, 3> find_rgb(const std::vector<std::string>& channels) {
 }
 
 /// By the first bytes, not by the name.
-Raw decode(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path);
-    const std::string name = path.string(), format = image_format(bytes);
+std::string format_of(const ByteSource& bytes, const std::string& name) {
+    std::array<char, 16> first{};
+    const std::size_t count = bytes.read(0, first);
+    std::string format = image_format({first.data(), count});
     check(format == "openexr" || format == "hdr" || format == "png", Failure::bad_data, name,
           ": wanted an OpenEXR, Radiance or PNG picture, found ", bytes.size(),
           " bytes of something else");
-    ImageReader reader(bytes, format, name);
-    Raw raw{.format = format, .shape = reader.shape()};
-    const auto& [size, channel_count, channels] = raw.shape;
-    check(std::uint64_t(size.x) * size.y * channel_count <= kMostValues, Failure::bad_data, name,
-          ": wanted at most ", kMostValues, " values, found ", size.x, "x", size.y, " with ",
-          channel_count, " channels");
-    raw.rgb = find_rgb(channels);
-    raw.values = reader.floats();
-    return raw;
+    return format;
 }
+
+ImageReader::Judge judge_of(const std::string& name, const PictureReader::Judge& judge) {
+    return [&name, &judge](const ImageShape& shape) {
+        if (judge) judge(static_cast<int>(shape.size.x), static_cast<int>(shape.size.y));
+        check(std::uint64_t(shape.size.x) * shape.size.y * shape.channel_count <= kMostValues,
+              Failure::bad_data, name, ": wanted at most ", kMostValues, " values, found ",
+              shape.size.x, "x", shape.size.y, " with ", shape.channel_count, " channels");
+    };
+}
+
+/// Light of what a PNG stores. Most have 8 bits, whose light is in a table.
+class Decoded {
+public:
+    Decoded() {
+        for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = curve(stored(i));
+    }
+    float operator()(float value) const {
+        const auto i = static_cast<std::size_t>(value * 255 + .5F);
+        return stored(i) == value ? table_[i] : curve(value);
+    }
+
+private:
+    static float stored(std::size_t i) { return static_cast<float>(i) * (1.0F / 255); }
+    static float curve(float value) {
+        return static_cast<float>(linear_from_srgb(static_cast<double>(value)));
+    }
+    std::array<float, 256> table_{};
+};
 
 ImageShape shape_of(const Picture& picture) {
     return {{static_cast<std::uint32_t>(std::max(picture.width, 0)),
@@ -68,29 +75,83 @@ ImageShape shape_of(const Picture& picture) {
 
 } // namespace
 
-Picture read_picture(const std::filesystem::path& path) {
-    const Raw raw = decode(path);
-    Picture picture(static_cast<int>(raw.shape.size.x), static_cast<int>(raw.shape.size.y));
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-        vec3 pixel(raw.value(i, 0), raw.value(i, 1), raw.value(i, 2));
-        if (raw.is_png())
-            for (int c = 0; c < 3; ++c)
-                pixel[c] = static_cast<float>(linear_from_srgb(static_cast<double>(pixel[c])));
-        picture.pixels[i] = pixel;
+struct PictureReader::Open {
+    Open(const std::filesystem::path& path, const Judge& judge)
+        : name(path.string()), bytes(open_bytes(path)), format(format_of(*bytes, name)),
+          reader(*bytes, format, name, judge_of(name, judge)),
+          rgb(find_rgb(reader.shape().channels)) {}
+
+    std::string name;
+    std::unique_ptr<ByteSource> bytes;
+    std::string format; ///< "openexr", "hdr" or "png"
+    ImageReader reader;
+    std::array<std::size_t, 3> rgb; ///< which channels; the same one three times for grey
+    std::vector<float> values;
+};
+
+PictureReader::PictureReader(const std::filesystem::path& path, const Judge& judge)
+    : open_(std::make_unique<Open>(path, judge)) {}
+PictureReader::~PictureReader() = default;
+PictureReader::PictureReader(PictureReader&&) noexcept = default;
+PictureReader& PictureReader::operator=(PictureReader&&) noexcept = default;
+
+int PictureReader::width() const { return static_cast<int>(open_->reader.shape().size.x); }
+int PictureReader::height() const { return static_cast<int>(open_->reader.shape().size.y); }
+std::string PictureReader::format() const {
+    return open_->format == "png" ? "PNG" : open_->format == "hdr" ? "Radiance" : "OpenEXR";
+}
+
+void PictureReader::read_rows(int first, std::span<vec3> pixels) {
+    static const Decoded kDecoded;
+    constexpr std::size_t kPixels = std::size_t{1} << 18; // at once, or a row
+    const bool is_stored = open_->format == "png";        // as sRGB
+    const std::size_t channel_count = open_->reader.shape().channel_count;
+    const auto columns = static_cast<std::size_t>(width());
+    const std::size_t most = std::max<std::size_t>(1, kPixels / columns) * columns;
+    auto row = static_cast<std::uint32_t>(first);
+    while (!pixels.empty()) {
+        const std::size_t count = std::min(most, pixels.size());
+        open_->values.resize(count * channel_count);
+        open_->reader.read_rows(row, open_->values);
+        for (std::size_t i = 0; i < count; ++i)
+            for (int c = 0; c < 3; ++c) {
+                const float value =
+                    open_->values[i * channel_count + open_->rgb[static_cast<std::size_t>(c)]];
+                pixels[i][c] = is_stored ? kDecoded(value) : value;
+            }
+        pixels = pixels.subspan(count);
+        row += static_cast<std::uint32_t>(count / columns);
     }
+}
+
+Picture read_picture(const std::filesystem::path& path, const PictureReader::Judge& judge) {
+    PictureReader reader(path, judge);
+    Picture picture(reader.width(), reader.height());
+    reader.read_rows(0, picture.pixels);
     return picture;
 }
 
+bool is_png(const std::filesystem::path& path) {
+    std::string start(8, '\0');
+    std::ifstream file(path, std::ios::binary);
+    return file.read(start.data(), 8) && image_format(start) == "png";
+}
+
 Mask read_mask(const std::filesystem::path& path, int width, int height) {
-    const Raw raw = decode(path);
-    check(raw.is_png(), Failure::bad_data, path.string(), ": wanted a PNG as mask, found ",
-          raw.format == "hdr" ? "Radiance" : "OpenEXR");
-    const ivec2 size(raw.shape.size);
-    check(size == ivec2(width, height), Failure::bad_data, path.string(), ": wanted a mask of ",
-          width, "x", height, " as the pictures, found ", size.x, "x", size.y);
+    PictureReader reader(path, [&](int columns, int rows) {
+        check(columns == width && rows == height, Failure::bad_data, path.string(),
+              ": wanted a mask of ", width, "x", height, " as the pictures, found ", columns, "x",
+              rows);
+    });
+    check(reader.format() == "PNG", Failure::bad_data, path.string(),
+          ": wanted a PNG as mask, found ", reader.format());
     Mask mask(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    for (std::size_t i = 0; i < mask.size(); ++i)
-        if (raw.value(i, 0) > 0 || raw.value(i, 1) > 0 || raw.value(i, 2) > 0) mask[i] = 255;
+    std::vector<vec3> row(static_cast<std::size_t>(width));
+    for (int y = 0; y < height; ++y) {
+        reader.read_rows(y, row);
+        std::uint8_t* const counts = mask.data() + static_cast<std::size_t>(y) * row.size();
+        for (std::size_t x = 0; x < row.size(); ++x) counts[x] = row[x] == vec3(0) ? 0 : 255;
+    }
     return mask;
 }
 

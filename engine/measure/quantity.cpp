@@ -44,6 +44,7 @@ constexpr RowMask kMasks[] = {
      &Errors::error_mirror_in_mirror},
     {"error_non_mirror", "non_mirror", "not a mirror", &Errors::error_non_mirror},
     {"error_all", "all", "all", &Errors::error_all},
+    {"error_dielectrics", "dielectrics", "smooth dielectrics", &Errors::error_dielectrics, true},
 };
 
 } // namespace
@@ -106,5 +107,11 @@ std::vector<double> other_figures(const Compared& compared) {
 }
 
 std::span<const RowMask> masks() { return kMasks; }
+
+bool has_columns(const RowMask& mask, const Comparison& comparison) {
+    return !mask.only_where_some || std::ranges::any_of(comparison.rows, [&](const Row& row) {
+        return (row.*mask.error).pixels > 0;
+    });
+}
 
 } // namespace catoptric::measure

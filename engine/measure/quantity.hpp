@@ -114,7 +114,10 @@ struct RowMask {
     std::string_view
         title; ///< in tables; empty: the mirrors, of which all speaks unless it says so
     Difference Errors::*error;
+    bool only_where_some = false; ///< tables have columns of it only where a row has such pixels
 };
 std::span<const RowMask> masks();
+/// Returns whether tables have columns of this mask.
+bool has_columns(const RowMask& mask, const Comparison& comparison);
 
 } // namespace catoptric::measure

@@ -1,51 +1,88 @@
 #include "reflect/mirrored.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace catoptric::reflect {
 
 namespace {
 
 using render::MirroredView;
 
-/// The planes of mirrors that are drawn so.
-std::vector<std::optional<render::MirrorPlane>> planes_of(const render::GpuScene& scene,
-                                                          const Assignment& assignment) {
-    std::vector<std::optional<render::MirrorPlane>> planes;
-    for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
+/// A face that has views: of which mirror it is one, and its triangles.
+struct Face {
+    std::uint32_t mirror = 0;
+    std::size_t number = 0; ///< from 1; 0: it is the whole mirror
+    std::vector<scene::TriangleRun> triangles;
+};
+
+/// All mirrors that are drawn by planes.
+struct Faces {
+    std::vector<Face> faces;
+    std::vector<std::optional<render::MirrorPlane>> planes; ///< of each face
+    /// Mirrors of several faces, with their triangles in none.
+    std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleRun>>> bodies;
+};
+
+Faces faces_of(const render::GpuScene& scene, const Assignment& assignment) {
+    Faces all;
+    for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const Choice& choice = assignment.choices[assignment.of_mirror[i]];
-        planes.emplace_back();
-        if (!choice.technique->mirrored_bounces || !scene.flat_mirrors()[i]) continue;
-        planes.back() = {*scene.flat_mirrors()[i],
-                         choice.technique->mirrored_bounces(choice.settings)};
+        if (!choice.technique->mirrored_bounces) continue;
+        const scene::FlatFaces& flats = scene.flat_mirrors()[i];
+        const int bounces = choice.technique->mirrored_bounces(choice.settings);
+        if (!flats.is_one()) all.bodies.emplace_back(i, flats.bent);
+        for (std::size_t k = 0; k < flats.faces.size(); ++k) {
+            const scene::Flat& face = flats.faces[k];
+            if (face.off > scene.flat_tolerance()) {
+                std::ranges::copy(face.triangles, std::back_inserter(all.bodies.back().second));
+                continue;
+            }
+            all.faces.push_back({i, flats.is_one() ? 0 : k + 1, face.triangles});
+            all.planes.push_back(render::MirrorPlane{face, bounces});
+        }
     }
-    return planes;
+    return all;
 }
 
-/// "mirrored/2/1": what mirror 1 shows in mirror 2.
-std::string name_of(const std::vector<MirroredView>& views, std::size_t view) {
+/// "mirrored/2/1": what mirror 1 shows in mirror 2; "mirrored/2.3": what face 3 of mirror 2 shows.
+std::string name_of(const Faces& all, const std::vector<MirroredView>& views, std::size_t view) {
     const auto& within = views[view].within;
-    return (within ? name_of(views, *within) : "mirrored") + "/" +
-           std::to_string(views[view].mirror + 1);
+    const Face& face = all.faces[views[view].mirror];
+    return (within ? name_of(all, views, *within) : "mirrored") + "/" +
+           std::to_string(face.mirror + 1) +
+           (face.number > 0 ? "." + std::to_string(face.number) : "");
 }
 
-/// Mirrors with views show what these made, black where nothing did; `made`: of the views that are
-/// seen in `within`.
-render::Looks shown_in(render::Looks looks,
-                       const std::vector<std::optional<render::MirrorPlane>>& planes,
+/// Faces with views show what these made, black where nothing did, as what of a mirror is in no
+/// face; `made`: of the views that are seen in `within`.
+render::Looks shown_in(render::Looks looks, const Faces& all,
                        const std::vector<MirroredView>& views,
                        const std::vector<graph::Image>& made, std::optional<std::size_t> within) {
-    const auto show = [&](std::uint32_t mirror, render::MirrorLook look) {
-        looks.of_mirror[mirror] = static_cast<std::uint32_t>(looks.looks.size());
-        looks.looks.push_back(std::move(look));
-    };
-    for (std::uint32_t mirror = 0; mirror < planes.size(); ++mirror)
-        if (planes[mirror]) show(mirror, {}); // black
-    for (std::size_t i = 0; i < views.size(); ++i)
-        if (views[i].within == within)
-            show(views[i].mirror, {.fragment = "reflect/planar.frag",
-                                   .constants = {},
-                                   .captures = {},
-                                   .images = {{"mirrored", {made[i]}}},
-                                   .buffers = {}});
+    const auto black = static_cast<std::uint32_t>(looks.looks.size());
+    looks.looks.emplace_back();
+    std::vector<std::uint32_t> of_face(all.faces.size(), black);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (views[i].within != within) continue;
+        of_face[views[i].mirror] = static_cast<std::uint32_t>(looks.looks.size());
+        looks.looks.push_back({.fragment = "reflect/planar.frag",
+                               .constants = {},
+                               .captures = {},
+                               .images = {{"mirrored", {made[i]}}},
+                               .buffers = {}});
+    }
+    for (const auto& [mirror, bent] : all.bodies) {
+        looks.of_mirror[mirror] = render::Looks::kInParts;
+        if (!bent.empty()) looks.parts.push_back({mirror, black, bent});
+    }
+    for (std::size_t i = 0; i < all.faces.size(); ++i) {
+        const Face& face = all.faces[i];
+        const bool is_looked_through = within && views[*within].mirror == i;
+        if (face.number == 0)
+            looks.of_mirror[face.mirror] = of_face[i];
+        else if (!is_looked_through)
+            looks.parts.push_back({face.mirror, of_face[i], face.triangles});
+    }
     return looks;
 }
 
@@ -55,20 +92,22 @@ std::vector<std::string> add_mirrored(graph::Graph& graph, const render::FrameIn
                                       const Assignment& assignment,
                                       const render::Lighting& lighting, const render::Looks& others,
                                       render::Looks& looks) {
-    const auto planes = planes_of(inputs.scene, assignment);
+    const Faces all = faces_of(inputs.scene, assignment);
     int asked = 0;
-    for (const auto& plane : planes)
-        if (plane) asked = std::max(asked, plane->bounces);
+    for (const auto& plane : all.planes) asked = std::max(asked, plane->bounces);
     int most = asked;
-    const std::vector<MirroredView> views = render::mirrored_views(inputs.scene.eye(), planes,
+    const std::vector<MirroredView> views = render::mirrored_views(inputs.scene.eye(), all.planes,
                                                                    inputs.size, most);
     std::vector<graph::Image> made(views.size());
     for (std::size_t i = views.size(); i-- > 0;) { // what a view shows comes after it
         const std::uint32_t number = inputs.scene.add_view(views[i].view, views[i].eye);
-        made[i] = render::add_mirrored_view(graph, inputs, name_of(views, i), views[i], number,
-                                            lighting, shown_in(others, planes, views, made, i));
+        const Face& face = all.faces[views[i].mirror];
+        const std::optional<std::uint32_t> whole = face.number == 0 ? std::optional(face.mirror)
+                                                                    : std::nullopt;
+        made[i] = render::add_mirrored_view(graph, inputs, name_of(all, views, i), views[i], number,
+                                            lighting, shown_in(others, all, views, made, i), whole);
     }
-    looks = shown_in(std::move(looks), planes, views, made, {});
+    looks = shown_in(std::move(looks), all, views, made, {});
     if (most == asked) return {};
     return {"flat mirrors show " + std::to_string(most) + " mirrors one behind the other, not " +
             std::to_string(asked) + ": a frame has at most " +

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <functional>
 #include <optional>
 
@@ -16,6 +17,14 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\n";
 constexpr std::size_t kLongestFileName = 80;
+
+constexpr double kLeastSaid = .001; // of a mirror's area that is in no flat face
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+    return text;
+}
 
 /// How closely a pattern's item says which mirror is meant.
 enum Rank { kNumber, kName, kRest, kNone };
@@ -128,7 +137,8 @@ Assignment assign(const Plan& plan, const std::vector<std::string>& names) {
         assignment.choices = {plan.rules.front().choice};
         assignment.of_mirror.assign(names.size(), 0);
         assignment.patterns.assign(names.size(), "");
-        assignment.reasons.assign(names.size(), "");
+        assignment.reasons = plan.reasons;
+        assignment.reasons.resize(names.size());
         return assignment;
     }
     struct Best {
@@ -178,9 +188,10 @@ void demand(require::Question& question, const std::vector<Plan>& plans) {
     question.shadow_edge = coarsest.value_or(question.shadow_edge);
 }
 
-Assignment fitted(Assignment assignment, const std::vector<std::optional<scene::Flat>>& flats,
+Assignment fitted(Assignment assignment, const std::vector<scene::FlatFaces>& flats,
                   double tolerance) {
     std::vector<Choice> choices; // without those that nobody has any more
+    assignment.lacks.assign(assignment.of_mirror.size(), "");
     if (assignment.of_mirror.empty()) return assignment;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
         Choice choice = assignment.choices[assignment.of_mirror[i]];
@@ -192,6 +203,11 @@ Assignment fitted(Assignment assignment, const std::vector<std::optional<scene::
             choice = rest_of(choice);
             assignment.reasons[i] = asked + " draws flat mirrors, and this is " + lack +
                                     ": rest=" + choice.label;
+            assignment.lacks[i] = lack + ", drawn by " + choice.label;
+        } else if (choice.technique->mirrored_bounces) {
+            const double bent = 1 - flats[i].share(tolerance);
+            if (bent >= kLeastSaid)
+                assignment.lacks[i] = percent(bent) + " of its surface is not flat, black there";
         }
         assignment.of_mirror[i] = index_of(choice, choices);
     }

@@ -47,6 +47,8 @@ struct Assignment {
     /// Why it is drawn so, likewise, where that is more than the rule: another technique draws it,
     /// or the plan was suggested.
     std::vector<std::string> reasons;
+    /// What its technique does not draw as asked, likewise, a clause each; empty: nothing.
+    std::vector<std::string> lacks;
 };
 
 /// A rule that names the mirror by number goes before one that does by name, that before `*`; of
@@ -58,8 +60,9 @@ Assignment assign(const Plan& plan, const std::vector<std::string>& names);
 void demand(require::Question& question, const std::vector<Plan>& plans);
 
 /// Mirrors that their technique cannot draw (Technique::unfit) get the one that its knob `rest`
-/// names, with the same shadows. `flats`: of each mirror.
-Assignment fitted(Assignment assignment, const std::vector<std::optional<scene::Flat>>& flats,
+/// names, with the same shadows. Assignment::lacks says so, and which part of a mirror with flat
+/// faces lies in none of them. `flats`: of each mirror.
+Assignment fitted(Assignment assignment, const std::vector<scene::FlatFaces>& flats,
                   double tolerance);
 
 } // namespace catoptric::reflect

@@ -1,6 +1,7 @@
 // A flat mirror shows a view of its own: that of the eye mirrored in its plane, clipped there
 // (Diefenbach and Badler 1997). Exact but for the edges of triangles; a mirror in a mirror has a
-// view in a view. R = 2 + views.
+// view in a view. Of a body with flat faces each face that the eye is in front of has one. R = 2 +
+// views.
 #include "reflect/captures.hpp"
 
 #include <cstdio>
@@ -25,12 +26,12 @@ constexpr Knob kKnobs[] = {
     kShadowMapEdge,
     kCapture};
 
-std::string unfit(const std::optional<scene::Flat>& flat, double tolerance) {
-    if (flat && flat->off <= tolerance) return {};
+std::string unfit(const scene::FlatFaces& flats, double tolerance) {
+    if (flats.share(tolerance) >= scene::kFlatEnough) return {};
     char text[96] = "not flat";
-    if (flat)
-        std::snprintf(text, sizeof text, "%.2g rad off a plane, where %.2g would do", flat->off,
-                      tolerance);
+    if (flats.share(scene::kFarFromFlat) >= scene::kFlatEnough)
+        std::snprintf(text, sizeof text, "%.2g rad off a plane, where %.2g would do",
+                      flats.faces.front().off, tolerance);
     return text;
 }
 

@@ -64,8 +64,8 @@ struct Technique {
     /// the other in it.
     int (*mirrored_bounces)(const Settings& settings) = nullptr;
     /// Why it cannot draw the mirror, after "it is"; empty: it can. Null: it draws any. What it
-    /// cannot is drawn by the row that the knob `rest` names.
-    std::string (*unfit)(const std::optional<scene::Flat>& flat, double tolerance) = nullptr;
+    /// cannot is drawn by the row that the knob `rest` names. `tolerance`: scene::flat_tolerance.
+    std::string (*unfit)(const scene::FlatFaces& flats, double tolerance) = nullptr;
     /// The whole picture where all mirrors are its own, without a view that is drawn. Null: drawn.
     Outputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
                        const Settings& settings, const render::Lighting& lighting) = nullptr;

@@ -53,8 +53,9 @@ private:
         plane.at = dot(plane.normal, corner(0));
         for (std::uint32_t j = 0; j < 3; ++j)
             plane.room = std::max(plane.room, kInPlane * f64::largest(glm::abs(corner(j))));
-        const double height = light_.directional != 0 ? -dot(plane.normal, dvec3(light_.forward))
-                                                      : -plane.depth(dvec3(light_.position));
+        const double height = light_.kind == shared::kLightDirectional
+                                  ? -dot(plane.normal, dvec3(light_.forward))
+                                  : -plane.depth(dvec3(light_.position));
         if (height == 0) return true; // seen from its edge
         if (height < 0) plane = {-plane.normal, -plane.at, plane.room};
         return std::ranges::all_of(geometry_.ranges, [&](const DrawRange& other) {

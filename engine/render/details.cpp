@@ -2,10 +2,12 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "render/facets.hpp"
 #include "scene/texel.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <map>
 
 namespace catoptric::render {
 
@@ -84,6 +86,7 @@ void Details::fill(const scene::Scene& now, const Geometry& geometry, const Vert
     fill_texels(now, most);
     std::vector<shared::Detail> details;
     any_ = masks_ = false;
+    std::map<std::size_t, bool> leaves; // by mesh
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
         const scene::Material& material = now.materials[now.objects[i].material];
@@ -96,6 +99,13 @@ void Details::fill(const scene::Scene& now, const Geometry& geometry, const Vert
         detail.emission = use_of(material.emission_texture);
         detail.rough = use_of(material.roughness_texture);
         any_ = any_ || range.varies || range.turns;
+        if (material.albedo != vec3(0) && !(range.mirror && !range.lit)) {
+            const std::size_t mesh = now.objects[i].mesh;
+            const auto [entry, is_new] = leaves.try_emplace(mesh, false);
+            if (is_new) entry->second = leaves_facets(now.meshes[mesh]);
+            detail.flags |= bit(entry->second, shared::kDetailFacets);
+            any_ = any_ || entry->second;
+        }
         masks_ = masks_ || range.masked;
     }
     if (details.empty()) details.emplace_back(); // a buffer is never empty

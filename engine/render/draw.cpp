@@ -26,9 +26,11 @@ struct PlacedDraw {
     shared::Placement placement;
 };
 
-/// One object in the layers whose view it may meet; neighbouring layers in one draw.
+/// One object in the layers whose view it may meet; neighbouring layers in one draw for each run of
+/// its triangles.
 void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
-                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended) {
+                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
+                 Triangles triangles) {
     const DrawRange& range = scene.ranges()[object];
     shared::Draw draw = scene.draw_of(object, first_view);
     draw.mended = mended;
@@ -37,10 +39,15 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
     else
         commands.push(draw);
     scene.bind_vertices(commands, object);
+    const auto draw_layers = [&](std::uint32_t first, std::uint32_t count) {
+        if (!triangles) return commands.draw(range.first_index, range.index_count, first, count);
+        for (const auto& [from, end] : *triangles)
+            commands.draw(range.first_index + 3 * from, 3 * (end - from), first, count);
+    };
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
         while (end < layers && may_meet(scene.views()[first_view + end], range)) ++end;
-        if (end > layer) commands.draw(range.first_index, range.index_count, layer, end - layer);
+        if (end > layer) draw_layers(layer, end - layer);
         layer = end + 1;
     }
 }
@@ -99,7 +106,8 @@ std::string build_of(const MirrorLook& look, bool peeled, bool shadow_map, bool 
 }
 
 void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& drawing,
-                  const MirrorLook& look, const std::string& black, const Wanted& wanted) {
+                  const MirrorLook& look, const std::string& black, const Wanted& wanted,
+                  Triangles triangles = nullptr) {
     gpu::RasterState state{"", black, drawing.store};
     if (!look.fragment.empty() && !look.blank) {
         state.fragment = build_of(look, drawing.peeled.has_value(),
@@ -111,7 +119,8 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& draw
         for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
     }
     const auto& draw = drawing.peeled ? draw_objects : draw_fronts;
-    draw(commands, scene, state, drawing.first_view, drawing.layers, look.mended, wanted);
+    draw(commands, scene, state, drawing.first_view, drawing.layers, look.mended, wanted,
+         triangles);
 }
 
 /// Whether nothing of the object that faces away is seen in a view, so that it need not be drawn:
@@ -127,7 +136,7 @@ bool hides_its_back(const GpuScene& scene, const shared::View& view, std::size_t
 
 void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
-                  const Wanted& wanted) {
+                  const Wanted& wanted, Triangles triangles) {
     state.features = scene.features(first_view);
     const char* const build = scene.views()[first_view].clip == vec4(0) ? "" : "#clipped";
     for (const bool own : {false, true}) {
@@ -137,21 +146,23 @@ void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState st
         for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
             if (scene.ranges()[i].own.has_value() != own || !wanted(i)) continue;
             if (!std::exchange(in_use, true)) commands.use(state);
-            draw_object(commands, scene, i, first_view, layers, mended);
+            draw_object(commands, scene, i, first_view, layers, mended, triangles);
         }
     }
 }
 
 void draw_fronts(Commands& commands, const GpuScene& scene, gpu::RasterState state,
                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
-                 const Wanted& wanted) {
+                 const Wanted& wanted, Triangles triangles) {
     const shared::View& view = scene.views()[first_view];
     const auto is_front = [&](std::size_t i) { return hides_its_back(scene, view, i); };
-    draw_objects(commands, scene, state, first_view, layers, mended,
-                 [&](std::size_t i) { return wanted(i) && !is_front(i); });
+    draw_objects(
+        commands, scene, state, first_view, layers, mended,
+        [&](std::size_t i) { return wanted(i) && !is_front(i); }, triangles);
     state.hidden = turns_away(view);
-    draw_objects(commands, scene, std::move(state), first_view, layers, mended,
-                 [&](std::size_t i) { return wanted(i) && is_front(i); });
+    draw_objects(
+        commands, scene, std::move(state), first_view, layers, mended,
+        [&](std::size_t i) { return wanted(i) && is_front(i); }, triangles);
 }
 
 void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawing,
@@ -185,6 +196,13 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
                 return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) &&
                        !is_black(i);
             });
+        for (const PartLook& part : looks->parts)
+            draw_mirrors(
+                commands, scene, drawing, looks->looks[part.look], black,
+                [&](std::size_t i) {
+                    return scene.mirror_of(i) == part.mirror + 1 && wanted(i) && !is_black(i);
+                },
+                &part.triangles);
     };
     // Among many mirrors little else is seen from one of them, so what they hide is not shaded.
     const bool mirrors_first = scene.is_crowd() && first_view != GpuScene::kCameraView;

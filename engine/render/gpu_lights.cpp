@@ -14,10 +14,14 @@ shared::Light light_of(const scene::PointLight& light, const Space& space) {
     shared::Light entry{};
     entry.normal = vec3(light.normal);
     entry.forward = light.axis == dvec3(0) ? entry.normal : vec3(light.axis);
-    const double area = light.directional ? 1 : light.area * space.scale * space.scale;
+    const bool is_alike_all_round = light.normal == dvec3(0) && light.cosines == dvec3(0);
+    const double share = is_alike_all_round ? share_towards(light, {0, 0, 1}) : 1;
+    const double area = light.directional ? 1 : share * light.area * space.scale * space.scale;
     entry.intensity = light.emission * static_cast<float>(area);
     entry.reach = 1 / space.length(light.range);
-    entry.directional = light.directional ? 1 : 0;
+    entry.kind = light.directional           ? shared::kLightDirectional
+                 : light.cosines != dvec3(0) ? shared::kLightOfTwoSides
+                                             : shared::kLightAtPoint;
     const bool is_spot = light.axis != dvec3(0) && !light.directional;
     entry.cos_outer = is_spot ? static_cast<float>(light.cos_outer) : -3.0f; // whole everywhere
     entry.sharpness = is_spot ? static_cast<float>(
@@ -34,7 +38,10 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
           world_lights_.size(), " lights, ", shared::kMaxLights, " are allowed");
     lights_.clear(), light_places_.clear();
     shadow_faces_ = 5;
-    has_punctual_ = !now.punctual.empty();
+    has_light_kinds_ = !now.punctual.empty() ||
+                       std::ranges::any_of(world_lights_, [](const scene::PointLight& light) {
+                           return light.cosines != dvec3(0);
+                       });
     for (const scene::PointLight& light : world_lights_) {
         shared::Light entry = light_of(light, space_);
         if (light.directional)
@@ -47,9 +54,14 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
             const float gap = nearest_.distance(
                 geometry_, light_places_.back(),
                 [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
-            const shared::View main = turned_cube_views(entry.position, entry.forward, gap)[4];
+            const bool has_axes = light.cosines != dvec3(0);
+            const shared::View main = has_axes ? turned_cube_views(entry.position,
+                                                                   glm::mat3(light.axes), gap)[4]
+                                               : turned_cube_views(entry.position, entry.forward,
+                                                                   gap)[4];
             entry.right = main.right, entry.down = main.down, entry.forward = main.forward,
             entry.near = main.near;
+            if (has_axes) entry.normal = vec3(light.cosines);
         }
         lights_.push_back(entry);
         if (light.normal == dvec3(0)) shadow_faces_ = 6;
@@ -61,7 +73,7 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
 
 std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) const {
     std::vector<shared::View> views;
-    if (light.directional != 0) {
+    if (light.kind == shared::kLightDirectional) {
         std::ranges::copy(sun_views(light.forward, space_.core, bounds_of(geometry_)),
                           std::back_inserter(views));
     } else {
@@ -74,7 +86,7 @@ std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) con
 }
 
 std::uint32_t GpuScene::drawn_shadow_faces(std::uint32_t light) const {
-    return lights_[light].directional != 0 ? 2 : shadow_faces_;
+    return lights_[light].kind == shared::kLightDirectional ? 2 : shadow_faces_;
 }
 
 } // namespace catoptric::render

@@ -34,15 +34,14 @@ shared::Surface surface_of(const scene::Object& object, const scene::Material& m
 }
 
 /// Scene units.
-std::optional<scene::Flat> flat_in(const Space& space, const scene::Scene& now,
-                                   std::size_t object) {
+scene::FlatFaces faces_in(const Space& space, const scene::Scene& now, std::size_t object) {
     const scene::Object& mirror = now.objects[object];
-    std::optional<scene::Flat> flat = scene::flat(now.meshes[mirror.mesh],
-                                                  mirror.world_from_object);
-    if (!flat) return flat;
-    flat->point = space.place(flat->point);
-    for (dvec3& corner : flat->corners) corner = space.place(corner);
-    return flat;
+    scene::FlatFaces flats = scene::flat_faces(now.meshes[mirror.mesh], mirror.world_from_object);
+    for (scene::Flat& face : flats.faces) {
+        face.point = space.place(face.point);
+        for (dvec3& corner : face.corners) corner = space.place(corner);
+    }
+    return flats;
 }
 
 bool same(const scene::Camera& a, const scene::Camera& b) {
@@ -194,7 +193,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
         shared::Probe& probe = probes_[mirror];
         if (mirror >= known || std::ranges::binary_search(changes.moved, object)) {
             probe_places_[mirror] = space_.place(scene::bounds(now, now.objects[object]).centre());
-            flats_[mirror] = flat_in(space_, now, object);
+            flats_[mirror] = faces_in(space_, now, object);
         }
         probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];
@@ -249,10 +248,11 @@ void GpuScene::bind(graph::Commands& commands) const {
 }
 
 gpu::Constants GpuScene::features(std::uint32_t view) const {
-    return {{"own_spaces", has_own_spaces() ? 1u : 0u},  {"details", details_.any() ? 1u : 0u},
-            {"masks", details_.masks() ? 1u : 0u},       {"light_kinds", has_punctual_ ? 1u : 0u},
-            {"one_light", light_count() == 1 ? 1u : 0u}, {"environment_kind", sky_.kind()},
-            {"orthographic", views_[view].parallel},     {"mirror_tree", is_crowd() ? 1u : 0u}};
+    return {
+        {"own_spaces", has_own_spaces() ? 1u : 0u},  {"details", details_.any() ? 1u : 0u},
+        {"masks", details_.masks() ? 1u : 0u},       {"light_kinds", has_light_kinds_ ? 1u : 0u},
+        {"one_light", light_count() == 1 ? 1u : 0u}, {"environment_kind", sky_.kind()},
+        {"orthographic", views_[view].parallel},     {"mirror_tree", is_crowd() ? 1u : 0u}};
 }
 
 gpu::Constants GpuScene::tracing_features(Spheres spheres) const {

@@ -53,7 +53,7 @@ public:
     /// The number of the mirror that the object is, from 1; 0: it is none.
     std::uint32_t mirror_of(std::size_t object) const { return surfaces_[object].mirror; }
     /// Of each mirror, scene units; nothing for those that are not flat.
-    const std::vector<std::optional<scene::Flat>>& flat_mirrors() const { return flats_; }
+    const std::vector<scene::FlatFaces>& flat_mirrors() const { return flats_; }
     /// How far from flat a mirror may be that is drawn as a plane in this picture.
     double flat_tolerance() const { return scene::flat_tolerance(camera_, size_); }
     /// What views in mirrors start from.
@@ -156,7 +156,7 @@ private:
     mutable std::vector<shared::View> views_;        ///< all
     std::vector<shared::View> scene_views_;          ///< of mirrors and lights
     mutable std::vector<dvec3> added_eyes_;          ///< of the last of `views_`, which were added
-    std::vector<std::optional<scene::Flat>> flats_;  ///< of mirrors
+    std::vector<scene::FlatFaces> flats_;            ///< of mirrors
     std::vector<dvec3> probe_places_, light_places_; ///< scene units
     dvec3 eye_{0};
     std::vector<shared::Surface> surfaces_;
@@ -171,7 +171,7 @@ private:
     uvec2 size_{0};
     bool complete_ = false; ///< the last update came to its end
     bool has_own_spaces_ = false;
-    bool has_punctual_ = false; ///< some light has no surface
+    bool has_light_kinds_ = false; ///< some light has no surface, or two sides
     std::uint32_t shadow_faces_ = 6;
     mutable std::size_t uploads_ = 0;
     std::size_t slot_ = 0, known_layouts_ = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/captures.hpp"
+#include "scene/flat_mirror.hpp"
 
 #include <memory>
 #include <string>
@@ -21,10 +22,19 @@ struct MirrorLook {
     std::uint32_t mended = 0; ///< causes of error that its fragment#mend takes away
 };
 
+/// A part of a mirror that has a look of its own.
+struct PartLook {
+    std::uint32_t mirror = 0; ///< from 0
+    std::uint32_t look = 0;   ///< index into Looks::looks
+    std::vector<scene::TriangleRun> triangles;
+};
+
 /// One of several looks for each mirror.
 struct Looks {
+    static constexpr std::uint32_t kInParts = ~0u;
     std::vector<MirrorLook> looks;
-    std::vector<std::uint32_t> of_mirror; ///< index into `looks`
+    std::vector<std::uint32_t> of_mirror; ///< index into `looks`; kInParts: as `parts` say
+    std::vector<PartLook> parts;          ///< what is in none is not drawn
 };
 
 /// All mirrors alike.

@@ -110,11 +110,17 @@ MirroredView behind(const MirroredView& from, const scene::Flat& plane, double h
 std::optional<MirroredView> view_in(const MirroredView& from, const scene::Flat& mirror, uvec2 size,
                                     const Bounds<float>& everything) {
     const double height = dot(from.eye - mirror.point, mirror.normal);
-    if (std::abs(height) < kEdgeOn) return {};
+    if (std::abs(height) < kEdgeOn || (mirror.is_one_sided && height < 0)) return {};
     Polygon polygon;
     for (const dvec3& corner : mirror.corners) polygon.push_back(corner - from.eye);
+    // What touches the mirror that is looked through, or lies in its plane, is not in front of it.
+    const dvec4 clip(from.view.clip);
+    if (clip != dvec4(0) && std::ranges::all_of(polygon, [&](const dvec3& corner) {
+            return dot(dvec3(clip), corner) + clip.w <= kEdgeOn;
+        }))
+        return {};
     Planes planes = sides_of(from.view, part_of(from.area, size));
-    if (from.view.clip != vec4(0)) planes.emplace_back(from.view.clip);
+    if (clip != dvec4(0)) planes.push_back(clip);
     for (const dvec4& plane : planes) polygon = clipped(polygon, plane);
     if (polygon.empty()) return {};
     const graph::Area area = pixels_of(polygon, from.view, size, from.area);

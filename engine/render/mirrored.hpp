@@ -12,8 +12,8 @@ namespace catoptric::render {
 
 /// A view and where in the picture it is looked at.
 struct MirroredView {
-    std::uint32_t mirror = 0;          ///< that it is seen in, from 0
-    std::optional<std::size_t> within; ///< the view that shows the mirror; nothing: the camera's
+    std::uint32_t mirror = 0;          ///< the plane that it is seen in, from 0
+    std::optional<std::size_t> within; ///< the view that shows the plane; nothing: the camera's
     shared::View view;                 ///< as shared.h has it, with the mirror's plane in `clip`
     dvec3 eye{0};                      ///< scene units
     graph::Area area;                  ///< of the picture, around the mirror's pixels
@@ -26,7 +26,7 @@ struct Eye {
     Bounds<float> everything; ///< of the scene: how far a parallel view has to look
 };
 
-/// A mirror that may have views.
+/// A mirror, or a face of one, that may have views.
 struct MirrorPlane {
     scene::Flat flat; ///< scene units
     int bounces = 0;  ///< mirrors one behind the other that its picture shows; 0: it is black

@@ -68,7 +68,7 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
 
 Image add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs, const std::string& name,
                         const MirroredView& view, std::uint32_t number, const Lighting& lighting,
-                        Looks looks) {
+                        Looks looks, std::optional<std::uint32_t> left_out) {
     const uvec2 size = inputs.size;
     const Image hdr = graph.image({inputs.prefix + name, Format::rgba32f, size.x, size.y});
     const Image depth = graph.image(
@@ -84,10 +84,12 @@ Image add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs, const st
     pass.writes(hdr, Use::colour, kBlack)
         .writes(depth, Use::depth, kFarthest)
         .area(view.area)
-        .record([&scene = inputs.scene, drawing, view, size](Commands& commands) {
-            const std::size_t mirror = scene.mirror_object(view.mirror);
+        .record([&scene = inputs.scene, drawing, view, size, left_out](Commands& commands) {
+            const auto is_left_out = [&](std::size_t object) {
+                return left_out && object == scene.mirror_object(*left_out);
+            };
             draw_scene(commands, scene, drawing, [&](std::size_t object) {
-                return object != mirror && may_meet(view, size, scene.ranges()[object].bounds);
+                return !is_left_out(object) && may_meet(view, size, scene.ranges()[object].bounds);
             });
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });

@@ -41,11 +41,12 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
               bool is_traced = false);
 
 /// What the scene's view numbered `number`, which is `view`, shows in its area: linear radiance,
-/// rgba32f, defined there alone. What lies behind the mirror's plane is not drawn, nor the mirror
-/// itself.
+/// rgba32f, defined there alone. What lies behind the mirror's plane is not drawn, nor is the
+/// mirror `left_out`, from 0.
 graph::Image add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                                const std::string& name, const MirroredView& view,
-                               std::uint32_t number, const Lighting& lighting, Looks looks);
+                               std::uint32_t number, const Lighting& lighting, Looks looks,
+                               std::optional<std::uint32_t> left_out);
 
 /// Exposure in stops, clamp, sRGB curve: rgba8_unorm.
 graph::Image add_compose(graph::Graph& graph, const FrameInputs& inputs, graph::Image hdr,

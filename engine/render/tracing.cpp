@@ -1,12 +1,15 @@
 #include "render/tracing.hpp"
 
+#include "bvh/copies.hpp"
 #include "bvh/words.hpp"
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace catoptric::render {
@@ -67,6 +70,18 @@ std::vector<bvh::Triangle> with_balls(std::span<const bvh::Triangle> flat, const
     return triangles;
 }
 
+/// Equal for two things of one mesh, in spaces of their own, that lie in the same place.
+std::array<double, 15> place_of(const DrawRange& range) {
+    std::array<double, 15> place{double(range.storage), double(flags_of(range)),
+                                 double(range.own->radius)};
+    for (int i = 0; i < 3; ++i) {
+        place[static_cast<std::size_t>(3 + i)] = range.own->centre[i];
+        for (int j = 0; j < 3; ++j)
+            place[static_cast<std::size_t>(6 + 3 * i + j)] = range.own->scene_from_own[i][j];
+    }
+    return place;
+}
+
 constexpr std::string_view kInStorage = "bvh_in_storage";
 
 } // namespace
@@ -93,7 +108,7 @@ void Tracing::lay_out() {
 
 void Tracing::build(Hierarchy& hierarchy, const Geometry& geometry,
                     std::span<const bvh::Triangle> flat) {
-    hierarchy.tree = bvh::build(flat, geometry.core);
+    hierarchy.tree = bvh::build(flat, geometry.core, bvh::Copies::of_all);
     hierarchy.reached.clear();
     hierarchy.cost_when_built = hierarchy.tree.cost;
     hierarchy.changed = {0, hierarchy.tree.triangles.size()};
@@ -165,14 +180,16 @@ void Tracing::read(const Geometry& geometry) {
 /// Puts together what the device walks.
 void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry) const {
     std::vector<bvh::Instance> instances;
+    std::set<std::array<double, 15>> places; // of a copy in the place of another no ray meets
     auto next = static_cast<std::uint32_t>(triangles_.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
         if (!range.own) continue;
         const bool copy = range.storage != i; // has numbers of its own, after all others
-        instances.push_back({&own_trees_.at(range.storage), range.own->scene_from_own,
-                             range.own->centre, static_cast<std::uint32_t>(i), flags_of(range),
-                             copy ? next - range.first_index / 3 : 0, range.own->radius});
+        if (range.masked || places.insert(place_of(range)).second)
+            instances.push_back({&own_trees_.at(range.storage), range.own->scene_from_own,
+                                 range.own->centre, static_cast<std::uint32_t>(i), flags_of(range),
+                                 copy ? next - range.first_index / 3 : 0, range.own->radius});
         if (copy) next += range.index_count / 3;
     }
     check(next <= f32::kBvhIdMask, Failure::exhausted, "rays tell ", f32::kBvhIdMask,
@@ -190,7 +207,8 @@ void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry) const {
 /// `flat`: the triangles and balls in scene units.
 void Tracing::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
                                std::span<const bvh::Triangle> flat) {
-    const bool is_new = hierarchy.seen.layouts != version_.layouts;
+    // Triangles that were left out as copies may lie apart once something has moved.
+    const bool is_new = hierarchy.seen.layouts != version_.layouts || hierarchy.tree.copies > 0;
     hierarchy.seen = {}, hierarchy.changed = {}; // whatever throws, the next time starts anew
     if (is_new)
         build(hierarchy, geometry, flat);

@@ -1,5 +1,6 @@
 // Benchmarks from JSON that others may have written.
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 #include "report/benchmarks.hpp"
 #include "report/json.hpp"
@@ -104,12 +105,7 @@ Benchmark& named(std::vector<Benchmark>& list, const std::string& name) {
 } // namespace
 
 BenchmarkRun read_benchmarks(const std::string& text, const std::string& file) {
-    Json document;
-    try {
-        document = Json::parse(text);
-    } catch (const Json::exception& broken) {
-        fail(Failure::bad_data, file, ": wanted JSON, found ", broken.what());
-    }
+    const Json document = parse_json<Json>(file, text);
     const Json list = document.is_object() ? document.value("benchmarks", Json()) : Json();
     check(list.is_array(), Failure::bad_data, file,
           ": wanted an object with a list 'benchmarks', as 'catoptric bench --json' writes it, "

@@ -17,8 +17,16 @@ namespace catoptric::report {
 
 namespace {
 
+/// Programs that open tables run a cell that begins with one of these. Numbers may.
+bool is_formula(const std::string& text) {
+    constexpr std::string_view kNumbers = "0123456789.eE+- ";
+    return text.find_first_of("=+-@") == 0 && text.find_first_not_of(kNumbers) != text.npos;
+}
+
+/// A cell with text in it, whoever wrote that: the only way into the table.
 std::string csv_field(const std::string& field) {
     std::string shown = printable(field, "\n");
+    if (is_formula(shown)) shown.insert(0, "'");
     if (shown.find_first_of("\",\n") == std::string::npos) return shown;
     std::string result = "\"";
     for (const char c : shown) result += c == '"' ? "\"\"" : std::string(1, c);
@@ -30,11 +38,17 @@ std::string text_of(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
-/// A row's fields, each with its column's name.
+/// A field of a row, with the name of its column.
+struct Field {
+    std::string name, text;
+    bool in_table = true; ///< CsvColumns::table has the column, too
+};
+
+/// The fields of a row.
 class Line {
 public:
-    void add(std::string name, std::string field) {
-        fields.emplace_back(std::move(name), std::move(field));
+    void add(std::string name, std::string text) {
+        fields.push_back({std::move(name), std::move(text), in_table});
     }
     void add(std::string name, double value) { add(std::move(name), text_of(value)); }
     template <std::integral Number>
@@ -43,7 +57,23 @@ public:
     }
     void add(const std::string& name, const measure::Value& value);
 
-    std::vector<std::pair<std::string, std::string>> fields;
+    std::vector<Field> fields;
+    bool in_table = true; ///< of the fields that are added next
+};
+
+/// Sets Line::in_table until the end of a block; fields that are left out around it stay out.
+class InTable {
+public:
+    InTable(Line& line, bool shown) : line_(line), before_(line.in_table) {
+        line.in_table = before_ && shown;
+    }
+    ~InTable() { line_.in_table = before_; }
+    InTable(const InTable&) = delete;
+    InTable& operator=(const InTable&) = delete;
+
+private:
+    Line& line_;
+    bool before_;
 };
 
 /// A list of numbers is one field with spaces between them.
@@ -73,17 +103,19 @@ struct Adds {
     }
     void operator()(const measure::Summary& times) const {
         line.add(name + "_median", times.median);
+        line.add(name + "_ci95_low", times.ci95.low);
+        line.add(name + "_ci95_high", times.ci95.high);
+        const InTable more(line, false);
         line.add(name + "_p05", times.p05);
         line.add(name + "_p95", times.p95);
         line.add(name + "_mad", times.mad);
         line.add(name + "_n", times.n);
-        line.add(name + "_ci95_low", times.ci95.low);
-        line.add(name + "_ci95_high", times.ci95.high);
         line.add(name + "_rounds", list_text(times.rounds));
         line.add(name + "_samples", list_text(times.samples));
     }
     void operator()(const std::vector<double>& list) const { line.add(name, list_text(list)); }
     void operator()(const std::vector<measure::Parts>& list) const {
+        const InTable more(line, false);
         for (const measure::Parts& parts : list)
             for (const auto& [what, value] : parts.values)
                 line.add(name + "_" + parts.name + "_" + std::string(what), value);
@@ -94,29 +126,44 @@ void Line::add(const std::string& name, const measure::Value& value) {
     std::visit(Adds{*this, name}, value);
 }
 
-void add(Line& line, const std::string& mask, const measure::Difference& error) {
-    for (const measure::Quantity& quantity : measure::difference_quantities())
+/// Whether the report's table of rows has a column of this figure.
+bool is_in_rows_table(const measure::Quantity& quantity) {
+    return std::ranges::any_of(quantity.columns, [](const measure::Column& column) {
+        return column.table == measure::InTable::rows;
+    });
+}
+
+/// `is_main`: the mask is the one of which the table shows all figures of differences.
+void add(Line& line, const std::string& mask, const measure::Difference& error, bool is_main) {
+    for (const measure::Quantity& quantity : measure::difference_quantities()) {
+        const InTable shown(line,
+                            is_in_rows_table(quantity) && (is_main || quantity.each_mask_in_table));
         line.add(mask + "_" + std::string(quantity.name), measure::value_of(quantity, error));
+    }
 }
 
 /// `mirrors` columns of single mirrors, whatever the row has.
-void add_errors(Line& line, const Row& row, std::size_t mirrors) {
+void add_errors(Line& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
     for (const measure::RowMask& mask : measure::masks())
-        add(line, std::string(mask.name), row.*mask.error);
+        if (measure::has_columns(mask, comparison))
+            add(line, std::string(mask.name), row.*mask.error, mask.title.empty());
+    const InTable more(line, false);
     for (std::size_t i = 0; i < mirrors; ++i)
         add(line, "mirror_" + std::to_string(MirrorId::at(i).number()),
-            i < row.error_per_mirror.size() ? row.error_per_mirror[i] : measure::Difference{});
+            i < row.error_per_mirror.size() ? row.error_per_mirror[i] : measure::Difference{},
+            false);
 }
 
-void add_figures(Line& line, const Row& row, std::size_t mirrors) {
+void add_figures(Line& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
     bool has_errors = false;
     for (const measure::Quantity& quantity : measure::quantities()) {
         if (quantity.mask != "each") {
             std::string name(quantity.name);
             std::ranges::replace(name, '/', '_');
+            const InTable shown(line, is_in_rows_table(quantity));
             line.add(name, measure::value_of(quantity, row));
         } else if (!std::exchange(has_errors, true)) {
-            add_errors(line, row, mirrors);
+            add_errors(line, comparison, row, mirrors);
         }
     }
 }
@@ -146,10 +193,14 @@ void add_point(Line& line, const std::string& name, const dvec3& point) {
     line.add(name + "_z", point.z);
 }
 
-/// What tells this run's rows from those of others.
+/// Adds the fields that tell this run's rows from those of others.
 void add_identity(Line& line, const Comparison& comparison, const Row& row) {
-    line.add("plan", row.label);
     line.add("scene", comparison.scene.name);
+    line.add("device", comparison.device.name);
+    line.add("driver", comparison.device.driver);
+    line.add("date", comparison.date);
+    const InTable more(line, false);
+    line.add("plan", row.label);
     line.add("scene_hash", comparison.scene.hash);
     line.add("scene_triangles", comparison.scene.triangles);
     line.add("scene_mirrors", comparison.scene.mirrors);
@@ -172,10 +223,8 @@ void add_identity(Line& line, const Comparison& comparison, const Row& row) {
     line.add("timing", comparison.timing);
     line.add("together", int{comparison.together});
     line.add("reference", comparison.reference_label);
-    line.add("device", comparison.device.name);
     line.add("device_type", comparison.device.type);
     line.add("threads", comparison.device.threads);
-    line.add("driver", comparison.device.driver);
     line.add("api", comparison.device.api);
     line.add("version", comparison.version);
     line.add("commit", comparison.commit);
@@ -187,7 +236,10 @@ Line line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) 
     line.add("label", row.label);
     line.add("settings", settings_text(row));
     line.add("model", row.model);
-    add_figures(line, row, mirrors);
+    const measure::Places places = measure::places_in_time(comparison, row);
+    line.add("place_first", places.first);
+    line.add("place_last", places.last);
+    add_figures(line, comparison, row, mirrors);
     add_views(line, comparison, row);
     line.add("image", image_path(comparison, row.image + ".png"));
     line.add("on_front", int{measure::on_front(comparison, row)});
@@ -201,14 +253,16 @@ Line line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) 
 /// that it stands behind there.
 class Columns {
 public:
+    explicit Columns(CsvColumns which) : which_(which) {}
     void add(const Line& line) {
         std::size_t at = 0;
-        for (const auto& [name, field] : line.fields) {
-            const auto found = std::ranges::find(names_, name);
+        for (const Field& field : line.fields) {
+            if (which_ == CsvColumns::table && !field.in_table) continue;
+            const auto found = std::ranges::find(names_, field.name);
             if (found != names_.end())
                 at = static_cast<std::size_t>(found - names_.begin()) + 1;
             else
-                names_.insert(names_.begin() + static_cast<std::ptrdiff_t>(at++), name);
+                names_.insert(names_.begin() + static_cast<std::ptrdiff_t>(at++), field.name);
         }
     }
     std::string header() const {
@@ -217,27 +271,31 @@ public:
         return joined(cells, ",") + "\r\n";
     }
     std::string text_of(const Line& line) const {
-        std::unordered_map<std::string, std::string> fields(line.fields.begin(), line.fields.end());
+        std::unordered_map<std::string, std::string> fields;
+        for (const Field& field : line.fields) fields.emplace(field.name, field.text);
         std::vector<std::string> cells;
         for (const std::string& name : names_) cells.push_back(csv_field(fields[name]));
         return joined(cells, ",") + "\r\n";
     }
 
 private:
+    CsvColumns which_;
     std::vector<std::string> names_;
 };
 
 } // namespace
 
-std::string to_csv(const Comparison& comparison) { return to_csv(std::vector{&comparison}); }
+std::string to_csv(const Comparison& comparison, CsvColumns which) {
+    return to_csv(std::vector{&comparison}, which);
+}
 
-std::string to_csv(const std::vector<const Comparison*>& comparisons) {
+std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns which) {
     std::size_t mirrors = 0;
     for (const Comparison* comparison : comparisons)
         for (const Row& row : comparison->rows)
             mirrors = std::max(mirrors, row.error_per_mirror.size());
     std::vector<Line> lines;
-    Columns columns;
+    Columns columns(which);
     for (const Comparison* comparison : comparisons) {
         columns.add(line_of(*comparison, Row{}, mirrors)); // every column without parts
         for (const Row& row : comparison->rows) lines.push_back(line_of(*comparison, row, mirrors));

@@ -74,6 +74,7 @@ std::vector<Fact> facts(const Comparison& comparison) {
         {"Reference",
          comparison.reference_label + ", " + ms_text(comparison.reference_gpu_ms.median) + " ms"},
         {"Program", fmt::format("catoptric {}, commit {}", comparison.version, comparison.commit)},
+        {"Date", comparison.date},
         {"Command", joined(comparison.command, " ")},
     };
 }

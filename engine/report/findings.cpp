@@ -32,6 +32,19 @@ std::string interval_text(const measure::Interval& ratio) {
     return fmt::format(" (95 %: {:.3g} to {:.3g})", ratio.low, ratio.high);
 }
 
+Sentence not_drawn(const Comparison& comparison) {
+    const auto finding = measure::find_not_drawn(comparison);
+    if (!finding) return {};
+    std::vector<std::string> tracing;
+    for (const Row* row : finding->tracing) tracing.push_back(row->label);
+    return fmt::format(
+        "Not drawn: {} of the pixels show smooth surfaces that are no mirrors, and no row{} draws "
+        "what they reflect. Over these pixels the other rows' FLIP is {} at best ({}). "
+        "--dielectric-mirrors makes mirrors of such surfaces.",
+        percent(finding->share), tracing.empty() ? "" : " but " + joined(tracing, ", "),
+        error_text(finding->best->error_dielectrics.flip), finding->best->label);
+}
+
 std::string clear_verdict(const measure::ClearFinding& finding) {
     using Verdict = measure::ClearFinding::Verdict;
     switch (finding.verdict) {
@@ -161,7 +174,8 @@ std::vector<std::string> findings(const Comparison& comparison) {
         bool beside_the_report; ///< compares with its figures, so with its scene only
     };
     std::vector<std::string> list;
-    for (const auto& [say, beside_the_report] : {Finding{clears, true},
+    for (const auto& [say, beside_the_report] : {Finding{not_drawn, false},
+                                                 {clears, true},
                                                  {inter_reflections, false},
                                                  {stored_distance, true},
                                                  {price_of_correction, true},

@@ -13,8 +13,11 @@ namespace catoptric::report {
 std::vector<std::string> findings(const Comparison& comparison);
 std::string findings_title(const Comparison& comparison);
 
-/// The Pareto front in words: the rows on it, who beats each of the others, and whether ray tracing
-/// or the captures win.
+/// Returns one sentence that names the device and says whether ray tracing beats the other rows on
+/// it; of rows of one kind alone, which is the fastest and which the closest.
+std::string verdict_in_words(const Comparison& comparison);
+
+/// The Pareto front in words: the rows on it, and who beats each of the others.
 std::vector<std::string> front_in_words(const Comparison& comparison);
 
 } // namespace catoptric::report

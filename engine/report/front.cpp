@@ -10,8 +10,8 @@ namespace catoptric::report {
 namespace {
 
 std::string figures(const Row& row) {
-    return fmt::format("{} ({} ms, FLIP {}{})", row.label, ms_text(row.time_ms().median),
-                       error_text(row.error.flip), row.mirrors_black ? ", its mirrors black" : "");
+    return fmt::format("{} ({} ms, FLIP {})", row.label, ms_text(row.time_ms().median),
+                       error_text(row.error.flip));
 }
 
 std::string figures_of(const std::vector<const Row*>& rows) {
@@ -26,21 +26,35 @@ std::string labels_of(const std::vector<const Row*>& rows, std::string_view betw
     return joined(labels, between);
 }
 
-/// Whether tracing rays beats everything else; nothing where that is no question.
+/// Returns whether ray tracing beats the other rows; nothing where only one of the two is there.
 std::string tracing_in_words(const measure::TracingVerdict& verdict) {
     if (verdict.others == 0 || !verdict.any_traced) return "";
-    if (verdict.unbeaten.size() == verdict.others)
-        return "No ray-traced row beats any of the others on this device.";
+    if (verdict.unbeaten.size() == verdict.others) return "no ray-traced row beats any other row";
     if (!verdict.unbeaten.empty())
-        return fmt::format("Ray tracing beats {} of the {} other rows on this device: all but {}.",
+        return fmt::format("ray tracing beats {} of the {} other rows: all but {}",
                            verdict.others - verdict.unbeaten.size(), verdict.others,
                            labels_of(verdict.unbeaten, ", "));
-    return fmt::format("Ray tracing wins on this device: each of the {} other rows is beaten by a "
-                       "ray-traced one.",
+    return fmt::format("ray tracing beats every other row, {} of {}", verdict.others,
                        verdict.others);
 }
 
+/// Returns the fastest and the closest rows.
+std::string ends_in_words(const Comparison& comparison) {
+    const std::vector<const Row*> fastest = measure::fastest_rows(comparison);
+    if (fastest.empty()) return "no row could be judged";
+    std::string text = "fastest is " + labels_of(fastest, " or ");
+    if (const Row* closest = measure::closest_row(comparison))
+        text += ", closest is " + figures(*closest);
+    return text;
+}
+
 } // namespace
+
+std::string verdict_in_words(const Comparison& comparison) {
+    const std::string tracing = tracing_in_words(measure::tracing_verdict(comparison));
+    return "On this device, " + comparison.device.name + ", " +
+           (tracing.empty() ? ends_in_words(comparison) : tracing) + ".";
+}
 
 std::vector<std::string> front_in_words(const Comparison& comparison) {
     const measure::Standing standing = measure::standing(comparison);
@@ -55,10 +69,13 @@ std::vector<std::string> front_in_words(const Comparison& comparison) {
     if (!standing.beaten_by_beaten.empty())
         words.push_back("Beaten only by rows that are beaten themselves: " +
                         figures_of(standing.beaten_by_beaten) + ".");
+    if (!standing.black.empty())
+        words.push_back("Not on the front and not beaten, since their mirrors are black: " +
+                        figures_of(standing.black) +
+                        ". Their time is a lower bound for any "
+                        "technique that draws the same scene.");
     if (!standing.not_judged.empty())
         words.push_back("Not judged: " + labels_of(standing.not_judged, "; ") + ".");
-    const std::string who = tracing_in_words(measure::tracing_verdict(comparison));
-    if (!who.empty()) words.push_back(who);
     return words;
 }
 

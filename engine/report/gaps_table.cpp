@@ -21,10 +21,14 @@ constexpr Words kWords[] = {
     {"anisotropy", "left out"},
     {"iridescence", "left out"},
     {"blend-as-mask", "there or not there, cut at half their alpha"},
+    {"specular-left-out", "drawn without a highlight: its diffuse part alone"},
+    {"indirect-left-out", "light from one diffuse surface to another is not computed; --ambient "
+                          "stands in for it"},
+    {"environment-unshadowed", "lit by the whole environment, whatever stands in its way"},
     {"rough-metal", "drawn as diffuse with the metal's colour"},
     {"rough-glass", "drawn as diffuse"},
     {"glass-as-diffuse", "its diffuse part is drawn"},
-    {"glass-shadow", "glass casts no shadow"},
+    {"glass-shadow", "glass casts the full shadow of an opaque surface"},
     {"smooth-dielectric", "reflects the environment alone where rays are not traced; "
                           "--dielectric-mirrors makes mirrors of them"},
     {"skin", "posed by its joints at rest"},
@@ -36,7 +40,7 @@ constexpr Words kWords[] = {
     {"lights-left-out", "the strongest are kept"},
     {"material-extension", "left out"},
     {"added-studio", "lit by a built-in environment, since nothing else lights"},
-    {"added-camera", "seen from the front right and above"},
+    {"added-camera", "seen from the front right and above, a closed room from inside"},
 };
 
 } // namespace
@@ -51,8 +55,9 @@ Table gaps_table(const SceneFacts& scene) {
                 {{"What", false}, {"Count"}, {"Pixels, %"}, {"First", false}, {"Instead", false}},
                 {},
                 {},
-                "What the scene says that is not shown so, and what was added to it. Pixels: share "
-                "of the picture that shows such a material first; none where pixels cannot tell."};
+                "What the scene says that is not shown so, and what was added to it, the largest "
+                "share of the picture first. Pixels: share of the picture that shows such a "
+                "material first; none where pixels cannot tell."};
     for (const GapFacts& gap : scene.gaps)
         table.rows.push_back(
             {gap.id, std::to_string(gap.count),

@@ -258,9 +258,8 @@ std::string html_page(const std::string& title, const std::string& content) {
 
 std::string html_section(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html = "<header><p class=\"kicker\">Reflections compared</p><h1>" +
-                       html_escaped(comparison.scene.name) +
-                       "</h1><p class=\"lede\">What each way of rendering its reflections costs, "
-                       "and what it gets wrong.</p>";
+                       html_escaped(comparison.scene.name) + "</h1><p class=\"lede\">" +
+                       html_escaped(verdict_in_words(comparison)) + "</p>";
     const std::vector<std::string> notes = cautions(comparison);
     if (!notes.empty()) html += "<aside class=\"caution\">" + list_of(notes) + "</aside>";
     const bool is_page = section_of(comparison).empty(); // which has one <main>

@@ -35,6 +35,7 @@ std::string html_escaped(std::string_view text) {
         case '>': result += "&gt;"; break;
         case '"': result += "&quot;"; break;
         case '\'': result += "&#39;"; break;
+        case '\n': result += ' '; break; // as a browser shows it
         default: result += c;
         }
     }

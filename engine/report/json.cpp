@@ -3,6 +3,7 @@
 
 #include "core/mirror_id.hpp"
 #include "core/text.hpp"
+#include "measure/flip.hpp"
 #include "report/report.hpp"
 #include "report/text.hpp"
 
@@ -203,6 +204,7 @@ void add_circumstances(Json& json, const Comparison& comparison) {
     json["time"] = number(comparison.time);
     json["ambient"] = number(comparison.ambient);
     json["exposure"] = number(comparison.exposure);
+    json["flip_source"] = measure::kFlipOfFloats;
     json["together"] = comparison.together;
     json["warnings"] = comparison.warnings;
 }
@@ -219,11 +221,9 @@ Json times_json(const Row& row) {
 Json value_json(const measure::Value& value) { return std::visit(Writes{}, value); }
 
 Json document_of(const Comparison& comparison) {
-    Json json{{"schema", "catoptric/compare/1"},
-              {"version", comparison.version},
-              {"commit", comparison.commit},
-              {"command", comparison.command},
-              {"complete", comparison.complete}};
+    Json json{{"schema", "catoptric/compare/1"}, {"version", comparison.version},
+              {"commit", comparison.commit},     {"date", comparison.date},
+              {"command", comparison.command},   {"complete", comparison.complete}};
     if (!comparison.complete) {
         json["incomplete"] = incomplete_text(comparison);
         json["rows_asked"] = comparison.asked;

@@ -79,7 +79,8 @@ std::string to_markdown(const Table& table) {
 }
 
 std::string to_markdown(const Comparison& comparison) {
-    std::string text = "# Reflections compared: " + escaped(comparison.scene.name) + "\n\n";
+    std::string text = "# Reflections compared: " + escaped(comparison.scene.name) + "\n\n" +
+                       escaped(verdict_in_words(comparison)) + "\n\n";
     for (const Fact& fact : facts(comparison))
         text += "- **" + fact.name + "**: " + escaped(fact.value) + "\n";
     text += "\n";

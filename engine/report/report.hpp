@@ -13,7 +13,7 @@
 namespace catoptric::report {
 
 /// The same of several, under one header.
-std::string to_csv(const std::vector<const Comparison*>& comparisons);
+std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns which);
 /// Puts what there is into a folder, made as create_folder does: report.json, report.md,
 /// report.html, rows.csv, images/<row>.png and .exr, images/<row>-error.png and
 /// images/reference.png; of rows with causes images/causes-<row>.png, with drawn views
@@ -21,7 +21,8 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons);
 /// others than before, all else anew, every file put into place whole.
 class Writer {
 public:
-    explicit Writer(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    explicit Writer(std::filesystem::path folder, CsvColumns csv = CsvColumns::table)
+        : folder_(std::move(folder)), csv_(csv) {}
     /// Rows that were there the last time are the same now. Throws `cannot_create`, `io`.
     void write(const Comparison& comparison);
 
@@ -31,6 +32,7 @@ private:
     void write_pictures(const Comparison& comparison);
 
     std::filesystem::path folder_;
+    CsvColumns csv_;
     EncodedPictures pictures_;
     bool has_reference_ = false; ///< its picture is there
     std::vector<int> written_;   ///< by row: Row::pictured of the pictures that are there
@@ -48,7 +50,7 @@ struct Scenes {
 /// "catoptric/compare-scenes/1": version, commit, command, complete, asked, and in "scenes" the
 /// document of each.
 std::string to_json(const Scenes& scenes);
-std::string to_csv(const Scenes& scenes);
+std::string to_csv(const Scenes& scenes, CsvColumns which = CsvColumns::table);
 std::string to_markdown(const Scenes& scenes);
 /// `sections`: html_section of each.
 std::string to_html(const Scenes& scenes, const std::vector<std::string>& sections);
@@ -60,7 +62,8 @@ Comparison without_pictures(const Comparison& comparison);
 /// As Writer, of several scenes one after the other: pictures in images/N-SCENE/.
 class ScenesWriter {
 public:
-    ScenesWriter(std::filesystem::path folder, const std::vector<std::string>& scenes);
+    ScenesWriter(std::filesystem::path folder, const std::vector<std::string>& scenes,
+                 CsvColumns csv = CsvColumns::table);
     /// `index`: of the scene, from 0; those before it stay as they were.
     void write(std::size_t index, const Comparison& comparison);
     const Scenes& scenes() const { return scenes_; }
@@ -72,6 +75,7 @@ private:
         std::string html;
     };
     std::filesystem::path folder_;
+    CsvColumns csv_;
     Scenes scenes_;
     std::vector<Section> sections_;
 };

@@ -48,6 +48,7 @@ std::string to_json(const Scenes& scenes) {
         const Comparison& first = scenes.list.front();
         json["version"] = first.version, json["commit"] = first.commit;
         json["command"] = first.command;
+        json["date"] = first.date;
     }
     json["complete"] = scenes.is_complete();
     json["asked"] = scenes.asked;
@@ -57,10 +58,10 @@ std::string to_json(const Scenes& scenes) {
     return written(json);
 }
 
-std::string to_csv(const Scenes& scenes) {
+std::string to_csv(const Scenes& scenes, CsvColumns which) {
     std::vector<const Comparison*> all;
     for (const Comparison& comparison : scenes.list) all.push_back(&comparison);
-    return to_csv(all);
+    return to_csv(all, which);
 }
 
 std::string to_markdown(const Scenes& scenes) {

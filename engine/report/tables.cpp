@@ -1,8 +1,10 @@
 #include "report/tables.hpp"
 
 #include "core/mirror_id.hpp"
+#include "measure/findings.hpp"
 #include "measure/judge.hpp"
 #include "measure/quantity.hpp"
+#include "measure/row_notes.hpp"
 #include "measure/rows.hpp"
 #include "measure/seed_report.hpp"
 #include "report/text.hpp"
@@ -19,6 +21,13 @@ std::string nothing() { return std::string(kNothing); }
 std::string interval_text(const measure::Summary& times, int decimals) {
     if (!times.ci95.is_known()) return nothing();
     return fixed(times.ci95.low, decimals) + "–" + fixed(times.ci95.high, decimals);
+}
+
+/// Returns the device's name without what drivers add in brackets: "llvmpipe" of "llvmpipe (LLVM
+/// 15.0.6, 256 bits)".
+std::string short_device_name(const Comparison& comparison) {
+    const std::string& name = comparison.device.name;
+    return name.substr(0, name.find(" ("));
 }
 
 /// "3" or "3–5".
@@ -81,6 +90,7 @@ std::string remark(const Comparison& comparison, const Row& row) {
     if (measure::on_front(comparison, row)) remarks.push_back("front");
     if (row.noisy) remarks.push_back("noisy");
     if (row.model != "everything") remarks.push_back("model " + row.model);
+    for (std::string& note : measure::notes_of(comparison, row)) remarks.push_back(std::move(note));
     return joined(remarks, ", ");
 }
 
@@ -126,7 +136,7 @@ struct FigureColumn {
 
 /// The columns that quantities have in a table, by order; those over other masks than the mirrors
 /// after all that are over these.
-std::vector<FigureColumn> figure_columns(measure::InTable table) {
+std::vector<FigureColumn> figure_columns(measure::InTable table, const Comparison& comparison) {
     std::vector<FigureColumn> columns;
     int last = 0; // of differences
     for (const measure::Quantity& quantity : measure::difference_quantities())
@@ -140,6 +150,7 @@ std::vector<FigureColumn> figure_columns(measure::InTable table) {
             }
             for (const measure::RowMask& mask : measure::masks()) {
                 if (!mask.title.empty() && !quantity.each_mask_in_table) continue;
+                if (!measure::has_columns(mask, comparison)) continue;
                 columns.push_back({&quantity, column, &mask});
                 if (!mask.title.empty()) columns.back().column.order = last;
             }
@@ -167,15 +178,15 @@ Table seed_table(const Comparison& comparison) {
                 {{"Implementation", false},
                  {"i"},
                  {"their R"},
-                 {"their FPS"},
-                 {"their ms"},
+                 {"FPS, GTX 770"},
+                 {"ms, GTX 770"},
                  {"Here", false},
                  {"R"},
                  {"Draws"},
-                 {"ms"},
+                 {"ms, " + short_device_name(comparison)},
                  {"95 %"},
                  {"Place"},
-                 {"FPS"},
+                 {"FPS, " + short_device_name(comparison)},
                  {"FLIP"},
                  {"off, %"},
                  {"MAE"},
@@ -198,7 +209,7 @@ Table seed_table(const Comparison& comparison) {
 }
 
 Table rows_table(const Comparison& comparison) {
-    Table table{"Every row",
+    Table table{"Every row, times on " + comparison.device.name,
                 {{"Row", false}, {"Place"}},
                 {},
                 {},
@@ -210,7 +221,10 @@ Table rows_table(const Comparison& comparison) {
                 "line: of pixels that are off, in pixels. wall: submit to fence; "
                 "cpu: of all the process's threads; record: filling the command buffer; MiB: the "
                 "frame's images."};
-    const std::vector<FigureColumn> columns = figure_columns(measure::InTable::rows);
+    if (measure::find_not_drawn(comparison))
+        table.note += " Smooth dielectrics: the pixels whose first hit reflects without being a "
+                      "mirror.";
+    const std::vector<FigureColumn> columns = figure_columns(measure::InTable::rows, comparison);
     add_columns(table, columns);
     table.columns.push_back({"Remark", false});
     const int decimals = ms_decimals(comparison);
@@ -253,7 +267,7 @@ Table lookup_table(const Comparison& comparison) {
                 "the capture shows another one there; unknown and miss: what the search says of "
                 "itself; traced: of "
                 "all mirror pixels."};
-    const std::vector<FigureColumn> columns = figure_columns(measure::InTable::lookup);
+    const std::vector<FigureColumn> columns = figure_columns(measure::InTable::lookup, comparison);
     add_columns(table, columns);
     const int decimals = ms_decimals(comparison);
     for (const Row& row : comparison.rows)

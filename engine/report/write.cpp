@@ -5,7 +5,10 @@
 #include "report/report.hpp"
 #include "report/views.hpp"
 
+#include <cerrno>
 #include <system_error>
+
+#include <unistd.h>
 
 namespace catoptric::report {
 
@@ -14,8 +17,15 @@ namespace fs = std::filesystem;
 void create_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error); // what is there already is no error
+    const bool is_file = fs::exists(folder) && !fs::is_directory(folder);
+    check(!is_file, Failure::cannot_create, folder.string(),
+          ": the folder cannot be created: wanted a folder or nothing, found a file");
     check(!error, Failure::cannot_create, folder.string(),
           ": the folder cannot be created: ", error.message());
+    const bool writable = ::access(folder.c_str(), W_OK | X_OK) == 0;
+    const int reason = errno; // before anything else is called
+    check(writable, Failure::cannot_create, folder.string(),
+          ": files cannot be created there: ", std::generic_category().message(reason));
 }
 
 void Writer::write_pictures(const Comparison& comparison) {
@@ -53,7 +63,7 @@ void Writer::write_pictures(const Comparison& comparison) {
 
 void Writer::write(const Comparison& comparison) {
     write_pictures(comparison);
-    write_file(folder_ / "rows.csv", to_csv(comparison));
+    write_file(folder_ / "rows.csv", to_csv(comparison, csv_));
     write_file(folder_ / "report.md", to_markdown(comparison));
     write_file(folder_ / "report.html", to_html(comparison, pictures_));
     // Last: who sees it sees the files that it names.
@@ -73,8 +83,8 @@ std::vector<fs::path> files_of(const std::vector<std::string>& images, const std
     return files;
 }
 
-ScenesWriter::ScenesWriter(fs::path folder, const std::vector<std::string>& scenes)
-    : folder_(std::move(folder)) {
+ScenesWriter::ScenesWriter(fs::path folder, const std::vector<std::string>& scenes, CsvColumns csv)
+    : folder_(std::move(folder)), csv_(csv) {
     scenes_.asked = scenes;
 }
 
@@ -87,14 +97,14 @@ void ScenesWriter::write(std::size_t index, const Comparison& comparison) {
     scenes_.list.at(index) = without_pictures(comparison);
     std::vector<std::string> pages;
     for (const Section& one : sections_) pages.push_back(one.html);
-    write_file(folder_ / "rows.csv", to_csv(scenes_));
+    write_file(folder_ / "rows.csv", to_csv(scenes_, csv_));
     write_file(folder_ / "report.md", to_markdown(scenes_));
     write_file(folder_ / "report.html", to_html(scenes_, pages));
     write_file(folder_ / "report.json", to_json(scenes_));
 }
 
-void write(const Comparison& comparison, const fs::path& folder) {
-    Writer(folder).write(comparison);
+void write(const Comparison& comparison, const fs::path& folder, CsvColumns csv) {
+    Writer(folder, csv).write(comparison);
 }
 
 } // namespace catoptric::report

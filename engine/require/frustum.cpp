@@ -39,6 +39,34 @@ bool Picture::may_hold(const Bounds<double>& box) const {
     });
 }
 
+/// Cuts the triangle by one plane after the other (Sutherland and Hodgman 1974).
+bool Picture::may_hold_triangle(const std::array<dvec3, 3>& triangle, double margin) const {
+    constexpr std::size_t kMostCorners = 3 + 5; // each plane adds one at most
+    std::array<dvec3, kMostCorners> corners{triangle[0], triangle[1], triangle[2]}, kept;
+    std::size_t count = 3;
+    for (const auto& [normal, beyond] : planes_) {
+        const double room = beyond + margin * length(normal);
+        const auto inside = [&](const dvec3& p) { return dot(normal, p - eye_) + room; };
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const dvec3 &a = corners[i], &b = corners[(i + 1) % count];
+            const double at_a = inside(a), at_b = inside(b);
+            if (at_a >= 0) kept[left++] = a;
+            if ((at_a >= 0) != (at_b >= 0)) kept[left++] = a + at_a / (at_a - at_b) * (b - a);
+        }
+        std::swap(corners, kept);
+        count = left;
+        if (count == 0) return false;
+    }
+    return true;
+}
+
+bool Picture::may_hold_ball(const dvec3& centre, double radius) const {
+    return std::ranges::none_of(planes_, [&](const auto& plane) {
+        return dot(plane.first, centre - eye_) + plane.second < -radius * length(plane.first);
+    });
+}
+
 double Picture::pixel_angle(double distance) const {
     return is_parallel_ ? pixel_ / distance : pixel_;
 }

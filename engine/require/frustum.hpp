@@ -18,6 +18,11 @@ public:
     bool is_parallel() const { return is_parallel_; }
     /// False when the box is certainly outside: all of its corners beyond one of the five planes.
     bool may_hold(const Bounds<double>& box) const;
+    /// Returns false when no place of the triangle is inside, with planes moved out by `margin`,
+    /// world units.
+    bool may_hold_triangle(const std::array<dvec3, 3>& triangle, double margin) const;
+    /// Returns false when the ball is certainly outside.
+    bool may_hold_ball(const dvec3& centre, double radius) const;
     /// Angle between neighbouring pixels on the axis; of an orthographic picture that of a pixel's
     /// width at `distance`.
     double pixel_angle(double distance) const;

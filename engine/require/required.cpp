@@ -22,20 +22,22 @@ struct Requirements::Impl {
 
     explicit Impl(const scene::Scene& rest) : world(rest) { model.is_everything = false; }
 
-    void find_seen(const Picture& picture);
+    void find_seen(const Picture& picture, const scene::Scene& now);
     void find_captured(std::size_t mirror, bool asks_all);
     Faces faces_of(const Picture& picture, std::size_t mirror);
     void find_lights(const Picture& picture);
 };
 
 /// Mirrors that the camera sees, and those that they can see, and so on.
-void Requirements::Impl::find_seen(const Picture& picture) {
+void Requirements::Impl::find_seen(const Picture& picture, const scene::Scene& now) {
     const std::size_t count = world.mirrors().size();
     model.mirrors.resize(count), findings.camera.resize(count), listed.resize(count);
     waiting.clear();
     for (std::size_t i = 0; i < count; ++i) {
         MirrorNeeds& needs = model.mirrors[i];
         findings.camera[i] = hidden_from_camera(world, picture, i);
+        if (!findings.camera[i] && !is_surface_in(picture, world, i, now))
+            findings.camera[i] = Unseen{Unseen::Why::outside, 0};
         needs.seen_in = {};
         needs.is_seen = !findings.camera[i];
         if (needs.is_seen) waiting.push_back(i);
@@ -112,7 +114,7 @@ const Model& Requirements::of(const Question& question) {
     impl.world.follow(question.now);
     impl.sight.follow(impl.world);
     impl.stamps.follow(impl.world, question.shadow_edge);
-    impl.find_seen(picture);
+    impl.find_seen(picture, question.now);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
         impl.find_captured(i, question.asks_all);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)

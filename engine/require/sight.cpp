@@ -1,5 +1,8 @@
 #include "require/sight.hpp"
 
+#include "scene/transform.hpp"
+
+#include <algorithm>
 #include <bit>
 
 namespace catoptric::require {
@@ -28,6 +31,23 @@ std::optional<Unseen> hidden_from_camera(const World& world, const Picture& pict
         if (is_hidden) return Unseen{Unseen::Why::hidden, wall.object};
     }
     return std::nullopt;
+}
+
+bool is_tested(const scene::Mesh& mesh) { return mesh.triangles.size() <= kMostPairs; }
+
+bool is_surface_in(const Picture& picture, const World& world, std::size_t mirror,
+                   const scene::Scene& now) {
+    const Thing& thing = world.things()[world.mirrors()[mirror]];
+    const double margin = margin_of(world);
+    if (thing.sphere)
+        return picture.may_hold_ball(thing.sphere->centre, thing.sphere->radius + margin);
+    const scene::Mesh& mesh = now.meshes[thing.mesh];
+    return !is_tested(mesh) || std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
+        const auto corner = [&](std::uint32_t i) {
+            return scene::transform_point(thing.place, mesh.positions[i]);
+        };
+        return picture.may_hold_triangle({corner(t.x), corner(t.y), corner(t.z)}, margin);
+    });
 }
 
 std::uint8_t Sight::look_at(const World& world, std::size_t viewer, std::size_t target) const {

@@ -19,9 +19,17 @@ struct Unseen {
     std::size_t wall = 0; ///< object that hides it
 };
 
-/// A mirror in the camera's picture, in front of which no wall stands; or why not.
+/// Returns why the camera does not see a mirror: none if its bounds are in the picture and no wall
+/// stands in front of them.
 std::optional<Unseen> hidden_from_camera(const World& world, const Picture& picture,
                                          std::size_t mirror);
+
+/// Whether a mirror's mesh has few enough triangles to be tested one by one in each frame.
+bool is_tested(const scene::Mesh& mesh);
+/// Returns false when no triangle of the mirror is in the picture, though its bounds may be. True
+/// for a mesh that is not tested. An exact sphere is tested as a ball.
+bool is_surface_in(const Picture& picture, const World& world, std::size_t mirror,
+                   const scene::Scene& now);
 
 /// Which mirrors can see which others, kept from one instant to the next.
 class Sight {

@@ -1,101 +1,201 @@
 #include "require/suggest.hpp"
 
-#include "require/frustum.hpp"
-#include "require/wall.hpp"
 #include "scene/flat_mirror.hpp"
 #include "scene/mirror_shape.hpp"
-#include "scene/transform.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <functional>
 #include <map>
-#include <numbers>
+#include <utility>
 
 namespace catoptric::require {
 
 namespace {
 
-/// A mirror's vertices in the world.
-struct Surface {
-    std::vector<dvec3> places, normals;
-    const std::vector<uvec3>& triangles;
-    double extent = 0;
+constexpr CostTable kCosts;
+constexpr ErrorTable kErrors;
+constexpr double kAsGood = 1.1;    // errors that are taken to be alike
+constexpr int kFewestBounces = 2;  // of planar
+constexpr int kMostBounces = 6;    // that are chosen
+constexpr double kLeftBlack = .01; // share of the mirrors' pixels that may need more
+
+/// What is known of a picture's mirrors before anything is chosen.
+struct Known {
+    Paths paths;
+    std::vector<bool> is_flat, is_seen; ///< by mirror
+    double triangles = 0;               ///< of the scene
+    double pixels = 0;                  ///< of the picture
+    double on_mirrors = 0;              ///< paths whose first hit is one; 1 at least
+    int bounces = kFewestBounces;       ///< of planar
+
+    std::size_t count() const { return is_flat.size(); }
+    /// Of the picture, for so many paths.
+    double pixels_of(std::size_t paths_through) const {
+        return pixels * static_cast<double>(paths_through) / static_cast<double>(paths.count);
+    }
 };
 
-Surface surface_of(const scene::Scene& now, const scene::Object& object) {
-    const scene::Mesh& mesh = now.meshes[object.mesh];
-    Surface surface{.triangles = mesh.triangles};
-    const dmat3 to_world = scene::normal_matrix(object.world_from_object);
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        surface.places.push_back(
-            scene::transform_point(object.world_from_object, mesh.positions[i]));
-        surface.normals.push_back(scene::world_normal(to_world, dvec3(mesh.normals[i])));
+bool is_flat(const Question& question, const scene::Object& object) {
+    const scene::FlatFaces flats = scene::flat_faces(question.now.meshes[object.mesh],
+                                                     object.world_from_object);
+    return flats.share(scene::flat_tolerance(question.camera, question.size)) >= 1 - kMostBent;
+}
+
+/// How many mirrors of these a path meets before another.
+std::size_t length_of_run(const std::vector<std::uint32_t>& path, const std::vector<bool>& of) {
+    return static_cast<std::size_t>(
+        std::ranges::find_if(path, [&](std::uint32_t mirror) { return !of[mirror]; }) -
+        path.begin());
+}
+
+/// Flat mirrors one behind the other that the picture shows, but for few pixels.
+int bounces_of(const Known& known) {
+    for (int bounces = kFewestBounces; bounces < kMostBounces; ++bounces) {
+        double more = 0;
+        for (const auto& [path, count] : known.paths.through)
+            if (path.size() == static_cast<std::size_t>(bounces) + 1 &&
+                length_of_run(path, known.is_flat) == path.size())
+                more += static_cast<double>(count);
+        if (more <= kLeftBlack * known.on_mirrors) return bounces;
     }
-    const Bounds<double> box = scene::bounds(now, object);
-    if (!box.empty()) surface.extent = length(box.extent());
-    return surface;
+    return kMostBounces;
 }
 
-dvec3 facet_of(const Surface& surface, const uvec3& t) {
-    const dvec3& a = surface.places[t.x];
-    const dvec3 facet = scene::normalized_or_zero(
-        cross(surface.places[t.y] - a, surface.places[t.z] - a));
-    return dot(facet, surface.normals[t.x]) < 0 ? -facet : facet;
+Known known_of(const Question& question) {
+    Known known{.paths = paths_of(question)};
+    for (const std::size_t object : scene::mirrors(question.now))
+        known.is_flat.push_back(is_flat(question, question.now.objects[object]));
+    known.triangles = static_cast<double>(scene::triangle_count(question.now));
+    known.pixels = 1.0 * question.size.x * question.size.y;
+    known.on_mirrors = static_cast<double>(std::max<std::size_t>(1, known.paths.on_mirrors()));
+    for (const std::size_t reached : known.paths.reached)
+        known.is_seen.push_back(static_cast<double>(reached) > kHardlySeen * known.on_mirrors);
+    // Nothing to go by: as if all were.
+    if (std::ranges::none_of(known.is_seen, std::identity()))
+        known.is_seen.assign(known.count(), true);
+    known.bounces = bounces_of(known);
+    return known;
 }
 
-/// Some of it lies in front of some of its triangles.
-bool faces_itself(const Surface& surface) {
-    if (surface.triangles.size() * surface.places.size() > kMostFacings) return true;
-    const double least = kFacing * surface.extent;
-    return std::ranges::any_of(surface.triangles, [&](const uvec3& t) {
-        const dvec3 facet = facet_of(surface, t);
-        return std::ranges::any_of(surface.places, [&](const dvec3& place) {
-            return dot(place - surface.places[t.x], facet) > least;
-        });
-    });
+double pass_of(const Known& known, double pixels) {
+    return kCosts.pass + kCosts.triangle * known.triangles + kCosts.pixel * pixels;
 }
 
-/// Pixels that the mirror takes up at most: those of a ball around its bounds, on the axis.
-double pixels_of(const Picture& picture, const Bounds<double>& box, uvec2 size) {
-    const double all = double{static_cast<double>(size.x)} * size.y,
-                 radius = length(box.extent()) / 2, distance = length(box.centre() - picture.eye());
-    if (picture.is_parallel()) {
-        const double across = radius / picture.pixel_angle(1);
-        return std::min(all, std::numbers::pi * across * across);
+/// How a mirror is drawn.
+enum class Way { planes, hybrid, march, small };
+
+/// Adds what the candidate's techniques cost and get wrong. `face`: of the captures of flat mirrors
+/// that are drawn by planes; 0: there are no captures.
+void weigh(Candidate& candidate, const Known& known, const std::vector<Way>& ways,
+           std::uint32_t face) {
+    std::vector<bool> by_planes;
+    for (const Way way : ways) by_planes.push_back(way == Way::planes);
+    candidate.cost = pass_of(known, known.pixels);
+    for (std::size_t i = 0; i < known.count() && face > 0; ++i) {
+        const double edge = by_planes[i]            ? face
+                            : ways[i] == Way::small ? kSmallFace
+                                                    : kUsualFace,
+                     pixels = 6 * edge * edge;
+        candidate.cost += pass_of(known, pixels);
+        if (ways[i] == Way::hybrid) candidate.cost += kCosts.bounds * pixels;
     }
-    if (distance <= radius) return all;
-    const double cosine = std::sqrt(1 - radius * radius / (distance * distance)),
-                 pixel = picture.pixel_angle(distance);
-    return std::min(all, 2 * std::numbers::pi * (1 - cosine) / (pixel * pixel));
+    for (std::size_t i = 0; i < known.count(); ++i) {
+        const auto first = static_cast<double>(known.paths.first[i]);
+        const bool is_searched = ways[i] == Way::hybrid || ways[i] == Way::march;
+        if (is_searched) candidate.cost += kCosts.searched * known.pixels_of(known.paths.first[i]);
+        if (ways[i] == Way::hybrid)
+            candidate.cost += kCosts.traced * known.pixels_of(known.paths.hidden[i]);
+        candidate.error += first * (by_planes[i]  ? kErrors.planar
+                                    : is_searched ? kErrors.search
+                                                  : kErrors.reuse);
+    }
+    for (const auto& [path, count] : known.paths.through) {
+        const auto bounces = static_cast<std::size_t>(known.bounces);
+        if (length_of_run(path, by_planes) != path.size()) continue;
+        if (path.size() <= bounces) candidate.cost += pass_of(known, known.pixels_of(count));
+        if (path.size() == bounces + 1)
+            candidate.error += static_cast<double>(count) * (kErrors.black - kErrors.planar);
+    }
+    candidate.error /= known.on_mirrors;
 }
 
-struct Choice {
-    std::string technique, reason;
-};
-
-Choice by_shape(const Question& question, const scene::Object& object) {
-    if (object.sphere) return {"secant", "it is an exact sphere"};
-    const auto flat = scene::flat(question.now.meshes[object.mesh], object.world_from_object);
-    if (flat && flat->off <= scene::flat_tolerance(question.camera, question.size))
-        return {"planar", "it is flat within a sixteenth of a pixel"};
-    const Surface surface = surface_of(question.now, object);
-    using Kind = scene::Shape::Kind;
-    const Kind kind = scene::shape_of(question.now, object).kind;
-    if (kind == Kind::concave) return {"hybrid", "it is hollow and shows itself"};
-    if (kind == Kind::other && faces_itself(surface))
-        return {"hybrid", "parts of it face one another"};
-    return {"hybrid", "it is neither flat nor a sphere"};
+/// "planar, hybrid": the techniques of a candidate, each once, without what is hardly seen.
+std::string name_of(const std::vector<Way>& ways) {
+    std::string name;
+    for (const auto& [way, word] :
+         {std::pair(Way::planes, "planar"), std::pair(Way::hybrid, "hybrid"),
+          std::pair(Way::march, "march")})
+        if (std::ranges::find(ways, way) != ways.end())
+            name += (name.empty() ? "" : ", ") + std::string(word);
+    return name.empty() ? "reuse" : name;
 }
 
-Choice choice_of(const Question& question, const Picture& picture, const scene::Object& object,
-                 const MirrorNeeds& needs) {
-    const std::string cheapest = "reuse:face=" + std::to_string(kSmallFace);
-    if (needs.seen_in) return {cheapest, "only other mirrors have it in their view"};
-    if (!needs.is_seen) return by_shape(question, object);
-    const double pixels = pixels_of(picture, scene::bounds(question.now, object), question.size);
-    if (pixels <= kFewPixels)
-        return {cheapest, "it takes up " + std::to_string(std::lround(pixels)) + " pixels at most"};
-    return by_shape(question, object);
+/// Flat mirrors by planes, where `planes`; the rest by searches; what is hardly seen by small
+/// captures.
+Candidate candidate_of(const Known& known, bool planes) {
+    std::vector<Way> ways(known.count(), Way::small);
+    bool is_searched = false; // some mirror's captures are looked up with care
+    for (std::size_t i = 0; i < known.count(); ++i) {
+        if (!known.is_seen[i] || (planes && known.is_flat[i])) continue;
+        const double most = kHardlyHidden * static_cast<double>(known.paths.first[i]);
+        ways[i] = static_cast<double>(known.paths.hidden[i]) <= most ? Way::march : Way::hybrid;
+        is_searched = true;
+    }
+    bool has_captures = false;
+    for (std::size_t i = 0; i < known.count(); ++i) {
+        // Where nothing is searched, a plane costs less than a capture.
+        if (planes && known.is_flat[i] && (known.is_seen[i] || !is_searched)) ways[i] = Way::planes;
+        has_captures = has_captures || ways[i] != Way::planes;
+    }
+    std::string planar = "planar";
+    const char* between = ":";
+    const auto add = [&](const std::string& setting) {
+        planar += between + setting, between = ",";
+    };
+    if (known.bounces != kFewestBounces) add("bounces=" + std::to_string(known.bounces));
+    if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallFace));
+    Candidate candidate{.name = name_of(ways)};
+    for (const Way way : ways)
+        candidate.techniques.push_back(way == Way::planes   ? planar
+                                       : way == Way::hybrid ? "hybrid"
+                                       : way == Way::march
+                                           ? "march"
+                                           : "reuse:face=" + std::to_string(kSmallFace));
+    weigh(candidate, known, ways, !has_captures ? 0 : is_searched ? kUsualFace : kSmallFace);
+    return candidate;
+}
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+    return text;
+}
+
+/// Why the mirror is drawn so, after its technique.
+std::string reason_of(const Question& question, const Known& known, std::size_t mirror,
+                      const scene::Object& object, const std::string& technique) {
+    const auto share = [&](std::size_t paths) {
+        return percent(static_cast<double>(paths) / static_cast<double>(known.paths.count));
+    };
+    const std::size_t first = known.paths.first[mirror], reached = known.paths.reached[mirror];
+    std::string seen = reached == 0 ? "no pixel shows it"
+                                    : share(first) + " of the picture, " + share(reached) +
+                                          " with what other mirrors show of it";
+    if (reached == first && first > 0) seen = share(first) + " of the picture";
+    const scene::Shape::Kind kind = scene::shape_of(question.now, object).kind;
+    const char* shape = known.is_flat[mirror]
+                            ? kind == scene::Shape::Kind::flat ? "flat" : "flat faces"
+                        : kind == scene::Shape::Kind::flat   ? "not quite flat"
+                        : kind == scene::Shape::Kind::sphere ? "a sphere"
+                                                             : "curved";
+    std::string reason = std::string(shape) + ", " + seen;
+    if (technique == "march") reason += "; its centre sees all that it shows";
+    if (technique == "hybrid")
+        reason += "; its centre does not see what " + share(known.paths.hidden[mirror]) +
+                  " of the picture show";
+    return reason;
 }
 
 /// "1,3=planar *=hybrid": what is not `rest` by its numbers.
@@ -118,19 +218,49 @@ std::string plan_of(const std::map<std::string, std::vector<std::size_t>>& mirro
 } // namespace
 
 Suggestion suggest(const Question& question) {
-    const Model model = required(question);
-    const Picture picture(question.camera, question.size);
-    Suggestion suggestion;
-    std::map<std::string, std::vector<std::size_t>> of_technique;
     const std::vector<std::size_t> mirrors = scene::mirrors(question.now);
+    Suggestion suggestion;
+    if (mirrors.empty()) {
+        suggestion.plan = "hybrid";
+        return suggestion;
+    }
+    const Known known = known_of(question);
+    suggestion.candidates.push_back(candidate_of(known, true));
+    if (Candidate searched = candidate_of(known, false);
+        searched.techniques != suggestion.candidates.front().techniques) {
+        const Candidate& planes = suggestion.candidates.front();
+        const bool is_cheaper = searched.cost < planes.cost,
+                   is_better = searched.error *
+                               kAsGood<planes.error, is_worse = searched.error> planes.error *
+                               kAsGood;
+        const bool wins = is_better || (!is_worse && is_cheaper);
+        suggestion.candidates.insert(wins ? suggestion.candidates.begin()
+                                          : suggestion.candidates.end(),
+                                     std::move(searched));
+    }
+    std::map<std::string, std::vector<std::size_t>> of_technique;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
-        const auto [technique, reason] = choice_of(
-            question, picture, question.now.objects[mirrors[i]], model.mirrors[i]);
+        const std::string& technique = suggestion.candidates.front().techniques[i];
         of_technique[technique].push_back(i + 1);
-        suggestion.reasons.push_back(technique + ": " + reason);
+        suggestion.reasons.push_back(
+            technique + ": " +
+            reason_of(question, known, i, question.now.objects[mirrors[i]], technique));
     }
     suggestion.plan = plan_of(of_technique, "hybrid");
     return suggestion;
+}
+
+std::string to_text(const std::vector<Candidate>& candidates) {
+    std::string text;
+    for (const Candidate& candidate : candidates) {
+        char figures[160];
+        std::snprintf(figures, sizeof figures,
+                      ": estimated cost %.3g million drawn pixels a frame, FLIP %.2g%s\n",
+                      candidate.cost / 1e6, candidate.error,
+                      &candidate == candidates.data() ? " (chosen)" : "");
+        text += "  " + candidate.name + figures;
+    }
+    return text;
 }
 
 } // namespace catoptric::require

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "require/model.hpp"
+#include "require/paths.hpp"
 
 #include <string>
 #include <vector>
@@ -8,26 +9,54 @@
 /// Which technique suits which mirror of a picture.
 namespace catoptric::require {
 
-/// What may be no larger in the picture, pixels, is looked up in the cheapest way, in a capture of
-/// this edge.
-inline constexpr double kFewPixels = 256;
-inline constexpr std::uint32_t kSmallFace = 64;
-/// What stands higher in front of a triangle's plane than this part of its mirror's extent faces
-/// it.
-inline constexpr double kFacing = 1e-3;
-/// Of triangles with vertices; what has more is taken to face itself.
-inline constexpr std::size_t kMostFacings = std::size_t{1} << 26;
+/// A mirror that no more of the mirrors' pixels than this show, directly or in other mirrors, is
+/// looked up in the cheapest way, in a capture of this edge.
+inline constexpr double kHardlySeen = .002;
+inline constexpr std::uint32_t kSmallFace = 64, kUsualFace = 256;
+/// A mirror whose capture does not show what at most this share of its pixels show is searched by
+/// `march`: tracing would mend nothing.
+inline constexpr double kHardlyHidden = .0005;
+/// A mirror whose bent part is larger than this share of its area is not drawn by planes.
+inline constexpr double kMostBent = .1;
 
-struct Suggestion {
-    std::string plan;                 ///< "1=planar 2-3 ..." as reflect::parse_plan reads it
-    std::vector<std::string> reasons; ///< entry n-1 of mirror n: "planar: it is flat ..."
+/// What a picture costs, in drawn pixels: the weights of passes and pixels. Measured on llvmpipe;
+/// docs/require.md has the figures.
+struct CostTable {
+    double pass = 2000;   ///< a pass of any size
+    double triangle = 1;  ///< of the scene, in each pass
+    double pixel = 1;     ///< drawn, in a capture or in a view
+    double searched = 15; ///< pixel that a search looks up
+    double bounds = .12;  ///< more for a pixel of a capture that `hybrid` searches
+    double traced = 40;   ///< pixel that `hybrid` traces since the capture does not show it
+};
+/// Mean FLIP of a mirror's pixel, by what draws it; rounded, over the scenes of docs/require.md.
+struct ErrorTable {
+    double planar = .003, search = .03, reuse = .3;
+    double black = .5; ///< flat mirrors one behind the other, more than are drawn
 };
 
-/// By shape and by size in this picture: what is seen in other mirrors alone, or is small there:
-/// `reuse` with small faces; flat (scene::flat_tolerance): `planar`; a true sphere: `secant`;
-/// anything else `hybrid`, which asks
-/// no captures but its own where some mirror is not seen. O(n log n) in the mirrors' triangles,
-/// kMostFacings for one that is neither.
+/// One way to draw all mirrors.
+struct Candidate {
+    std::string name;                    ///< what draws it: "planar, hybrid"
+    std::vector<std::string> techniques; ///< entry n-1 of mirror n
+    double cost = 0;                     ///< drawn pixels a frame
+    double error = 0;                    ///< mean over the mirrors' pixels
+};
+
+struct Suggestion {
+    std::string plan;                  ///< "1=planar 2-3 ..." as reflect::parse_plan reads it
+    std::vector<std::string> reasons;  ///< entry n-1 of mirror n: "planar: flat, ..."
+    std::vector<Candidate> candidates; ///< that were weighed, the chosen one first
+};
+
+/// Chooses by what the pixels show (paths_of) and by shape (scene::flat_faces): mirrors that are
+/// hardly seen get `reuse` with small faces. For the others two candidates are weighed: `planar`
+/// for the flat ones and a search for the rest, and a search for all. A search is `hybrid`, or
+/// `march` where nothing would have to be traced (Paths::hidden). The one with the smaller
+/// estimated error wins; where they are within a tenth, the cheaper one.
 Suggestion suggest(const Question& question);
+
+/// The candidates with cost and error, a line each, for the user to read.
+std::string to_text(const std::vector<Candidate>& candidates);
 
 } // namespace catoptric::require

@@ -16,11 +16,12 @@ std::string numbers_of(const std::vector<std::uint32_t>& mirrors) {
     return ranges(numbers);
 }
 
-std::string needs_text(const MirrorNeeds& needs) {
+std::string needs_text(const MirrorNeeds& needs, const scene::Mesh& mesh) {
     if (!needs.is_captured) return "not seen";
     std::string text = needs.seen_in
                            ? "in the view of mirror " + std::to_string(needs.seen_in.number())
-                           : "in the camera's view";
+                       : !is_tested(mesh) ? "its bounds are in the camera's view"
+                                          : "in the camera's view";
     text += "; captured, ";
     text += needs.faces == kAllFaces ? "six faces" : "faces " + names_of(needs.faces);
     if (needs.edge > 0) text += " of " + std::to_string(needs.edge) + " texels an edge";
@@ -62,11 +63,14 @@ std::string to_text(const Model& model, const scene::Scene& scene) {
     std::ostringstream text;
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     text << (model.is_everything ? "everything is required\n" : "required\n");
+    const auto text_of = [&](std::size_t i) {
+        return needs_text(model.mirrors[i], scene.meshes[scene.objects[mirrors[i]].mesh]);
+    };
     // Neighbours of which the same is said share a line.
     for (std::size_t i = 0; i < model.mirrors.size();) {
-        const std::string needs = needs_text(model.mirrors[i]);
+        const std::string needs = text_of(i);
         std::size_t end = i + 1;
-        while (end < model.mirrors.size() && needs_text(model.mirrors[end]) == needs) ++end;
+        while (end < model.mirrors.size() && text_of(end) == needs) ++end;
         if (end == i + 1)
             text << "  mirror " << end << " " << in_quotes(scene.objects[mirrors[i]].name);
         else

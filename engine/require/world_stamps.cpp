@@ -70,6 +70,7 @@ std::uint64_t stamp_of(const scene::Environment* environment) {
 std::uint64_t stamp_of(const scene::PointLight& light) {
     Stamp stamp;
     stamp.add(light.position).add(light.normal).add(light.area).add(light.emission);
+    stamp.add(light.closed).add(light.axes).add(light.cosines);
     stamp.add(light.axis).add(light.range).add(light.cos_inner).add(light.cos_outer);
     return stamp.add(light.directional).value();
 }

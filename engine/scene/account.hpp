@@ -12,19 +12,27 @@ namespace catoptric::scene {
 /// One of the totals while a file is loaded.
 class Total {
 public:
-    Total(std::string_view what, std::uint64_t budget) : what_(what), budget_(budget) {}
+    /// `remedy`: what allows more, said last; may be empty.
+    Total(std::string_view what, std::uint64_t budget, std::string_view remedy = {})
+        : what_(what), remedy_(remedy), budget_(budget) {}
 
     /// Throws `bad_data` with the parts of `place` when the sum would go over the budget.
     template <typename... Parts>
     void add(std::uint64_t amount, const Parts&... place) {
+        require(amount, place...);
+        spent_ += amount;
+    }
+    /// The same, and adds nothing.
+    template <typename... Parts>
+    void require(std::uint64_t amount, const Parts&... place) const {
         if (amount > budget_ - spent_)
             fail(Failure::bad_data, place..., ": wanted at most ", budget_, " ", what_,
-                 ", the budget of a scene, found ", amount > ~spent_ ? ~0ull : spent_ + amount);
-        spent_ += amount;
+                 ", the budget of a scene, found ", amount > ~spent_ ? ~0ull : spent_ + amount,
+                 remedy_);
     }
 
 private:
-    std::string_view what_;
+    std::string_view what_, remedy_;
     std::uint64_t budget_;
     std::uint64_t spent_ = 0; ///< at most `budget_`
 };
@@ -34,16 +42,18 @@ struct Account {
     explicit Account(const Budget& of) : budget(of) {}
 
     const Budget budget;
-    Total file_bytes{"bytes in its files", budget.file_bytes};
+    static constexpr std::string_view kMoreBytes = "; --max-bytes allows more",
+                                      kMoreTriangles = "; --max-triangles allows more";
+    Total file_bytes{"bytes in its files", budget.file_bytes, kMoreBytes};
     Total files{"names of files", budget.files};
     Total json_bytes{"bytes of JSON", budget.json_bytes};
     Total json_memory{"bytes of memory for its JSON", budget.json_memory};
-    Total positions{"positions", budget.vertices};
-    Total normals{"normals", budget.vertices};
+    Total positions{"positions", budget.vertices, kMoreTriangles};
+    Total normals{"normals", budget.vertices, kMoreTriangles};
     Total attributes{"texture coordinates, colours and weights", 4 * budget.vertices};
-    Total mesh_vertices{"vertices in meshes", budget.vertices};
+    Total mesh_vertices{"vertices in meshes", budget.vertices, kMoreTriangles};
     Total shown_vertices{"vertices shown by objects", budget.shown};
-    Total mesh_triangles{"triangles in meshes", budget.triangles};
+    Total mesh_triangles{"triangles in meshes", budget.triangles, kMoreTriangles};
     Total shown_triangles{"triangles shown by objects", budget.shown};
     Total nodes{"nodes", budget.objects};
     Total meshes{"meshes", budget.objects};

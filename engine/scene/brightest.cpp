@@ -21,8 +21,7 @@ double strength_at(const dvec3& point, const PointLight& light) {
     const double square = glm::dot(way, way), distance = std::sqrt(square);
     if (square == 0) return std::numeric_limits<double>::infinity();
     const dvec3 along = way / distance;
-    const double facing = light.normal == dvec3(0) ? 1
-                                                   : std::max(0.0, glm::dot(light.normal, along));
+    const double facing = share_towards(light, along);
     const double part = std::isinf(light.range) ? 0 : std::pow(distance / light.range, 4);
     const double window = std::clamp(1 - part, 0.0, 1.0);
     double cone = 1;

@@ -1,5 +1,7 @@
 #include "scene/classify.hpp"
 
+#include "scene/mirror_shape.hpp"
+
 #include "scene/json.hpp"
 #include "scene/texel.hpp"
 #include "scene/transform.hpp"
@@ -16,6 +18,9 @@ namespace catoptric::scene {
 namespace {
 
 constexpr std::size_t kSamples = 4096;
+constexpr const char* kSpecular = "specular-left-out";
+constexpr const char* kIndirect = "indirect-left-out";
+constexpr const char* kUnshadowed = "environment-unshadowed";
 
 /// What a material is at one place.
 struct Spot {
@@ -25,7 +30,7 @@ struct Spot {
 
 /// Sums of what spots are.
 struct Sums {
-    double all = 0, mirror = 0, smooth_dielectric = 0, rough_metal = 0;
+    double all = 0, mirror = 0, smooth_dielectric = 0, rough_metal = 0, rough_dielectric = 0;
     dvec3 mirror_f0{0};
     float smoothest = 1;
 
@@ -35,6 +40,7 @@ struct Sums {
         smoothest = std::min(smoothest, spot.roughness);
         if (!(spot.roughness <= scene.mirror_max_roughness)) {
             rough_metal += spot.metallic > 0;
+            rough_dielectric += spot.metallic < 1;
             return;
         }
         const vec3 f0 = f0_of(material, vec3(spot.colour), spot.metallic);
@@ -45,8 +51,12 @@ struct Sums {
     }
     Surface surface() const {
         if (all == 0) return {};
-        return {mirror / all, smooth_dielectric / all, rough_metal / all,
-                mirror > 0 ? vec3(mirror_f0 / mirror) : vec3(0), smoothest};
+        return {.mirror = mirror / all,
+                .smooth_dielectric = smooth_dielectric / all,
+                .rough_metal = rough_metal / all,
+                .rough_dielectric = rough_dielectric / all,
+                .mirror_f0 = mirror > 0 ? vec3(mirror_f0 / mirror) : vec3(0),
+                .smoothest = smoothest};
     }
 };
 
@@ -135,6 +145,28 @@ bool is_similarity(const dmat3& m) {
     return true;
 }
 
+void add_material_gaps(Scene& scene, const char* id, const std::set<std::size_t>& materials) {
+    for (const std::size_t i : materials)
+        add_material_gap(scene.gaps, id, gltf::label_of("materials", i, scene.materials[i].name),
+                         i);
+}
+
+/// Whether some of the material throws back light of the surfaces around it in all directions.
+bool is_diffuse(const Scene& scene, const Material& material) {
+    if (material.unlit || material.albedo == vec3(0)) return false;
+    const bool is_sharp_metal = !material.mirror && material.metallic == 1 &&
+                                material.roughness <= scene.mirror_max_roughness &&
+                                !material.roughness_texture;
+    return !is_sharp_metal;
+}
+
+bool is_lit(const Scene& scene) {
+    return scene.environment || !scene.punctual.empty() ||
+           std::ranges::any_of(scene.objects, [&](const Object& object) {
+               return glows(scene.materials[object.material]);
+           });
+}
+
 } // namespace
 
 vec3 f0_of(const Material& material, const vec3& colour, float metallic) {
@@ -171,13 +203,35 @@ void classify(Scene& scene, bool dielectric_mirrors) {
         }
         if (surface.rough_metal > 0) rough_metals.insert(object.material);
     }
-    const auto add = [&](const char* id, const std::set<std::size_t>& materials) {
-        for (const std::size_t i : materials)
-            add_material_gap(scene.gaps, id,
-                             gltf::label_of("materials", i, scene.materials[i].name), i);
-    };
-    add("smooth-dielectric", dielectrics);
-    add("rough-metal", rough_metals);
+    add_material_gaps(scene, "smooth-dielectric", dielectrics);
+    add_material_gaps(scene, "rough-metal", rough_metals);
+    find_spheres(scene);
+}
+
+void settle_gaps(Scene& scene) {
+    std::set<std::size_t> glossy, diffuse; // materials
+    for (const Gap& gap : scene.gaps)
+        if (gap.id == kSpecular) glossy.insert(gap.materials.begin(), gap.materials.end());
+    std::erase_if(scene.gaps, [](const Gap& gap) {
+        return gap.id == kSpecular || gap.id == kIndirect || gap.id == kUnshadowed;
+    });
+    std::set<std::size_t> without_lobe;
+    std::set<std::pair<std::size_t, std::size_t>> known; // mesh and material
+    for (const Object& object : scene.objects) {
+        const Material& material = scene.materials[object.material];
+        if (is_diffuse(scene, material)) diffuse.insert(object.material);
+        const bool may_lack = glossy.contains(object.material) && !material.mirror &&
+                              !without_lobe.contains(object.material);
+        if (may_lack && known.insert({object.mesh, object.material}).second &&
+            surface_of(scene, object).rough_dielectric > 0)
+            without_lobe.insert(object.material);
+    }
+    // Where shares of the picture are equal these stand first: they cost most.
+    const std::vector<Gap> others = std::exchange(scene.gaps, {});
+    if (is_lit(scene)) add_material_gaps(scene, kIndirect, diffuse);
+    add_material_gaps(scene, kSpecular, without_lobe);
+    if (scene.environment) add_material_gaps(scene, kUnshadowed, diffuse);
+    scene.gaps.insert(scene.gaps.end(), others.begin(), others.end());
 }
 
 } // namespace catoptric::scene

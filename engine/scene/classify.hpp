@@ -21,6 +21,7 @@ struct Surface {
     double mirror = 0;            ///< sharp, F0 at least kLeastMirrorF0
     double smooth_dielectric = 0; ///< sharp, F0 below that
     double rough_metal = 0;       ///< not sharp, metallic above 0
+    double rough_dielectric = 0;  ///< not sharp, metallic below 1
     vec3 mirror_f0{0};            ///< mean over what is `mirror`
     float smoothest = 1;          ///< the lowest roughness that was found
 };
@@ -28,7 +29,17 @@ Surface surface_of(const Scene& scene, const Object& object);
 
 /// Sets Object::mirror of every object whose material is no mirror by itself (Material::mirror),
 /// and the gaps "smooth-dielectric" (not where `dielectric_mirrors` makes mirrors of them, too) and
-/// "rough-metal", a material counted once. May be called again.
+/// "rough-metal", a material counted once; then finds which mirrors are spheres (find_spheres). May
+/// be called again.
 void classify(Scene& scene, bool dielectric_mirrors = false);
+
+/// Puts first the gaps of the light that no technique computes, a material counted once:
+/// "indirect-left-out" (light from one diffuse surface to another, where anything lights the
+/// scene), "environment-unshadowed" (light of the environment on diffuse surfaces, which nothing
+/// blocks) and "specular-left-out": of the materials that a loader listed there since their file
+/// gives them a specular lobe, those that are rough, where the lobe is not drawn. Scenes built in
+/// code list none: their rough surfaces are Lambertian. Called once sharpness, lights and
+/// environment are settled.
+void settle_gaps(Scene& scene);
 
 } // namespace catoptric::scene

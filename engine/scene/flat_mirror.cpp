@@ -1,8 +1,10 @@
 #include "scene/flat_mirror.hpp"
 
+#include "scene/topology.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ranges>
 #include <utility>
@@ -54,7 +56,163 @@ std::vector<dvec3> hull(std::vector<dvec3> points, const dvec3& normal) {
     return corners;
 }
 
+constexpr std::size_t kMostPlanes = 64, kMostTriangles = 65536;
+constexpr double kSamePlane = 1e-4; // radian; and of the extent
+
+/// A mesh's triangles in the world.
+struct Triangles {
+    const Mesh& mesh;
+    std::vector<dvec3> places, normals; ///< of its vertices
+
+    Triangles(const Mesh& of, const dmat4& world_from_object) : mesh(of) {
+        const dmat3 turns = normal_matrix(world_from_object);
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            places.push_back(transform_point(world_from_object, mesh.positions[i]));
+            normals.push_back(world_normal(turns, dvec3(mesh.normals[i])));
+        }
+    }
+    /// Along the normal, as long as twice the area.
+    dvec3 cross_of(std::size_t i) const {
+        const uvec3& t = mesh.triangles[i];
+        return cross(places[t.y] - places[t.x], places[t.z] - places[t.x]);
+    }
+    /// How far the corners' normals are from this one at most, radians.
+    double off(std::size_t i, const dvec3& normal) const {
+        double most = 0;
+        for (int corner = 0; corner < 3; ++corner)
+            most = std::max(most, angle_between(normals[mesh.triangles[i][corner]], normal));
+        return most;
+    }
+};
+
+/// A face in the making.
+struct Plane {
+    dvec3 point{0}, normal{0};
+    double area = 0; ///< twice
+    std::vector<std::uint32_t> triangles;
+};
+
+/// Planes that hold triangles whose normals agree; nothing where there are too many.
+std::optional<std::vector<Plane>> planes_of(const Triangles& triangles, double extent) {
+    std::vector<Plane> planes;
+    for (std::uint32_t i = 0; i < triangles.mesh.triangles.size(); ++i) {
+        const dvec3 along = triangles.cross_of(i), normal = normalized_or_zero(along);
+        if (normal == dvec3(0) || !(triangles.off(i, normal) <= kFarFromFlat)) continue;
+        const uvec3& t = triangles.mesh.triangles[i];
+        const auto holds = [&](const Plane& plane) {
+            if (!(dot(plane.normal, normal) > 0 &&
+                  angle_between(plane.normal, normal) <= kSamePlane))
+                return false;
+            return std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](std::uint32_t corner) {
+                return std::abs(dot(triangles.places[corner] - plane.point, plane.normal)) <=
+                       kSamePlane * extent;
+            });
+        };
+        auto plane = std::ranges::find_if(planes, holds);
+        if (plane == planes.end()) {
+            if (planes.size() == kMostPlanes) return std::nullopt;
+            planes.push_back({.point = triangles.places[t.x], .normal = normal, .triangles = {}});
+            plane = planes.end() - 1;
+        }
+        plane->area += length(along);
+        plane->triangles.push_back(i);
+    }
+    return planes;
+}
+
+std::vector<TriangleRun> runs_of(const std::vector<std::uint32_t>& ascending) {
+    std::vector<TriangleRun> runs;
+    for (const std::uint32_t i : ascending) {
+        if (!runs.empty() && runs.back().end == i)
+            ++runs.back().end;
+        else
+            runs.push_back({i, i + 1});
+    }
+    return runs;
+}
+
+/// Every edge has two triangles.
+bool is_closed(const Mesh& mesh) {
+    const std::vector<std::size_t> first = first_at_place(mesh.positions);
+    std::vector<Corners> triangles;
+    for (const uvec3& t : mesh.triangles) triangles.push_back({first[t.x], first[t.y], first[t.z]});
+    bool closed = true;
+    for_each_edge(sides_of(triangles),
+                  [&](std::span<const Side> sides) { closed &= sides.size() == 2; });
+    return closed;
+}
+
+Flat face_of(const Triangles& triangles, const Plane& plane, double area, bool is_one_sided) {
+    Flat face{.point = plane.point,
+              .normal = plane.normal,
+              .corners = {},
+              .share = plane.area / area,
+              .is_one_sided = is_one_sided,
+              .triangles = runs_of(plane.triangles)};
+    std::vector<dvec3> points;
+    for (const std::uint32_t i : plane.triangles) {
+        face.off = std::max(face.off, triangles.off(i, plane.normal));
+        for (int corner = 0; corner < 3; ++corner)
+            points.push_back(triangles.places[triangles.mesh.triangles[i][corner]]);
+    }
+    face.corners = hull(points, plane.normal);
+    double size = 0, high = 0;
+    for (const dvec3& corner : face.corners)
+        size = std::max(size, distance(corner, face.corners.front()));
+    for (const dvec3& p : points) high = std::max(high, std::abs(dot(p - face.point, face.normal)));
+    face.off = std::max(face.off, high / size);
+    return face;
+}
+
 } // namespace
+
+double FlatFaces::share(double tolerance) const {
+    double sum = 0;
+    for (const Flat& face : faces)
+        if (face.off <= tolerance) sum += face.share;
+    return sum;
+}
+
+FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
+    const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+    FlatFaces found;
+    if (std::optional<Flat> whole = flat(mesh, world_from_object)) {
+        whole->triangles = {{0, count}};
+        found.faces.push_back(std::move(*whole));
+        return found;
+    }
+    if (count > 0) found.bent = {{0, count}};
+    if (count > kMostTriangles) return found;
+    const Triangles triangles(mesh, world_from_object);
+    Bounds<double> box;
+    for (const dvec3& place : triangles.places) box.add(place);
+    double area = 0;
+    for (std::uint32_t i = 0; i < count; ++i) area += length(triangles.cross_of(i));
+    std::optional<std::vector<Plane>> planes;
+    if (!box.empty() && area > 0) planes = planes_of(triangles, length(box.extent()));
+    if (!planes) return found;
+    std::erase_if(*planes, [&](const Plane& plane) { return plane.area < kLeastFace * area; });
+    std::ranges::stable_sort(*planes, std::ranges::greater(), &Plane::area);
+    if (planes->size() > kMostFaces) planes->resize(kMostFaces);
+    if (planes->empty()) return found;
+    // Faces of a body that is inside out look inwards: their triangles' order says nothing then.
+    const dvec3 centre = box.centre();
+    const bool is_body = is_closed(mesh);
+    double volume = 0;
+    for (std::uint32_t i = 0; i < count; ++i)
+        volume += dot(triangles.cross_of(i), triangles.places[mesh.triangles[i].x] - centre);
+    std::vector<bool> in_face(count);
+    for (Plane& plane : *planes) {
+        for (const std::uint32_t i : plane.triangles) in_face[i] = true;
+        if (volume < 0) plane.normal = -plane.normal;
+        found.faces.push_back(face_of(triangles, plane, area, is_body && volume != 0));
+    }
+    std::vector<std::uint32_t> bent;
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (!in_face[i]) bent.push_back(i);
+    found.bent = runs_of(bent);
+    return found;
+}
 
 std::optional<Flat> flat(const Mesh& mesh, const dmat4& world_from_object) {
     // Most curved things are told by the first normals, before all triangles are looked at.

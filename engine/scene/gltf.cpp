@@ -200,6 +200,13 @@ void Builder::check_unshown() {
             mesh_of(mesh, parts[mesh][part], context.document.weights[mesh], context);
 }
 
+/// Returns whether glTF gives it a specular lobe beside its diffuse part.
+bool has_lobe(const Material& material) {
+    const bool is_metal = material.metallic == 1 && !material.roughness_texture;
+    return !material.mirror && !material.unlit && !is_metal &&
+           (material.dielectric_f0 != vec3(0) || material.dielectric_f90 != vec3(0));
+}
+
 } // namespace
 
 Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
@@ -218,6 +225,10 @@ Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
     builder.scene = {.name = path.stem().string(),
                      .materials = document.materials,
                      .exposure = document.exposure};
+    for (std::size_t i = 0; i < document.materials.size(); ++i)
+        if (has_lobe(document.materials[i]))
+            add_material_gap(gaps, "specular-left-out",
+                             gltf::label_of("materials", i, document.materials[i].name), i);
     builder.cameras = read_cameras(document);
     builder.parts = read_parts(builder.scene.materials, builder.context);
     builder.at_rest = rest_of(document);

@@ -19,10 +19,9 @@ constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 /// What a file may require without its being refused: it is read, or says how surfaces look.
 constexpr std::string_view kWithout[] = {
-    "KHR_mesh_quantization", "KHR_lights_punctual", "KHR_texture_transform", "KHR_texture_basisu",
-    "EXT_texture_webp",      "EXT_texture_avif",    "MSFT_texture_dds",      "KHR_xmp_json_ld",
-    "KHR_techniques_webgl",  "KHR_technique_webgl"};
-/// Geometry that is written so that only its own library can read it.
+    "KHR_mesh_quantization", "KHR_lights_punctual",  "KHR_texture_transform", "EXT_texture_webp",
+    "KHR_xmp_json_ld",       "KHR_techniques_webgl", "KHR_technique_webgl"};
+/// Geometry or pictures in a form that is not read; without them the file is not what it says.
 struct Squeezed {
     std::string_view extension, sentence;
 };
@@ -30,7 +29,12 @@ constexpr Squeezed kSqueezed[] = {
     {"KHR_draco_mesh_compression", ": meshes compressed by Draco are not read: wanted a file "
                                    "without it (gltf-transform copy, or export without Draco)"},
     {"EXT_meshopt_compression", ": buffers compressed by meshopt are not read: wanted a file "
-                                "without it (gltf-transform copy, or export without meshopt)"}};
+                                "without it (gltf-transform copy, or export without meshopt)"},
+    {"KHR_texture_basisu", ": textures compressed by Basis Universal are not read: wanted PNG, "
+                           "JPEG or WebP (gltf-transform ktxdecompress, or export without KTX2)"},
+    {"EXT_texture_avif", ": AVIF textures are not read: wanted PNG, JPEG or WebP "
+                         "(gltf-transform png)"},
+    {"MSFT_texture_dds", ": DDS textures are not read: wanted PNG, JPEG or WebP"}};
 
 struct Chunks {
     std::string_view json;

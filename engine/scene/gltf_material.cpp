@@ -15,18 +15,14 @@ struct Unread {
     std::string_view extension, factor; ///< without the factor, or with 0 of it, it says nothing
     std::string_view gap;
 };
-constexpr Unread kUnread[] = {
-    {"KHR_materials_clearcoat", "clearcoatFactor", "clearcoat"},
-    {"KHR_materials_sheen", "", "sheen"},
-    {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
-    {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"},
-    {"KHR_materials_transmission", "transmissionFactor", "glass-as-diffuse"},
-    {"KHR_materials_transmission", "transmissionFactor", "glass-shadow"}};
-constexpr std::string_view kRead[] = {kEmissiveStrength,
-                                      "KHR_materials_ior",
-                                      "KHR_materials_specular",
-                                      "KHR_materials_unlit",
-                                      "KHR_materials_pbrSpecularGlossiness",
+constexpr Unread kUnread[] = {{"KHR_materials_clearcoat", "clearcoatFactor", "clearcoat"},
+                              {"KHR_materials_sheen", "", "sheen"},
+                              {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
+                              {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"}};
+constexpr std::string_view kTransmission = "KHR_materials_transmission";
+constexpr std::string_view kRead[] = {kEmissiveStrength,     kTransmission,
+                                      "KHR_materials_ior",   "KHR_materials_specular",
+                                      "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
                                       "KHR_materials_volume"}; // says nothing without transmission
 
 dvec3 vector_of(const Item& item, std::string_view key, double otherwise) {
@@ -66,6 +62,8 @@ private:
     void dielectric();
     void emission();
     void alpha();
+    bool is_metal_everywhere() const;
+    void transmission();
     void left_out();
     void be_mirror(const vec3& reflectance, const vec3& diffuse);
     void marks();
@@ -143,6 +141,20 @@ void Reader::alpha() {
     gap("blend-as-mask");
 }
 
+/// Returns whether no place of the surface has a dielectric part.
+bool Reader::is_metal_everywhere() const {
+    if (material_.metallic < 1 || !material_.roughness_texture) return material_.metallic == 1;
+    return std::ranges::all_of(material_.roughness_texture->image->texels,
+                               [](std::uint32_t texel) { return (texel >> 16 & 0xff) == 0xff; });
+}
+
+/// Light goes through the dielectric part alone: a metal stays a metal.
+void Reader::transmission() {
+    const std::optional<Item> glass = extension(kTransmission);
+    if (!glass || glass->number("transmissionFactor", 0) == 0 || is_metal_everywhere()) return;
+    gap("glass-as-diffuse"), gap("glass-shadow");
+}
+
 void Reader::left_out() {
     for (const auto& [key, note, id] :
          {std::array<std::string_view, 3>{"normalTexture",
@@ -202,6 +214,7 @@ Material Reader::read() {
     const bool doubled = from_.flag("doubleSided", false);
     material_.two_sided = doubled, material_.front_only = !doubled;
     left_out();
+    transmission();
     if (extension("KHR_materials_unlit")) {
         material_.unlit = true, material_.metallic = 0, material_.roughness = 1;
         material_.emission = vec3(0), material_.emission_texture.reset();

@@ -55,15 +55,19 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
     std::string format = image_format(bytes);
     if (format.empty() && is_targa(file)) format = "targa";
     if (format.empty()) return nullptr;
-    ImageReader reader(bytes, format, place);
+    const auto texels = [](const ImageShape& shape) { // four values take the room of a texel
+        return std::uint64_t(shape.size.x) * shape.size.y * ((shape.channel_count + 3) / 4);
+    };
+    const MemoryBytes source(bytes);
+    ImageReader reader(source, format, place, [&](const ImageShape& shape) {
+        constexpr std::uint32_t kMostSide = 65535; // the renderer keeps a side in 16 bits
+        check(shape.size.x <= kMostSide && shape.size.y <= kMostSide, Failure::bad_data, place,
+              ": wanted sides of at most ", kMostSide, " texels, found ", shape.size.x, "x",
+              shape.size.y);
+        account.texels.require(texels(shape), place);
+    });
     const ImageShape& shape = reader.shape();
-    constexpr std::uint32_t kMostSide = 65535; // the renderer keeps a side in 16 bits
-    check(shape.size.x <= kMostSide && shape.size.y <= kMostSide, Failure::bad_data, place,
-          ": wanted sides of at most ", kMostSide, " texels, found ", shape.size.x, "x",
-          shape.size.y);
-    // four values take the room of a texel
-    account.texels.add(std::uint64_t(shape.size.x) * shape.size.y * ((shape.channel_count + 3) / 4),
-                       place);
+    account.texels.add(texels(shape), place);
     return std::make_shared<const Image>(
         Image{.name = file, .size = shape.size, .texels = texels_of(shape, reader.bytes())});
 }

@@ -1,62 +1,16 @@
 #include "scene/json.hpp"
 
+#include "core/json.hpp"
 #include "core/text.hpp"
 
 #include <cmath>
 
 namespace catoptric::scene::gltf {
 
-namespace {
-
-constexpr int kDeepest = 64;
-
-/// Goes over the text before anything is made of it, and adds up what its values will take in
-/// memory, at most, with what lists and maps keep around them.
-class Counter : public nlohmann::json_sax<Json> {
-public:
-    Counter(const std::string& file, Total& memory) : file_(file), memory_(memory) {}
-
-    bool null() override { return value(); }
-    bool boolean(bool) override { return value(); }
-    bool number_integer(number_integer_t) override { return value(); }
-    bool number_unsigned(number_unsigned_t) override { return value(); }
-    bool number_float(number_float_t, const string_t&) override { return value(); }
-    bool string(string_t& text) override { return value(32 + text.size()); }
-    bool binary(binary_t&) override { return value(); }
-    bool key(string_t& text) override { return value(64 + text.size()); }
-    bool start_object(std::size_t) override { return deeper(); }
-    bool start_array(std::size_t) override { return deeper(); }
-    bool end_object() override { return --depth_ >= 0; }
-    bool end_array() override { return --depth_ >= 0; }
-    bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
-        const std::string_view words = error.what(); // which may quote all of the text
-        fail(Failure::bad_data, file_, ": JSON: ", printable(words.substr(0, 200)),
-             words.size() > 200 ? "..." : "");
-    }
-
-private:
-    bool value(std::uint64_t more = 0) {
-        memory_.add(32 + more, file_);
-        return true;
-    }
-    bool deeper() {
-        check(++depth_ < kDeepest, Failure::bad_data, file_, ": JSON: wanted nesting below ",
-              kDeepest, ", found more");
-        return value(64);
-    }
-
-    const std::string& file_;
-    Total& memory_;
-    int depth_ = 0;
-};
-
-} // namespace
-
 Json parse_json(const std::string& file, std::string_view text, Account& account) {
     account.json_bytes.add(text.size(), file);
-    Counter counter(file, account.json_memory);
-    Json::sax_parse(text, &counter);
-    return Json::parse(text);
+    return catoptric::parse_json<Json>(
+        file, text, [&](std::uint64_t bytes) { account.json_memory.add(bytes, file); });
 }
 
 std::string shown(const Json& value) {

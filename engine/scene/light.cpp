@@ -1,11 +1,15 @@
 #include "scene/light.hpp"
 
+#include "scene/topology.hpp"
 #include "scene/transform.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace catoptric::scene {
 
@@ -27,20 +31,11 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-/// For each vertex the first one at the identical position.
-std::vector<std::size_t> first_at_position(const Mesh& mesh) {
-    std::map<std::array<double, 3>, std::size_t> seen;
-    std::vector<std::size_t> first(mesh.positions.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        const dvec3& p = mesh.positions[i];
-        first[i] = seen.try_emplace({p.x, p.y, p.z}, i).first->second;
-    }
-    return first;
-}
-
 struct Sums {
     dvec3 positions{0}, normals{0};
     double position_count = 0, normal_count = 0, area = 0;
+    dmat3 facets{0}; ///< outer products of the facets' unit normals, times their areas
+    bool closed = true;
 
     void add_position(const dvec3& position) { positions += position, position_count += 1; }
     void add_vertex(const dvec3& normal, double its_area) {
@@ -55,16 +50,74 @@ bool vanishes(const Sums& sums) {
     return !(glm::length(sums.normals) > rounding * sums.normal_count);
 }
 
+/// Turns columns of `axes` until the symmetric `matrix` is diagonal along them (Jacobi 1846).
+void diagonalise(dmat3& matrix, dmat3& axes) {
+    constexpr int kSweeps = 12; // each squares what is left; a float's digits take four
+    for (int turn = 0; turn < 3 * kSweeps; ++turn) {
+        const int i = turn % 3, j = (i + 1) % 3;
+        if (matrix[i][j] == 0) continue;
+        const double angle = std::atan2(2 * matrix[i][j], matrix[j][j] - matrix[i][i]) / 2;
+        dmat3 rotation(1);
+        rotation[i][i] = rotation[j][j] = std::cos(angle);
+        rotation[j][i] = std::sin(angle), rotation[i][j] = -rotation[j][i];
+        matrix = glm::transpose(rotation) * matrix * rotation;
+        matrix[i][j] = matrix[j][i] = 0;
+        axes = axes * rotation;
+    }
+}
+
+/// Mean over all directions of the length of `cosines * direction`.
+double mean_length(const dvec3& cosines) {
+    constexpr int kSteps = 64; // of an octant, either way
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            const double z = (i + .5) / kSteps, turn = (j + .5) / kSteps * std::numbers::pi / 2;
+            const double flat = std::sqrt(1 - z * z);
+            sum += glm::length(cosines * dvec3(flat * std::cos(turn), flat * std::sin(turn), z));
+        }
+    return sum / (kSteps * kSteps);
+}
+
+/// The mean |cosine| of facets to a direction d is near the root of the mean square, which is a
+/// quadratic form of d. That is exact for a board, and a constant times the truth for a tube and a
+/// ball; the constant follows from the mean over all directions, a half of any surface.
+void set_both_sides(PointLight& light, const Sums& sums) {
+    dmat3 squares = sums.facets / sums.area;
+    light.axes = dmat3(1);
+    diagonalise(squares, light.axes);
+    dvec3 cosines(squares[0][0], squares[1][1], squares[2][2]);
+    cosines = glm::sqrt(glm::max(cosines, 0.0));
+    // The axis of the largest last: shadow maps look along it.
+    const int last = cosines.x >= cosines.y && cosines.x >= cosines.z ? 0
+                     : cosines.y >= cosines.z                         ? 1
+                                                                      : 2;
+    const int first = (last + 1) % 3, second = (last + 2) % 3;
+    light.axes = dmat3(light.axes[first], light.axes[second], light.axes[last]);
+    cosines = {cosines[first], cosines[second], cosines[last]};
+    light.cosines = cosines * (.5 / mean_length(cosines));
+}
+
 PointLight light_of(const Sums& sums, const Material& material) {
-    return {.position = sums.positions / sums.position_count,
-            .normal = material.two_sided || vanishes(sums) ? dvec3(0)
-                                                           : glm::normalize(sums.normals),
-            .area = sums.area,
-            .emission = scene::light_of(material)};
+    PointLight light{.position = sums.positions / sums.position_count,
+                     .area = sums.area,
+                     .is_lamp = true,
+                     .closed = sums.closed,
+                     .emission = scene::light_of(material)};
+    if (light.closed) return light;
+    if (material.two_sided)
+        set_both_sides(light, sums);
+    else if (!vanishes(sums))
+        light.normal = glm::normalize(sums.normals);
+    return light;
+}
+
+dvec3 cross_of(const std::vector<dvec3>& world, const uvec3& t) {
+    return glm::cross(world[t.y] - world[t.x], world[t.z] - world[t.x]);
 }
 
 double area_of(const std::vector<dvec3>& world, const uvec3& t) {
-    return 0.5 * glm::length(glm::cross(world[t.y] - world[t.x], world[t.z] - world[t.x]));
+    return 0.5 * glm::length(cross_of(world, t));
 }
 
 /// The sums of each connected component, in the order of their first vertices; and which of them
@@ -77,18 +130,23 @@ struct Components {
 Components components_of(const Mesh& mesh, const dmat4& world_from_object) {
     std::vector<dvec3> world;
     for (const dvec3& p : mesh.positions) world.push_back(transform_point(world_from_object, p));
-    const std::vector<std::size_t> first = first_at_position(mesh);
+    const std::vector<std::size_t> first = first_at_place(mesh.positions);
 
     Islands islands(world.size());
     std::vector<double> area(world.size(), 0); // of the triangles that begin at the vertex
+    std::vector<dmat3> facets(world.size(), dmat3(0));
     std::vector<bool> used(world.size(), false);
+    std::vector<Corners> corners;
     for (const uvec3& t : mesh.triangles) {
+        corners.push_back({first[t.x], first[t.y], first[t.z]});
         const double triangle_area = area_of(world, t);
         if (!(triangle_area > 0)) continue;
         islands.join(first[t.x], first[t.y]);
         islands.join(first[t.x], first[t.z]);
         used[t.x] = used[t.y] = used[t.z] = true;
         area[t.x] += triangle_area;
+        const dvec3 facet = normalized_or_zero(cross_of(world, t));
+        facets[t.x] += triangle_area * glm::outerProduct(facet, facet);
     }
 
     const dmat3 normal_to_world = normal_matrix(world_from_object);
@@ -103,9 +161,17 @@ Components components_of(const Mesh& mesh, const dmat4& world_from_object) {
         if (index == sums.size()) sums.emplace_back();
         const dvec3 normal = normalized_or_zero(normal_to_world * dvec3(mesh.normals[i]));
         sums[index].add_vertex(normal, area[i]);
+        sums[index].facets += facets[i];
         if (!counted[first[i]]) sums[index].add_position(world[i]);
         counted[first[i]] = true;
     }
+    for_each_edge(sides_of(corners), [&](std::span<const Side> edge) {
+        if (edge.size() == 2) return;
+        for (const std::size_t end : {edge[0].low, edge[0].high})
+            if (const auto index = index_of_root.find(islands.find(end));
+                index != index_of_root.end())
+                sums[index->second].closed = false;
+    });
     for (const uvec3& t : mesh.triangles)
         components.of_triangles.push_back(
             area_of(world, t) > 0 ? std::optional(index_of_root.at(islands.find(first[t.x])))
@@ -131,6 +197,12 @@ PointLight light_of(const Punctual& punctual) {
 std::vector<std::optional<std::size_t>> light_of_triangles(const Mesh& mesh,
                                                            const dmat4& world_from_object) {
     return components_of(mesh, world_from_object).of_triangles;
+}
+
+double share_towards(const PointLight& light, const dvec3& along) {
+    if (light.normal != dvec3(0)) return std::max(0.0, glm::dot(light.normal, along));
+    if (light.cosines != dvec3(0)) return glm::length(light.cosines * (along * light.axes));
+    return light.is_lamp ? .25 : 1;
 }
 
 std::vector<PointLight> lights(const Scene& scene) {

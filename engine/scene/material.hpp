@@ -20,7 +20,7 @@ struct Material {
     vec3 emission{0};        ///< radiance Ke
     bool mirror = false;     ///< reflects `reflectance` of all light, sharply, at any angle
     vec3 reflectance{1};     ///< of a mirror, in [0,1]
-    bool two_sided = false;  ///< the normal turns to who looks; a light shines both ways, no cosine
+    bool two_sided = false;  ///< the normal turns to who looks; an open lamp shines both ways
     bool front_only = false; ///< not there from behind, for eyes and rays that see; mirrors are
     bool unlit = false;      ///< shows its albedo whatever the light (KHR_materials_unlit)
 

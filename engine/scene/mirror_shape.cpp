@@ -1,13 +1,11 @@
 #include "scene/mirror_shape.hpp"
 
+#include "scene/topology.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <tuple>
-#include <utility>
+#include <variant>
 
 namespace catoptric::scene {
 
@@ -17,17 +15,16 @@ constexpr double kFlat = 1e-4;  // of the extent
 constexpr double kRound = 1e-3; // of the radius: vertices
 constexpr double kMostly = .95; // of all that bends
 constexpr double kFacets = .1;  // the same: facets
-
-using Triangle = std::array<std::size_t, 3>;
+constexpr double kTurned = .01; // radian: normals
 
 /// An object's triangles in the world, about the centre of its bounds; places are numbered once.
 struct Soup {
     std::vector<dvec3> places;
-    std::vector<Triangle> triangles;
+    std::vector<Corners> triangles;
     dvec3 centre{0};
     double extent = 0; ///< longest side of the bounds
 
-    dvec3 cross_of(const Triangle& t) const {
+    dvec3 cross_of(const Corners& t) const {
         return glm::cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]);
     }
 };
@@ -39,26 +36,31 @@ Soup soup_of(const Scene& scene, const Object& object) {
     if (box.empty()) return soup;
     soup.centre = box.centre();
     soup.extent = std::max({box.extent().x, box.extent().y, box.extent().z});
-    std::map<std::array<double, 3>, std::size_t> known;
+    const std::vector<std::size_t> first = first_at_place(mesh.positions);
+    std::vector<std::size_t> place(first.size(), soup.places.max_size());
     const auto place_of = [&](std::uint32_t vertex) {
-        const dvec3& p = mesh.positions[vertex];
-        const auto [entry, is_new] = known.try_emplace({p.x, p.y, p.z}, soup.places.size());
-        if (is_new)
+        std::size_t& number = place[first[vertex]];
+        if (number == soup.places.max_size()) {
+            number = soup.places.size();
+            const dvec3& p = mesh.positions[first[vertex]];
             soup.places.push_back(transform_point(object.world_from_object, p) - soup.centre);
-        return entry->second;
+        }
+        return number;
     };
-    for (const uvec3& t : mesh.triangles)
-        soup.triangles.push_back({place_of(t.x), place_of(t.y), place_of(t.z)});
+    for (const uvec3& t : mesh.triangles) {
+        const Corners corners{place_of(t.x), place_of(t.y), place_of(t.z)};
+        if (has_three_places(corners)) soup.triangles.push_back(corners);
+    }
     return soup;
 }
 
 bool is_flat(const Soup& soup) {
     dvec3 sum(0);
-    for (const Triangle& t : soup.triangles) sum += soup.cross_of(t);
+    for (const Corners& t : soup.triangles) sum += soup.cross_of(t);
     const dvec3 normal = normalized_or_zero(sum);
     if (normal == dvec3(0)) return false;
     const double height = glm::dot(normal, soup.places[soup.triangles.front()[0]]);
-    return std::ranges::all_of(soup.triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(soup.triangles, [&](const Corners& t) {
         const bool in_plane = std::ranges::all_of(t, [&](std::size_t i) {
             return std::abs(glm::dot(normal, soup.places[i]) - height) <= kFlat * soup.extent;
         });
@@ -90,12 +92,40 @@ double farthest_from(const Sphere& sphere, const Soup& soup) {
     double farthest = 0;
     for (const dvec3& place : soup.places)
         farthest = std::max(farthest, std::abs(glm::length(place - sphere.centre) - sphere.radius));
-    for (const Triangle& t : soup.triangles) {
+    for (const Corners& t : soup.triangles) {
         const dvec3 normal = normalized_or_zero(soup.cross_of(t));
         const double height = std::abs(glm::dot(normal, soup.places[t[0]] - sphere.centre));
         if (!(height >= (1 - kFacets) * sphere.radius)) return 1;
     }
     return farthest / sphere.radius;
+}
+
+/// Whether the corners' normals lie along the sphere's radii, outwards or inwards: a ball of flat
+/// facets mirrors as these do.
+bool has_normals_of(const Sphere& sphere, const Scene& scene, const Object& object) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    const dmat3 turns = normal_matrix(object.world_from_object);
+    return std::ranges::all_of(mesh.triangles, [&](const uvec3& t) {
+        return std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](std::uint32_t i) {
+            const dvec3 out = normalized_or_zero(
+                            transform_point(object.world_from_object, mesh.positions[i]) -
+                            sphere.centre),
+                        normal = world_normal(turns, dvec3(mesh.normals[i]));
+            return glm::length(glm::cross(out, normal)) <= kTurned;
+        });
+    });
+}
+
+/// Told without numbering its places: all lie about as far from the centre of the bounds.
+bool may_be_ball(const Scene& scene, const Object& object) {
+    const Bounds<double> box = bounds(scene, object);
+    if (box.empty()) return false;
+    const dvec3 centre = box.centre();
+    const double radius = std::max({box.extent().x, box.extent().y, box.extent().z}) / 2;
+    return std::ranges::all_of(scene.meshes[object.mesh].positions, [&](const dvec3& p) {
+        const double far = glm::distance(transform_point(object.world_from_object, p), centre);
+        return std::abs(far - radius) <= kFacets * radius;
+    });
 }
 
 /// How the triangles meet.
@@ -106,29 +136,8 @@ struct Edges {
     bool is_mostly(double bends) const { return bends >= kMostly * (outwards + inwards); }
 };
 
-/// A triangle's edge, and its corner beside it.
-struct Side {
-    std::size_t low, high; ///< the edge's ends
-    std::size_t triangle, tip;
-};
-
-std::vector<Side> sides_of(const Soup& soup) {
-    std::vector<Side> sides;
-    sides.reserve(3 * soup.triangles.size());
-    for (std::size_t i = 0; i < soup.triangles.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax(soup.triangles[i][k],
-                                                 soup.triangles[i][(k + 1) % 3]);
-            sides.push_back({low, high, i, soup.triangles[i][(k + 2) % 3]});
-        }
-    std::ranges::sort(
-        sides, {}, [](const Side& side) { return std::tuple(side.low, side.high, side.triangle); });
-    return sides;
-}
-
 /// The tip of a triangle over the plane of its neighbour says which way their edge bends.
 Edges edges_of(const Soup& soup) {
-    const std::vector<Side> sides = sides_of(soup);
     Edges edges;
     const auto add = [&](const Side& here, const Side& there) {
         const dvec3 normal = normalized_or_zero(soup.cross_of(soup.triangles[here.triangle]));
@@ -140,20 +149,17 @@ Edges edges_of(const Soup& soup) {
                                                         glm::distance(soup.places[here.low],
                                                                       soup.places[here.high]);
     };
-    for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
-        for (end = first; end < sides.size() && sides[end].low == sides[first].low &&
-                          sides[end].high == sides[first].high;)
-            ++end;
-        edges.closed &= end - first == 2;
-        if (end - first == 2) add(sides[first], sides[first + 1]);
-    }
+    for_each_edge(sides_of(soup.triangles), [&](std::span<const Side> sides) {
+        edges.closed &= sides.size() == 2;
+        if (sides.size() == 2) add(sides[0], sides[1]);
+    });
     return edges;
 }
 
 /// Whether most of its area faces away from a point.
 bool faces_out(const Soup& soup, const dvec3& point) {
     double area = 0;
-    for (const Triangle& t : soup.triangles) {
+    for (const Corners& t : soup.triangles) {
         const dvec3 cross = soup.cross_of(t);
         area += glm::dot(cross, soup.places[t[0]] - point) > 0 ? glm::length(cross)
                                                                : -glm::length(cross);
@@ -179,8 +185,11 @@ Shape shape_of(const Scene& scene, const Object& object) {
         fit->centre += soup.centre;
         if (off <= kRound) shape.fit = fit, shape.tolerance = off;
     }
-    if (object.sphere) shape.fit = object.sphere, shape.tolerance = 0;
-    if (shape.fit && edges.closed)
+    if (object.sphere) {
+        if (!shape.fit) shape.tolerance = 0; // it stands for the sphere, whatever its vertices do
+        shape.fit = object.sphere;
+    }
+    if (shape.fit && edges.closed && (object.sphere || has_normals_of(*shape.fit, scene, object)))
         shape.kind = sphere;
     else if (shape.fit) // subdivided balls bend inwards at some edges
         shape.kind = faces_out(soup, shape.fit->centre - soup.centre) ? convex : concave;
@@ -189,6 +198,16 @@ Shape shape_of(const Scene& scene, const Object& object) {
                      : edges.is_mostly(edges.inwards) ? concave
                                                       : other;
     return shape;
+}
+
+void find_spheres(Scene& scene) {
+    for (Object& object : scene.objects) {
+        if (object.sphere || !is_mirror(scene, object) ||
+            std::holds_alternative<Follows>(object.motion) || !may_be_ball(scene, object))
+            continue;
+        const Shape shape = shape_of(scene, object);
+        if (shape.kind == Shape::Kind::sphere) object.sphere = shape.fit;
+    }
 }
 
 const char* name_of(Shape::Kind kind) {

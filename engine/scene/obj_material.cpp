@@ -209,6 +209,7 @@ public:
         if (draft_.colour) material_.albedo_texture = maps_.of(*draft_.colour);
         sides();
         transparency();
+        if (has_lobe()) gap("specular-left-out");
         if (draft_.roughness || draft_.metallic)
             physical();
         else
@@ -218,6 +219,13 @@ public:
 
 private:
     void gap(const char* id) { add_material_gap(context_.gaps, id, draft_.place, index_); }
+
+    /// Whether it asks for a specular lobe: illum 0 and 1 have no highlight.
+    bool has_lobe() const {
+        const bool has_highlight = draft_.specular.value_or(dvec3(0)) != dvec3(0) &&
+                                   draft_.kind.value_or(2) >= 2;
+        return has_highlight || draft_.roughness || draft_.metallic;
+    }
 
     void sides() {
         const bool is_lamp = draft_.emission != vec3(0);

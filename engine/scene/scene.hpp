@@ -76,11 +76,17 @@ struct Punctual {
 /// One light as the shading formula sees it: a point, with a one-sided cosine where it is that of a
 /// lamp; or a direction.
 struct PointLight {
-    dvec3 position{0}; ///< mean of the mesh's vertices
-    dvec3 normal{0};   ///< mean of the vertex normals, unit length or zero: no cosine at the light
-    double area = 0;   ///< world units squared; 1 for a light without a surface
-    vec3 emission{0};  ///< radiance; intensity or illuminance of a light without a surface
-    dvec3 axis{0};     ///< where a spot or a directional light shines to, unit; zero: all around
+    dvec3 position{0};    ///< mean of the mesh's vertices
+    dvec3 normal{0};      ///< of a one-sided lamp: mean of the vertex normals, unit length or zero
+    double area = 0;      ///< world units squared; 1 for a light without a surface
+    bool is_lamp = false; ///< has a surface
+    bool closed = false;  ///< of a lamp: every edge has two triangles
+    /// Of an open lamp of two sides: orthogonal unit axes, right-handed, and the mean over its area
+    /// of the facets' |cosine| to each; zero: of any other light.
+    dmat3 axes{0};
+    dvec3 cosines{0};
+    vec3 emission{0}; ///< radiance; intensity or illuminance of a light without a surface
+    dvec3 axis{0};    ///< where a spot or a directional light shines to, unit; zero: all around
     double range = std::numeric_limits<double>::infinity();
     double cos_inner = 1, cos_outer = -1; ///< of a spot
     bool directional = false;             ///< from infinitely far, against `axis`
@@ -125,6 +131,13 @@ CATOPTRIC_API std::vector<std::size_t> mirrors(const Scene& scene);
 /// connect through a shared index or an identical position (which then counts once in the mean);
 /// triangles without area, and vertices that only they use, contribute nothing.
 CATOPTRIC_API std::vector<PointLight> lights(const Scene& scene);
+
+/// Returns how much of a light's area shines in the unit direction `along`, away from it, 0 to 1.
+/// A lamp with a mean normal: the cosine to it. An open one of two sides: the mean |cosine| of its
+/// facets, exact for a board, a tube and a ball. Any other lamp, first of all a closed one: a
+/// quarter, which is the mean over all directions of what a convex body shows. A light without a
+/// surface: 1.
+CATOPTRIC_API double share_towards(const PointLight& light, const dvec3& along);
 
 /// World-space bounds, at rest, of one object's triangles or of everything; empty for nothing.
 CATOPTRIC_API Bounds<double> bounds(const Scene& scene, const Object& object);

@@ -31,6 +31,13 @@ bool is_refusal(const Error& error) {
            std::regex_search(std::string(error.what()), kLimit);
 }
 
+bool Bench::ends_run(const Error& error) const {
+    const bool is_fault = error.failure == Failure::device_lost ||
+                          error.failure == Failure::no_device ||
+                          (error.failure == Failure::exhausted && !is_refusal(error));
+    return is_fault || is_stop(error.failure) || !engine_.usable();
+}
+
 app::Request Bench::asked(const scene::Scene& scene, const std::string& technique,
                           int frames) const {
     app::Request request;

@@ -57,8 +57,9 @@ public:
     void add_refused(const std::string& what, Failure failure, const std::string& limit,
                      const std::function<void()>& work);
 
-    /// Whether an error is nothing that a property found: a signal came, or the device is gone.
-    bool ends_run(const Error& error) const { return is_stop(error.failure) || !engine_.usable(); }
+    /// Whether an error is nothing that a property found: a signal came, the device is gone or
+    /// lacks something, or memory ran out below what the device allows.
+    bool ends_run(const Error& error) const;
 
     app::Engine& engine() { return engine_; }
     uvec2 size() const { return size_; }

@@ -27,7 +27,7 @@ constexpr const char* kExamples = R"(Examples:
   catoptric bench --techniques raytrace:depth=4 parallax:face=512 --rounds 12
   catoptric bench scene.glb --size 256x256 --json > scene.json
   catoptric bench --compare before.json now.json
-  catoptric bench --against ../before/build/release/catoptric --techniques raytrace
+  catoptric bench --against ../before/build/release/catoptric
   catoptric bench --tune
 
 SCENE comes before --techniques. frame/...: a frame, with all threads; host/...: what the calling thread does for it;
@@ -92,7 +92,7 @@ int frames_of(const Options& options) {
 }
 
 void load_again(const Common& common) {
-    app::load_wanted(common.scene, {.load = {.root = common.root},
+    app::load_wanted(common.scene, {.load = load_options(common),
                                     .wishes = common.wishes,
                                     .use_scene_file = common.use_scene_file});
 }
@@ -245,6 +245,7 @@ void add_bench(CommandLine& program, std::vector<std::string> command) {
     verb.option("--techniques", "T",
                 "name[:knob=value,...] each, see 'list techniques' (a list of its own)",
                 options->techniques);
+    verb.heading(kMeasuringOptions);
     verb.option("--rounds", "N",
                 "rounds in which benchmarks take turns, there and back; from 6 on medians have an "
                 "interval (6)",

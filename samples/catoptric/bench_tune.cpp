@@ -6,8 +6,10 @@
 #include "bench_table.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/text.hpp"
 #include "places.hpp"
 #include "progress.hpp"
+#include "report/write.hpp"
 #include "table.hpp"
 
 #include <fmt/format.h>
@@ -27,19 +29,13 @@ fs::path place_of(const std::string& output, const app::DeviceInfo& device,
         check(!folder.empty(), Failure::cannot_create,
               "no folder for the device's profile: wanted XDG_CONFIG_HOME or HOME to be an "
               "absolute path; -o FILE writes it elsewhere");
-        check_folder_can_be_made(folder);
+        report::create_folder(folder); // before the measuring
         place = folder / app::profile_name(device);
     } else {
         check_file_can_be_made(place);
     }
     check_apart({kStdout, place}, inputs);
     return place;
-}
-
-void write_profile(const fs::path& place, const std::string& text, bool makes_folder) {
-    std::error_code error; // write_file says what came of it
-    if (makes_folder) fs::create_directories(place.parent_path(), error);
-    write_file(place, text);
 }
 
 } // namespace
@@ -53,7 +49,7 @@ std::string tuned_table(const app::DeviceInfo& device, const std::vector<measure
                          interval_text(ratio.ci95), one.is_taken() ? "taken" : "not taken"});
     }
     return fmt::format("{}, {}; {}, {} rounds; device time over the default's\n", device.name,
-                       device.driver, tried.front().benchmark, tried.front().ms.size()) +
+                       device.driver, printable(tried.front().benchmark), tried.front().ms.size()) +
            aligned(cells, 5);
 }
 
@@ -79,7 +75,7 @@ int tune_device(const Common& common, int rounds, const std::string& output) {
         warn("others were at work beside what was measured; what is taken may be their doing");
     const std::string text = app::profile_text(device, tuned.tried);
     put(common.manners.json ? text : tuned_table(device, tuned.tried));
-    write_profile(place, text, output.empty());
+    write_file(place, text);
     note(common.manners, "written: " + place.string());
     if (common.device.validate) engine.check_validation();
     return 0;

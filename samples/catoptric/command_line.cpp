@@ -9,12 +9,83 @@
 #include <algorithm>
 #include <iostream>
 #include <sstream>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
 namespace catoptric::cli {
 
 namespace {
+
+constexpr const char* kHelpVerb = "help";
+constexpr std::size_t kHelpWidth = 80;
+constexpr std::size_t kHelpIndent = 28; ///< of what options mean
+
+/// Returns the words of `text` in lines of at most kHelpWidth columns, each after the first behind
+/// `indent` blanks; the first begins in column `indent`.
+std::string wrapped(const std::string& text, std::size_t indent) {
+    std::istringstream words(text);
+    std::string lines, word;
+    std::size_t column = indent;
+    while (words >> word) {
+        const bool is_first = column == indent;
+        if (!is_first && column + 1 + word.size() > kHelpWidth) {
+            lines += "\n" + std::string(indent, ' ');
+            column = indent;
+        } else if (!is_first) {
+            lines += ' ';
+            ++column;
+        }
+        lines += word;
+        column += word.size();
+    }
+    return lines;
+}
+
+/// Returns `left` and, beside it or below where it is too wide, `help`.
+std::string help_entry(const std::string& left, const std::string& help) {
+    const std::string start = "  " + left;
+    const bool fits = start.size() + 2 <= kHelpIndent;
+    return start +
+           (fits ? std::string(kHelpIndent - start.size(), ' ')
+                 : "\n" + std::string(kHelpIndent, ' ')) +
+           wrapped(help, kHelpIndent) + "\n";
+}
+
+/// Returns the text with each paragraph in lines of kHelpWidth columns. Lines that begin with a
+/// blank, and the heading above them, stay as they are.
+std::string paragraphs(const std::string& text) {
+    std::istringstream lines(text);
+    std::string result, line, prose;
+    const auto end_paragraph = [&] {
+        if (!prose.empty()) result += wrapped(std::exchange(prose, {}), 0) + "\n";
+    };
+    while (std::getline(lines, line)) {
+        if (!line.empty() && line.front() != ' ' && !line.ends_with(':')) {
+            prose += line + ' ';
+            continue;
+        }
+        end_paragraph();
+        result += line + "\n";
+    }
+    end_paragraph();
+    return result;
+}
+
+/// Help in kHelpWidth columns.
+class Layout : public CLI::Formatter {
+public:
+    std::string make_option(const CLI::Option* option, bool is_positional) const override {
+        return help_entry(make_option_name(option, is_positional) + make_option_opts(option),
+                          make_option_desc(option));
+    }
+    std::string make_subcommand(const CLI::App* verb) const override {
+        return help_entry(verb->get_name(), verb->get_description());
+    }
+    std::string make_footer(const CLI::App* app) const override {
+        return app->get_footer().empty() ? "" : paragraphs(app->get_footer());
+    }
+};
 
 /// Help without runs of empty lines.
 std::string tidy(std::string text) {
@@ -36,6 +107,36 @@ void refuse_extras(const CLI::App& verb) {
     }
     check(extras.empty(), Failure::usage, "'", verb.get_name(),
           "' wanted no further argument, found '", extras.empty() ? "" : extras.front(), "'");
+}
+
+/// The option of `app` or of the verb that was read last whose name the parser's words begin with.
+const CLI::Option* option_named(const CLI::App& app, const std::string& words) {
+    const CLI::Option* longest = nullptr;
+    std::vector<const CLI::App*> apps{&app};
+    for (const CLI::App* verb : app.get_subcommands()) apps.push_back(verb);
+    for (const CLI::App* one : apps)
+        for (const CLI::Option* option : one->get_options())
+            if (const std::string name = option->get_name();
+                words.find(name) != std::string::npos &&
+                (longest == nullptr || name.size() > longest->get_name().size()))
+                longest = option;
+    return longest;
+}
+
+/// What the parser refused, in this program's words.
+std::string refusal(const CLI::App& app, const CLI::ParseError& error) {
+    const CLI::Option* option = option_named(app, error.what());
+    if (option == nullptr) return "wanted one verb with options and arguments of its own";
+    const std::string name = option->get_name(), type = option->get_type_name();
+    const auto found = [&] { return ", found '" + join(option->results()) + "'"; };
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+        return "wanted " + name + ", " + option->get_description() + ", found nothing";
+    if (option->get_expected_max() == 0) return name + ": wanted no value" + found();
+    const auto most = static_cast<std::size_t>(option->get_items_expected_max());
+    if (option->count() > most)
+        return name + ": wanted once, found " + std::to_string(option->count()) + " times";
+    return name + ": wanted a value" + (type.empty() ? "" : ", " + type) +
+           (option->count() == 0 ? ", found none" : found());
 }
 
 } // namespace
@@ -91,9 +192,11 @@ void Verb::option_without_value(const std::string& names, const std::string& hel
 CommandLine::CommandLine(const std::string& name, const std::string& summary,
                          const std::string& version, const std::string& examples)
     : app_(std::make_unique<CLI::App>(summary, name)) {
+    app_->formatter(std::make_shared<Layout>());
+    app_->option_defaults()->group(kCommonOptions);
     app_->require_subcommand(1);
     app_->footer(examples);
-    app_->set_version_flag("--version", version);
+    app_->set_version_flag("-V,--version", version);
     app_->set_help_flag("-h,--help", "this text");
     app_->get_formatter()->label("SUBCOMMAND", "VERB");
 }
@@ -115,11 +218,23 @@ Verb& CommandLine::whole() {
     return *verbs_.emplace_back(std::make_unique<Verb>(*app_));
 }
 
+/// "help" becomes "--help", "help VERB" becomes "VERB --help".
+std::vector<std::string> CommandLine::without_help_verb(std::vector<std::string> words) const {
+    if (is_whole_ || words.front() != kHelpVerb) return words;
+    check(words.size() <= 2, Failure::usage, "'help' wanted at most one verb, found '",
+          words.size() > 2 ? words[2] : "", "'");
+    words.erase(words.begin());
+    if (!words.empty()) check_verb(words.front());
+    words.emplace_back("--help");
+    return words;
+}
+
 /// The first word is a verb, or asks for help or the version.
 void CommandLine::check_verb(const std::string& word) const {
     std::vector<std::string> names;
     for (const CLI::App* verb : app_->get_subcommands(nullptr)) names.push_back(verb->get_name());
-    const std::vector<std::string> flags{"-h", "--help", "--version"};
+    names.emplace_back(kHelpVerb);
+    const std::vector<std::string> flags{"-h", "--help", "-V", "--version"};
     for (const auto& known : {names, flags})
         if (std::ranges::find(known, word) != known.end()) return;
     fail(Failure::usage, "wanted a verb (", join(names), "), found '", word, "'",
@@ -131,6 +246,7 @@ std::function<int()> CommandLine::parse(std::vector<std::string> words) {
         std::cerr << tidy(app_->help()) << std::flush;
         return [] { return static_cast<int>(Failure::usage); };
     }
+    words = without_help_verb(std::move(words));
     const std::string program = is_whole_ ? app_->get_name()
                                           : app_->get_name() + " " + words.front();
     if (!is_whole_) check_verb(words.front());
@@ -141,7 +257,7 @@ std::function<int()> CommandLine::parse(std::vector<std::string> words) {
         std::ostringstream text, ignored;
         if (app_->exit(error, text, ignored) == 0) // help or version was asked for
             return [text = tidy(text.str())] { return put(text), 0; };
-        fail(Failure::usage, error.what(), " (try '", program, " --help')");
+        fail(Failure::usage, refusal(*app_, error), " (try '", program, " --help')");
     }
     const auto verb = std::ranges::find_if(
         verbs_, [](const std::unique_ptr<Verb>& one) { return one->app_.parsed(); });

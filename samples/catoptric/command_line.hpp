@@ -23,7 +23,8 @@ public:
 
     /// Shown under the help.
     void examples(const std::string& text);
-    /// Options from here on stand under this heading of the help.
+    /// Options from here on stand under this heading of the help. Headings come in the order in
+    /// which they are first named, kCommonOptions first.
     void heading(const std::string& text);
 
     enum class Need : std::uint8_t { optional, required };
@@ -56,6 +57,9 @@ private:
     std::function<int()> run_;
 };
 
+/// Heading of the options that most users need; those named before any other heading.
+inline constexpr const char* kCommonOptions = "Common options";
+
 class CommandLine {
 public:
     CommandLine(const std::string& name, const std::string& summary, const std::string& version,
@@ -70,12 +74,14 @@ public:
     Verb& whole();
 
     /// What the words after the program's name ask for, to be called: a verb's work, or printing
-    /// help or version. No word prints help to stderr and returns `usage`'s exit code. Throws
-    /// `usage` for a word that is no verb, option or argument, naming the nearest.
+    /// help ("help", "help VERB", "--help") or version. No word prints help to stderr and returns
+    /// `usage`'s exit code. Throws `usage` for a word that is no verb, option or argument, naming
+    /// the nearest.
     std::function<int()> parse(std::vector<std::string> words);
 
 private:
     void check_verb(const std::string& word) const;
+    std::vector<std::string> without_help_verb(std::vector<std::string> words) const;
 
     std::unique_ptr<CLI::App> app_;
     std::vector<std::unique_ptr<Verb>> verbs_;

@@ -3,6 +3,8 @@
 
 #include "core/error.hpp"
 #include "core/image_module.hpp"
+#include "core/text.hpp"
+#include "measure/row_notes.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "places.hpp"
@@ -12,6 +14,7 @@
 #include "verbs.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace catoptric::cli {
 
@@ -19,12 +22,12 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   catoptric compare -o out
-  catoptric compare scene.glb -o out --size 256x256 --techniques reuse parallax:face=512
+  catoptric compare scene.glb -o out --techniques reuse parallax:face=512
   catoptric compare -o out --together --json > report.json
   catoptric compare -o out --views 30 --techniques secant march layered
   catoptric compare cornell-mirrors room.glb -o out
   catoptric compare -o out --model both --techniques parallax hybrid
-  catoptric compare -o out --lag --size 256x256 --techniques reuse parallax secant
+  catoptric compare -o out --lag --size 256x256 --techniques reuse parallax
 
 SCENE comes before --techniques; several become one report with a section and a front for each. DIR gets
 report.html, report.md, report.json, rows.csv and images/.)";
@@ -35,7 +38,8 @@ struct Options {
     std::string folder;
     std::vector<std::string> techniques;
     bool together = false;
-    int rounds = app::kRounds;
+    std::optional<int> rounds; ///< none: as many as app::kRounds, or one a frame
+    report::CsvColumns csv = report::CsvColumns::table;
     bool causes = false;
     bool lag = false;
     int views = 1;
@@ -57,6 +61,13 @@ std::vector<std::string> scenes_of(const Options& options) {
     return options.scenes.empty() ? std::vector{options.common.scene} : options.scenes;
 }
 
+/// Throws `usage` for more rounds than frames: each round measures at least one frame of each row.
+void check_rounds(const Options& options) {
+    const int frames = options.common.frames.value_or(app::Request().frames);
+    check(!options.rounds || *options.rounds <= frames, Failure::usage, "--rounds: wanted at most ",
+          frames, ", one for each of --frames, found ", options.rounds.value_or(0));
+}
+
 /// What is asked of every scene.
 app::CompareRequest make_compare_request(const Options& options, const std::string& scene) {
     app::CompareRequest request;
@@ -69,7 +80,7 @@ app::CompareRequest make_compare_request(const Options& options, const std::stri
     request.both_models = options.common.both_models;
     request.reference = options.common.reference;
     request.together = options.together;
-    request.rounds = options.rounds;
+    request.rounds = options.rounds.value_or(request.rounds);
     request.causes = options.causes;
     request.lag = options.lag;
     request.views = options.views;
@@ -79,6 +90,7 @@ app::CompareRequest make_compare_request(const Options& options, const std::stri
 
 /// All of them before any work, so that the last one's fault is known at once.
 std::vector<app::CompareRequest> make_compare_requests(const Options& options) {
+    check_rounds(options);
     check_no_scene(options.techniques);
     app::check_rows(options.techniques);
     if (options.causes) app::check_explains(options.common.reference);
@@ -144,8 +156,8 @@ void check_not_stopped(const Options& options, const report::Comparison& compari
 class Output {
 public:
     Output(const Options& options, std::size_t count)
-        : options_(options), one_(options.folder), several_(options.folder, scenes_of(options)),
-          is_one_(count == 1) {}
+        : options_(options), one_(options.folder, options.csv),
+          several_(options.folder, scenes_of(options), options.csv), is_one_(count == 1) {}
 
     void write(std::size_t index, const report::Comparison& comparison) {
         is_one_ ? one_.write(comparison) : several_.write(index, comparison);
@@ -155,8 +167,12 @@ public:
         const Manners& manners = options_.common.manners;
         for (const std::string& warning : comparison.warnings)
             detail(manners, "warning: " + warning);
+        for (const report::Row& row : comparison.rows)
+            for (const std::string& what : measure::notes_of(comparison, row))
+                note(manners, row.label + ": " + what);
         if (!manners.json)
-            put((is_one_ ? "" : comparison.scene.name + "\n") + compare_table(comparison));
+            put((is_one_ ? "" : printable(comparison.scene.name) + "\n") +
+                compare_table(comparison));
         else if (is_one_)
             put(report::to_json(comparison));
     }
@@ -200,8 +216,10 @@ int run(const Options& options) {
     app::Engine engine(engine_options(options.common.device));
     introduce(engine, options.common.manners);
     report::create_folder(options.folder);
+    for (const app::CompareRequest& request : requests)
+        report::create_folder(std::filesystem::path(options.folder) / "images" / request.images);
 
-    Progress progress(manners);
+    Progress progress(manners, Progress::OffTerminal::tenths);
     Output output(options, requests.size());
     std::vector<std::string> broken;
     for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -238,17 +256,19 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
         "name[:knob=value,...], plan:FILE.json or \"PATTERN=name ...\" each, see 'list techniques' "
         "(the default list)",
         options->techniques);
+    verb.heading(kMeasuringOptions);
     verb.option("--views", "N",
                 "also the errors from N views drawn from --seed, at least 6, with an interval of "
                 "each figure: a picture a row and view (1: none)",
                 [options](const std::string& text) { options->views = parse_views(text); });
     verb.flag("--together", "all rows in one command buffer, on one timeline", options->together);
-    verb.option("--rounds", "N",
-                "rounds in which the frames are measured, row after row in each; at least 6 (6)",
-                [options](const std::string& text) {
-                    options->rounds = static_cast<int>(
-                        parse_whole("--rounds", text, app::kRounds, 10000));
-                });
+    verb.option(
+        "--rounds", "N",
+        "rounds in which the frames are measured, row after row in each; from 6 to --frames "
+        "(6)",
+        [options](const std::string& text) {
+            options->rounds = static_cast<int>(parse_whole("--rounds", text, app::kRounds, 10000));
+        });
     verb.flag("--causes", "also split each row's error by cause: 32 pictures more a row",
               options->causes);
     verb.flag("--lag",
@@ -256,6 +276,12 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
               "scene: about 2300 frames a row",
               options->lag);
     add_common_without_scene(verb, options->common);
+    verb.option("--csv", "COLUMNS",
+                "columns of rows.csv: table, those of the report's table of rows, or all (table)",
+                [options](const std::string& text) {
+                    const bool all = parse_choice("--csv", text, {"table", "all"}) == 1;
+                    options->csv = all ? report::CsvColumns::all : report::CsvColumns::table;
+                });
     verb.does([options] { return run(*options); });
 }
 

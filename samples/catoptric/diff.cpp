@@ -3,8 +3,8 @@
 
 #include "core/error.hpp"
 #include "json.hpp"
+#include "measure/file_difference.hpp"
 #include "measure/flip.hpp"
-#include "measure/picture_file.hpp"
 #include "measure/quantity.hpp"
 #include "options.hpp"
 #include "parse.hpp"
@@ -25,7 +25,9 @@ constexpr const char* kExamples = R"(Examples:
   catoptric diff a.png b.png --mask mirrors.png --json
   catoptric diff new.exr golden.exr --max-flip 0.01 --max-rmse 0.001
 
-All on linear RGB times 2^STOPS, clamped to [0,1], flip on the pictures as displayed at 67 pixels per degree.
+All figures are on linear RGB times 2^STOPS, clamped to [0,1]. FLIP is of the pictures as displayed, at 67 pixels
+per degree; if one of them is a PNG, both are rounded to 8 bits.
+
 Exit code 1 when a figure is over its threshold or, with one given, a pixel is not finite.)";
 
 struct Options {
@@ -44,27 +46,19 @@ void judge(DiffFacts& facts, const char* option, double value, std::optional<dou
 }
 
 DiffFacts compare_files(const Options& options) {
-    const measure::Picture a = measure::read_picture(options.a);
-    const measure::Picture b = measure::read_picture(options.b);
-    check(a.width == b.width && a.height == b.height, Failure::bad_data, options.a, " is ", a.width,
-          "x", a.height, ", ", options.b, " is ", b.width, "x", b.height,
-          ": wanted two pictures of one size");
-    measure::Mask mask;
-    if (!options.mask.empty()) mask = measure::read_mask(options.mask, a.width, a.height);
-    const std::vector<float> map = measure::flip(measure::to_display(a, options.exposure),
-                                                 measure::to_display(b, options.exposure));
-    using measure::Range;
+    const measure::FileDifference found = measure::difference_of_files(
+        options.a, options.b, options.mask, options.exposure);
     DiffFacts facts{options.a,
                     options.b,
                     options.mask,
-                    {a.width, a.height},
+                    {found.width, found.height},
                     options.exposure,
-                    measure::difference(measure::exposed(a, options.exposure),
-                                        measure::exposed(b, options.exposure), mask, map),
-                    measure::mean_of(a, Range::unclamped, mask),
-                    measure::mean_of(b, Range::unclamped, mask),
-                    measure::mean_of(a, Range::clamped, mask),
-                    measure::mean_of(b, Range::clamped, mask),
+                    std::string(found.is_of_bytes ? measure::kFlipOfBytes : measure::kFlipOfFloats),
+                    found.difference,
+                    found.a_mean,
+                    found.b_mean,
+                    found.a_clamped,
+                    found.b_clamped,
                     {}};
     judge(facts, "flip", facts.difference.flip, options.most_flip);
     judge(facts, "rmse", facts.difference.rmse, options.most_rmse);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   catoptric graph --technique naive:bounces=2
-  catoptric graph scene.glb --technique reuse --format dot | dot -Tsvg > reuse.svg
+  catoptric graph --technique reuse --format dot | dot -Tsvg > reuse.svg
   catoptric graph --technique parallax --json
   catoptric graph --plan "1=reuse:face=64 *=raytrace"
   catoptric graph gallery --why

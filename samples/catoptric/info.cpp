@@ -1,6 +1,7 @@
 // catoptric info: what a scene is made of; or version, device, features.
 #include "app/engine.hpp"
 #include "app/exposure.hpp"
+#include "app/lanes.hpp"
 #include "app/scene_info.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -31,7 +32,10 @@ InfoFacts gather(const DeviceAsked& device) {
     try {
         app::EngineOptions options = engine_options(device);
         options.cache.clear(); // it compiles nothing
-        facts.device = app::Engine(options).device();
+        const app::Engine engine(options);
+        facts.device = engine.device();
+        facts.lanes = app::lanes_of(engine);
+        if (const std::string text = app::width_warning(engine); !text.empty()) warn(text);
         if (!facts.device->warning.empty()) warn(facts.device->warning);
     } catch (const Error& error) {
         if (error.failure != Failure::no_device) throw;
@@ -58,6 +62,7 @@ std::string text_of(const InfoFacts& facts) {
                                                        : "";
         text += fmt::format("{:<14} {} ({}, Vulkan {}, {}{})\n", "device", device.name, device.type,
                             device.api, device.driver, threads);
+        text += fmt::format("{:<14} {} of 32 bits run together\n", "lanes", facts.lanes);
         text += fmt::format("{:<14} {}\n", "profile",
                             device.profile.empty() ? "none" : device.profile);
         for (const auto& [name, choice] : device.variants)
@@ -78,6 +83,14 @@ struct Options {
 /// The exposure that the scene is shown with; none where no device can tell.
 std::optional<double> exposure_of(app::Request& request, const Options& options) {
     if (!request.auto_exposure) return request.exposure;
+    constexpr std::size_t kMostTriangles =
+        500'000; // a tree over more would cost what a picture does
+    if (const std::size_t count = scene::triangle_count(request.scene); count > kMostTriangles) {
+        note(options.common.manners, fmt::format("exposure not told: wanted at most {} triangles, "
+                                                 "found {}; render chooses it",
+                                                 kMostTriangles, count));
+        return std::nullopt;
+    }
     try {
         app::Engine engine(engine_options(options.common.device));
         introduce(engine, options.common.manners);

@@ -85,6 +85,7 @@ std::string diff_json(const DiffFacts& facts) {
     document["mask"] = facts.mask.empty() ? Json() : Json(facts.mask);
     document["size"] = {facts.size.x, facts.size.y};
     document["exposure"] = facts.exposure;
+    document["flip_source"] = facts.flip_source;
     for (const measure::Quantity& quantity : measure::difference_quantities())
         document[std::string(quantity.name)] = report::value_json(
             measure::value_of(quantity, facts.difference));
@@ -203,6 +204,7 @@ std::string info_json(const InfoFacts& facts) {
     Json document{
         {"schema", "catoptric/info/1"}, {"version", app::version()}, {"commit", app::commit()}};
     document["device"] = facts.device ? to_json(*facts.device) : Json();
+    if (facts.device) document["device"]["lanes"] = facts.lanes;
     if (!facts.device) document["no_device"] = facts.why_no_device;
     Json features = Json::object();
     for (const auto& [group, names] : facts.features) features[group] = names;

@@ -16,6 +16,7 @@ struct DiffFacts {
     std::string a, b, mask;
     uvec2 size{0, 0};
     double exposure = 0;
+    std::string flip_source; ///< see measure/flip.hpp
     measure::Difference difference;
     measure::Mean a_mean, b_mean, a_clamped, b_clamped;
     std::vector<std::string> over; ///< what is over its threshold, in words
@@ -42,6 +43,7 @@ std::string metrics_json();
 
 struct InfoFacts {
     std::optional<app::DeviceInfo> device;
+    int lanes = 0; ///< of the device's shaders that run together
     std::string why_no_device;
     /// Name of a group and what is in it.
     std::vector<std::pair<std::string, std::vector<std::string>>> features;

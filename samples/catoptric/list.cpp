@@ -1,5 +1,6 @@
 // catoptric list: what there is.
 #include "app/engine.hpp"
+#include "core/error.hpp"
 #include "json.hpp"
 #include "measure/quantity.hpp"
 #include "options.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   catoptric list techniques
+  catoptric list techniques parallax      its knobs
   catoptric list devices --json)";
 
 const std::vector<std::string> kKinds{"techniques", "scenes", "devices", "metrics"};
@@ -30,15 +32,44 @@ std::string knob_text(const app::Knob& knob) {
     return fmt::format("    {:<12} {} ({}; default {})\n", knob.name, knob.help, range, knob.value);
 }
 
+constexpr const char* kAutoSummary =
+    "Draws each mirror with what suits it in the picture, and says why.";
+
+std::string technique_line(const std::string& name, const std::string& summary) {
+    return fmt::format("{:<12} {}\n", name, summary);
+}
+
+/// A line a technique.
 std::string techniques_text(const std::vector<app::TechniqueInfo>& techniques) {
     std::string text;
-    for (const app::TechniqueInfo& technique : techniques) {
-        text += fmt::format("{:<12} {}\n", technique.name, technique.summary);
-        for (const app::Knob& knob : technique.knobs) text += knob_text(knob);
-    }
-    text += fmt::format("{:<12} {}\n", "auto",
-                        "Draws each mirror with what suits it in the picture, and says why.");
+    for (const app::TechniqueInfo& technique : techniques)
+        text += technique_line(technique.name, technique.summary);
+    return text + technique_line("auto", kAutoSummary) +
+           "\nKnobs of one: catoptric list techniques NAME\n";
+}
+
+/// One technique with its knobs.
+std::string technique_text(const app::TechniqueInfo& technique) {
+    std::string text = technique_line(technique.name, technique.summary);
+    for (const app::Knob& knob : technique.knobs) text += knob_text(knob);
     return text;
+}
+
+/// Returns the technique of this name alone. Throws `usage` for a name that is none, with the
+/// nearest.
+std::vector<app::TechniqueInfo> only(std::vector<app::TechniqueInfo> techniques,
+                                     const std::string& name) {
+    if (name == "auto") return {{.name = "auto", .summary = kAutoSummary}};
+    std::vector<std::string> names;
+    for (const app::TechniqueInfo& technique : techniques) names.push_back(technique.name);
+    return {techniques[parse_choice("list techniques", name, names)]};
+}
+
+std::string techniques_listing(const std::string& name, bool json) {
+    std::vector<app::TechniqueInfo> techniques = app::techniques();
+    if (!name.empty()) techniques = only(std::move(techniques), name);
+    if (json) return techniques_json(techniques);
+    return name.empty() ? techniques_text(techniques) : technique_text(techniques.front());
 }
 
 std::string devices_text(const std::vector<app::DeviceInfo>& devices) {
@@ -87,9 +118,10 @@ std::string metrics_text() {
     return text;
 }
 
-std::string listing(const std::string& kind, bool json) {
-    if (kind == "techniques")
-        return json ? techniques_json(app::techniques()) : techniques_text(app::techniques());
+std::string listing(const std::string& kind, const std::string& name, bool json) {
+    check(name.empty() || kind == "techniques", Failure::usage, "'list ", kind,
+          "' wanted no further argument, found '", name, "'");
+    if (kind == "techniques") return techniques_listing(name, json);
     if (kind == "devices") {
         const std::vector<app::DeviceInfo> devices = app::devices(app::profile_folder());
         for (const app::DeviceInfo& device : devices)
@@ -105,17 +137,18 @@ std::string listing(const std::string& kind, bool json) {
 void add_list(CommandLine& program) {
     struct Options {
         Manners manners;
-        std::string kind;
+        std::string kind, name;
     };
     const auto options = std::make_shared<Options>();
     Verb& verb = program.add("list", "techniques, scenes, devices or metrics");
     verb.examples(kExamples);
     verb.argument("WHAT", "techniques, scenes, devices or metrics", options->kind,
                   Verb::Need::required);
+    verb.argument("NAME", "of a technique: its knobs", options->name, Verb::Need::optional);
     add_manners(verb, options->manners);
     verb.does([options] {
         parse_choice("list", options->kind, kKinds);
-        put(listing(options->kind, options->manners.json));
+        put(listing(options->kind, options->name, options->manners.json));
         return 0;
     });
 }

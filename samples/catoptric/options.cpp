@@ -1,5 +1,7 @@
 #include "options.hpp"
 
+#include "app/lanes.hpp"
+
 #include "app/candidates.hpp"
 #include "app/seeded_camera.hpp"
 #include "core/error.hpp"
@@ -17,10 +19,8 @@ namespace {
 
 constexpr std::int64_t kMostFrames = 1'000'000;
 
-const std::string kCommonGroup = "Common options";
-const std::string kMannersGroup = "Output";
-
 void add_numbers(Verb& verb, Common& common) {
+    verb.heading(kMeasuringOptions);
     verb.option("--frames", "N", "measured frames, at least 1 (20)", [&](const std::string& text) {
         common.frames = static_cast<int>(parse_whole("--frames", text, 1, kMostFrames));
     });
@@ -53,7 +53,6 @@ void add_choices(Verb& verb, Common& common) {
                           "--reference: wanted one technique for all mirrors, found '", text, "'");
                     common.reference = choice.label;
                 });
-    add_device(verb, common.device);
     verb.option(
         "--timing", "T",
         "isolated: times of passes add up. pipelined: passes may overlap (isolated)",
@@ -61,7 +60,6 @@ void add_choices(Verb& verb, Common& common) {
             const bool isolated = parse_choice("--timing", text, {"isolated", "pipelined"}) == 0;
             common.timing = isolated ? app::Timing::isolated : app::Timing::pipelined;
         });
-    add_validate(verb, common.device);
 }
 
 scene::Camera choose_camera(const Common& common, app::Wanted& wanted) {
@@ -84,12 +82,17 @@ void warn_of_no_mirror(const scene::Scene& scene) {
 
 } // namespace
 
+scene::LoadOptions load_options(const Common& common) {
+    return {.root = common.root,
+            .budget = scene::budget_for(common.scene, common.budget, scene::free_memory())};
+}
+
 double parse_stops(const std::string& text) {
     return parse_real("--exposure", text, -scene::kMostStops, scene::kMostStops);
 }
 
 void add_manners(Verb& verb, Manners& manners) {
-    verb.heading(kMannersGroup);
+    verb.heading("Output");
     verb.flag("--json", "one JSON document on stdout instead of text", manners.json);
     verb.flag("-q,--quiet", "no progress and no information on stderr", manners.quiet);
     verb.flag("-v,--verbose", "more information on stderr", manners.verbose);
@@ -101,31 +104,36 @@ void add_manners(Verb& verb, Manners& manners) {
 }
 
 void add_device(Verb& verb, DeviceAsked& device) {
+    verb.heading(kDeviceOptions);
     verb.option("--device", "D",
                 "index from 0 or part of a name, see 'list devices' (the fastest kind)",
                 device.name);
     verb.option("--device-profile", "FILE",
-                "what its shaders are to be, as 'bench --tune' wrote it; none: all as by default "
-                "(the device's in the user's configuration, if there is one)",
+                "tuned shader settings written by 'bench --tune'; none ignores them (the device's "
+                "in the user's configuration, if there is one)",
                 device.profile);
 }
 
 void add_validate(Verb& verb, DeviceAsked& device) {
+    verb.heading(kDeviceOptions);
     verb.flag("--validate", "watched by the Vulkan validation layer; any message fails the run",
               device.validate);
 }
 
 void add_view(Verb& verb, Common& common) {
+    verb.heading(kCommonOptions);
     verb.option("--size", "WxH", "picture size (512x512)",
                 [&](const std::string& text) { common.size = parse_size("--size", text); });
+    add_camera(verb, common);
     verb.option("--time", "SECONDS", "instant of the scene's motion (0)",
                 [&](const std::string& text) { common.time = parse_real("--time", text); });
     verb.option("--seed", "N",
-                "of --camera seeded and of sample patterns that are no regular grid (1)",
+                "seed of --camera seeded, of --views and of irregular sample patterns (1)",
                 [&](const std::string& text) { common.seed = parse_seed("--seed", text); });
 }
 
 void add_budget(Verb& verb, Common& common) {
+    verb.heading(kMeasuringOptions);
     verb.option(
         "--budget-ms", "MS",
         "milliseconds that captures may take in a frame: as many mirrors are drawn anew as fit by "
@@ -144,11 +152,12 @@ void check_budget(const Common& common) {
 }
 
 void add_common_without_scene(Verb& verb, Common& common) {
-    verb.heading(kCommonGroup);
     add_view(verb, common);
     add_numbers(verb, common);
     add_choices(verb, common);
     add_wishes(verb, common);
+    add_device(verb, common.device);
+    add_validate(verb, common.device);
     add_manners(verb, common.manners);
 }
 
@@ -181,7 +190,7 @@ Asked make_asked(const Common& common, const std::function<void(const scene::Sce
     double load_ms = 0;
     {
         const Stopwatch watch(load_ms);
-        asked.wanted = app::load_wanted(common.scene, {.load = {.root = common.root},
+        asked.wanted = app::load_wanted(common.scene, {.load = load_options(common),
                                                        .wishes = common.wishes,
                                                        .use_scene_file = common.use_scene_file});
     }
@@ -224,6 +233,7 @@ app::EngineOptions engine_options(const DeviceAsked& device) {
 void introduce(const app::Engine& engine, const Manners& manners) {
     detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
     if (!engine.warning().empty()) warn(engine.warning());
+    if (const std::string text = app::width_warning(engine); !text.empty()) warn(text);
     if (!engine.device().warning.empty()) warn(engine.device().warning);
 }
 

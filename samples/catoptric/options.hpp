@@ -4,6 +4,8 @@
 #include "app/wanted.hpp"
 #include "command_line.hpp"
 #include "output.hpp"
+#include "scene/budget_for.hpp"
+#include "scene/load.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -26,7 +28,8 @@ inline constexpr const char* kNoProfile = "none";
 struct Common {
     Manners manners;
     std::string scene = "cornell-mirrors";
-    std::string root; ///< files of the scene may lie below it too; empty: none
+    scene::BudgetWish budget; ///< of the scene
+    std::string root;         ///< files of the scene may lie below it too; empty: none
     uvec2 size{512, 512};
     std::optional<int> frames; ///< 20 unless the user says otherwise
     std::optional<int> warmup; ///< 8
@@ -43,20 +46,28 @@ struct Common {
     app::Timing timing = app::Timing::isolated;
 };
 
+/// Headings of the help, beside kCommonOptions.
+inline constexpr const char* kMeasuringOptions = "Frames, times and errors";
+inline constexpr const char* kDeviceOptions = "Device";
+
 /// --json --quiet -v --progress.
 void add_manners(Verb& verb, Manners& manners);
 /// SCENE, every common option, and `add_manners`. `common` must outlive the parsing.
 void add_common(Verb& verb, Common& common);
 /// Every common option but SCENE, and `add_manners`.
 void add_common_without_scene(Verb& verb, Common& common);
-/// The options that say what the scene is: --root to --no-scene-file.
+/// The options that say what the scene is, under a heading: --root to --no-scene-file.
 void add_wishes(Verb& verb, Common& common);
 /// --device and --device-profile; `device` must outlive the parsing.
 void add_device(Verb& verb, DeviceAsked& device);
 /// --validate.
 void add_validate(Verb& verb, DeviceAsked& device);
-/// --size, --time and --seed.
+/// --size, --camera, --exposure, --time and --seed.
 void add_view(Verb& verb, Common& common);
+/// --camera and --exposure.
+void add_camera(Verb& verb, Common& common);
+/// How the scene is loaded.
+scene::LoadOptions load_options(const Common& common);
 /// -64 to 64.
 double parse_stops(const std::string& text);
 

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -17,9 +18,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void line(const std::string& text) {
-    const std::string whole = printable(text, "\n") + "\n"; // it may quote a file or a name
-    std::fwrite(whole.data(), 1, whole.size(), stderr);     // nobody is left to tell of a failure
+/// What a line of stderr may show of `text`, which may quote a file or a name. Further lines of our
+/// own are indented, so a name cannot begin one that looks like a message.
+std::string message_text(std::string_view text) {
+    std::string shown;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find("\n  ", begin), text.size());
+        shown += printable(text.substr(begin, end - begin));
+        if (end < text.size()) shown += "\n";
+        begin = end + 1;
+    }
+    return shown;
+}
+
+void write_all(std::string_view bytes) {
+    errno = 0;
+    const std::size_t written = std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+    if (written == bytes.size() && std::fflush(stdout) == 0) return;
+    const int error = errno;
+    if (error == EPIPE) throw Error(Failure::io, "");
+    fail(Failure::io, "stdout: wanted to write ", bytes.size(),
+         " bytes: ", std::generic_category().message(error));
 }
 
 void check_writable(const fs::path& folder, const fs::path& path) {
@@ -56,25 +75,24 @@ void prepare_streams() {
     }
 }
 
-void put(std::string_view result) {
-    errno = 0;
-    const std::size_t written = std::fwrite(result.data(), 1, result.size(), stdout);
-    if (written == result.size() && std::fflush(stdout) == 0) return;
-    const int error = errno;
-    if (error == EPIPE) throw Error(Failure::io, "");
-    fail(Failure::io, "stdout: wanted to write ", result.size(),
-         " bytes: ", std::generic_category().message(error));
+void put(std::string_view result) { write_all(printable(result, "\n")); }
+
+void put_bytes(std::string_view result) { write_all(result); }
+
+void say(const std::string& text) {
+    const std::string whole = message_text(text) + "\n";
+    std::fwrite(whole.data(), 1, whole.size(), stderr); // nobody is left to tell of a failure
 }
 
 void note(const Manners& manners, const std::string& text) {
-    if (!manners.quiet) line(text);
+    if (!manners.quiet) say(text);
 }
 
 void detail(const Manners& manners, const std::string& text) {
-    if (manners.verbose && !manners.quiet) line(text);
+    if (manners.verbose && !manners.quiet) say(text);
 }
 
-void warn(const std::string& text) { line("catoptric: warning: " + text); }
+void warn(const std::string& text) { say("catoptric: warning: " + text); }
 
 void fail_incomplete(const Error& stopped, std::size_t rows, std::size_t asked,
                      const std::string& where, const fs::path& folder) {

@@ -22,8 +22,14 @@ struct Manners {
 /// program, and keeps files that are opened later from becoming a closed stdin, stdout or stderr.
 void prepare_streams();
 
-/// Writes and flushes the result. Throws `Failure::io`, without text where the reader has gone.
+/// Writes and flushes the result, text or JSON, without what a terminal might obey (`printable`, of
+/// whole lines). Throws `Failure::io`, without text where the reader has gone.
 void put(std::string_view result);
+/// The same of a picture, every byte as it is.
+void put_bytes(std::string_view result);
+/// Writes one message to stderr, as `put` does. Of several lines all but the first begin with two
+/// spaces; other line breaks are written out.
+void say(const std::string& text);
 
 /// Lines on stderr: what may interest (not with --quiet), what only -v shows, what must be seen.
 void note(const Manners& manners, const std::string& text);

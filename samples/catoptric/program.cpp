@@ -3,13 +3,11 @@
 
 #include "app/engine.hpp"
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
 #include <algorithm>
 #include <cstdlib>
-#include <iostream>
 #include <new>
 
 namespace catoptric::cli {
@@ -17,17 +15,17 @@ namespace catoptric::cli {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
-  catoptric compare -o out                     every technique against the reference
+  catoptric compare -o out                     every technique, in one table
   catoptric render --technique parallax -o parallax.png
   catoptric diff a.exr b.exr --max-flip 0.01
-  catoptric VERB --help                        options of a verb
+  catoptric help VERB                          options of a verb
 
 Exit codes: 0 ok; 1 over a threshold; 2 usage; 65 bad input; 66 input missing; 69 no Vulkan device;
 70 internal; 73 cannot create output; 74 I/O error; 75 out of memory or over a device limit;
 76 device lost; 129, 130, 143 stopped by a signal (rows so far are kept, after 75 and 76 too))";
 
-void say(const std::string& name, const std::string& message) {
-    if (!message.empty()) std::cerr << name << ": " << printable(message, "\n") << std::endl;
+void say_failure(const std::string& name, const std::string& message) {
+    if (!message.empty()) say(name + ": " + message);
 }
 
 int run(int argc, char** argv) {
@@ -51,13 +49,13 @@ int exit_code(const std::string& name, const std::function<int()>& work) {
     try {
         return work();
     } catch (const Error& error) {
-        say(name, error.what());
+        say_failure(name, error.what());
         return static_cast<int>(error.failure);
     } catch (const std::bad_alloc&) {
-        say(name, "out of memory");
+        say_failure(name, "out of memory");
         return static_cast<int>(Failure::exhausted);
     } catch (const std::exception& error) {
-        say(name, std::string("internal error: ") + error.what());
+        say_failure(name, std::string("internal error: ") + error.what());
         return static_cast<int>(Failure::internal);
     }
 }

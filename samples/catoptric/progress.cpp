@@ -1,5 +1,6 @@
 #include "progress.hpp"
 
+#include "core/text.hpp"
 #include "signals.hpp"
 
 #include <fmt/format.h>
@@ -44,20 +45,37 @@ std::string duration_text(double seconds) {
                      : fmt::format("{}:{:02}", minutes, rest);
 }
 
-Progress::Progress(const Manners& manners)
+Progress::Progress(const Manners& manners, OffTerminal off_terminal)
     : active_(!manners.quiet && (manners.progress == ProgressMode::always ||
                                  (manners.progress == ProgressMode::automatic && is_terminal()))),
-      rewrites_(is_terminal()) {}
+      rewrites_(is_terminal()),
+      in_tenths_(!active_ && !manners.quiet && manners.progress == ProgressMode::automatic &&
+                 off_terminal == OffTerminal::tenths) {}
 
 Progress::~Progress() { clear(); }
 
 void Progress::row(const std::string& label, std::size_t index, std::size_t count) {
-    if (index == 0) start_ = Clock::now(); // of a list of its own
-    label_ = label;
+    if (index == 0) start_ = Clock::now(), tenths_ = 0; // of a list of its own
+    label_ = printable(label);
     index_ = index;
     count_ = std::max<std::size_t>(count, 1);
     shown_at_ = {};
-    if (active_ && !rewrites_) fmt::print(stderr, "[{}/{}] {}\n", index + 1, count_, label);
+    if (active_ && !rewrites_) fmt::print(stderr, "[{}/{}] {}\n", index + 1, count_, label_);
+    if (in_tenths_) show_tenth();
+}
+
+void Progress::show_tenth() {
+    const std::size_t tenths = 10 * index_ / count_;
+    if (tenths <= tenths_) return;
+    tenths_ = tenths;
+    fmt::print(stderr, "{} % done, about {} left, now {}\n", 10 * tenths,
+               time_left(static_cast<double>(index_) / static_cast<double>(count_)), label_);
+    std::fflush(stderr);
+}
+
+std::string Progress::time_left(double done) const {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    return duration_text(elapsed * (1 - done) / done);
 }
 
 void Progress::frame(int number, int total) {
@@ -68,10 +86,9 @@ void Progress::frame(int number, int total) {
     // Rows take different times; the guess is good enough to decide whether to wait.
     const double done = (static_cast<double>(index_) + static_cast<double>(number) / total) /
                         static_cast<double>(count_);
-    const double elapsed = std::chrono::duration<double>(now - start_).count();
     const std::string place = count_ > 1 ? fmt::format("[{}/{}] ", index_ + 1, count_) : "";
     show(fmt::format("{}{}  frame {}/{}  about {} left", place, label_, number, total,
-                     duration_text(elapsed * (1 - done) / done)));
+                     time_left(done)));
 }
 
 void Progress::clear() {

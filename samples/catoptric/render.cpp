@@ -12,6 +12,7 @@
 #include "options.hpp"
 #include "places.hpp"
 #include "progress.hpp"
+#include "sequence.hpp"
 #include "verbs.hpp"
 
 #include <fmt/format.h>
@@ -26,14 +27,16 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   catoptric render --technique parallax -o parallax.png
-  catoptric render scene.glb --technique raytrace:depth=4,samples=16 -o truth.exr
-  catoptric render --technique reuse --animate --frames 60 --trace frame.json -o last.png
+  catoptric render scene.glb --technique raytrace:samples=16 -o truth.exr
+  catoptric render --technique reuse --frames 60 --trace frame.json -o last.png
+  catoptric render --technique reuse --animate --frames 60 -o 'frame-{n:3}.png'
   catoptric render --technique naive:bounces=2 -o - | display
   catoptric render --plan "1=hybrid 2,3=secant:face=64 *=reuse" -o mixed.png
 
 A still takes the frames that it needs: one, or with last frame's captures as many as change anything, at most
 28 (with --budget-ms rounds of all mirrors), and ends in the same picture whatever the budget. With --animate,
---frames, --warmup, --profile or --trace frames are counted and timed as in compare; the picture is the last one.
+--frames, --warmup, --profile or --trace frames are counted and timed as in compare; the picture is the last one,
+or with {n}, {n:3}, %d or %03d in its name there is one of each measured frame, numbered from 1.
 EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
 
 struct Options {
@@ -48,6 +51,30 @@ struct Options {
 bool is_stdout(const Options& options) { return options.output == "-"; }
 bool is_exr(const Options& options) { return options.output.ends_with(".exr"); }
 
+constexpr int kMostPictures = 100'000; ///< of a sequence
+
+/// A picture, no measurement: nothing asks for times or for a certain number of frames.
+bool is_still(const Options& options) {
+    const Common& common = options.common;
+    return !common.animate && !common.frames && !common.warmup && options.trace.empty() &&
+           options.profile.empty();
+}
+
+/// Returns the files that pictures are written to; none where the picture goes to stdout.
+std::vector<std::string> pictures_of(const Options& options) {
+    if (is_stdout(options)) return {};
+    const std::optional<Sequence> sequence = Sequence::find(options.output);
+    if (!sequence) return {options.output};
+    const int frames = options.common.frames.value_or(app::Request().frames);
+    check(!is_still(options), Failure::usage, "-o ", options.output,
+          ": wanted --frames or --animate with a sequence of pictures, found neither");
+    check(frames <= kMostPictures, Failure::usage, "-o ", options.output, ": wanted at most ",
+          kMostPictures, " pictures, found --frames ", frames);
+    std::vector<std::string> files;
+    for (int number = 1; number <= frames; ++number) files.push_back(sequence->file(number));
+    return files;
+}
+
 void check_output(const Options& options) {
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a picture has one");
@@ -57,7 +84,7 @@ void check_output(const Options& options) {
     check(!is_stdout(options) || !options.common.manners.json, Failure::usage,
           "-o - and --json: stdout has room for one of them");
     if (!is_stdout(options)) {
-        check_file_can_be_made(options.output);
+        check_file_can_be_made(pictures_of(options).front());
         check(is_exr(options) || options.output.ends_with(".png"), Failure::usage,
               "-o: wanted a name ending in .exr or .png, or -, found '", options.output, "'");
     }
@@ -68,17 +95,10 @@ void check_output(const Options& options) {
 void check_places(const Options& options, const scene::Scene& scene) {
     std::vector<std::filesystem::path> outputs;
     if (is_stdout(options) || options.common.manners.json) outputs.push_back(kStdout);
-    if (!is_stdout(options)) outputs.push_back(options.output);
+    for (const std::string& file : pictures_of(options)) outputs.emplace_back(file);
     for (const std::string& file : {options.trace, options.profile})
         if (!file.empty()) outputs.push_back(file);
     check_apart(outputs, scene.files);
-}
-
-/// A picture, no measurement: nothing asks for times or for a certain number of frames.
-bool is_still(const Options& options) {
-    const Common& common = options.common;
-    return !common.animate && !common.frames && !common.warmup && options.trace.empty() &&
-           options.profile.empty();
 }
 
 app::Request make_render_request(const Options& options) {
@@ -92,10 +112,21 @@ app::Request make_render_request(const Options& options) {
     return request;
 }
 
-void write_picture(const Options& options, const app::Part& part) {
-    if (is_stdout(options)) return put(measure::png_bytes(part.display));
-    if (is_exr(options)) return measure::write_exr(part.hdr, options.output);
-    measure::write_png(part.display, options.output);
+void write_picture(const app::Part& part, const std::string& file) {
+    if (file.ends_with(".exr")) return measure::write_exr(part.hdr, file);
+    measure::write_png(part.display, file);
+}
+
+/// Renders all frames. Of a sequence each measured frame is written to its file.
+void render(app::Frames& frames, const std::vector<std::string>& files, int warmup,
+            const app::Watcher& watcher) {
+    watcher.check_stopped();
+    while (frames.next()) {
+        const int measured = frames.number() - warmup;
+        if (files.size() > 1 && measured > 0)
+            write_picture(frames.frame().read(), files[static_cast<std::size_t>(measured - 1)]);
+        watcher.frame(frames.number(), frames.most_frames());
+    }
 }
 
 std::vector<double> gpu_times(const app::Result& result) {
@@ -148,13 +179,14 @@ int run(const Options& options) {
     app::Session session(engine, request.scene);
     app::settle_exposure(session, request);
     app::Frames frames(session, request);
-    watcher.check_stopped();
-    while (frames.next()) watcher.frame(frames.number(), frames.most_frames());
+    const std::vector<std::string> files = pictures_of(options);
+    render(frames, files, request.warmup, watcher);
     const app::Result result = frames.result();
     progress.clear();
 
     warn_of_nonfinite(result.parts.front().hdr);
-    write_picture(options, result.parts.front());
+    if (files.empty()) put_bytes(measure::png_bytes(result.parts.front().display));
+    if (files.size() == 1) write_picture(result.parts.front(), files.front());
     if (!options.trace.empty())
         write_file(options.trace,
                    trace_json(result.frames.back(), choice.label + " on " + engine.device().name));
@@ -173,8 +205,11 @@ void add_render(CommandLine& program) {
     Verb& verb = program.add("render", "one picture by one technique");
     verb.examples(kExamples);
     add_drawn(verb, options->drawn);
-    verb.option("-o,--output", "OUT", "OUT.exr, OUT.png or - for a PNG on stdout; required",
+    verb.option("-o,--output", "OUT",
+                "OUT.exr, OUT.png, frame-{n:4}.png for one a frame, or - for a PNG on stdout; "
+                "required",
                 options->output);
+    verb.heading(kMeasuringOptions);
     verb.option("--trace", "T.json",
                 "times of the last frame's passes for chrome://tracing or Perfetto",
                 options->trace);

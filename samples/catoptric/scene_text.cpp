@@ -116,8 +116,12 @@ std::string environment_text(const report::SceneFacts& facts) {
 }
 
 std::string exposure_text(const SceneWords& words) {
-    if (!words.exposure) return "auto; needs a device to be told";
-    return fmt::format("{:.4g} stops{}", *words.exposure, words.auto_exposure ? " (auto)" : "");
+    if (!words.exposure) return "auto; not told";
+    // As `render` finds it: for the camera that is given, or added.
+    const std::string how = words.auto_exposure ? " (auto, by camera " +
+                                                      in_quotes(words.info.facts.camera.name) + ")"
+                                                : "";
+    return fmt::format("{:.4g} stops{}", *words.exposure, how);
 }
 
 Cells gaps(const report::SceneFacts& facts) {

@@ -3,8 +3,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
+#include <cstring>
 
 #include <time.h>
+#include <unistd.h>
 
 namespace catoptric::cli {
 
@@ -12,11 +14,14 @@ namespace {
 
 constexpr std::int64_t kRepeat = 1'000'000'000; // nanoseconds
 
+std::atomic<const char*> program{"catoptric"};
+std::atomic<bool> is_looked_at{false}; ///< the number below
 std::atomic<int> number_of_signal{0};
 std::atomic<std::int64_t> first_at{0}; ///< nanoseconds of the steady clock; 0: not yet
 
 static_assert(std::atomic<int>::is_always_lock_free &&
-                  std::atomic<std::int64_t>::is_always_lock_free,
+                  std::atomic<std::int64_t>::is_always_lock_free &&
+                  std::atomic<const char*>::is_always_lock_free,
               "a signal handler may only store without a lock");
 
 std::int64_t now() {
@@ -25,7 +30,28 @@ std::int64_t now() {
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
+/// Ends the program with its sentence and exit code, by calls that a handler may make.
+[[noreturn]] void leave(int number) {
+    const char digits[] = {static_cast<char>('0' + number / 10),
+                           static_cast<char>('0' + number % 10), '\n'};
+    const char* const name = program.load();
+    const char text[] = ": stopped by signal ";
+    const std::size_t skipped = number < 10 ? 1 : 0;
+    char line[128];
+    std::size_t size = 0;
+    const auto add = [&](const char* part, std::size_t bytes) {
+        for (std::size_t i = 0; i < bytes && size < sizeof line; ++i) line[size++] = part[i];
+    };
+    add(name, std::strlen(name));
+    add(text, sizeof text - 1);
+    add(digits + skipped, sizeof digits - skipped);
+    const ssize_t written = ::write(STDERR_FILENO, line, size);
+    static_cast<void>(written); // nobody is left to tell
+    ::_exit(128 + number);
+}
+
 void on_signal(int number) {
+    if (!is_looked_at.load()) leave(number);
     const int error = errno;
     std::int64_t never = 0;
     if (first_at.compare_exchange_strong(never, now())) {
@@ -39,7 +65,8 @@ void on_signal(int number) {
 
 } // namespace
 
-const std::atomic<int>& stop_on_signals() {
+void answer_signals(const char* name) {
+    program = name;
     struct sigaction action {};
     action.sa_handler = on_signal;
     action.sa_flags = SA_RESTART;
@@ -50,6 +77,10 @@ const std::atomic<int>& stop_on_signals() {
         sigaction(signal, nullptr, &old);
         if (old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
     }
+}
+
+const std::atomic<int>& stop_on_signals() {
+    if (!is_looked_at.exchange(true)) answer_signals(program);
     return number_of_signal;
 }
 

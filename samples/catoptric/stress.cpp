@@ -21,8 +21,8 @@ namespace catoptric::cli {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
-  catoptric stress                             every property, the table on stdout
-  catoptric stress -o out --only N1 C9         two of them; DIR gets stress.json, .html, .md, images/
+  catoptric stress                             every property
+  catoptric stress -o out --only N1 C9         two of them
 
 Exit code 1 when a row fails.)";
 
@@ -64,7 +64,8 @@ int run(const Options& options) {
     }
     app::Engine engine(engine_options(options.device));
     introduce(engine, options.manners);
-    if (!options.folder.empty()) report::create_folder(options.folder);
+    if (!options.folder.empty())
+        report::create_folder(std::filesystem::path(options.folder) / "images");
     Progress progress(options.manners);
     report::StressWriter writer(options.folder);
     const auto write = [&](const report::Stress& so_far) {

@@ -2,6 +2,7 @@
 
 #include "core/text.hpp"
 #include "measure/judge.hpp"
+#include "measure/row_notes.hpp"
 
 #include <fmt/format.h>
 
@@ -51,6 +52,11 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
 std::string compare_table(const report::Comparison& comparison) {
     std::vector<std::vector<std::string>> rows{
         {"technique", "R", "ms", "[95 %]", "place", "flip", "off %", "mae", "rmse", "mean"}};
+    const bool has_notes = std::ranges::any_of(comparison.rows, [&](const report::Row& row) {
+        return !measure::notes_of(comparison, row).empty();
+    });
+    if (has_notes) rows.front().emplace_back("not as asked");
+    const std::size_t notes_at = rows.front().size() - (has_notes ? 1 : 0);
     for (const report::Row& row : comparison.rows) {
         const measure::Places places = measure::places_in_time(comparison, row);
         rows.push_back({row.label, std::to_string(row.scene_passes),
@@ -60,6 +66,9 @@ std::string compare_table(const report::Comparison& comparison) {
                             : fmt::format("{}-{}", places.first, places.last),
                         figure(row.error.flip), percent(row.error.off), figure(row.error.mae),
                         figure(row.error.rmse), figure(row.mean_clamped.all)});
+        if (has_notes)
+            rows.back().push_back(
+                fmt::format("{}", fmt::join(measure::notes_of(comparison, row), "; ")));
     }
     const std::size_t noisy = measure::noisy_rows(comparison).size();
     const std::string caution =
@@ -73,7 +82,7 @@ std::string compare_table(const report::Comparison& comparison) {
                        printable(comparison.scene.name), comparison.width, comparison.height,
                        comparison.frames, comparison.rounds, comparison.warmup,
                        comparison.device.name, comparison.reference_label) +
-           aligned(rows);
+           aligned(rows, notes_at);
 }
 
 } // namespace catoptric::cli

@@ -51,23 +51,9 @@ void add_surroundings(Verb& verb, scene::Wishes& wishes) {
     verb.option(
         "--ambient", "A", "light that every surface gets, at least 0 (0.05; 0 in an environment)",
         [&](const std::string& text) { wishes.ambient = parse_real("--ambient", text, 0); });
-    verb.option("--exposure", "STOPS",
-                "pictures and errors are of light times 2^STOPS; auto: so that the brightest 5 % "
-                "are above .8 (what the scene says; auto for files)",
-                [&](const std::string& text) {
-                    wishes.exposure = scene::ExposureWish{};
-                    if (text != "auto") wishes.exposure->stops = parse_stops(text);
-                });
 }
 
 void add_place(Verb& verb, scene::Wishes& wishes) {
-    verb.option("--camera", "C",
-                "name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV (eye, target, degrees), "
-                "EX,EY,EZ:TX,TY,TZ:h=HEIGHT (orthographic), or seeded: drawn from --seed, a mirror "
-                "in view (the file's first, or a three-quarter view)",
-                [&](const std::string& text) {
-                    if (!text.empty()) wishes.camera = text;
-                });
     verb.option(
         "--up", "AXIS", "y or z: what is up in the file; z is turned to y (y)",
         [&](const std::string& text) {
@@ -79,6 +65,24 @@ void add_place(Verb& verb, scene::Wishes& wishes) {
 
 } // namespace
 
+void add_camera(Verb& verb, Common& common) {
+    scene::Wishes& wishes = common.wishes;
+    verb.option("--camera", "C",
+                "name, index from 0, EX,EY,EZ:TX,TY,TZ:FOV (eye, target, degrees), "
+                "EX,EY,EZ:TX,TY,TZ:h=HEIGHT (orthographic), or seeded: drawn from --seed, a mirror "
+                "in view (the file's first, or a three-quarter view)",
+                [&](const std::string& text) {
+                    if (!text.empty()) wishes.camera = text;
+                });
+    verb.option("--exposure", "STOPS",
+                "pictures and errors are of light times 2^STOPS; auto: so that the brightest 5 % "
+                "are above .8 (what the scene says; auto for files)",
+                [&](const std::string& text) {
+                    wishes.exposure = scene::ExposureWish{};
+                    if (text != "auto") wishes.exposure->stops = parse_stops(text);
+                });
+}
+
 void add_wishes(Verb& verb, Common& common) {
     verb.heading(kSceneGroup);
     verb.option("--root", "DIR",
@@ -87,6 +91,19 @@ void add_wishes(Verb& verb, Common& common) {
                     check(!text.empty(), Failure::usage, "--root: wanted a folder, found ''");
                     common.root = text;
                 });
+    const auto add_most = [&](const std::string& option, const std::string& help,
+                              std::optional<std::uint64_t>& most) {
+        verb.option(option, "N", help, [option, &most](const std::string& text) {
+            constexpr std::int64_t kMost = std::int64_t{1} << 40;
+            most = static_cast<std::uint64_t>(parse_whole(option, text, 1, kMost));
+        });
+    };
+    add_most("--max-bytes", "most bytes in the scene's files (an eighth of free memory)",
+             common.budget.bytes);
+    add_most("--max-triangles",
+             "most triangles in the scene's meshes, with three vertices each (what fits into free "
+             "memory, of those that the file stores)",
+             common.budget.triangles);
     add_surfaces(verb, common.wishes);
     add_surroundings(verb, common.wishes);
     add_place(verb, common.wishes);

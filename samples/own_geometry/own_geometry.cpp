@@ -64,10 +64,10 @@ int main() try {
             .hdr();
     };
     const measure::Picture truth = picture("raytrace"), fast = picture("secant");
-    const measure::Picture shown = measure::to_display(fast);
-    const std::vector<float> flip = measure::flip(shown, measure::to_display(truth));
+    const std::vector<float> flip = measure::flip(measure::to_unrounded_display(fast),
+                                                  measure::to_unrounded_display(truth));
     std::printf("secant against rays: FLIP %.4f\n", measure::flip_mean(flip));
-    measure::write_png(shown, "waves.png");
+    measure::write_png(measure::to_display(fast), "waves.png");
     scene::save_glb(session.scene(), "waves.glb");
     return 0;
 } catch (const std::exception& error) {

@@ -27,12 +27,13 @@ int main() try {
     request.base.techniques = {"reuse:face=64", "blend:amount=0,face=64", "blend:face=64",
                                "blend:amount=1,face=64,lookup=bilinear", "parallax:face=64"};
 
+    report::create_folder("blend-report"); // before the measuring
     app::Engine engine({});
     const measure::Comparison found = app::compare(engine, request);
     for (const measure::Row& row : found.rows)
         std::printf("%-52s %7.2f ms  FLIP %.4f over the mirrors\n", row.label.c_str(),
                     row.gpu_ms.median, row.error.flip);
-    report::write(found, "own_technique"); // report.html and its pictures
+    report::write(found, "blend-report"); // report.html and its pictures
     return found.complete ? 0 : 1;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "own_technique: %s\n", error.what());

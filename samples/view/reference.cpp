@@ -46,8 +46,8 @@ bool Reference::advance(app::Session& session, const app::FrameSpec& spec) {
 }
 
 measure::Difference Reference::judge(const measure::Picture& hdr, double exposure) const {
-    const std::vector<float> map = measure::flip(measure::to_display(hdr, exposure),
-                                                 measure::to_display(centre_, exposure));
+    const std::vector<float> map = measure::flip(measure::to_unrounded_display(hdr, exposure),
+                                                 measure::to_unrounded_display(centre_, exposure));
     return measure::difference(measure::exposed(hdr, exposure), measure::exposed(centre_, exposure),
                                measure::mirrors(hits_), map);
 }

@@ -27,7 +27,7 @@ DRAWN(7) vec4 intensity_green;
 DRAWN(8) vec4 right_blue;
 DRAWN(9) vec4 down_ambient;
 DRAWN(10) vec4 forward_faces;        // and the shadow faces of a light
-DRAWN(11) vec4 emission_directional; // of the object; of the light
+DRAWN(11) vec4 emission_kind; // of the object; of the light
 DRAWN(12) vec3 light_share;          // reach, cos_outer, sharpness
 
 #ifdef VERTEX_STAGE
@@ -42,7 +42,7 @@ void write_drawn(View view, uint layer) {
     right_blue = vec4(light.right, surface.albedo.b);
     down_ambient = vec4(light.down, frame.value.ambient);
     forward_faces = vec4(light.forward, frame.value.shadow_faces);
-    emission_directional = vec4(surface.emission, light.directional);
+    emission_kind = vec4(surface.emission, light.kind);
     light_share = vec3(light.reach, light.cos_outer, light.sharpness);
 }
 
@@ -51,12 +51,12 @@ void write_drawn(View view, uint layer) {
 vec3 eye() { return eye_layer.xyz; }
 int view_layer() { return int(eye_layer.w); }
 Surface drawn_surface() {
-    return Surface(vec3(normal_red.w, intensity_green.w, right_blue.w), emission_directional.xyz, draw.surface.reflectance,
+    return Surface(vec3(normal_red.w, intensity_green.w, right_blue.w), emission_kind.xyz, draw.surface.reflectance,
                    draw.surface.mirror, vec3(0), 0.0);
 }
 Light first_light() {
     return Light(position_near.xyz, normal_red.xyz, intensity_green.xyz, right_blue.xyz, down_ambient.xyz, forward_faces.xyz,
-                 position_near.w, light_share.x, light_share.y, light_share.z, uint(emission_directional.w));
+                 position_near.w, light_share.x, light_share.y, light_share.z, uint(emission_kind.w));
 }
 float ambient() { return down_ambient.w; }
 uint shadow_face_count() { return uint(forward_faces.w); }

@@ -11,14 +11,20 @@
 // As light_term, for lights of every kind.
 bool arrives(uint light, vec3 position, vec3 normal, out vec3 direction, out float distance, out float factor) {
     if (is_directional(light)) return parallel_term(normal, light_at(light).forward, direction, distance, factor);
-    if (!light_term(position, normal, light_at(light).position, light_at(light).normal, direction, distance, factor)) return false;
+    bool of_two_sides = light_kinds != 0u && light_at(light).kind == kLightOfTwoSides;
+    vec3 light_normal = of_two_sides ? vec3(0) : light_at(light).normal;
+    if (!light_term(position, normal, light_at(light).position, light_normal, direction, distance, factor)) return false;
     if (light_kinds == 0u) return true;
+    if (of_two_sides)
+        factor *= mean_cosine(direction, light_at(light).right, light_at(light).down, light_at(light).forward,
+                              light_at(light).normal);
     float cosine = -dot(direction, light_at(light).forward);
     factor *= range_share(distance, light_at(light).reach) * cone_share(cosine, light_at(light).cos_outer, light_at(light).sharpness);
     return factor > 0.0;
 }
 
-vec3 shade(Surface surface, vec3 position, vec3 normal) {
+// `facet`: along the triangle's normal, of any length; zero where light counts by `normal` alone (lit_facet).
+vec3 shade(Surface surface, vec3 position, vec3 normal, vec3 facet) {
     vec3 direct = vec3(0);
     uint all = one_light != 0u ? 1u : frame.value.light_count;
     uint count = surface.albedo == vec3(0) ? 0u : all;
@@ -26,7 +32,12 @@ vec3 shade(Surface surface, vec3 position, vec3 normal) {
     do { // asked at its end: see lib/trace.glsl
         vec3 direction;
         float distance, factor;
-        if (light < count && arrives(light, position, normal, direction, distance, factor)) {
+        bool is_lit = light < count && arrives(light, position, normal, direction, distance, factor);
+        if (details != 0u && is_lit && facet != vec3(0)) {
+            factor *= facet_share(direction, normal, facet);
+            is_lit = factor > 0.0;
+        }
+        if (is_lit) {
             float visible = light_visible(light, position, normal, direction, distance);
             direct += light_at(light).intensity * (factor * visible);
         }

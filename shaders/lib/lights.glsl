@@ -5,7 +5,7 @@
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
 
-// 1: some light has no surface.
+// 1: some light has no surface, or two sides.
 layout(constant_id = LIGHT_KINDS_CONSTANT) const uint light_kinds = 0u;
 // 1: there is one light, whose data are at hand: no loop (docs/performance.md).
 layout(constant_id = ONE_LIGHT_CONSTANT) const uint one_light = 0u;
@@ -22,6 +22,6 @@ Light light_at(uint light) {
     if (one_light != 0u) return first_light();
     return lights[light];
 }
-bool is_directional(uint light) { return light_kinds != 0u && light_at(light).directional != 0u; }
+bool is_directional(uint light) { return light_kinds != 0u && light_at(light).kind == kLightDirectional; }
 
 #endif

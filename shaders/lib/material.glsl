@@ -75,6 +75,12 @@ vec3 turned_normal(uint object, vec3 normal, vec3 facet, vec3 direction) {
     return dot(normal, facet) * dot(direction, facet) > 0.0 ? -normal : normal;
 }
 
+// The facet as `shade` wants it: zero where the object's normals nowhere leave those of its facets.
+vec3 lit_facet(uint object, vec3 facet) {
+    if (details == 0u || (detail_of(object).flags & kDetailFacets) == 0u) return vec3(0);
+    return facet;
+}
+
 // What the surface is here: albedo becomes what is left for diffuse light, reflectance what a ray that is mirrored
 // counts. `cosine`: between the normal and the direction to who looks.
 void evaluate(inout Surface surface, uint object, Attribute at, float cosine) {

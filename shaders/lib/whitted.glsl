@@ -60,6 +60,7 @@ struct Point {
     vec3 error;
     vec3 normal; // interpolated, unit
     vec3 facet;  // geometric, unit
+    float lift;  // how far above it the surface is that its corners' normals tell of
     uint object;
     uint leaves; // for the rays that start here (see Ray)
     uint inside; // the record of the thing in whose own space it lies; 0: none
@@ -94,16 +95,21 @@ Point on_triangle(Hit hit) {
     p.facet = facet_normal(a, b, c);
     uint corner = 3u * hit.triangle;
     if (own_spaces != 0u && hit.inside != 0u) corner -= 3u * number_shift(hit.inside);
-    p.normal = normalize(w.x * NORMAL(corner) + w.y * NORMAL(corner + 1u) + w.z * NORMAL(corner + 2u));
     p.at = kNoAttribute;
     if (details != 0u && has_attributes(hit.object)) p.at = attribute_at(corner, w);
     p.inside = 0u;
     p.arm = p.arm_error = vec3(0);
+    vec3 normal_a = NORMAL(corner), normal_b = NORMAL(corner + 1u), normal_c = NORMAL(corner + 2u);
+    p.normal = normalize(w.x * normal_a + w.y * normal_b + w.z * normal_c);
+    vec3 lit_a = a, lit_b = b, lit_c = c; // in the scene's units
     if (own_spaces != 0u && hit.inside != 0u) {
         Place place = place_at(hit.inside);
-        p.facet = facet_normal(arm_of(place, a), arm_of(place, b), arm_of(place, c));
+        lit_a = arm_of(place, a), lit_b = arm_of(place, b), lit_c = arm_of(place, c);
+        normal_a = scene_normal(place, normal_a), normal_b = scene_normal(place, normal_b), normal_c = scene_normal(place, normal_c);
+        p.facet = facet_normal(lit_a, lit_b, lit_c);
         put_into_scene(p, hit.inside);
     }
+    p.lift = smooth_lift(lit_a, lit_b, lit_c, normal_a, normal_b, normal_c, w);
 #ifdef DOUBLES
     dvec3 exact_a = dvec3(a), exact_b = dvec3(b), exact_c = dvec3(c);
     if (own_spaces != 0u && hit.inside != 0u) {
@@ -132,6 +138,7 @@ Point on_sphere(Ray ray, float t, uint object) {
     p.position = vec3(exact_point);
 #endif
     p.normal = p.facet = (p.position - of.centre) / of.radius;
+    p.lift = 0.0;
     p.at = kNoAttribute;
     p.object = object;
     p.leaves = 0u;
@@ -147,6 +154,7 @@ Point on_own_sphere(Ray ray, vec3 low, Hit hit) {
     float radius = own_radius(hit.inside);
     p.position = sphere_point(vec3(0), radius, own_ray(place, ray, low), hit.t, p.error);
     p.normal = p.position / radius;
+    p.lift = 0.0;
     p.at = kNoAttribute;
     p.object = hit.object;
     p.leaves = 0u;
@@ -174,7 +182,9 @@ bool trace_ray(Ray ray, uint skipped, out Point p) {
 Surface surface_at(inout Point p, vec3 direction) {
     Surface surface = surface_of(p.object);
     if (details != 0u) {
-        p.normal = turned_normal(p.object, p.normal, p.facet, direction);
+        vec3 turned = turned_normal(p.object, p.normal, p.facet, direction);
+        if (turned != p.normal) p.lift = 0.0; // hollow from there
+        p.normal = turned;
         evaluate(surface, p.object, p.at, -dot(p.normal, direction));
     }
     return surface;
@@ -187,13 +197,24 @@ vec3 leaving(Point p, vec3 direction) {
     return keeps(kSpawnBound) ? spawn_origin(p.position, p.error, p.facet, direction) : plain_spawn_origin(p.position, p.facet, direction);
 }
 
+// Where a shadow ray begins that goes below the facet, as the shading normal allows: on the surface that the normals
+// tell of. From the facet it would meet its neighbours, and each facet would show at a smooth body's terminator.
+vec3 leaving_lifted(Point p, vec3 normal) {
+    if (own_spaces != 0u && p.inside != 0u)
+        return scene_point(place_at(p.inside), spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
+    return spawn_origin(p.position + p.lift * normal, p.error, p.facet, normal);
+}
+
 float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
     if (SHADOW_BY == kShadowNone) return 1.0;
 #ifdef SHADOW_MAP
     if (SHADOW_BY == kShadowMap) return shadow_map_visible(light, position, normal, dot(abs(normal), point.error));
 #endif
     ++shadow_rays;
-    vec3 origin = leaving(point, direction);
+    bool goes_below = keeps(kSpawnBound) && dot(direction, facet_side(normal, point.facet)) < 0.0;
+    vec3 origin;
+    if (goes_below) origin = leaving_lifted(point, normal);
+    else origin = leaving(point, direction);
     Ray ray = Ray(origin, light_at(light).position - origin, point.leaves);
     float t = keeps(kShadowEnd) ? kShadowRayEnd : 1.0;
     if (is_directional(light)) {
@@ -218,7 +239,8 @@ Ray camera_ray(vec2 place, uvec2 size) {
 }
 
 // Radiance along a ray that has met `first` mirrors before; `met` = number of the first that it meets, and
-// of the second << kMetBits. Camera rays, which have met none, do not see what is hidden from them.
+// of the second << kMetBits (not 0 either where the first surface reflects and is no mirror: then `met` has no first).
+// Camera rays, which have met none, do not see what is hidden from them.
 vec3 radiance(Ray ray, uint first, out uint met) {
     vec3 weight = vec3(1);
     vec3 result = vec3(0);
@@ -239,8 +261,9 @@ vec3 radiance(Ray ray, uint first, out uint met) {
         if (bounce < first + 2u) met |= surface.mirror << (kMetBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
+        if (details != 0u && bounce == 0u && reflects && surface.mirror == 0u) met = kMostMirrors << kMetBits;
         // One call for both: the driver's compiler inlines each, with the walk of its shadow ray.
-        if (!reflects || details != 0u) result += weight * shade(surface, point.position, point.normal);
+        if (!reflects || details != 0u) result += weight * shade(surface, point.position, point.normal, lit_facet(point.object, point.facet));
         if (!reflects) {
             done = true;
         } else if (bounce == max_depth) {

@@ -33,7 +33,7 @@ void main() {
     put(surfaces[1]);
     Light l = lights[1];
     put(l.position), put(l.normal), put(l.intensity), put(l.right), put(l.down), put(l.forward), put(l.near);
-    put(l.reach), put(l.cos_outer), put(l.sharpness), put(l.directional);
+    put(l.reach), put(l.cos_outer), put(l.sharpness), put(l.kind);
     put(probes[1].centre), put(probes[1].sphere), put(probes[1].radius), put(probes[1].reflectance);
     put(probes[1].lowest), put(probes[1].highest), put(probes[1].kind);
     View v = views[1];

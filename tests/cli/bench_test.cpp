@@ -131,7 +131,7 @@ TEST_F(BenchTune, WritesTheProfileThatThenHolds) {
     ASSERT_TRUE(std::filesystem::exists(devices)) << tuned.err;
     const std::filesystem::path file = std::filesystem::directory_iterator(devices)->path();
     const json profile = json::parse(read_path(file));
-    const json info = device_of({"info", "--json"});
+    json info = device_of({"info", "--json"});
     EXPECT_EQ(profile["device"]["driver"], info["driver"]);
     EXPECT_EQ(info["profile"], file.filename().string());
     EXPECT_EQ(info["variants"], profile["variants"]);
@@ -142,6 +142,7 @@ TEST_F(BenchTune, WritesTheProfileThatThenHolds) {
         EXPECT_THAT(tuned.out, testing::ContainsRegex(one["variant"].get<std::string>() + " .*" +
                                                       (below ? "  taken" : "not taken")));
     }
+    info.erase("lanes"); // counted by a dispatch, which a list has none of
     EXPECT_EQ(device_of({"list", "devices", "--json"}), info);
     const json none = device_of({"info", "--json", "--device-profile", "none"});
     EXPECT_TRUE(none["profile"].is_null());

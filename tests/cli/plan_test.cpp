@@ -67,6 +67,22 @@ TEST_F(Cli, AutoIsReadBackAsThePlanThatItIs) {
     EXPECT_NE(list.out.find("\nauto  "), std::string::npos);
 }
 
+/// What a technique cannot draw stands in the row of the table and on stderr.
+TEST_F(Cli, ARowSaysWhatItsTechniqueCannotDraw) {
+    const test::Ended ended = cli(quick({"compare", "-o", "out", "--techniques", "planar"}));
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const std::string said = "not flat, drawn by reuse";
+    EXPECT_NE(ended.err.find("planar: mirrors 1 'ball1', 2 'ball2', 3 'ball3' and 1 more: " + said),
+              std::string::npos)
+        << ended.err;
+    const std::size_t row = ended.out.find("\nplanar ");
+    ASSERT_NE(row, std::string::npos) << ended.out;
+    EXPECT_NE(ended.out.substr(row, ended.out.find('\n', row + 1) - row).find(said),
+              std::string::npos)
+        << ended.out;
+    EXPECT_NE(read("out/report.md").find(said), std::string::npos);
+}
+
 TEST_F(Cli, PlansAreRowsOfACompare) {
     std::ofstream(folder / "mixed.json") << R"([{"mirror": "ball1,2", "technique": "reuse:face=16"},
                {"mirror": "*", "technique": "raytrace:capture=none"}])";

@@ -235,6 +235,24 @@ TEST_F(Cli, GraphSaysWhatAPictureRequires) {
     EXPECT_THAT(dot.err, testing::HasSubstr("--why: wanted --format text or json, found dot"));
 }
 
+TEST_F(Cli, FlipIsOfFloatsUnlessAFileHoldsEightBits) {
+    const auto render = [&](const char* depth, const char* name) {
+        ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "--exposure", depth, "-o", name}))
+                      .exit_code,
+                  0);
+    };
+    render("0", "a.exr"), render("0", "a.png"), render(".004", "b.png");
+    const auto diff = [&](const char* one, const char* other, const char* stops) {
+        return json::parse(cli({"diff", one, other, "--exposure", stops, "--json"}).out);
+    };
+    EXPECT_EQ(diff("a.exr", "a.exr", "0")["flip_source"], "float");
+    EXPECT_EQ(diff("a.png", "b.png", "0")["flip_source"], "8-bit");
+    // A picture beside its own PNG is the same, rounded.
+    EXPECT_EQ(diff("a.exr", "a.png", "0")["flip_source"], "8-bit");
+    EXPECT_EQ(diff("a.exr", "a.png", "0")["flip"], 0.0);
+    EXPECT_GT(diff("a.exr", "a.png", "0")["rmse"], 0.0);
+}
+
 TEST_F(Cli, DiffOfEqualAndOtherPictures) {
     ASSERT_EQ(cli(quick({"render", "--technique", "naive:bounces=0", "-o", "a.exr"})).exit_code, 0);
     ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "b.exr"})).exit_code, 0);

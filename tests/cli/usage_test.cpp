@@ -101,6 +101,24 @@ TEST_F(Cli, SceneAfterTheTechniques) {
                    {"'room.glb'", "SCENE comes before"});
 }
 
+/// What the parser of command lines refuses is said in the program's own words.
+TEST_F(Cli, WhatTheParserRefusesIsSaidInOneManner) {
+    const std::pair<Words, std::string> cases[] = {
+        {{"render", "--size"}, "--size: wanted a value, WxH, found none"},
+        {{"render", "-o"}, "--output: wanted a value, OUT, found none"},
+        {{"render", "--size", "8x8", "--size", "9x9"}, "--size: wanted once, found 2 times"},
+        {{"compare", "-o", "out", "--techniques"}, "--techniques: wanted a value, T, found none"},
+        {{"render", "--animate=maybe"}, "--animate: wanted no value, found 'maybe'"},
+        {{"diff", "a.png"}, "wanted B, picture of the same size, found nothing"},
+        {{"list"}, "found nothing"}};
+    for (const auto& [words, message] : cases) {
+        const test::Ended ended = cli(words);
+        expect_ended(ended, 2, {message, "(try 'catoptric " + words.front() + " --help')"});
+        for (const char* raw : {"required", "missing", "At Most", "Could not convert", "Should be"})
+            EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr(raw))) << words.front();
+    }
+}
+
 TEST_F(Cli, UnknownKnobSuggests) {
     expect_refused({"render", "--technique", "naive:bounce=3", "-o", "x.png"}, 2,
                    {"naive", "'bounce'", "did you mean 'bounces'"});
@@ -228,8 +246,9 @@ TEST_F(Cli, WhatIsNeeded) {
     expect_refused({"render", "-o", "x.png"}, 2, {"'render'", "--technique T"});
     expect_refused({"render", "--technique", "reuse"}, 2, {"'render'", "-o OUT"});
     expect_refused({"graph"}, 2, {"'graph'", "--technique T"});
-    expect_refused({"diff", "a.png"}, 2, {"B is required", "diff --help"});
-    expect_refused({"list"}, 2, {"WHAT is required", "list --help"});
+    expect_refused({"diff", "a.png"}, 2,
+                   {"wanted B, picture of the same size, found nothing", "diff --help"});
+    expect_refused({"list"}, 2, {"wanted WHAT, techniques", "found nothing", "list --help"});
 }
 
 TEST_F(Cli, PictureNameWithoutAKnownEnding) {

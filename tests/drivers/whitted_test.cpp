@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
+
 namespace {
 
 using namespace catoptric;
@@ -17,7 +19,11 @@ std::size_t other_pixels(const measure::Picture& a, const std::vector<peers::Vec
     std::size_t count = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {
         const vec3 apart = abs(a.pixels[i] - vec3(b[i].x, b[i].y, b[i].z));
-        count += !(std::max({apart.x, apart.y, apart.z}) <= kSame);
+        const bool is_other = !(std::max({apart.x, apart.y, apart.z}) <= kSame);
+        count += is_other;
+        if (is_other)
+            std::cout << "pixel " << i % kSize.x << ", " << i / kSize.x << ": " << a.pixels[i].x
+                      << " and " << b[i].x << "\n";
     }
     return count;
 }

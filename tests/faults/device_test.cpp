@@ -54,6 +54,24 @@ TEST_F(NoDevice, WhereItCannotBeOpened) {
     EXPECT_EQ(watched.leaks(), "");
 }
 
+/// What the driver says is not there is no fault of the program's.
+TEST_F(NoDevice, WhereALayerExtensionOrFeatureIsMissing) {
+    for (const auto& [call, result, name] :
+         {std::tuple{"vkCreateInstance", VK_ERROR_EXTENSION_NOT_PRESENT, "EXTENSION_NOT_PRESENT"},
+          std::tuple{"vkCreateInstance", VK_ERROR_LAYER_NOT_PRESENT, "LAYER_NOT_PRESENT"},
+          std::tuple{"vkCreateDevice", VK_ERROR_FEATURE_NOT_PRESENT, "FEATURE_NOT_PRESENT"},
+          std::tuple{"vkCreateDevice", VK_ERROR_EXTENSION_NOT_PRESENT, "EXTENSION_NOT_PRESENT"},
+          std::tuple{"vkCreateImage", VK_ERROR_FORMAT_NOT_SUPPORTED, "FORMAT_NOT_SUPPORTED"}}) {
+        const Watched watched = watch(words, Fault{call, 1, result});
+        expect_ended(watched.ended, 69, {"Vulkan: cannot ", name});
+        EXPECT_EQ(watched.leaks(), "");
+    }
+    test::Start process = start({"render", "--technique", "reuse", "-o", "x.png", "--validate"});
+    process.environment = {{"VK_LAYER_PATH", folder.string()}}; // which holds no layer
+    expect_ended(test::run_process(process), 69,
+                 {"--validate needs the layer", "apt-get install vulkan-validationlayers"});
+}
+
 /// One came or went between counting and fetching: what there is will do.
 TEST_F(NoDevice, DevicesThatComeAndGo) {
     for (const int at : {1, 2}) {

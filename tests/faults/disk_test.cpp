@@ -115,7 +115,9 @@ TEST_F(Disk, LimitOfFileSizeEndsAsAnErrorAndNotAsASignal) {
     }
     fs::create_directory(folder / "out");
     write("out/report.json", "old");
-    test::Start process = start(comparison("out"));
+    Words words = comparison("out");
+    words.insert(words.end(), {"--csv", "all"});
+    test::Start process = start(words);
     process.file_limit = 4096; // the pictures are smaller, the table is larger
     expect_ended(test::run_process(process), 74, {"out/rows.csv: ", "File too large"});
     EXPECT_EQ(read("out/report.json"), "old");

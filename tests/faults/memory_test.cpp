@@ -156,6 +156,8 @@ TEST_F(Memory, TheMiddleCallOfEachKindOfAComparison) {
                       "1",
                       "--warmup",
                       "1",
+                      "--progress",
+                      "never",
                       "--techniques",
                       "raytrace:depth=1",
                       "parallax:face=16,shadow_map=16"};

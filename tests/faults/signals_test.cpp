@@ -1,6 +1,9 @@
 // R7: signals in mid-run.
 #include "faults/faults.hpp"
 
+#include <array>
+#include <random>
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,6 +45,62 @@ TEST_F(Signals, KeepTheRowsAndAreHeardSoon) {
                                        fs::path(row["image"].get<std::string>()).filename()));
         }
     std::printf("  from the signal to the end: at most %.2f s\n", longest);
+}
+
+/// A program, its driver not yet open, and a signal at a drawn instant. The dynamic linker says on
+/// stderr when it hands over (LD_DEBUG) and which libraries are opened later.
+class EarlySignals : public Cli {
+protected:
+    test::Ended signalled(const Words& words, int signal, const std::string& at, int milliseconds) {
+        test::Start process = start(words);
+        process.environment = {{"LD_DEBUG", "files"}};
+        process.signal = signal, process.signal_at = at;
+        process.signal_after = std::chrono::milliseconds(milliseconds);
+        return test::run_process(process);
+    }
+    static bool has_sentence(const test::Ended& ended, int signal) {
+        return ended.exit_code == 128 + signal &&
+               ended.err.find("catoptric: stopped by signal " + std::to_string(signal)) !=
+                   std::string::npos;
+    }
+    static constexpr std::array kSignals{SIGHUP, SIGINT, SIGTERM};
+    const std::vector<Words> programs{
+        {"render", "--technique", "raytrace:samples=64", "-o", "x.png"},
+        {"compare", "-o", "out"},
+        {"info"},
+        {"list", "devices"},
+        {"stress"},
+        {"bench"}};
+};
+
+/// The driver is opened by main: from there on each signal is answered.
+TEST_F(EarlySignals, AreAnsweredWhileTheDriverIsOpened) {
+    std::mt19937 random(1);
+    for (std::size_t i = 0; i < 2 * programs.size(); ++i) {
+        const int signal = kSignals[i % kSignals.size()];
+        const int after = static_cast<int>(random() % 6); // milliseconds
+        const test::Ended ended = signalled(programs[i / 2], signal, "libvulkan_lvp", after);
+        EXPECT_TRUE(has_sentence(ended, signal))
+            << programs[i / 2].front() << " after " << after << ": " << ended.exit_code;
+    }
+}
+
+/// From the instant at which the linker begins to run what the program is made of, whatever main
+/// has come to. Before, nothing of the program can answer.
+TEST_F(EarlySignals, AreAnsweredFromTheFirstObjectOn) {
+    std::mt19937 random(2);
+    int answered = 0, wordless = 0;
+    for (int i = 0; i < 30; ++i) {
+        const int signal = kSignals[static_cast<std::size_t>(i) % kSignals.size()];
+        const int after = static_cast<int>(random() % 12); // milliseconds
+        const test::Ended ended = signalled(programs[static_cast<std::size_t>(i) % programs.size()],
+                                            signal, "transferring control", after);
+        EXPECT_EQ(ended.exit_code, 128 + signal);
+        ++(has_sentence(ended, signal) ? answered : wordless);
+    }
+    std::printf("  answered %d of 30 signals, %d came before the program's first object\n",
+                answered, wordless);
+    EXPECT_GE(answered, 24); // the others: between the linker's word and the program's first
 }
 
 /// A frame is one submit, which ends; what it showed is not written.

@@ -46,6 +46,17 @@ def primaries(x, y, c, b):
     return 255 if c == (2 if b else 1) else 0
 
 
+def between_steps(x, y, c, b):
+    """Linear light that no 8 bits hold."""
+    return (20 + 3 * x + 2 * y + 5 * c + ((x * y) % 7 / 16 if b else 0)) / 255
+
+
+def shown(linear, stops):
+    """sRGB curve of the exposed light."""
+    value = min(max(linear * 2 ** stops, 0), 1)
+    return 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
+
+
 CASES = [(constant, 24, 16, 67), (edges, 40, 30, 67), (points, 32, 24, 67), (noise, 33, 21, 67),
          (natural, 64, 48, 67), (primaries, 9, 7, 67), (natural, 50, 1, 67), (natural, 1, 1, 67),
          (natural, 64, 48, 20), (natural, 64, 48, 150)]
@@ -61,6 +72,16 @@ def main():
         values = [error[int(v * height), int(u * width)].max() for u, v in PIXELS]
         print(f'    {{{formula.__name__}, {width}, {height}, {ppd}, {error.mean(dtype=float):.7f},'
               f' {{{", ".join(f"{v:.7f}" for v in values)}}}}},')
+    for is_rounded in (False, True):
+        for stops in (-.5, .5):
+            a, b = (numpy.array([[[round(v * 255) / 255 if is_rounded else v for v in
+                                   (shown(between_steps(x, y, c, second), stops) for c in range(3))]
+                                  for x in range(40)] for y in range(24)], dtype=numpy.float32)
+                    for second in (False, True))
+            error, _, _ = flip_evaluator.evaluate(a, b, "LDR", applyMagma=False,
+                                                  parameters={"ppd": 67})
+            print(f'    between steps, {"8 bits" if is_rounded else "floats"}, {stops} stops:'
+                  f' {error.mean(dtype=float):.7f}')
 
 
 main()

@@ -63,23 +63,24 @@ set(environment)
 if(FLAGS)
     set(environment ASAN_OPTIONS=detect_leaks=0)
 endif()
+# Where docs/library.md builds them, so that what they write meets the programs' own names.
 foreach(sample IN LISTS samples)
     if(sample STREQUAL embedded) # which has an instance of its own: the layer that watches it writes to stdout
         list(APPEND environment VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation
             VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT:VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT)
     endif()
-    step(${CMAKE_COMMAND} -E env ${environment} ${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/build/${sample})
+    step(${CMAKE_COMMAND} -E env ${environment} ${CMAKE_COMMAND} -E chdir ${WORK}/build ${WORK}/build/${sample})
     if(output MATCHES "VUID|Validation (Error|Warning)|SYNC-HAZARD")
         message(FATAL_ERROR "${sample}: the validation layer has something to say")
     endif()
 endforeach()
-foreach(file hello.png waves.png waves.glb live.png embedded.png own_technique/report.html own_technique/report.json)
-    if(NOT EXISTS ${WORK}/${file})
+foreach(file hello.png waves.png waves.glb live.png embedded.png blend-report/report.html blend-report/report.json)
+    if(NOT EXISTS ${WORK}/build/${file})
         message(FATAL_ERROR "the samples wrote no ${file}")
     endif()
 endforeach()
 # With amount=1, and without what parallax has not, the sample's technique is parallax.
-set(images ${WORK}/own_technique/images)
+set(images ${WORK}/build/blend-report/images)
 step(${CMAKE_COMMAND} -E compare_files ${images}/blend-amount1-face64-lookupbilinear.exr
     ${images}/parallax-face64.exr)
 foreach(other parallax-face64 blend-amount0-face64)
@@ -90,7 +91,7 @@ foreach(other parallax-face64 blend-amount0-face64)
     endif()
 endforeach()
 step(${WORK}/prefix/bin/catoptric --version)
-step(${WORK}/prefix/bin/catoptric diff ${WORK}/hello.png ${WORK}/hello.png) # finds its module, too
+step(${WORK}/prefix/bin/catoptric diff ${WORK}/build/hello.png ${WORK}/build/hello.png) # finds its module, too
 if(EXISTS ${BUILD}/catoptric-view) # it is left out where its libraries are missing
     step(${WORK}/prefix/bin/catoptric-view --version)
 endif()

@@ -95,7 +95,7 @@ TEST_P(EveryTechnique, RendersTheSceneAsOftenAsItsRowSays) {
                 const reflect::Choice choice =
                     reflect::fitted(reflect::assign(reflect::parse_plan(text),
                                                     std::vector<std::string>(balls, "ball")),
-                                    std::vector<std::optional<scene::Flat>>(balls), 0)
+                                    std::vector<scene::FlatFaces>(balls), 0)
                         .choices.front();
                 const app::Request asked = test::request(test::room(mirrors, lights), {text},
                                                          {16, 16});

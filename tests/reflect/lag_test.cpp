@@ -134,8 +134,10 @@ TEST(Lag, IsWhatAnAnimationShows) {
         app::run(test::engine(), traced).parts.front().hits);
     const app::Part at_speed = app::run(test::engine(), moving).parts.front(),
                     at_rest = app::run(test::engine(), still).parts.front();
-    const Difference wanted = measure::difference(at_speed.hdr, at_rest.hdr, mirrors,
-                                                  measure::flip(at_speed.display, at_rest.display));
+    const Difference wanted = measure::difference(
+        at_speed.hdr, at_rest.hdr, mirrors,
+        measure::flip(measure::to_unrounded_display(at_speed.hdr),
+                      measure::to_unrounded_display(at_rest.hdr)));
     const Difference& found = lag.rows[0].speeds[0].errors[1];
     EXPECT_GT(wanted.flip, 0);
     EXPECT_NEAR(found.flip, wanted.flip, 1e-6);

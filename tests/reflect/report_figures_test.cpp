@@ -50,10 +50,16 @@ app::Part rendered(const std::string& technique) {
 /// Which pixels a figure is about, by the first two mirrors that a ray meets; 0: none.
 using Chosen = std::function<bool(unsigned, unsigned)>;
 
+/// FLIP of floats as they are displayed.
+std::vector<float> flip_of(const app::Part& a, const app::Part& b, double stops) {
+    return measure::flip(measure::to_unrounded_display(a.hdr, stops),
+                         measure::to_unrounded_display(b.hdr, stops));
+}
+
 /// Computed from the definitions: linear, exposed, clamped, over pixels and channels.
 void expect_errors(const json& found, const app::Part& part, const app::Part& truth,
                    const std::vector<std::uint32_t>& hits, const Chosen& chosen) {
-    const std::vector<float> map = measure::flip(part.display, truth.display);
+    const std::vector<float> map = flip_of(part, truth, kStops);
     const double gain = std::exp2(kStops);
     double squares = 0, sum = 0, flip = 0;
     std::vector<std::pair<double, std::size_t>> largest;
@@ -309,7 +315,7 @@ TEST(ReportFigures, ARowGoesOnFromRoundToRound) {
         alone.time = alone.instant(alone.total()), alone.animate = false;
         alone.frames = 1, alone.warmup = 0;
         const app::Part truth = std::move(app::run(test::engine(), alone).parts.front());
-        const std::vector<float> map = measure::flip(part.display, truth.display);
+        const std::vector<float> map = flip_of(part, truth, request.base.exposure);
         EXPECT_EQ(compared.rows[i].flip_map, map) << rows[i];
     }
 }

@@ -39,7 +39,8 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
 [[noreturn]] void become(const Start& start, int out, int err) {
     for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
     for (const auto& [resource, most] :
-         {std::pair{RLIMIT_FSIZE, start.file_limit}, std::pair{RLIMIT_AS, start.memory_limit}}) {
+         {std::pair{RLIMIT_FSIZE, start.file_limit}, std::pair{RLIMIT_AS, start.memory_limit},
+          std::pair{RLIMIT_CPU, start.seconds_limit}}) {
         const rlimit limit{most, most};
         if (most > 0) ::setrlimit(resource, &limit);
     }

@@ -21,11 +21,12 @@ struct Ended {
 struct Start {
     std::vector<std::string> command;                    ///< the program's path first
     std::map<std::string, std::string> environment = {}; ///< added to ours
-    std::string out_path = {};      ///< stdout goes here instead of `Ended::out`
-    bool no_reader = false;         ///< stdout is a pipe whose other end is closed
-    std::uint64_t file_limit = 0;   ///< bytes after which writing to a file fails; 0 = no limit
-    std::uint64_t memory_limit = 0; ///< bytes of address space; 0 = no limit
-    int signal = 0;                 ///< sent once stderr has `signal_at` in it; 0 = none
+    std::string out_path = {};       ///< stdout goes here instead of `Ended::out`
+    bool no_reader = false;          ///< stdout is a pipe whose other end is closed
+    std::uint64_t file_limit = 0;    ///< bytes after which writing to a file fails; 0 = no limit
+    std::uint64_t memory_limit = 0;  ///< bytes of address space; 0 = no limit
+    std::uint64_t seconds_limit = 0; ///< processor time after which it is killed; 0 = no limit
+    int signal = 0;                  ///< sent once stderr has `signal_at` in it; 0 = none
     std::string signal_at = {};
     std::chrono::milliseconds signal_after{0}; ///< from then
     std::chrono::milliseconds again_after{0};  ///< from the signal to the same once more; 0 = once

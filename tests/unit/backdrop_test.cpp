@@ -16,7 +16,7 @@ using Names = std::vector<std::string>;
 Names backdrops(const scene::Scene& scene, const dvec3& place, bool directional = false) {
     const render::Space space = render::space_of(scene);
     shared::Light light{};
-    light.directional = directional ? 1 : 0;
+    light.kind = directional ? shared::kLightDirectional : shared::kLightAtPoint;
     light.position = vec3(space.place(place));
     light.forward = vec3(place);
     const std::vector<std::uint8_t> found = render::find_backdrops(

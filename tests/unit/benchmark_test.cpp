@@ -193,7 +193,7 @@ TEST(BenchmarkFile, WhatIsWrongIsNamedWithItsPlace) {
                members + "]}";
     };
     const std::pair<std::string, std::string> cases[] = {
-        {"{", "x.json: wanted JSON, found "},
+        {"{", "x.json: JSON: line 1, column 2: wanted a key"},
         {"[1]", "x.json: wanted an object with a list 'benchmarks', as 'catoptric bench --json' "
                 "writes it, found a list"},
         {R"({"rows": []})", "found benchmarks: nothing"},

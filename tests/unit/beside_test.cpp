@@ -183,6 +183,50 @@ TEST_F(Beside, WhatIsWrittenIsReadAgain) {
                 HasSubstr("wanted a picture below"));
 }
 
+/// A box whose walls turn to its middle or away from it, with a mirror at one of them.
+std::string closed_room(bool turns_in, bool has_mirror) {
+    std::string text = "mtllib m.mtl\n";
+    for (int i = 0; i < 8; ++i)
+        text += "v " + std::string(i & 1 ? "2" : "-2") + (i & 2 ? " 3" : " 0") +
+                (i & 4 ? " 3\n" : " -3\n");
+    text += "v -1 1 -2.9\nv 1 1 -2.9\nv 1 2 -2.9\nv -1 2 -2.9\n";
+    text += "o walls\n";
+    const std::array<std::array<int, 4>, 6> out{
+        {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}}};
+    for (const std::array<int, 4>& face : out) {
+        text += "f";
+        for (std::size_t i = 0; i < 4; ++i)
+            text += " " + std::to_string(face[turns_in ? 3 - i : i]);
+        text += "\n";
+    }
+    return has_mirror ? text + "o mirror\nusemtl tin\nf 9 10 11 12\n" : text;
+}
+
+TEST_F(Beside, AClosedRoomIsSeenFromInside) {
+    write("m.mtl", "newmtl tin\nKs 1 1 1\nillum 3\n");
+    const auto camera_of = [&](const std::string& text) {
+        app::Wanted found = app::load_wanted(write("x.obj", text), {});
+        const Camera camera = app::camera_of(found, 1);
+        const Bounds<double> box = bounds(found.scene);
+        const bool is_inside = box.lo.x < camera.eye.x && camera.eye.x < box.hi.x &&
+                               box.lo.y < camera.eye.y && camera.eye.y < box.hi.y &&
+                               box.lo.z < camera.eye.z && camera.eye.z < box.hi.z;
+        EXPECT_EQ(is_inside, found.said.back().starts_with("no camera, a closed room: using "
+                                                           "--camera "))
+            << found.said.back();
+        EXPECT_THAT(found.said.back(), HasSubstr(camera_text(camera)));
+        EXPECT_EQ(found.scene.gaps.back().id, "added-camera");
+        return is_inside;
+    };
+    EXPECT_TRUE(camera_of(closed_room(true, false))) << "outside it shows its backs alone";
+    EXPECT_TRUE(camera_of(closed_room(false, true))) << "outside it hides its mirror";
+    EXPECT_FALSE(camera_of(closed_room(false, false))) << "a crate";
+    EXPECT_FALSE(camera_of(kDark)) << "not closed";
+    std::string open = closed_room(true, true);
+    open.erase(open.find("f 7 8 6 5")); // and what follows
+    EXPECT_FALSE(camera_of(open)) << "walls are missing";
+}
+
 TEST_F(Beside, AFileWithoutLightAndCameraIsCompleted) {
     const std::string path = write("x.obj", kDark);
     app::Wanted found = app::load_wanted(path, {});
@@ -194,7 +238,8 @@ TEST_F(Beside, AFileWithoutLightAndCameraIsCompleted) {
     EXPECT_EQ(camera, default_camera(found.scene, 2));
     std::vector<std::string> ids;
     for (const Gap& gap : found.scene.gaps) ids.push_back(gap.id);
-    EXPECT_THAT(ids, ElementsAre("added-studio", "added-camera"));
+    EXPECT_THAT(ids, ElementsAre("indirect-left-out", "environment-unshadowed", "added-studio",
+                                 "added-camera"));
     EXPECT_THAT(found.said, ElementsAre(HasSubstr("lit by the environment studio"),
                                         HasSubstr("using --camera " + camera_text(camera))));
     // The numbers that are said give the same camera again.
@@ -258,7 +303,8 @@ TEST_F(Beside, BuiltInScenesStayAsTheyAre) {
     EXPECT_EQ(hash(found.scene), hash(cornell_mirrors()));
     EXPECT_EQ(app::ambient_of(found), .05);
     EXPECT_EQ(app::exposure_of(found), 0);
-    EXPECT_THAT(found.scene.gaps, IsEmpty());
+    ASSERT_EQ(found.scene.gaps.size(), 1u) << "as in any scene that is lit";
+    EXPECT_EQ(found.scene.gaps[0].id, "indirect-left-out");
     EXPECT_EQ(app::camera_of(found, 1).name, "contract");
     EXPECT_THAT(found.said, IsEmpty());
 }

@@ -74,6 +74,53 @@ TEST(Classify, SmoothDielectricsAreMirrorsOnlyWhereAsked) {
     EXPECT_FALSE(scene.objects[0].mirror);
 }
 
+std::vector<std::string> ids(const Scene& scene) {
+    std::vector<std::string> list;
+    for (const Gap& gap : scene.gaps) list.push_back(gap.id);
+    return list;
+}
+
+TEST(SettleGaps, LightThatNoTechniqueComputesIsListed) {
+    Scene scene = panel({.name = "wall", .albedo = vec3(.5f)});
+    settle_gaps(scene);
+    EXPECT_THAT(ids(scene), testing::IsEmpty()) << "nothing lights it";
+    scene.punctual.push_back({.intensity = vec3(1)});
+    settle_gaps(scene);
+    ASSERT_THAT(ids(scene), ElementsAre("indirect-left-out"));
+    EXPECT_EQ(scene.gaps[0].count, 1u);
+    EXPECT_EQ(scene.gaps[0].first, "materials[0] 'wall'");
+    EXPECT_THAT(scene.gaps[0].materials, ElementsAre(0u));
+    scene.punctual.clear();
+    scene.environment = std::make_shared<Environment>();
+    settle_gaps(scene);
+    EXPECT_THAT(ids(scene), ElementsAre("indirect-left-out", "environment-unshadowed"));
+    settle_gaps(scene); // again
+    EXPECT_THAT(ids(scene), ElementsAre("indirect-left-out", "environment-unshadowed"));
+    for (const Material& none :
+         {Material{.albedo = vec3(0)}, {.albedo = vec3(1), .unlit = true}, metal(0)}) {
+        scene.materials[0] = none;
+        settle_gaps(scene);
+        EXPECT_THAT(ids(scene), testing::IsEmpty()) << "it has no diffuse part";
+    }
+}
+
+TEST(SettleGaps, ALobeIsLeftOutWhereASurfaceIsRough) {
+    Scene scene = panel({.name = "paint", .albedo = vec3(.5f), .roughness = .3f});
+    settle_gaps(scene);
+    EXPECT_TRUE(scene.gaps.empty()) << "no file asks for a lobe";
+    const auto listed = [&](float limit) {
+        scene.gaps.clear();
+        add_material_gap(scene.gaps, "specular-left-out", "materials[0] 'paint'", 0);
+        scene.mirror_max_roughness = limit;
+        settle_gaps(scene);
+        return ids(scene);
+    };
+    EXPECT_THAT(listed(.1f), ElementsAre("specular-left-out"));
+    EXPECT_THAT(listed(.3f), testing::IsEmpty()) << "drawn as a sharp reflection";
+    scene.materials[0].metallic = 1;
+    EXPECT_THAT(listed(.1f), testing::IsEmpty()) << "a rough metal is listed as such";
+}
+
 TEST(Classify, ConstantMirrorsStayAsTheyAre) {
     Scene scene = panel({.name = "m", .mirror = true, .reflectance = vec3(.01f)});
     classify(scene);
@@ -231,6 +278,37 @@ TEST(ShapeOf, ABoxIsConvexAndClosed) {
     for (uvec3& t : scene.meshes[0].triangles) std::swap(t.y, t.z);
     shape = shape_of(scene, scene.objects[0]);
     EXPECT_EQ(shape.kind, Shape::Kind::convex);
+}
+
+/// A file's ball carries no mark: `info`, `auto` and the searches that follow rays exactly ask what
+/// one function says of its triangles.
+TEST(Classify, AMirrorThatIsABallIsASphere) {
+    Scene scene{.name = "balls"};
+    const std::size_t mirror = add_material(scene, {.name = "m", .mirror = true});
+    add_mesh(scene, ball("ball", 5), mirror);
+    scene.objects.back().world_from_object = dmat4(.5);
+    scene.objects.back().world_from_object[3] = dvec4(3, -2, 1, 1);
+    Mesh facets{.name = "facets"}; // the same ball, but that each triangle mirrors as a plane
+    const Mesh smooth = ball("ball", 5);
+    for (const uvec3& t : smooth.triangles) {
+        const auto first = static_cast<std::uint32_t>(facets.positions.size());
+        const dvec3 a = smooth.positions[t.x], b = smooth.positions[t.y], c = smooth.positions[t.z];
+        for (const dvec3& p : {a, b, c}) {
+            facets.positions.push_back(p);
+            facets.normals.emplace_back(normalize(cross(b - a, c - a)));
+        }
+        facets.triangles.push_back({first, first + 1, first + 2});
+    }
+    add_mesh(scene, facets, mirror);
+    add_mesh(scene, ball("grey", 4), add_material(scene, {.name = "grey"}));
+    classify(scene);
+    ASSERT_TRUE(scene.objects[0].sphere);
+    EXPECT_NEAR(distance(scene.objects[0].sphere->centre, dvec3(3, -2, 1)), 0, 1e-6);
+    EXPECT_NEAR(scene.objects[0].sphere->radius, .5, 1e-6);
+    EXPECT_EQ(shape_of(scene, scene.objects[0]).kind, Shape::Kind::sphere);
+    EXPECT_FALSE(scene.objects[1].sphere);
+    EXPECT_NE(shape_of(scene, scene.objects[1]).kind, Shape::Kind::sphere);
+    EXPECT_FALSE(scene.objects[2].sphere) << "no mirror";
 }
 
 } // namespace

@@ -54,6 +54,51 @@ TEST(FlatMirror, IsAsFarOffAsItsNormalsAndVerticesAre) {
     EXPECT_EQ(scene::flat(back, dmat4(1))->off, 0) << "a mirror has two sides";
 }
 
+/// A board modelled as a thin closed box, turned: two large faces and a rim of four.
+TEST(FlatFaces, OfAThinBoxAreItsSix) {
+    const scene::Mesh box = scene::box("board", {-1, -1, -.02}, {1, 1, .02});
+    ASSERT_FALSE(scene::flat(box, kTurned));
+    const scene::FlatFaces flats = scene::flat_faces(box, kTurned);
+    ASSERT_EQ(flats.faces.size(), 6u);
+    EXPECT_TRUE(flats.bent.empty());
+    EXPECT_NEAR(flats.share(1e-9), 1, 1e-9);
+    std::uint32_t triangles = 0;
+    for (const scene::Flat& face : flats.faces) {
+        EXPECT_TRUE(face.is_one_sided);
+        EXPECT_EQ(face.corners.size(), 4u);
+        EXPECT_LT(dot(dvec3(kTurned[3]) - face.point, face.normal), 0) << "it looks outwards";
+        for (const auto& [first, end] : face.triangles) triangles += end - first;
+    }
+    EXPECT_EQ(triangles, box.triangles.size());
+    EXPECT_GT(flats.faces[0].share + flats.faces[1].share, .9) << "the largest first";
+    scene::Mesh open = box;
+    open.triangles.pop_back();
+    EXPECT_FALSE(scene::flat_faces(open, kTurned).faces.front().is_one_sided)
+        << "somebody may look in";
+    scene::Mesh inside_out = box;
+    for (uvec3& t : inside_out.triangles) std::swap(t.y, t.z);
+    for (const scene::Flat& face : scene::flat_faces(inside_out, kTurned).faces)
+        EXPECT_LT(dot(dvec3(kTurned[3]) - face.point, face.normal), 0);
+}
+
+TEST(FlatFaces, LeaveOutWhatIsBent) {
+    scene::Mesh rounded = scene::box("board", {-1, -1, -.1}, {1, 1, .1});
+    for (const uvec3& t : rounded.triangles)
+        for (int k = 0; k < 3; ++k) // the rim shines as if it were round
+            if (std::abs(rounded.normals[t[k]].z) < .5f)
+                rounded.normals[t[k]] = glm::normalize(rounded.normals[t[k]] + vec3(0, 0, .2f));
+    const scene::FlatFaces flats = scene::flat_faces(rounded, dmat4(1));
+    EXPECT_EQ(flats.faces.size(), 2u);
+    EXPECT_NEAR(flats.share(1e-6), 8 / 9.6, 1e-6);
+    ASSERT_FALSE(flats.bent.empty());
+    const scene::FlatFaces ball = scene::flat_faces(scene::ball("ball", 3), dmat4(1));
+    EXPECT_TRUE(ball.faces.empty());
+    EXPECT_EQ(ball.bent.size(), 1u);
+    const scene::FlatFaces quad = scene::flat_faces(board(), kTurned);
+    EXPECT_TRUE(quad.is_one());
+    EXPECT_FALSE(quad.faces.front().is_one_sided) << "a mirror has two sides";
+}
+
 // A sixteenth of atan(2 tan(30 deg) / 600).
 TEST(FlatMirror, ToleranceIsAPartOfAPixel) {
     const scene::Camera camera{.vertical_fov_degrees = 60};
@@ -108,6 +153,21 @@ TEST(MirroredViews, AreOfWhatThePictureShows) {
     EXPECT_EQ(count({0, 0, 3}, {0, 0, 6}), 0u) << "behind the eye";
     EXPECT_EQ(count({9, 0, 3}, {9, 0, 0}), 0u) << "beside the picture";
     EXPECT_EQ(count({0, 3, 0}, {.5, 0, 0}), 0u) << "edge on";
+}
+
+TEST(MirroredViews, AreOfTheFacesOfABodyThatTheEyeIsInFrontOf) {
+    std::vector<std::optional<render::MirrorPlane>> faces;
+    for (scene::Flat& face :
+         scene::flat_faces(scene::box("b", {-1, -1, -.1}, {1, 1, .1}), dmat4(1)).faces)
+        faces.emplace_back(render::MirrorPlane{std::move(face), 2});
+    ASSERT_EQ(faces.size(), 6u);
+    const auto count = [&](const dvec3& place) {
+        int most = 2;
+        return render::mirrored_views(eye_at(place, {0, 0, 0}), faces, {64, 64}, most).size();
+    };
+    EXPECT_EQ(count({.2, .3, 3}), 1u) << "its front";
+    EXPECT_EQ(count({2, .3, 3}), 2u) << "and one side of the rim";
+    EXPECT_EQ(count({2, 2, 3}), 3u);
 }
 
 TEST(MirroredViews, GoAsDeepAsAskedForAndNoDeeperThanAFrameHolds) {

@@ -91,6 +91,29 @@ TEST_P(Published, MapAndMeanEqualTheAuthorsProgram) {
 
 INSTANTIATE_TEST_SUITE_P(Flip, Published, testing::ValuesIn(kCases));
 
+/// Linear light that no 8 bits hold; flip_reference.py has the formula, too.
+Picture between_steps(bool b) {
+    Picture picture(40, 24);
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                picture.at(x, y)[c] = static_cast<float>(
+                    (20 + 3 * x + 2 * y + 5 * c + (b ? x * y % 7 / 16.0 : 0)) / 255);
+    return picture;
+}
+
+TEST(Flip, OfFloatsEqualsTheAuthorsProgram) {
+    const Picture a = between_steps(false), b = between_steps(true);
+    const auto mean = [&](auto&& display, double stops) {
+        return flip_mean(flip(display(a, stops), display(b, stops)));
+    };
+    // from flip-evaluator 1.7
+    EXPECT_NEAR(mean(to_unrounded_display, -.5), .0062926, 2e-5);
+    EXPECT_NEAR(mean(to_unrounded_display, .5), .0076279, 2e-5);
+    EXPECT_NEAR(mean(to_display, -.5), .0074952, 2e-5);
+    EXPECT_NEAR(mean(to_display, .5), .0102913, 2e-5);
+}
+
 TEST(Flip, EqualPicturesGiveExactlyZero) {
     const Picture a = picture_of(noise, 20, 20, false);
     for (const float error : flip(a, a)) EXPECT_EQ(error, 0.0F);

@@ -43,6 +43,23 @@ TEST(Judge, FrontsComputedByHand) {
     EXPECT_EQ(measure::front_of({exact(1, 1), exact(2, 2), exact(1, 1)}), (Front{0, 2}));
 }
 
+/// The rule of the fastest row holds for the front, too.
+TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
+    measure::Row black = exact(1, .5);
+    EXPECT_EQ(measure::front_of({black, exact(2, .1), exact(3, .6)}), (Front{0, 1}));
+    black.mirrors_black = true;
+    EXPECT_EQ(measure::front_of({black, exact(2, .1), exact(3, .6)}), Front{1});
+    EXPECT_FALSE(measure::beats(black, exact(3, .6)));
+    EXPECT_FALSE(measure::beats(exact(1, .1), black));
+    measure::Comparison made;
+    made.rows = {black, exact(2, .1)};
+    made.pareto = measure::front_of(made.rows);
+    EXPECT_EQ(measure::closest_row(made), &made.rows[1]);
+    EXPECT_EQ(measure::fastest_rows(made), std::vector<const measure::Row*>{&made.rows[1]});
+    ASSERT_EQ(measure::standing(made).black.size(), 1U);
+    EXPECT_TRUE(measure::standing(made).beaten_by_beaten.empty());
+}
+
 TEST(Judge, RowsAreApartWhereEachRoundSaysSo) {
     EXPECT_TRUE(measure::is_faster(exact(10, 1), about(12, 1))) << "10.8 at least";
     EXPECT_FALSE(measure::is_faster(exact(10, 1), about(11, 1))) << "9.9 in three rounds";

@@ -125,6 +125,18 @@ TEST_F(LoadObj, KindsOfReflection) {
     }
 }
 
+TEST_F(LoadObj, ListsTheLobesThatItsMaterialsAskFor) {
+    const auto asks = [&](const std::string& material) {
+        return std::ranges::count(ids(scene_of(material)), "specular-left-out");
+    };
+    EXPECT_EQ(asks("Ks .5 .5 .5\nNs 30\nillum 2\n"), 1);
+    EXPECT_EQ(asks("Ks .5 .5 .5\nNs 30\n"), 1) << "illum is 2 where nobody says";
+    EXPECT_EQ(asks("Ks .5 .5 .5\nNs 30\nillum 1\n"), 0) << "without a highlight";
+    EXPECT_EQ(asks("Ks 0 0 0\nNs 30\nillum 2\n"), 0);
+    EXPECT_EQ(asks("Kd .5 .5 .5\n"), 0);
+    EXPECT_EQ(asks("Kd .5 .5 .5\nPr .5\n"), 1);
+}
+
 TEST_F(LoadObj, GlassAndWhatIsCut) {
     for (const char* glass : {"illum 4\n", "illum 6\n", "illum 7\n", "illum 9\n", "d .25\nNi 1.5\n",
                               "Tr .75\nNi 1.5\n"}) {

@@ -275,6 +275,7 @@ TEST_F(LoadSurface, TexelsHaveABudgetThatIsAskedBeforeDecoding) {
 TEST_F(LoadSurface, WhatIsLeftOutIsListed) {
     const Scene scene = scene_of(
         with({{"name", "all"},
+              {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
               {"normalTexture", {{"index", 0}}},
               {"occlusionTexture", {{"index", 0}}},
               {"extensions",
@@ -286,13 +287,29 @@ TEST_F(LoadSurface, WhatIsLeftOutIsListed) {
                 {"KHR_materials_volume", Json::object()},
                 {"KHR_materials_dispersion", Json::object()}}}}));
     EXPECT_THAT(ids(scene),
-                testing::UnorderedElementsAre("normal-texture", "occlusion-texture", "clearcoat",
-                                              "sheen", "anisotropy", "glass-as-diffuse",
-                                              "glass-shadow", "material-extension"));
+                testing::UnorderedElementsAre(
+                    "normal-texture", "occlusion-texture", "clearcoat", "sheen", "anisotropy",
+                    "glass-as-diffuse", "glass-shadow", "material-extension", "specular-left-out"));
     for (const Gap& gap : scene.gaps) {
         EXPECT_EQ(gap.first, "materials[0] 'all'");
         EXPECT_EQ(gap.count, 1u) << gap.id;
     }
+}
+
+TEST_F(LoadSurface, MetalIsNoGlassWhateverItsTransmission) {
+    const auto is_glass = [&](const Json& pbr) {
+        const Scene scene = scene_of(
+            with({{"pbrMetallicRoughness", pbr},
+                  {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}}));
+        return std::ranges::count(ids(scene), "glass-as-diffuse") +
+               std::ranges::count(ids(scene), "glass-shadow");
+    };
+    EXPECT_EQ(is_glass({{"metallicFactor", 1}}), 0);
+    EXPECT_EQ(is_glass(Json::object()), 0) << "glTF's default is a metal";
+    EXPECT_EQ(is_glass({{"metallicFactor", .5}}), 2);
+    EXPECT_EQ(is_glass({{"metallicFactor", 0}}), 2);
+    EXPECT_EQ(is_glass({{"metallicFactor", 1}, {"metallicRoughnessTexture", {{"index", 0}}}}), 2)
+        << "blue is below 1 in some texels";
 }
 
 } // namespace

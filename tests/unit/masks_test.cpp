@@ -12,8 +12,7 @@ constexpr std::uint32_t hit(std::uint32_t first, std::uint32_t second) {
 }
 
 // wall; mirror 1 that sees a wall; mirror 2 that sees mirror 1; mirror 1 that sees itself
-// (concave); the largest number there is; a wall "in which" a mirror is seen, which nobody
-// should write.
+// (concave); the largest number there is; a polished floor that reflects, but is no mirror.
 constexpr std::array<std::uint32_t, 6> kHits = {hit(0, 0), hit(1, 0),     hit(2, 1),
                                                 hit(1, 1), hit(65535, 0), hit(0, 7)};
 
@@ -25,6 +24,7 @@ TEST(Masks, ChooseByTheFirstTwoHits) {
     EXPECT_EQ(of_mirror(kHits, catoptric::MirrorId(1)), (Mask{0, 255, 0, 255, 0, 0}));
     EXPECT_EQ(of_mirror(kHits, catoptric::MirrorId(65535)), (Mask{0, 0, 0, 0, 255, 0}));
     EXPECT_EQ(non_mirror(kHits), (Mask{255, 0, 0, 0, 0, 255}));
+    EXPECT_EQ(dielectrics(kHits), (Mask{0, 0, 0, 0, 0, 255}));
 }
 
 TEST(Masks, PartitionThePicture) {

@@ -132,7 +132,7 @@ TEST_F(PlanFile, WhatIsWrongIsNamedWithItsPlace) {
                          Failure failure = Failure::bad_data) {
         expect_refused(file(content), words, failure);
     };
-    bad("{", {"plan.json", "wanted JSON"});
+    bad("{", {"plan.json: JSON: line 1, column 2: wanted a key"});
     bad("[]", {"wanted a list of rules"});
     bad(R"({"plans": []})", {"wanted a list of rules", "an object"});
     bad(R"([{"mirror": -1, "technique": "reuse"}])",

@@ -20,6 +20,7 @@ app::DeviceInfo device_of(const std::string& driver = "driver 1.2 (build 3)") {
     device.name = "A device";
     device.driver = driver;
     device.id = "10de-2330";
+    device.type = "cpu";
     return device;
 }
 
@@ -74,7 +75,7 @@ TEST(Profile, SaysWhatIsNoProfile) {
         test::expect_refused([&] { app::read_profile(text, "p.json", device_of()); },
                              Failure::bad_data, {"p.json: ", part});
     };
-    refuses("{", "wanted JSON, found ");
+    refuses("{", "JSON: line 1, column 2: wanted a key in quotation marks, found the end");
     refuses("[]", "wanted a device profile, schema 'catoptric/device-profile/1', found nothing");
     json bad = good;
     bad["schema"] = "catoptric/device-profile/2";
@@ -145,6 +146,22 @@ TEST_F(ProfilePlace, OneThatIsNamedMustDo) {
             app::choose({.variants = {{"pixels", "round"}}}, device);
         },
         Failure::usage, {"variants.pixels: wanted 'blocks' or 'rows'"});
+}
+
+/// Only a software driver gives each of its threads one contiguous run of work groups.
+TEST(Variants, GroupsAreInOrderButOnAProcessor) {
+    for (const auto& [type, groups] :
+         {std::pair("cpu", "scattered"), std::pair("discrete", "in order"),
+          std::pair("integrated", "in order"), std::pair("virtual", "in order")}) {
+        app::DeviceInfo device = device_of();
+        device.type = type;
+        const gpu::Choices choices = app::choose({}, device);
+        EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;
+        EXPECT_THAT(device.variants, testing::Contains(Pair("hierarchy", "texel"))) << type;
+        EXPECT_EQ(choices, app::default_choices(device));
+        app::choose({.variants = {{"pixels", "rows"}}}, device);
+        EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;
+    }
 }
 
 TEST(Variants, AreConstantsButForDefaults) {

@@ -65,6 +65,7 @@ public:
         set(row.error_mirror_in_mirror, "/error_mirror_in_mirror", "mirror_in_mirror");
         set(row.error_non_mirror, "/error_non_mirror", "non_mirror");
         set(row.error_all, "/error_all", "all");
+        set(row.error_dielectrics, "/error_dielectrics", "dielectrics");
         row.error_per_mirror.resize(2);
         for (std::size_t i = 0; i < 2; ++i)
             set(row.error_per_mirror[i], "/error_per_mirror/" + std::to_string(i),
@@ -223,7 +224,8 @@ std::map<std::string, std::string> identity() {
             {"driver", "Driver 1"},
             {"api", "Vulkan 1.3"},
             {"version", "0.1.0"},
-            {"commit", "abc1234"}};
+            {"commit", "abc1234"},
+            {"date", "2026-11-24T03:05:10Z"}};
 }
 
 TEST(ReportFields, JsonHoldsTheCamera) {
@@ -325,7 +327,7 @@ bool is_of_a_test(const std::string& name) {
 
 TEST(ReportFields, CsvHoldsEachFigureInItsColumn) {
     const Filler filler;
-    const std::string csv = to_csv(distinct(filler));
+    const std::string csv = to_csv(distinct(filler), CsvColumns::all);
     const std::vector<std::string> names = split(csv),
                                    cells = split(csv.substr(csv.find('\n') + 1));
     ASSERT_EQ(names.size(), cells.size());
@@ -337,8 +339,9 @@ TEST(ReportFields, CsvHoldsEachFigureInItsColumn) {
         wanted.insert(field.column.substr(0, field.column.find('#')));
         EXPECT_EQ(number_in(found, field.column), field.value) << field.column;
     }
-    for (const char* name : {"technique", "label", "settings", "model", "moves", "noisy", "failed",
-                             "image", "on_front", "is_reference", "incomplete"})
+    for (const char* name :
+         {"technique", "label", "settings", "model", "place_first", "place_last", "moves", "noisy",
+          "failed", "image", "on_front", "is_reference", "incomplete"})
         wanted.insert(name);
     for (const auto& [name, field] : identity()) {
         wanted.insert(name);
@@ -400,6 +403,8 @@ TEST(ReportFields, TablesHoldEachFigureInItsColumn) {
         {"FLIP, mirror in mirror", error(row.error_mirror_in_mirror.flip)},
         {"FLIP, not a mirror", error(row.error_non_mirror.flip)},
         {"FLIP, all", error(row.error_all.flip)},
+        {"FLIP, smooth dielectrics", error(row.error_dielectrics.flip)},
+        {"rmse, smooth dielectrics", error(row.error_dielectrics.rmse)},
         {"rmse, first order", error(row.error_first_order.rmse)},
         {"rmse, mirror in mirror", error(row.error_mirror_in_mirror.rmse)},
         {"rmse, not a mirror", error(row.error_non_mirror.rmse)},

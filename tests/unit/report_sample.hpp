@@ -81,6 +81,7 @@ inline Comparison comparison(std::vector<Row> rows) {
     Comparison made;
     made.version = "0.1.0";
     made.commit = "abc1234";
+    made.date = "2026-11-24T03:05:10Z";
     made.command = {"catoptric", "compare", "-o", "out"};
     made.device = {"Card", "Driver 1", "Vulkan 1.3", "discrete", 0};
     made.scene = {"cornell-mirrors", 16394, 4, "deadbeef", true};

@@ -31,10 +31,11 @@ TEST(ReportJson, HasTheContractsFieldsInItsOrder) {
     const auto document = nlohmann::ordered_json::parse(text);
     std::vector<std::string> names;
     for (const auto& [name, value] : document.items()) names.push_back(name);
-    EXPECT_THAT(names, ElementsAre("schema", "version", "commit", "command", "complete", "device",
-                                   "scene", "setup", "size", "frames", "warmup", "rounds", "timing",
-                                   "load", "time", "ambient", "exposure", "together", "warnings",
-                                   "reference", "model", "views", "rows", "pareto"));
+    EXPECT_THAT(names,
+                ElementsAre("schema", "version", "commit", "date", "command", "complete", "device",
+                            "scene", "setup", "size", "frames", "warmup", "rounds", "timing",
+                            "load", "time", "ambient", "exposure", "flip_source", "together",
+                            "warnings", "reference", "model", "views", "rows", "pareto"));
     EXPECT_EQ(document["schema"], "catoptric/compare/1");
     EXPECT_EQ(document["size"], json::parse("[4, 3]"));
     EXPECT_EQ(document["command"], json::parse(R"(["catoptric", "compare", "-o", "out"])"));
@@ -63,6 +64,7 @@ TEST(ReportJson, SaysOfARowWhatTheContractAsks) {
                              "error_mirror_in_mirror",
                              "error_non_mirror",
                              "error_all",
+                             "error_dielectrics",
                              "error_per_mirror",
                              "memory_bytes",
                              "traced_fraction",
@@ -138,11 +140,11 @@ TEST(ReportCsv, QuotesFieldsAndEndsLinesAsTheStandardSays) {
     Comparison made = usual();
     made.rows[0].label = "naive:bounces=0,face=512";
     made.rows[1].model = "say \"everything\"\nor not";
-    const std::string csv = catoptric::report::to_csv(made);
+    const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumns::all);
     EXPECT_THAT(csv, HasSubstr("\"naive:bounces=0,face=512\",\"bounces=0, face=256\","));
     EXPECT_THAT(csv, HasSubstr("\"say \"\"everything\"\"\nor not\""));
     EXPECT_TRUE(
-        csv.starts_with("technique,label,settings,model,scene_passes,scene_draws,gpu_ms_median,"));
+        csv.starts_with("technique,label,settings,model,place_first,place_last,scene_passes,"));
     EXPECT_TRUE(csv.ends_with("\r\n"));
     EXPECT_THAT(csv, Not(HasSubstr("nan")));
 }
@@ -150,7 +152,7 @@ TEST(ReportCsv, QuotesFieldsAndEndsLinesAsTheStandardSays) {
 TEST(ReportCsv, GivesEveryLineTheSameNumberOfFields) {
     Comparison made = usual();
     made.rows[2].error_per_mirror.clear();
-    const std::string csv = catoptric::report::to_csv(made);
+    const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumns::all);
     std::vector<std::ptrdiff_t> commas;
     bool quoted = false;
     commas.push_back(0);

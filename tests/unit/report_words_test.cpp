@@ -9,6 +9,8 @@
 namespace {
 
 using catoptric::report::Comparison;
+using catoptric::report::Row;
+using catoptric::report::to_csv;
 using namespace catoptric::report::sample;
 using testing::HasSubstr;
 using testing::Not;
@@ -61,7 +63,7 @@ TEST(ReportMarkdown, PutsTheFrontInWords) {
         text, HasSubstr("naive:bounces=0 (2.00 ms, FLIP 0.5000); parallax (6.00 ms, FLIP 0.1000); "
                         "raytrace:depth=16 (12.0 ms, FLIP 0)"));
     EXPECT_THAT(text, HasSubstr("parallax beats reuse (7.00 ms, FLIP 0.2000)."));
-    EXPECT_THAT(text, HasSubstr("No ray-traced row beats"));
+    EXPECT_THAT(text, HasSubstr("no ray-traced row beats"));
 }
 
 TEST(ReportMarkdown, SaysSoWhereRayTracingWins) {
@@ -69,17 +71,62 @@ TEST(ReportMarkdown, SaysSoWhereRayTracingWins) {
     made.rows[3].gpu_ms = times(5);
     made.pareto = {0, 3};
     EXPECT_THAT(said(made),
-                HasSubstr("Ray tracing beats 2 of the 3 other rows on this device: all but "
+                HasSubstr("On this device, Card, ray tracing beats 2 of the 3 other rows: all but "
                           "naive:bounces=0."));
     made.rows[3].gpu_ms = times(1);
     made.pareto = {3};
-    EXPECT_THAT(said(made), HasSubstr("Ray tracing wins on this device: each of the 3 other rows"));
+    EXPECT_THAT(said(made), HasSubstr("ray tracing beats every other row, 3 of 3."));
     made.rows[3].error.nonfinite = 1; // what failed beats nobody
-    EXPECT_THAT(said(made), HasSubstr("No ray-traced row beats"));
+    EXPECT_THAT(said(made), HasSubstr("no ray-traced row beats"));
     EXPECT_THAT(said(made), HasSubstr("raytrace:depth=16 failed"));
 }
 
+/// The reader's first question: on which device, and which way wins.
+TEST(ReportWords, VerdictAndDeviceComeFirst) {
+    using catoptric::report::to_html;
+    Comparison made = usual();
+    const std::string verdict = "On this device, Card, no ray-traced row beats any other row.";
+    EXPECT_LT(said(made).find(verdict), said(made).find("**Scene**"));
+    EXPECT_LT(to_html(made).find(verdict), to_html(made).find("Fastest"));
+    made.rows.pop_back(); // the ray-traced one
+    EXPECT_THAT(said(made),
+                HasSubstr("On this device, Card, fastest is naive:bounces=0, closest is "
+                          "parallax (6.00 ms, FLIP 0.1000)."));
+}
+
+/// A time without its device says nothing.
+TEST(ReportMarkdown, NamesTheDeviceBesideTimes) {
+    Comparison made = usual();
+    made.device.name = "llvmpipe (LLVM 15.0.6, 256 bits)";
+    EXPECT_THAT(said(made), HasSubstr("| ms, GTX 770 |"));
+    EXPECT_THAT(said(made), HasSubstr("| ms, llvmpipe |"));
+    EXPECT_THAT(said(made), HasSubstr("Every row, times on llvmpipe (LLVM 15.0.6, 256 bits)"));
+}
+
 /// Rows that win some rounds each are not put one before the other, in any sentence.
+TEST(ReportMarkdown, NamesFirstWhatNoRowDraws) {
+    Comparison made = usual();
+    EXPECT_THAT(said(made), Not(HasSubstr("smooth dielectrics"))) << "no column without a pixel";
+    EXPECT_THAT(to_csv(made), Not(HasSubstr("dielectrics_flip")));
+    for (Row& row : made.rows) {
+        row.error_dielectrics = error_of(.05, .25), row.error_dielectrics.pixels = 35;
+        row.error_all.pixels = 100;
+    }
+    made.rows[2].error_dielectrics.flip = .125;
+    made.rows[3].rays.reset();
+    const std::string capture = said(made);
+    EXPECT_THAT(capture, HasSubstr("- Not drawn: 35 % of the pixels show smooth surfaces that are "
+                                   "no mirrors, and no row draws what they reflect. Over these "
+                                   "pixels the other rows' FLIP is 0.1250 at best (parallax)."));
+    EXPECT_LT(capture.find("Not drawn: "), capture.find("Clears: "));
+    EXPECT_THAT(capture, HasSubstr("FLIP, smooth dielectrics"));
+    EXPECT_THAT(to_csv(made), HasSubstr("dielectrics_flip"));
+    made.rows[3].rays.emplace();
+    made.rows[3].error_dielectrics.flip = 0;
+    EXPECT_THAT(said(made), HasSubstr("no row but raytrace:depth=16 draws what they reflect. Over "
+                                      "these pixels the other rows' FLIP is 0.1250"));
+}
+
 TEST(ReportMarkdown, CallsATieWhereNeitherWinsEveryRound) {
     Comparison made = usual();
     made.rows[1].gpu_ms = times(6.5, .1);
@@ -130,7 +177,9 @@ TEST(ReportHtml, NeverCallsBlackMirrorsFastest) {
     EXPECT_THAT(to_html(made), HasSubstr("<dt>Fastest</dt><dd>2 rows <small>not told apart"));
     made.rows[1].gpu_ms = times(8);
     EXPECT_THAT(to_html(made), HasSubstr("Fastest</dt><dd>6.00 ms <small>parallax"));
-    EXPECT_THAT(said(made), HasSubstr("naive:bounces=0 (2.00 ms, FLIP 0.5000, its mirrors black)"));
+    EXPECT_THAT(said(made),
+                HasSubstr("since their mirrors are black: naive:bounces=0 (2.00 ms, FLIP "
+                          "0.5000)."));
 }
 
 TEST(ReportMarkdown, SpeaksOfTheSeedReportBesideItsOwnSceneOnly) {

@@ -1,6 +1,7 @@
 // Which mirrors a picture requires: answers that are known, and rays that must find no other.
 #include "require/frustum.hpp"
 #include "require/sight.hpp"
+#include "scene/load.hpp"
 #include "support/drawn_hall.hpp"
 
 #include <gmock/gmock.h>
@@ -161,6 +162,35 @@ TEST(RequireSight, WithoutASeenMirrorNothingIsCaptured) {
     EXPECT_EQ(model.left_out[0].what, "the captures of mirrors 1-4");
     EXPECT_EQ(model.left_out[0].why, "they are not in the camera's picture, and no mirror is seen "
                                      "in which they could show");
+}
+
+TEST(RequireFrustum, HoldsTheTriangleItself) {
+    const scene::Camera camera{.target = {0, 0, 1}, .vertical_fov_degrees = 90};
+    const Picture square(camera, {100, 100});
+    // Across the upper right corner of the picture, 10 from the eye: bounds reach in, it does not.
+    const std::array<dvec3, 3> aslant{{{-14, 9, 10}, {-9, 15, 10}, {-14, 16, 10}}};
+    Bounds<double> box;
+    for (const dvec3& corner : aslant) box.add(corner);
+    EXPECT_TRUE(square.may_hold(box));
+    EXPECT_FALSE(square.may_hold_triangle(aslant, 0));
+    EXPECT_TRUE(square.may_hold_triangle(aslant, 2));
+    // Around the whole picture: no corner of it is inside.
+    EXPECT_TRUE(square.may_hold_triangle({{{-99, -50, 10}, {99, -50, 10}, {0, 99, 10}}}, 0));
+    EXPECT_FALSE(square.may_hold_triangle({{{-99, -50, -10}, {99, -50, -10}, {0, 99, -10}}}, 0));
+    EXPECT_TRUE(square.may_hold_ball({0, 11, 10}, .8)); // .707 beyond the plane
+    EXPECT_FALSE(square.may_hold_ball({0, 11, 10}, .7));
+}
+
+/// The bounds of the gallery's first ring reach into the first camera's picture, the ring does not.
+TEST(RequireSight, AMirrorIsSeenByItsSurfaceNotByItsBounds) {
+    const scene::Scene gallery = scene::load("gallery", {});
+    const scene::Scene now = scene::at(gallery, 0);
+    const Model model = required({now, scene::camera_at(gallery.cameras[0], 0)});
+    const std::string text = to_text(model, now);
+    EXPECT_THAT(text, testing::Not(HasSubstr("mirror 1 'large ball': in the camera's view")));
+    const Picture picture(gallery.cameras[0], {512, 512});
+    const scene::Object& ball = now.objects[scene::mirrors(now)[0]];
+    EXPECT_TRUE(picture.may_hold(scene::bounds(now, ball)));
 }
 
 /// Counts of what was found and of what was not to be.

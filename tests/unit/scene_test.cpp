@@ -260,9 +260,11 @@ TEST(Lights, ClosedBallHasNoDirection) {
     EXPECT_EQ(found[0].normal, dvec3(0));
     expect_near(found[0].position, {1, 2, 3}, 1e-12);
     EXPECT_NEAR(found[0].area, 4 * M_PI * 9, 1);
+    EXPECT_TRUE(found[0].closed);
+    EXPECT_EQ(share_towards(found[0], {0, 1, 0}), .25);
 }
 
-TEST(Lights, OneOfTwoSidesHasNoCosine) {
+TEST(Lights, OneOfTwoSidesShinesBothWays) {
     Scene scene = glowing(quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}));
     EXPECT_TRUE(is_one_sided(scene.materials[0]));
     EXPECT_EQ(lights(scene).at(0).normal, dvec3(0, 1, 0));
@@ -270,6 +272,8 @@ TEST(Lights, OneOfTwoSidesHasNoCosine) {
     scene.materials[0].two_sided = true;
     EXPECT_FALSE(is_one_sided(scene.materials[0]));
     EXPECT_EQ(lights(scene).at(0).normal, dvec3(0));
+    EXPECT_NEAR(share_towards(lights(scene).at(0), {0, .6, .8}), .6, 1e-12);
+    EXPECT_NEAR(share_towards(lights(scene).at(0), {0, -.6, .8}), .6, 1e-12);
     EXPECT_NE(hash(scene), before);
 }
 

@@ -76,6 +76,33 @@ TEST(Light, NeedsNoShadowRayWhereACosineIsNotPositive) {
     EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(kInfinity), vec3(0)));
 }
 
+TEST(Light, MeanCosineIsTheSameBothWays) {
+    const vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    const vec3 direction = glm::normalize(vec3(.3f, -.5f, .2f));
+    EXPECT_FLOAT_EQ(f32::mean_cosine(direction, x, y, z, vec3(0, 0, 1)), direction.z);
+    EXPECT_FLOAT_EQ(f32::mean_cosine(-direction, x, y, z, vec3(0, 0, 1)), direction.z);
+    EXPECT_FLOAT_EQ(f32::mean_cosine(direction, x, y, z, vec3(.5f)), .5f);
+}
+
+TEST(Light, AFacetTakesNothingFromBelowItsPlane) {
+    const vec3 normal = glm::normalize(vec3(1, 1, 0));
+    for (const float size : {1.0f, -1.0f, 1e-6f, 1e6f}) {
+        const auto share = [&](double degrees) {
+            const double angle = glm::radians(degrees);
+            return f32::facet_share(vec3(std::cos(angle), std::sin(angle), 0), normal,
+                                    vec3(0, size, 0));
+        };
+        EXPECT_EQ(share(-40), 0);
+        EXPECT_EQ(share(-.001), 0);
+        EXPECT_NEAR(share(3), .5, .01);
+        EXPECT_EQ(share(6.001), 1);
+        EXPECT_EQ(share(90), 1);
+        // Where normal and facet agree nothing fades.
+        const vec3 up(0, 1, 0), grazing = glm::normalize(vec3(1, .01f, 0));
+        EXPECT_NEAR(f32::facet_share(grazing, up, size * up), 1, 1e-5);
+    }
+}
+
 TEST(Mirror, ReflectsAboutTheNormalFromEitherSide) {
     const vec3 d = glm::normalize(vec3(1, -1, 0));
     const vec3 expected = glm::normalize(vec3(1, 1, 0));

@@ -26,6 +26,15 @@ INLINE vec3 triangle_point(vec3 a, vec3 b, vec3 c, vec3 w, OUT(vec3) error) {
     return point;
 }
 
+// How far above a place of a triangle, by its weights w, a smooth surface is that has these normals at its corners:
+// the mean height of the planes across them (Hanika, "Hacking the shadow terminator", Ray Tracing Gems II, 2021).
+// A curved body lies between this and half of it; a hollow one below the facet: 0.
+INLINE real smooth_lift(vec3 a, vec3 b, vec3 c, vec3 n_a, vec3 n_b, vec3 n_c, vec3 w) {
+    vec3 point = w.x * a + w.y * b + w.z * c;
+    vec3 heights = vec3(dot(a - point, n_a), dot(b - point, n_b), dot(c - point, n_c));
+    return dot(w, max(heights, vec3(real(0))));
+}
+
 // The same for a hit on a sphere; the point is put back onto the surface.
 INLINE vec3 sphere_point(vec3 centre, real radius, Ray ray, real t, OUT(vec3) error) {
     vec3 arm = (ray.origin - centre) + t * ray.direction;

@@ -20,6 +20,26 @@ INLINE bool light_term(vec3 position, vec3 normal, vec3 light_position, vec3 lig
     return true;
 }
 
+// Sine of the angle above a facet's plane within which light fades, 6 degrees; and the most by which the normals of
+// what is lit by its normals alone leave those of its facets.
+const real kFacetFade = real(0.10452846326765347);
+
+// The side of a facet on which the shading normal lies.
+INLINE vec3 facet_side(vec3 normal, vec3 facet) { return dot(normal, facet) < real(0) ? -facet : facet; }
+
+// What a facet takes of a light in a unit direction that is in front of the unit `normal`: nothing from below its
+// plane, all from 6 degrees above it, or from as high as above the normal's own. `facet`: along its normal, of any length.
+INLINE real facet_share(vec3 direction, vec3 normal, vec3 facet) {
+    real sine = dot(direction, facet_side(normal, facet)) / length(facet);
+    real t = clamp(sine / min(kFacetFade, dot(direction, normal)), real(0), real(1));
+    return t * t * (real(3) - real(2) * t);
+}
+
+// Mean |cosine| of a lamp's facets to a direction. `cosines`: the same to three orthogonal axes.
+INLINE real mean_cosine(vec3 direction, vec3 right, vec3 down, vec3 forward, vec3 cosines) {
+    return length(cosines * vec3(dot(right, direction), dot(down, direction), dot(forward, direction)));
+}
+
 // What is left of a light without a surface at a distance, as KHR_lights_punctual has it: 1 near by, 0 from its
 // range on. `reach`: one over the range; 0 without one.
 INLINE real range_share(real distance, real reach) {

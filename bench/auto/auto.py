@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Measures `auto` beside rows of one technique each, over six shipped and six drawn scenes and drawn views of them.
+
+auto.py [--views N] [--size WxH] [--rounds N] [--rows T ...] CATOPTRIC OUT [SCENE...]: compares in each view, writes
+OUT/auto.json (every figure) and OUT/auto.md (a line for each scene), and lists the views in which a row beats `auto`:
+  faster: its processor time is less than auto's / 1.15 and its FLIP is no larger;
+  better: its FLIP is less than auto's / 1.1 and its processor time is no larger;
+  traces more: auto traces more pixels than `hybrid`.
+Ends with 1 where a row does. What is measured already in OUT/auto.json is kept; --again measures it anew.
+"""
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+import scenes
+
+SHIPPED = ["cornell-mirrors", "cornell-mirrors-closed", "courtyard", "flat", "gallery", "room"]
+ROWS = ["auto", "reuse", "parallax", "proxy", "secant", "march", "pyramid", "layered", "hybrid", "planar"]
+FASTER, BETTER = 1.15, 1.1
+
+
+def measured(arguments, name, scene, view, rows):
+    """By row: processor milliseconds of a frame, FLIP on mirrors, pixels traced, and the plan of `auto`."""
+    folder = os.path.join(arguments.out, "compare")
+    run = subprocess.run([arguments.program, "compare", scene, "-o", folder, "--size", arguments.size, "--camera", "seeded",
+                          "--seed", str(view), "--frames", str(2 * arguments.rounds), "--warmup", "4", "--rounds",
+                          str(arguments.rounds), "--quiet", "--json", "--techniques", *rows],
+                         capture_output=True, text=True)
+    if run.returncode != 0:
+        sys.exit(f"auto: {name}, view {view}: {run.stderr}")
+    found = {}
+    for row in json.loads(run.stdout)["rows"]:
+        error = row["error"]
+        found[row["label"]] = {"ms": row["cpu_ms"]["median"], "flip": error["flip"], "rmse": error["rmse"],
+                               "traced": (row.get("rays") or {}).get("primary", 0),
+                               "drawn": [[entry["technique"], entry["settings"]] for entry in row["plan"]],
+                               "plan": sorted({entry["why"] for entry in row["plan"]}) if row["label"] == "auto" else []}
+    return found
+
+
+def beaten(found):
+    """Rows that beat auto in a view, as (how, row, by how much)."""
+    ours, worse = found["auto"], []
+    for name, row in found.items():
+        if name == "auto" or row["flip"] is None or row.get("drawn") == ours.get("drawn", []):
+            continue  # what draws the same differs by noise alone
+        if row["flip"] <= ours["flip"] and row["ms"] * FASTER < ours["ms"]:
+            worse.append(("faster", name, ours["ms"] / row["ms"]))
+        if row["ms"] <= ours["ms"] and row["flip"] * BETTER < ours["flip"]:
+            worse.append(("better", name, ours["flip"] / max(row["flip"], 1e-9)))
+        if name == "hybrid" and ours["traced"] > row["traced"] + 1e-9:
+            worse.append(("traces more", name, ours["traced"] / max(row["traced"], 1e-9)))
+    return worse
+
+
+def line_of(name, views):
+    """A row of the table: medians over the views of a scene, and in how many a row beats auto."""
+    median = lambda row, key: statistics.median(found[row][key] for found in views.values())
+    worse = sum(1 for found in views.values() if beaten(found))
+    cells = [name, f"{median('auto', 'ms'):.1f}, {median('auto', 'flip'):.4f}"]
+    for row in ("planar", "secant", "pyramid", "hybrid"):
+        cells.append(f"{median(row, 'ms'):.1f}, {median(row, 'flip'):.4f}" if row in next(iter(views.values())) else "")
+    return "| " + " | ".join([*cells, f"{worse} of {len(views)}"]) + " |"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--views", type=int, default=30)
+    parser.add_argument("--size", default="96x96")
+    parser.add_argument("--rounds", type=int, default=6)
+    parser.add_argument("--rows", nargs="+", default=ROWS)
+    parser.add_argument("--again", action="store_true")
+    parser.add_argument("program")
+    parser.add_argument("out")
+    parser.add_argument("scene", nargs="*")
+    arguments = parser.parse_args()
+    files = {**{name: name for name in SHIPPED}, **scenes.write(os.path.join(arguments.out, "scenes"))}
+    chosen = arguments.scene or list(files)
+    store = os.path.join(arguments.out, "auto.json")
+    known = json.load(open(store)) if os.path.exists(store) else {}
+    lines, count = [], 0
+    for name in chosen:
+        views = known.setdefault(name, {})
+        for view in range(1, arguments.views + 1):
+            found = views.setdefault(str(view), {})
+            missing = [row for row in arguments.rows if arguments.again or row not in found]
+            if missing:
+                found.update(measured(arguments, name, files[name], view, missing))
+                with open(store, "w") as file:
+                    json.dump(known, file, indent=1)
+            for how, row, much in beaten(found):
+                count += 1
+                print(f"{name} view {view}: {row} is {how}, {much:.2f}x: {row} {found[row]['ms']:.1f} ms "
+                      f"{found[row]['flip']:.4f}, auto {found['auto']['ms']:.1f} ms {found['auto']['flip']:.4f}; "
+                      f"{'; '.join(found['auto']['plan'])}", flush=True)
+        lines.append(line_of(name, {view: views[view] for view in map(str, range(1, arguments.views + 1))}))
+        print(lines[-1], flush=True)
+    with open(os.path.join(arguments.out, "auto.md"), "w") as file:
+        file.write("| scene | `auto`: ms, FLIP | `planar` | `secant` | `pyramid` | `hybrid` | beaten in views |\n"
+                   "|---|---|---|---|---|---|--:|\n" + "\n".join(lines) + "\n")
+    return 1 if count else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

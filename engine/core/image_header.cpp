@@ -1,0 +1,137 @@
+#include "core/image_header.hpp"
+
+#include "core/error.hpp"
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace catoptric {
+
+namespace {
+
+/// Whole numbers at places of a file; 0 beyond its end.
+class Numbers {
+public:
+    explicit Numbers(const ByteSource& bytes) : bytes_(bytes) {}
+
+    std::uint32_t little(std::uint64_t offset, std::size_t size) const {
+        std::uint32_t value = 0;
+        const auto read = bytes_at(offset);
+        for (std::size_t i = 0; i < size; ++i) value |= std::uint32_t(read[i]) << (8 * i);
+        return value;
+    }
+    std::uint32_t big(std::uint64_t offset, std::size_t size) const {
+        std::uint32_t value = 0;
+        const auto read = bytes_at(offset);
+        for (std::size_t i = 0; i < size; ++i) value = value << 8 | read[i];
+        return value;
+    }
+
+private:
+    std::array<unsigned char, 4> bytes_at(std::uint64_t offset) const {
+        std::array<char, 4> read{};
+        bytes_.read(offset, read);
+        std::array<unsigned char, 4> values{};
+        for (std::size_t i = 0; i < 4; ++i) values[i] = static_cast<unsigned char>(read[i]);
+        return values;
+    }
+
+    const ByteSource& bytes_;
+};
+
+ImageShape shape_of(std::uint32_t width, std::uint32_t height, std::size_t channel_count) {
+    return {{width, height}, channel_count, {}};
+}
+
+/// The frame header behind as many segments as there are. What is no JPEG any more has no pixel.
+ImageShape jpeg_header(const ByteSource& bytes) {
+    const Numbers numbers(bytes);
+    for (std::uint64_t at = 2; at + 9 < bytes.size();) {
+        const std::uint32_t mark = numbers.big(at, 2), kind = mark & 0xff;
+        if (mark >> 8 != 0xff) break;
+        if (kind == 0xff) { // a fill byte
+            ++at;
+            continue;
+        }
+        const bool is_frame = kind >= 0xc0 && kind <= 0xcf && kind != 0xc4 && kind != 0xc8 &&
+                              kind != 0xcc;
+        if (is_frame)
+            return shape_of(numbers.big(at + 7, 2), numbers.big(at + 5, 2), numbers.big(at + 9, 1));
+        at += 2 + numbers.big(at + 2, 2);
+    }
+    return {};
+}
+
+ImageShape webp_header(const ByteSource& bytes) {
+    const Numbers numbers(bytes);
+    switch (numbers.big(12, 4)) {
+    case 0x56503858: // "VP8X"
+        return shape_of(numbers.little(24, 3) + 1, numbers.little(27, 3) + 1, 4);
+    case 0x5650384c: { // "VP8L": two sides of 14 bits
+        const std::uint32_t bits = numbers.little(21, 4);
+        return shape_of((bits & 0x3fff) + 1, (bits >> 14 & 0x3fff) + 1, 4);
+    }
+    default: return shape_of(numbers.little(26, 2) & 0x3fff, numbers.little(28, 2) & 0x3fff, 3);
+    }
+}
+
+/// The sides of "-Y 512 +X 1024"; 0 for what is something else.
+uvec2 radiance_sides(std::string_view line) {
+    uvec2 sides{0};
+    const auto take = [&](std::string_view axis, std::uint32_t& side) {
+        const std::size_t at = line.find(axis);
+        if (at == line.npos) return;
+        line.remove_prefix(at + axis.size());
+        std::from_chars(line.data(), line.data() + line.size(), side);
+    };
+    take("Y ", sides.y), take("X ", sides.x);
+    return sides;
+}
+
+ImageShape radiance_header(const ByteSource& bytes, const std::string& name) {
+    constexpr std::size_t kLongest = 1 << 16;
+    std::string text(std::min<std::uint64_t>(kLongest, bytes.size()), '\0');
+    text.resize(bytes.read(0, text));
+    const std::size_t blank = text.find("\n\n");
+    const std::size_t end = blank == text.npos ? text.npos : text.find('\n', blank + 2);
+    check(end != text.npos, Failure::bad_data, name,
+          ": cannot be decoded: wanted a blank line and the picture's size within ", kLongest,
+          " bytes, found none");
+    const uvec2 size = radiance_sides(std::string_view(text).substr(blank + 2, end - blank - 2));
+    // Lines of 8 to 32767 pixels are runs of at most 127 for each of 4 channels, the others flat.
+    const bool has_runs = size.x >= 8 && size.x < 1 << 15;
+    const std::uint64_t line = has_runs ? 4 + 8 * std::uint64_t((size.x + 126) / 127)
+                                        : 4 * std::uint64_t(size.x);
+    const std::uint64_t least = end + 1 + line * size.y;
+    check(least <= bytes.size(), Failure::bad_data, name, ": wanted at least ", least,
+          " bytes for ", size.x, "x", size.y, " pixels, found ", bytes.size());
+    return {size, 3, {"R", "G", "B"}};
+}
+
+} // namespace
+
+std::optional<ImageShape> header_of(const ByteSource& bytes, const std::string& format,
+                                    const std::string& name) {
+    const Numbers numbers(bytes);
+    if (format == "openexr") return openexr_header(bytes, name);
+    if (format == "hdr") return radiance_header(bytes, name);
+    if (format == "jpeg") return jpeg_header(bytes);
+    if (format == "webp") return webp_header(bytes);
+    if (format == "gif") return shape_of(numbers.little(6, 2), numbers.little(8, 2), 4);
+    if (format == "dds") return shape_of(numbers.little(16, 4), numbers.little(12, 4), 4);
+    if (format == "targa") return shape_of(numbers.little(12, 2), numbers.little(14, 2), 4);
+    if (format == "psd")
+        return shape_of(numbers.big(18, 4), numbers.big(14, 4), numbers.big(12, 2));
+    if (format == "bmp") {
+        const bool is_old = numbers.little(14, 4) == 12; // sides of 16 bits
+        if (is_old) return shape_of(numbers.little(18, 2), numbers.little(20, 2), 4);
+        const std::uint32_t height = numbers.little(22, 4);
+        return shape_of(numbers.little(18, 4), height >> 31 ? ~height + 1 : height, 4);
+    }
+    return std::nullopt;
+}
+
+} // namespace catoptric

@@ -1,0 +1,215 @@
+// The header of OpenEXR, https://openexr.com/en/latest/OpenEXRFileLayout.html, as far as it says
+// how much memory the file asks for.
+#include "core/error.hpp"
+#include "core/image_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+namespace catoptric {
+
+namespace {
+
+constexpr std::size_t kLongestName = 255;
+constexpr std::uint32_t kIsTiled = 0x200, kHasDeepParts = 0x800, kHasManyParts = 0x1000;
+
+/// Reads a file from front to end.
+class Cursor {
+public:
+    Cursor(const ByteSource& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+    [[noreturn]] void refuse(const auto&... what) const {
+        fail(Failure::bad_data, name_, ": cannot be decoded: byte ", at_, ": ", what...);
+    }
+    std::uint64_t left() const { return bytes_.size() - at_; }
+
+    std::uint32_t number() {
+        std::array<char, 4> read{};
+        take(read);
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            value |= std::uint32_t(static_cast<unsigned char>(read[i])) << (8 * i);
+        return value;
+    }
+    std::int32_t whole() { return static_cast<std::int32_t>(number()); }
+    std::uint8_t byte() {
+        std::array<char, 1> read{};
+        take(read);
+        return static_cast<std::uint8_t>(read[0]);
+    }
+    /// Up to a zero byte, which is taken too.
+    std::string word() {
+        std::array<char, kLongestName + 1> read{};
+        const std::string_view text(read.data(), bytes_.read(at_, read));
+        const std::size_t end = text.find('\0');
+        if (end == text.npos) refuse("wanted a name of at most ", kLongestName, " bytes");
+        at_ += end + 1;
+        return std::string(text.substr(0, end));
+    }
+    /// Whether a zero byte comes next, which is taken then.
+    bool takes_zero() {
+        const bool is_zero = byte() == 0;
+        if (!is_zero) --at_;
+        return is_zero;
+    }
+    /// Throws where so many bytes are not there.
+    void need(std::uint64_t size, const char* what) const {
+        if (size > left()) refuse("wanted ", size, " bytes of ", what, ", found ", left());
+    }
+    void skip(std::uint64_t size) {
+        need(size, "an attribute");
+        at_ += size;
+    }
+    std::uint64_t at() const { return at_; }
+    void go_to(std::uint64_t at) { at_ = at; }
+
+private:
+    void take(std::span<char> into) {
+        if (bytes_.read(at_, into) < into.size()) refuse("the file ends in its header");
+        at_ += into.size();
+    }
+
+    const ByteSource& bytes_;
+    const std::string& name_;
+    std::uint64_t at_ = 0;
+};
+
+/// What one part says of itself.
+struct Part {
+    std::vector<std::string> channels;
+    std::uint64_t pixel_bytes = 0;
+    bool is_subsampled = false;
+    std::uint32_t compression = 0;
+    std::array<std::int32_t, 4> window{0, 0, -1, -1};
+    std::array<std::uint32_t, 2> tile{};
+    bool is_tiled = false;
+    std::uint64_t chunk_count = 0; ///< as the file claims; 0: it does not
+
+    std::uint64_t side(std::size_t axis) const {
+        const std::int64_t first = window[axis], last = window[axis + 2];
+        return static_cast<std::uint64_t>(std::max<std::int64_t>(0, last - first + 1));
+    }
+};
+
+void read_channels(Cursor& file, Part& part, std::uint64_t end) {
+    while (file.at() < end) {
+        std::string name = file.word();
+        if (name.empty()) break;
+        const std::uint32_t type = file.number();
+        file.number(); // whether it is linear
+        const std::uint32_t across = file.number(), down = file.number();
+        part.is_subsampled |= across != 1 || down != 1;
+        part.pixel_bytes += type == 1 ? 2 : 4;
+        part.channels.push_back(std::move(name));
+    }
+}
+
+/// Strings of a vector, each with a length that OpenEXR believes.
+void check_strings(Cursor& file, std::uint64_t end) {
+    while (file.at() + 4 <= end) {
+        const std::uint32_t size = file.number();
+        if (size > end - std::min(end, file.at())) file.refuse("a string of ", size, " bytes");
+        file.skip(size);
+    }
+}
+
+void read_attribute(Cursor& file, Part& part, const std::string& name, const std::string& type) {
+    const std::uint32_t size = file.number();
+    file.need(size, "an attribute");
+    const std::uint64_t end = file.at() + size;
+    if (name == "channels") {
+        read_channels(file, part, end);
+    } else if (name == "compression" && size == 1) {
+        part.compression = file.byte();
+    } else if (name == "dataWindow" && size == 16) {
+        for (std::int32_t& edge : part.window) edge = file.whole();
+    } else if (name == "tiles" && size == 9) {
+        part.is_tiled = true;
+        for (std::uint32_t& side : part.tile) side = file.number();
+    } else if (name == "chunkCount" && size == 4) {
+        part.chunk_count = file.number();
+    } else if (type == "stringvector") {
+        check_strings(file, end);
+    } else if (type == "preview" && size >= 8) {
+        const std::uint64_t width = file.number(), height = file.number();
+        if (width * height > (size - 8) / 4)
+            file.refuse("a preview of ", width, "x", height, " pixels in ", size, " bytes");
+    }
+    file.go_to(end);
+}
+
+Part read_part(Cursor& file, bool is_tiled) {
+    Part part;
+    part.is_tiled = is_tiled;
+    for (std::string name = file.word(); !name.empty(); name = file.word()) {
+        const std::string type = file.word();
+        read_attribute(file, part, name, type);
+    }
+    return part;
+}
+
+/// Lines in one chunk.
+std::uint32_t chunk_lines(std::uint32_t compression) {
+    constexpr std::uint32_t kLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+    return compression < std::size(kLines) ? kLines[compression] : 256;
+}
+
+/// How many bytes of values one byte of the file can stand for. None: RLE stores runs of 128 in 2
+/// bytes, deflate at most 1032 for 1, PXR24 drops a quarter of a float before that, B44A keeps 32
+/// bytes in 3. Nothing is known of the others.
+double most_expansion(std::uint32_t compression) {
+    constexpr double kMost[] = {1, 64, 1032, 1032, 0, 1032 * 4 / 3.0, 11, 11};
+    const double most = compression < std::size(kMost) ? kMost[compression] : 0;
+    return most > 0 ? most : std::numeric_limits<double>::infinity();
+}
+
+/// The least bytes that chunks of this part take, each with 8 in the table of chunks and 8 before
+/// its values. A double, since a product of what the file claims may be above any whole number.
+double least_bytes(const Cursor& file, const Part& part) {
+    const auto width = double(part.side(0)), height = double(part.side(1));
+    double chunks = std::ceil(height / chunk_lines(part.compression));
+    if (part.is_tiled) {
+        // OpenEXR makes a buffer for a whole tile, however small the picture is.
+        constexpr double kLargest = 1024;
+        const auto [across, down] = part.tile;
+        if (across == 0 || down == 0 || across > std::max(kLargest, width) ||
+            down > std::max(kLargest, height))
+            file.refuse("wanted tiles of 1 to ", kLargest, " pixels a side or as large as the ",
+                        "picture, found ", across, "x", down, " for ", width, "x", height);
+        chunks = std::ceil(width / across) * std::ceil(height / down);
+    }
+    const double values = part.is_subsampled ? 0 : width * height * double(part.pixel_bytes);
+    return 16 * std::max(chunks, double(part.chunk_count)) +
+           std::floor(values / most_expansion(part.compression));
+}
+
+} // namespace
+
+ImageShape openexr_header(const ByteSource& bytes, const std::string& name) {
+    Cursor file(bytes, name);
+    file.number(); // the mark of the format
+    const std::uint32_t flags = file.number();
+    check((flags & kHasDeepParts) == 0, Failure::bad_data, name,
+          ": wanted a flat picture, found a deep one");
+    std::vector<Part> parts{read_part(file, (flags & kIsTiled) != 0)};
+    if ((flags & kHasManyParts) != 0)
+        while (!file.takes_zero()) parts.push_back(read_part(file, false));
+    double least = 0;
+    for (const Part& part : parts) least += least_bytes(file, part);
+    const Part& first = parts.front();
+    check(least <= double(file.left()), Failure::bad_data, name, ": wanted at least ",
+          static_cast<std::uint64_t>(std::min(least, 1e18)), " bytes behind its header for ",
+          first.side(0), "x", first.side(1), " pixels of ", first.channels.size(),
+          " channels, found ", file.left());
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    return {{static_cast<std::uint32_t>(std::min(first.side(0), kMost)),
+             static_cast<std::uint32_t>(std::min(first.side(1), kMost))},
+            first.channels.size(),
+            first.channels};
+}
+
+} // namespace catoptric

@@ -1,0 +1,121 @@
+#include "core/json.hpp"
+
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace catoptric {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kDeepest = 64;
+constexpr int kOutOfRange = 406; // the parser's number for a number that no double holds
+
+/// The parser's words, and what it wanted there. The first that fits holds.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kWanted{
+    {{"missing closing quote", "a closing quotation mark"},
+     {"control character", "control characters of a text written as \\n, \\t or \\u00XX"},
+     {"ill-formed UTF-8", "UTF-8"},
+     {"invalid string", "a complete escape sequence, such as \\n or \\u00e9"},
+     {"invalid number", "a digit"},
+     {"invalid BOM", "the byte order mark of UTF-8, or none"},
+     {"; expected string literal", "a key in quotation marks"},
+     {"; expected ':'", "':'"},
+     {"; expected ']'", "',' or ']'"},
+     {"; expected '}'", "',' or '}'"},
+     {"; expected end of input", "the end"},
+     {"", "a value"}}};
+
+std::string place_of(const std::string& file, std::string_view text, std::size_t at) {
+    const std::string_view before = text.substr(0, at);
+    const auto lines = std::ranges::count(before, '\n');
+    const std::size_t line_start = lines == 0 ? 0 : before.rfind('\n') + 1;
+    return file + ": JSON: line " + std::to_string(lines + 1) + ", column " +
+           std::to_string(at - line_start + 1);
+}
+
+/// Returns the length of the last word of what the parser calls the token it read, which may hold
+/// what stands before it, too.
+std::size_t last_word(const std::string& token) {
+    constexpr std::string_view kPunctuation = "[]{}:,";
+    if (token.empty() || kPunctuation.find(token.back()) != kPunctuation.npos) return 1;
+    const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+    if (!is_letter(token.back())) return token.size(); // of a number or a text it is exact
+    const auto before = std::find_if_not(token.rbegin(), token.rend(), is_letter);
+    return static_cast<std::size_t>(before - token.rbegin());
+}
+
+/// What stands at `at`: the word that was read, or one character.
+std::string found_at(std::string_view text, std::size_t at, std::size_t length) {
+    constexpr std::size_t kLongest = 40;
+    if (at >= text.size()) return "the end";
+    const std::string_view word = text.substr(at, std::clamp<std::size_t>(length, 1, kLongest));
+    return "'" + printable(word) + "'" + (length > kLongest ? "..." : "");
+}
+
+class Reader : public nlohmann::json_sax<Json> {
+public:
+    Reader(const std::string& file, std::string_view text, const JsonSpends& spends)
+        : file_(file), text_(text), spends_(spends) {}
+
+    bool null() override { return value(); }
+    bool boolean(bool) override { return value(); }
+    bool number_integer(number_integer_t) override { return value(); }
+    bool number_unsigned(number_unsigned_t) override { return value(); }
+    bool number_float(number_float_t, const string_t&) override { return value(); }
+    bool string(string_t& text) override { return value(32 + text.size()); }
+    bool binary(binary_t&) override { return value(); }
+    bool key(string_t& text) override { return value(64 + text.size()); }
+    bool start_object(std::size_t) override { return deeper(); }
+    bool start_array(std::size_t) override { return deeper(); }
+    bool end_object() override { return --depth_ >= 0; }
+    bool end_array() override { return --depth_ >= 0; }
+
+    /// `read`: characters read so far, one more at the end of the text; `token`: the last of them.
+    bool parse_error(std::size_t read, const std::string& token,
+                     const Json::exception& error) override {
+        const std::string_view words = error.what();
+        const bool is_whole = words.find("unexpected") != words.npos || error.id == kOutOfRange;
+        const bool is_end = words.find("unexpected end of input") != words.npos;
+        const std::size_t length = is_whole ? last_word(token) : 1;
+        const std::size_t at = is_end ? text_.size()
+                                      : std::min(read - std::min(read, length), text_.size());
+        const auto* wanted = std::ranges::find_if(
+            kWanted, [&](const auto& one) { return words.find(one.first) != words.npos; });
+        fail(Failure::bad_data, place_of(file_, text_, at), ": wanted ",
+             error.id == kOutOfRange ? "a number that a double can hold" : wanted->second,
+             ", found ", found_at(text_, at, length));
+    }
+
+private:
+    /// A value of a list or map takes 32 bytes, with what these keep around it, and its own.
+    bool value(std::uint64_t more = 0) {
+        if (spends_) spends_(32 + more);
+        return true;
+    }
+    bool deeper() {
+        check(++depth_ < kDeepest, Failure::bad_data, file_, ": JSON: wanted nesting below ",
+              kDeepest, ", found more");
+        return value(64);
+    }
+
+    const std::string& file_;
+    std::string_view text_;
+    const JsonSpends& spends_;
+    int depth_ = 0;
+};
+
+} // namespace
+
+void check_json(const std::string& file, std::string_view text, const JsonSpends& spends) {
+    Reader reader(file, text, spends);
+    Json::sax_parse(text, &reader);
+}
+
+} // namespace catoptric

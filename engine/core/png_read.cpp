@@ -1,0 +1,202 @@
+#include "core/png_read.hpp"
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+#include <png.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstdint>
+#include <exception>
+#include <type_traits>
+#include <vector>
+
+namespace catoptric {
+
+namespace {
+
+struct Origin {
+    const ByteSource& bytes;
+    std::uint64_t at = 0;
+    std::string why;
+};
+
+[[noreturn]] void give_up(png_structp png, png_const_charp why) {
+    auto& origin = *static_cast<Origin*>(png_get_error_ptr(png));
+    try {
+        origin.why = printable(why);
+    } catch (const std::exception&) { // goes without
+    }
+    png_longjmp(png, 1);
+}
+void ignore(png_structp, png_const_charp) {}
+
+void take(png_structp png, png_bytep into, std::size_t size) {
+    auto& origin = *static_cast<Origin*>(png_get_io_ptr(png));
+    bool is_whole = false;
+    try {
+        is_whole = origin.bytes.read(origin.at, {reinterpret_cast<char*>(into), size}) == size;
+    } catch (const std::exception&) { // must not pass through a library in C
+    }
+    if (!is_whole) png_error(png, "the file ends early");
+    origin.at += size;
+}
+
+// Functions that libpng leaves by longjmp: nothing in them has a destructor.
+
+/// Up to the first values. Whether that worked.
+bool read_header(png_structp png, png_infop info) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_read_info(png, info);
+    return true;
+}
+
+bool start(png_structp png, png_infop info) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_set_expand(png); // to 8 bits and alpha
+    png_read_update_info(png, info);
+    return true;
+}
+
+bool read_row(png_structp png, png_bytep row) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_read_row(png, row, nullptr);
+    return true;
+}
+
+bool read_all(png_structp png, png_bytepp rows) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_read_image(png, rows);
+    return true;
+}
+
+/// `row` of values of 8 bits, or of 16 with the high byte first.
+template <typename Value>
+void convert(const std::uint8_t* row, std::size_t count, bool is_wide, Value* values) {
+    constexpr bool kToFloat = std::is_same_v<Value, float>;
+    if (!is_wide) {
+        if constexpr (kToFloat)
+            std::transform(row, row + count, values,
+                           [](std::uint8_t value) { return float(value) * (1.0F / 255); });
+        else
+            std::copy_n(row, count, values);
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t value = std::uint32_t(row[2 * i]) << 8 | row[2 * i + 1];
+        if constexpr (kToFloat)
+            values[i] = float(value) * (1.0F / 65535);
+        else
+            values[i] = static_cast<std::uint8_t>((value + 128) / 257);
+    }
+}
+
+} // namespace
+
+struct PngReader::Open {
+    Open(const ByteSource& bytes, const std::string& its_name) : origin{bytes}, name(its_name) {
+        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &origin, give_up, ignore);
+        info = png ? png_create_info_struct(png) : nullptr;
+        if (!info) {
+            png_destroy_read_struct(&png, &info, nullptr);
+            fail(Failure::exhausted, name, ": not enough memory to decode it");
+        }
+        png_set_read_fn(png, &origin, take);
+        png_set_user_limits(png, ImageReader::kLargestSide, ImageReader::kLargestSide);
+    }
+    ~Open() { png_destroy_read_struct(&png, &info, nullptr); }
+    Open(const Open&) = delete;
+    Open& operator=(const Open&) = delete;
+
+    void require(bool works) const {
+        if (works) return;
+        fail(Failure::bad_data, name, ": cannot be decoded", origin.why.empty() ? "" : ": ",
+             origin.why);
+    }
+    /// Throws for more values than deflate can make of the file.
+    void check_size() const {
+        const std::uint64_t bits = std::uint64_t(png_get_bit_depth(png, info)) *
+                                   png_get_channels(png, info);
+        const std::uint64_t row_bytes = 1 + (png_get_image_width(png, info) * bits + 7) / 8;
+        const std::uint64_t least = row_bytes * png_get_image_height(png, info) / 1032;
+        check(least <= origin.bytes.size(), Failure::bad_data, name, ": wanted at least ", least,
+              " bytes for ", png_get_image_width(png, info), "x", png_get_image_height(png, info),
+              " pixels, found ", origin.bytes.size());
+    }
+
+    Origin origin;
+    std::string name;
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    uvec2 size{0};
+    std::size_t channel_count = 0;
+    bool is_wide = false, is_interlaced = false;
+    bool is_started = false;
+    std::uint32_t next = 0;               ///< row
+    std::vector<std::uint8_t> row, whole; ///< whole: of an interlaced picture
+};
+
+PngReader::PngReader(const ByteSource& bytes, const std::string& name)
+    : open_(std::make_unique<Open>(bytes, name)) {
+    Open& open = *open_;
+    open.require(read_header(open.png, open.info));
+    open.size = {png_get_image_width(open.png, open.info),
+                 png_get_image_height(open.png, open.info)};
+    const int colours = png_get_color_type(open.png, open.info);
+    const bool has_alpha = (colours & PNG_COLOR_MASK_ALPHA) != 0 ||
+                           png_get_valid(open.png, open.info, PNG_INFO_tRNS) != 0;
+    open.channel_count = std::size_t((colours & PNG_COLOR_MASK_COLOR) != 0 ? 3 : 1) + has_alpha;
+    open.is_wide = png_get_bit_depth(open.png, open.info) == 16;
+    open.is_interlaced = png_get_interlace_type(open.png, open.info) != PNG_INTERLACE_NONE;
+}
+
+PngReader::~PngReader() = default;
+
+void PngReader::check_size() const { open_->check_size(); }
+
+ImageShape PngReader::shape() const {
+    constexpr const char* kGrey[] = {"Y", "A"};
+    constexpr const char* kColours[] = {"R", "G", "B", "A"};
+    const bool is_grey = open_->channel_count < 3;
+    const char* const* const names = is_grey ? kGrey : kColours;
+    return {open_->size, open_->channel_count, {names, names + open_->channel_count}};
+}
+
+void PngReader::read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type,
+                          void* values) {
+    Open& open = *open_;
+    check(first == open.next && row_count <= open.size.y - first, Failure::internal, open.name,
+          ": wanted row ", open.next, " to be read next, found ", first);
+    const std::size_t count = std::size_t(open.size.x) * open.channel_count;
+    const std::size_t row_bytes = count * (open.is_wide ? 2 : 1);
+    if (!open.is_started) {
+        open.require(start(open.png, open.info));
+        check(png_get_rowbytes(open.png, open.info) == row_bytes, Failure::internal, open.name,
+              ": wanted ", row_bytes, " bytes a row, found ",
+              png_get_rowbytes(open.png, open.info));
+        open.is_started = true;
+        open.row.resize(row_bytes);
+        if (open.is_interlaced) {
+            open.whole.resize(row_bytes * open.size.y);
+            std::vector<png_bytep> rows(open.size.y);
+            for (std::size_t y = 0; y < rows.size(); ++y)
+                rows[y] = open.whole.data() + y * row_bytes;
+            open.require(read_all(open.png, rows.data()));
+        }
+    }
+    for (std::uint32_t y = 0; y < row_count; ++y) {
+        const std::uint8_t* row = open.row.data();
+        if (open.is_interlaced)
+            row = open.whole.data() + std::size_t(first + y) * row_bytes;
+        else
+            open.require(read_row(open.png, open.row.data()));
+        if (type == CodecValue::float32)
+            convert(row, count, open.is_wide, static_cast<float*>(values) + y * count);
+        else
+            convert(row, count, open.is_wide, static_cast<std::uint8_t*>(values) + y * count);
+    }
+    open.next += row_count;
+}
+
+} // namespace catoptric

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "measure/difference.hpp"
+
+#include <span>
+#include <vector>
+
+namespace catoptric::measure {
+
+/// Adds a difference up row by row, so that two pictures need not be in memory as a whole: 9 bytes
+/// a pixel are kept. What comes out does not depend on how many rows come at once.
+class DifferenceSum {
+public:
+    explicit DifferenceSum(int width) : width_(width) {}
+
+    /// The next rows, linear RGB as exposed, with their FLIP. `mask` of as many pixels; empty: all
+    /// count.
+    void add(std::span<const vec3> a, std::span<const vec3> b, std::span<const std::uint8_t> mask,
+             std::span<const float> flip_map);
+
+    /// Of all rows, without the figures that others compute. Leaves nothing behind.
+    Difference take();
+
+private:
+    int width_;
+    Difference result_;
+    std::vector<double> largest_; ///< of each judged pixel
+    Mask off_;
+    std::size_t off_count_ = 0;
+    double squares_ = 0, absolutes_ = 0, flips_ = 0;
+};
+
+/// The same of a mean.
+class MeanSum {
+public:
+    explicit MeanSum(Range range) : range_(range) {}
+
+    void add(std::span<const vec3> pixels, std::span<const std::uint8_t> mask);
+    Mean mean() const;
+
+private:
+    Range range_;
+    dvec3 sum_{0};
+    double count_ = 0;
+};
+
+} // namespace catoptric::measure

@@ -1,0 +1,100 @@
+#include "measure/file_difference.hpp"
+
+#include "core/error.hpp"
+#include "measure/difference_sum.hpp"
+#include "measure/flip.hpp"
+#include "measure/picture_file.hpp"
+#include "measure/quantity.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace catoptric::measure {
+namespace {
+
+constexpr int kBandPixels = 1 << 21; // and at least a row
+
+/// The rows of a picture that one band and what lies around it need.
+class Window {
+public:
+    explicit Window(PictureReader reader) : reader_(std::move(reader)) {}
+
+    /// Rows from `first` to before `end`, of which those that are there already are kept.
+    const Picture& show(int first, int end) {
+        const auto width = static_cast<std::size_t>(reader_.width());
+        std::vector<vec3>& pixels = rows_.pixels;
+        const auto gone = static_cast<std::size_t>(first - first_) * width;
+        pixels.erase(pixels.begin(), pixels.begin() + static_cast<std::ptrdiff_t>(gone));
+        const std::size_t kept = pixels.size();
+        pixels.resize(static_cast<std::size_t>(end - first) * width);
+        reader_.read_rows(end_, std::span(pixels).subspan(kept));
+        first_ = first, end_ = end;
+        rows_.width = reader_.width(), rows_.height = end - first;
+        return rows_;
+    }
+
+private:
+    PictureReader reader_;
+    int first_ = 0, end_ = 0;
+    Picture rows_;
+};
+
+/// Of rows that are equal nothing need be computed.
+std::vector<float> flip_of(const Picture& a, const Picture& b, double exposure_stops,
+                           bool is_of_bytes) {
+    if (a.pixels == b.pixels) return std::vector<float>(a.pixels.size());
+    const auto display = is_of_bytes ? to_display : to_unrounded_display;
+    return flip(display(a, exposure_stops), display(b, exposure_stops));
+}
+
+template <typename Value>
+std::span<const Value> rows_of(const std::vector<Value>& values, int width, int first, int end) {
+    if (values.empty()) return {};
+    return std::span(values).subspan(static_cast<std::size_t>(first) * std::size_t(width),
+                                     static_cast<std::size_t>(end - first) * std::size_t(width));
+}
+
+} // namespace
+
+FileDifference difference_of_files(const std::filesystem::path& a, const std::filesystem::path& b,
+                                   const std::filesystem::path& mask_file, double exposure_stops) {
+    PictureReader of_a(a);
+    const int width = of_a.width(), height = of_a.height();
+    PictureReader of_b(b, [&](int columns, int rows) {
+        check(columns == width && rows == height, Failure::bad_data, a.string(), " is ", width, "x",
+              height, ", ", b.string(), " is ", columns, "x", rows,
+              ": wanted two pictures of one size");
+    });
+    Mask mask;
+    if (!mask_file.empty()) mask = read_mask(mask_file, width, height);
+
+    const bool is_of_bytes = is_png(a) || is_png(b);
+    Window window_a(std::move(of_a)), window_b(std::move(of_b));
+    DifferenceSum sum(width);
+    MeanSum a_mean(Range::unclamped), b_mean(Range::unclamped), a_clamped(Range::clamped),
+        b_clamped(Range::clamped);
+    const int band = std::max(1, kBandPixels / width), reach = flip_reach();
+    for (int first = 0; first < height; first += band) {
+        const int end = std::min(first + band, height), above = std::max(0, first - reach),
+                  below = std::min(height, end + reach);
+        const Picture& part_a = window_a.show(above, below);
+        const Picture& part_b = window_b.show(above, below);
+        const std::vector<float> map = flip_of(part_a, part_b, exposure_stops, is_of_bytes);
+        const auto counted = rows_of(mask, width, first, end);
+        const auto rows_a = rows_of(part_a.pixels, width, first - above, end - above);
+        const auto rows_b = rows_of(part_b.pixels, width, first - above, end - above);
+        a_mean.add(rows_a, counted), a_clamped.add(rows_a, counted);
+        b_mean.add(rows_b, counted), b_clamped.add(rows_b, counted);
+        std::vector<vec3> exposed_a(rows_a.begin(), rows_a.end()),
+            exposed_b(rows_b.begin(), rows_b.end());
+        for (std::vector<vec3>* rows : {&exposed_a, &exposed_b})
+            for (vec3& pixel : *rows) pixel = exposed(pixel, exposure_stops);
+        sum.add(exposed_a, exposed_b, counted, rows_of(map, width, first - above, end - above));
+    }
+    return {width,         height,           sum.take(),       a_mean.mean(),
+            b_mean.mean(), a_clamped.mean(), b_clamped.mean(), is_of_bytes};
+}
+
+} // namespace catoptric::measure

@@ -1,0 +1,162 @@
+#include "require/paths.hpp"
+
+#include "bvh/closest_hit.hpp"
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+namespace catoptric::require {
+
+namespace {
+
+/// The scene's triangles about the eye, with the normals of their corners.
+class Stage {
+public:
+    explicit Stage(const Question& question) : number_(question.now.objects.size(), 0) {
+        const scene::Scene& now = question.now;
+        std::uint32_t mirrors = 0;
+        for (const std::size_t object : scene::mirrors(now)) {
+            number_[object] = ++mirrors;
+            centres_.emplace_back(scene::bounds(now, now.objects[object]).centre() -
+                                  question.camera.eye);
+        }
+        std::vector<bvh::Triangle> triangles;
+        for (std::size_t i = 0; i < now.objects.size(); ++i) add(question, i, triangles);
+        tree_ = bvh::build(triangles);
+    }
+
+    struct Path {
+        std::vector<std::uint32_t> mirrors; ///< in the order in which they are met, from 0
+        bool is_hidden = false;             ///< see Paths::hidden
+    };
+    Path follow(f32::Ray ray) const {
+        Path path;
+        auto hit = bvh::closest_hit<float>(tree_, ray, kFar, bvh::kHidden | bvh::kOneSided);
+        while (hit && number_[hit->object] > 0 && path.mirrors.size() < kLongestPath) {
+            const std::uint32_t mirror = number_[hit->object] - 1;
+            path.mirrors.push_back(mirror);
+            ray = reflected(ray, *hit);
+            hit = bvh::closest_hit<float>(tree_, ray, kFar, bvh::kOneSided);
+            path.is_hidden = path.is_hidden || !shows(mirror, ray, hit);
+        }
+        return path;
+    }
+
+private:
+    void add(const Question& question, std::size_t index, std::vector<bvh::Triangle>& triangles) {
+        const scene::Object& object = question.now.objects[index];
+        const scene::Mesh& mesh = question.now.meshes[object.mesh];
+        const scene::Material& material = question.now.materials[object.material];
+        const bool is_mirror = number_[index] > 0;
+        const std::uint32_t flags = (object.seen_by_camera ? 0 : bvh::kHidden) |
+                                    (!is_mirror && scene::is_one_sided(material) ? bvh::kOneSided
+                                                                                 : 0);
+        const dmat3 turns = scene::normal_matrix(object.world_from_object);
+        const auto place = [&](std::uint32_t i) {
+            return vec3(scene::transform_point(object.world_from_object, mesh.positions[i]) -
+                        question.camera.eye);
+        };
+        for (const uvec3& t : mesh.triangles) {
+            triangles.push_back(
+                {place(t.x), place(t.y), place(t.z), static_cast<std::uint32_t>(index), flags});
+            if (!is_mirror) continue;
+            normals_.resize(3 * triangles.size(), vec3(0));
+            for (int k = 0; k < 3; ++k)
+                normals_[3 * (triangles.size() - 1) + static_cast<std::size_t>(k)] = vec3(
+                    scene::world_normal(turns, dvec3(mesh.normals[t[k]])));
+        }
+    }
+
+    f32::Ray reflected(const f32::Ray& ray, const bvh::Hit<float>& hit) const {
+        const vec4* corner = &tree_.triangles[3 * std::size_t{hit.place}];
+        const vec3 a(corner[0]), b(corner[1]), c(corner[2]), w = hit.barycentric;
+        const vec3* normals = &normals_[3 * std::size_t{hit.triangle}];
+        vec3 error;
+        const vec3 point = f32::triangle_point(a, b, c, w, error),
+                   facet = f32::facet_normal(a, b, c),
+                   normal = normalize(w.x * normals[0] + w.y * normals[1] + w.z * normals[2]),
+                   direction = f32::mirror_direction(ray.direction, normal, facet);
+        return {f32::spawn_origin(point, error, facet, direction), direction, hit.triangle + 1};
+    }
+
+    /// Whether the mirror's capture shows what the ray met, or that it met nothing. The mirror
+    /// itself is not in it.
+    bool shows(std::uint32_t mirror, const f32::Ray& ray,
+               const std::optional<bvh::Hit<float>>& met) const {
+        constexpr int kMostOwn = 64; // of its own triangles on the way
+        constexpr float kBefore = 1 - 0x1p-10f;
+        if (met && number_[met->object] == mirror + 1) return false;
+        const vec3 centre = centres_[mirror],
+                   way = met ? ray.origin + met->t * ray.direction - centre : ray.direction;
+        float left = met ? length(way) * kBefore : kFar;
+        f32::Ray from{centre, normalize(way), 0};
+        for (int i = 0; i < kMostOwn; ++i) {
+            const auto hit = bvh::closest_hit<float>(tree_, from, left, bvh::kOneSided);
+            if (!hit) return true;
+            if (number_[hit->object] != mirror + 1) return false;
+            from.origin += hit->t * from.direction;
+            from.leaves = hit->triangle + 1;
+            if (met) left -= hit->t;
+        }
+        return false;
+    }
+
+    static constexpr float kFar = std::numeric_limits<float>::max();
+    std::vector<vec3> centres_;         ///< of the mirrors' captures
+    std::vector<std::uint32_t> number_; ///< of the mirror that an object is, from 1; 0: none
+    std::vector<vec3> normals_;         ///< three a triangle, as far as there are mirrors
+    bvh::Bvh tree_;
+};
+
+/// A picture's pixels, or a grid of the same shape with at most kMostPaths.
+uvec2 grid_of(uvec2 size) {
+    const double pixels = 1.0 * size.x * size.y,
+                 scale = std::min(1.0, std::sqrt(static_cast<double>(kMostPaths) / pixels));
+    return max(uvec2(1), uvec2(dvec2(size) * scale));
+}
+
+} // namespace
+
+std::size_t Paths::on_mirrors() const {
+    return std::accumulate(first.begin(), first.end(), std::size_t{0});
+}
+
+Paths paths_of(const Question& question) {
+    const scene::Camera& camera = question.camera;
+    const std::size_t mirrors = scene::mirrors(question.now).size();
+    const Stage stage(question);
+    const uvec2 grid = grid_of(question.size);
+    const dvec3 forward = normalize(camera.target - camera.eye),
+                right = normalize(cross(forward, camera.up)), up = cross(right, forward);
+    const bool is_parallel = camera.orthographic_height > 0;
+    const double half = is_parallel ? camera.orthographic_height / 2
+                                    : std::tan(glm::radians(camera.vertical_fov_degrees) / 2),
+                 aspect = 1.0 * question.size.x / question.size.y;
+    Paths paths{.first = std::vector<std::size_t>(mirrors),
+                .reached = std::vector<std::size_t>(mirrors),
+                .hidden = std::vector<std::size_t>(mirrors)};
+    for (std::uint32_t y = 0; y < grid.y; ++y)
+        for (std::uint32_t x = 0; x < grid.x; ++x, ++paths.count) {
+            const dvec2 at = (dvec2(x, y) + .5) / dvec2(grid) * 2.0 - 1.0;
+            const dvec3 aside = half * (aspect * at.x * right - at.y * up);
+            const f32::Ray ray = is_parallel
+                                     ? f32::Ray{vec3(aside), vec3(forward), 0}
+                                     : f32::Ray{vec3(0), vec3(normalize(forward + aside)), 0};
+            auto [met, is_hidden] = stage.follow(ray);
+            if (met.empty()) continue;
+            ++paths.first[met.front()];
+            paths.hidden[met.front()] += is_hidden;
+            for (std::vector<std::uint32_t> begin = met; !begin.empty(); begin.pop_back())
+                ++paths.through[begin];
+            std::ranges::sort(met);
+            met.erase(std::ranges::unique(met).begin(), met.end());
+            for (const std::uint32_t mirror : met) ++paths.reached[mirror];
+        }
+    return paths;
+}
+
+} // namespace catoptric::require

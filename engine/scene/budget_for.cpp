@@ -1,0 +1,44 @@
+#include "scene/budget_for.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include <sys/resource.h>
+
+namespace catoptric::scene {
+
+Budget budget_for(const std::filesystem::path& scene, const BudgetWish& wish,
+                  std::uint64_t free_bytes) {
+    constexpr std::uint64_t kShareOfFiles = 8, kStoredBytes = 6;
+    Budget budget;
+    std::error_code none;
+    const std::uintmax_t size = std::filesystem::file_size(scene, none);
+    const std::uint64_t stored = none ? 0 : size / kStoredBytes;
+    const std::uint64_t fitting = std::min(stored, free_bytes / kBytesPerTriangle);
+    budget.file_bytes = wish.bytes.value_or(
+        std::max(budget.file_bytes, free_bytes / kShareOfFiles));
+    const std::uint64_t triangles = wish.triangles.value_or(std::max(budget.triangles, fitting));
+    if (triangles > budget.triangles) {
+        budget.vertices = std::max(budget.vertices, 3 * triangles);
+        budget.shown = std::max(budget.shown, 3 * triangles);
+    }
+    budget.triangles = triangles;
+    return budget;
+}
+
+std::uint64_t free_memory() {
+    constexpr std::uint64_t kUnknown = std::uint64_t{1} << 32;
+    std::uint64_t bytes = kUnknown;
+    std::ifstream facts("/proc/meminfo");
+    for (std::string line; std::getline(facts, line);)
+        if (line.starts_with("MemAvailable:"))
+            bytes = std::stoull(line.substr(line.find(':') + 1)) * 1024;
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        bytes = std::min<std::uint64_t>(bytes, limit.rlim_cur);
+    return bytes;
+}
+
+} // namespace catoptric::scene

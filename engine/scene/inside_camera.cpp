@@ -1,0 +1,196 @@
+#include "scene/inside_camera.hpp"
+
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace catoptric::scene {
+
+namespace {
+
+struct Met {
+    double distance = 0;   ///< in lengths of the ray's direction
+    bool is_front = false; ///< its normal turns to the ray's origin
+};
+
+/// Rays through a scene at rest. A ray costs a test of every triangle.
+class Rays {
+public:
+    explicit Rays(const Scene& scene) : scene_(scene) {
+        for (const Object& object : scene.objects)
+            object_from_world_.push_back(glm::inverse(object.world_from_object));
+    }
+
+    /// Returns what a ray from a camera meets first.
+    std::optional<Met> first(const dvec3& origin, const dvec3& direction) const;
+    /// Returns whether something lies between the places.
+    bool is_blocked(const dvec3& from, const dvec3& to) const {
+        constexpr double kShort = 1 - 1e-6; // not the surface itself
+        const auto met = first(from, to - from);
+        return met && met->distance < kShort;
+    }
+
+private:
+    const Scene& scene_;
+    std::vector<dmat4> object_from_world_;
+};
+
+/// Moeller and Trumbore 1997, either side; none behind the origin.
+std::optional<double> distance_to(const dvec3& a, const dvec3& b, const dvec3& c,
+                                  const dvec3& origin, const dvec3& direction) {
+    const dvec3 ab = b - a, ac = c - a, p = cross(direction, ac);
+    const double volume = dot(ab, p);
+    if (volume == 0) return std::nullopt;
+    const dvec3 from_a = origin - a, q = cross(from_a, ab);
+    const double u = dot(from_a, p) / volume, v = dot(direction, q) / volume;
+    const double distance = dot(ac, q) / volume;
+    if (!(u >= 0 && v >= 0 && u + v <= 1 && distance > 0)) return std::nullopt;
+    return distance;
+}
+
+std::optional<Met> Rays::first(const dvec3& origin, const dvec3& direction) const {
+    std::optional<Met> nearest;
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+        const Object& object = scene_.objects[i];
+        if (!object.seen_by_camera) continue;
+        const Mesh& mesh = scene_.meshes[object.mesh];
+        const bool has_back = is_mirror(scene_, object) ||
+                              !is_one_sided(scene_.materials[object.material]);
+        const dvec3 from = transform_point(object_from_world_[i], origin);
+        const dvec3 along = dmat3(object_from_world_[i]) * direction;
+        for (const uvec3& t : mesh.triangles) {
+            const auto distance = distance_to(mesh.positions[t.x], mesh.positions[t.y],
+                                              mesh.positions[t.z], from, along);
+            if (!distance || (nearest && *distance >= nearest->distance)) continue;
+            const dvec3 normal = dvec3(mesh.normals[t.x]) + dvec3(mesh.normals[t.y]) +
+                                 dvec3(mesh.normals[t.z]);
+            const bool is_front = dot(normal, along) < 0;
+            if (is_front || has_back) nearest = Met{*distance, is_front};
+        }
+    }
+    return nearest;
+}
+
+/// Evenly over the sphere, on a spiral with golden angles.
+std::vector<dvec3> directions(int count) {
+    std::vector<dvec3> all;
+    for (int i = 0; i < count; ++i) {
+        const double y = 1 - (2 * i + 1) / static_cast<double>(count),
+                     across = std::sqrt(1 - y * y),
+                     turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
+        all.emplace_back(across * std::cos(turn), y, across * std::sin(turn));
+    }
+    return all;
+}
+
+bool is_closed(const Rays& rays, const dvec3& centre) {
+    constexpr int kRays = 64, kMostMisses = 3;
+    int misses = 0;
+    for (const dvec3& direction : directions(kRays))
+        if (!rays.first(centre, direction) && ++misses > kMostMisses) return false;
+    return true;
+}
+
+/// Whether nearly all that the camera sees turns its back, over a grid of its picture.
+bool sees_backs(const Rays& rays, const Camera& camera) {
+    constexpr int kSide = 12;
+    constexpr double kMost = .9;
+    const dvec3 forward = normalize(camera.target - camera.eye),
+                right = normalize(cross(forward, camera.up)), upward = cross(right, forward);
+    const double slope = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
+    int all = 0, backs = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const double x = 2 * (i % kSide + .5) / kSide - 1, y = 2 * (i / kSide + .5) / kSide - 1;
+        const auto met = rays.first(camera.eye, forward + slope * (x * right + y * upward));
+        all += met.has_value();
+        backs += met && !met->is_front;
+    }
+    return all > 0 && backs >= kMost * all;
+}
+
+/// Some places on what a scene is looked at for: its mirrors and its lamps.
+std::vector<dvec3> places_of_interest(const Scene& scene) {
+    constexpr std::size_t kMostObjects = 16, kMostPlaces = 8;
+    std::vector<dvec3> places;
+    std::size_t objects = 0;
+    for (const Object& object : scene.objects) {
+        const Mesh& mesh = scene.meshes[object.mesh];
+        const bool counts = is_mirror(scene, object) || glows(scene.materials[object.material]);
+        if (!counts || mesh.triangles.empty() || objects++ == kMostObjects) continue;
+        const std::size_t step = (mesh.triangles.size() + kMostPlaces - 1) / kMostPlaces;
+        for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
+            const uvec3& t = mesh.triangles[i];
+            places.push_back(transform_point(
+                object.world_from_object,
+                (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0));
+        }
+    }
+    return places;
+}
+
+bool hides_what_is_of_interest(const Rays& rays, const std::vector<dvec3>& places, const dvec3& eye,
+                               const dvec3& centre) {
+    const auto seen_from = [&](const dvec3& from) {
+        return std::ranges::any_of(places,
+                                   [&](const dvec3& to) { return !rays.is_blocked(from, to); });
+    };
+    return seen_from(centre) && !seen_from(eye);
+}
+
+/// Share of the places that an eye sees within its field of view.
+double share_seen(const Rays& rays, const std::vector<dvec3>& places, const Camera& camera) {
+    const dvec3 forward = normalize(camera.target - camera.eye);
+    const double least = std::cos(glm::radians(camera.vertical_fov_degrees) / 2);
+    const auto seen = std::ranges::count_if(places, [&](const dvec3& place) {
+        return dot(normalized_or_zero(place - camera.eye), forward) >= least &&
+               !rays.is_blocked(camera.eye, place);
+    });
+    return places.empty() ? 0 : static_cast<double>(seen) / static_cast<double>(places.size());
+}
+
+/// Returns the summed length of rays from a place to what they meet; one that meets nothing counts
+/// as 0.
+double freedom_of(const Rays& rays, const dvec3& place) {
+    double sum = 0;
+    for (const dvec3& direction : directions(24)) {
+        const auto met = rays.first(place, direction);
+        sum += met ? met->distance : 0;
+    }
+    return sum;
+}
+
+/// A thousandth of the bounds' extent is exact enough to stand somewhere, and short to type.
+dvec3 short_to_type(const dvec3& point, double extent) {
+    const double unit = std::pow(10, 3 - std::floor(std::log10(extent)));
+    return glm::round(point * unit) / unit;
+}
+
+} // namespace
+
+std::optional<Camera> inside_camera(const Scene& scene, const Camera& outside) {
+    const Bounds<double> box = bounds(scene);
+    if (box.empty() || triangle_count(scene) > kMostTested) return std::nullopt;
+    const Rays rays(scene);
+    const double extent = length(box.extent());
+    const dvec3 centre = short_to_type(box.centre(), extent);
+    if (!is_closed(rays, centre)) return std::nullopt;
+    const std::vector<dvec3> places = places_of_interest(scene);
+    if (!sees_backs(rays, outside) && !hides_what_is_of_interest(rays, places, outside.eye, centre))
+        return std::nullopt;
+    Camera camera{.name = "default", .target = centre, .vertical_fov_degrees = 60}, tried = camera;
+    double best = -1;
+    constexpr double kAside = .35, kAbove = .15; // of the extents, from the centre
+    for (int i = 0; i < 8; ++i) {
+        const dvec3 side(i & 1 ? -kAside : kAside, i & 4 ? 0 : kAbove, i & 2 ? -kAside : kAside);
+        tried.eye = short_to_type(centre + side * box.extent(), extent);
+        const double worth = freedom_of(rays, tried.eye) * (1 + share_seen(rays, places, tried));
+        if (worth > best) best = worth, camera = tried;
+    }
+    return camera;
+}
+
+} // namespace catoptric::scene

@@ -1,0 +1,93 @@
+#include "scene/topology.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+namespace catoptric::scene {
+
+namespace {
+
+/// Vertices by cubes of space, from which the first one at a place is found.
+class Places {
+public:
+    explicit Places(std::span<const dvec3> positions) : positions_(positions) {
+        for (const dvec3& p : positions)
+            scale_ = std::max({scale_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        if (scale_ == 0) scale_ = 1;
+        next_.resize(positions.size(), kNone);
+    }
+    /// The first vertex at this one's place; itself where none was there before.
+    std::size_t first_at(std::size_t vertex) {
+        const dvec3 p = positions_[vertex] / scale_;
+        const glm::i64vec3 low = cube_of(p - kNear), high = cube_of(p + kNear);
+        std::size_t first = vertex;
+        for (std::int64_t x = low.x; x <= high.x; ++x)
+            for (std::int64_t y = low.y; y <= high.y; ++y)
+                for (std::int64_t z = low.z; z <= high.z; ++z)
+                    first = std::min(first, first_in({x, y, z}, p, vertex));
+        if (first == vertex) {
+            const auto [entry, is_new] = newest_.try_emplace(key_of(cube_of(p)), vertex);
+            if (!is_new) next_[vertex] = std::exchange(entry->second, vertex);
+        }
+        return first;
+    }
+
+private:
+    static constexpr double kNear = 0x1p-21, kCube = 8 * kNear;
+    static constexpr std::size_t kNone = ~std::size_t(0);
+
+    static glm::i64vec3 cube_of(const dvec3& p) { return glm::i64vec3(glm::floor(p / kCube)); }
+    static std::uint64_t key_of(const glm::i64vec3& cube) {
+        std::uint64_t key = 0;
+        for (int i = 0; i < 3; ++i)
+            key = (key ^ static_cast<std::uint64_t>(cube[i])) * 0x9e3779b97f4a7c15u,
+            key ^= key >> 32;
+        return key;
+    }
+    std::size_t first_in(const glm::i64vec3& cube, const dvec3& p, std::size_t vertex) const {
+        const auto newest = newest_.find(key_of(cube));
+        std::size_t first = vertex;
+        for (std::size_t i = newest == newest_.end() ? kNone : newest->second; i != kNone;
+             i = next_[i]) {
+            const dvec3 way = glm::abs(positions_[i] / scale_ - p);
+            if (std::max({way.x, way.y, way.z}) <= kNear) first = std::min(first, i);
+        }
+        return first;
+    }
+
+    std::span<const dvec3> positions_;
+    double scale_ = 0;
+    std::unordered_map<std::uint64_t, std::size_t> newest_; ///< vertex of a cube
+    std::vector<std::size_t> next_;                         ///< the one before it there
+};
+
+} // namespace
+
+std::vector<std::size_t> first_at_place(std::span<const dvec3> positions) {
+    Places places(positions);
+    std::vector<std::size_t> first(positions.size());
+    for (std::size_t i = 0; i < first.size(); ++i) first[i] = places.first_at(i);
+    return first;
+}
+
+std::vector<Side> sides_of(std::span<const Corners> triangles) {
+    std::vector<Side> sides;
+    sides.reserve(3 * triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const Corners& t = triangles[i];
+        if (!has_three_places(t)) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+            sides.push_back({low, high, i, t[(k + 2) % 3]});
+        }
+    }
+    std::ranges::sort(
+        sides, {}, [](const Side& side) { return std::tuple(side.low, side.high, side.triangle); });
+    return sides;
+}
+
+} // namespace catoptric::scene

@@ -1,0 +1,35 @@
+#include "sequence.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <regex>
+
+namespace catoptric::cli {
+
+std::optional<Sequence> Sequence::find(const std::string& name) {
+    static const std::regex kPlace(R"(\{n(?::0?([1-9]))?\}|%(?:0?([1-9]))?d)");
+    std::smatch place;
+    const bool found = std::regex_search(name, place, kPlace);
+    const std::string rest = found ? place.suffix().str() : name;
+    check(!std::regex_search(rest, kPlace), Failure::usage,
+          "-o: wanted one place for the frame's number, found two in '", name, "'");
+    check(rest.find("{n") == std::string::npos &&
+              (!found || place.prefix().str().find("{n") == std::string::npos),
+          Failure::usage, "-o: wanted {n}, {n:4}, %d or %04d for the frame's number, found '", name,
+          "'");
+    if (!found) return std::nullopt;
+    const std::string digits = place[1].str() + place[2].str();
+    Sequence sequence;
+    sequence.before_ = place.prefix().str();
+    sequence.after_ = rest;
+    sequence.digits_ = digits.empty() ? 0 : std::stoi(digits);
+    return sequence;
+}
+
+std::string Sequence::file(int number) const {
+    return fmt::format("{}{:0{}}{}", before_, number, digits_, after_);
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,82 @@
+// What help, version and lists print.
+#include "cli/program.hpp"
+
+#include <sstream>
+
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::vector<std::string> kVerbs{"compare", "render", "stress", "bench",
+                                      "diff",    "graph",  "list",   "info"};
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+TEST_F(Cli, HelpFitsEightyColumns) {
+    std::vector<Words> asked{{"--help"}};
+    for (const std::string& verb : kVerbs) asked.push_back({verb, "--help"});
+    for (const Words& words : asked)
+        for (const std::string& line : lines_of(cli(words).out))
+            EXPECT_LE(line.size(), 80U) << words.front() << ": " << line;
+}
+
+TEST_F(Cli, HelpShowsCommonOptionsFirst) {
+    for (const std::string verb : {"compare", "render"}) {
+        const std::string help = cli({verb, "--help"}).out;
+        const std::size_t common = help.find("Common options:"), scene = help.find("The scene:");
+        ASSERT_NE(common, std::string::npos) << help;
+        ASSERT_NE(scene, std::string::npos) << help;
+        for (const char* option : {"--output", "--technique", "--size", "--camera"}) {
+            EXPECT_GT(help.find(option, common), common) << option;
+            EXPECT_LT(help.find(option, common), scene) << option;
+        }
+        for (const char* heading : {"Frames, times and errors:", "Device:", "Output:"})
+            EXPECT_GT(help.find(heading), common) << heading;
+    }
+}
+
+TEST_F(Cli, HelpVerbPrintsWhatTheOptionPrints) {
+    EXPECT_EQ(cli({"help"}).out, cli({"--help"}).out);
+    for (const std::string& verb : kVerbs) {
+        const test::Ended ended = cli({"help", verb});
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_EQ(ended.out, cli({verb, "--help"}).out);
+    }
+    expect_refused({"help", "rendr"}, 2, {"'rendr'", "did you mean 'render'"});
+    expect_refused({"help", "list", "render"}, 2, {"at most one verb", "'render'"});
+}
+
+TEST_F(Cli, ShortVersionFlagPrintsTheVersion) {
+    EXPECT_EQ(cli({"-V"}).out, cli({"--version"}).out);
+    EXPECT_THAT(cli({"-V"}).out, testing::StartsWith("catoptric "));
+}
+
+TEST_F(Cli, ListOfTechniquesHasOneLineEach) {
+    const std::string text = cli({"list", "techniques"}).out;
+    EXPECT_THAT(text, HasSubstr("\nparallax "));
+    EXPECT_THAT(text, HasSubstr("\nauto "));
+    EXPECT_THAT(text, Not(HasSubstr("shadow_map")));
+    EXPECT_LE(lines_of(text).size(), 16U);
+}
+
+TEST_F(Cli, ListOfOneTechniqueShowsItsKnobs) {
+    const std::string text = cli({"list", "techniques", "parallax"}).out;
+    EXPECT_THAT(text, testing::StartsWith("parallax "));
+    EXPECT_THAT(text, HasSubstr("shadow_map"));
+    EXPECT_THAT(text, Not(HasSubstr("hybrid ")));
+    const auto json = nlohmann::json::parse(cli({"list", "techniques", "march", "--json"}).out);
+    ASSERT_EQ(json["techniques"].size(), 1U);
+    EXPECT_EQ(json["techniques"][0]["name"], "march");
+    EXPECT_THAT(cli({"list", "techniques", "auto"}).out, testing::StartsWith("auto "));
+    expect_refused({"list", "techniques", "parralax"}, 2,
+                   {"'parralax'", "did you mean 'parallax'"});
+    expect_refused({"list", "scenes", "parallax"}, 2, {"list scenes", "'parallax'"});
+}
+
+} // namespace

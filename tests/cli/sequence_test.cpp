@@ -1,0 +1,139 @@
+// A picture a frame, progress off a terminal, rounds, and the columns of rows.csv.
+#include "catoptric/sequence.hpp"
+#include "cli/program.hpp"
+#include "report/report.hpp"
+#include "support/refusal.hpp"
+
+#include <set>
+#include <sstream>
+
+namespace {
+
+using catoptric::Failure;
+using catoptric::cli::Sequence;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace fs = std::filesystem;
+
+TEST(SequenceName, HasTheNumberInItsPlace) {
+    EXPECT_EQ(Sequence::find("a{n}.png")->file(7), "a7.png");
+    EXPECT_EQ(Sequence::find("a{n:3}.png")->file(7), "a007.png");
+    EXPECT_EQ(Sequence::find("a{n:04}.exr")->file(12345), "a12345.exr");
+    EXPECT_EQ(Sequence::find("d/%d.png")->file(10), "d/10.png");
+    EXPECT_EQ(Sequence::find("%04d.png")->file(10), "0010.png");
+    EXPECT_FALSE(Sequence::find("100%.png"));
+    EXPECT_FALSE(Sequence::find("{a}.png"));
+}
+
+TEST_F(Cli, RefusesSequenceNamesThatAreNone) {
+    for (const std::string name : {"{n}{n}.png", "%d{n:2}.png", "{n:x}.png", "{n.png"})
+        expect_refused({"render", "--technique", "reuse", "--frames", "2", "-o", name}, 2,
+                       {"-o", name});
+    expect_refused({"render", "--technique", "reuse", "-o", "{n}.png"}, 2,
+                   {"--frames or --animate", "{n}.png"});
+}
+
+TEST_F(Cli, RenderWritesAPictureAFrame) {
+    const test::Ended ended = cli({"render", "--technique", "reuse:face=16", "--animate",
+                                   "--frames", "3", "--warmup", "2", "--size", "32x32", "-o",
+                                   "s_{n:3}.png"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    std::set<std::string> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        files.insert(entry.path().filename().string());
+    EXPECT_EQ(files, (std::set<std::string>{"s_001.png", "s_002.png", "s_003.png"}));
+    // The last one is the picture that the same run without a sequence writes.
+    ASSERT_EQ(cli({"render", "--technique", "reuse:face=16", "--animate", "--frames", "3",
+                   "--warmup", "2", "--size", "32x32", "-o", "last.png"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(read("s_003.png"), read("last.png"));
+    // Each is that of a run with so many frames.
+    ASSERT_EQ(cli({"render", "--technique", "reuse:face=16", "--animate", "--frames", "1",
+                   "--warmup", "2", "--size", "32x32", "-o", "first.png"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(read("s_001.png"), read("first.png"));
+}
+
+TEST_F(Cli, SequenceOverASceneFileIsRefused) {
+    write("2.png", "mine");
+    write("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    write("t.mtl", "newmtl m\nmap_Kd 2.png\n");
+    const test::Ended ended = cli(
+        {"render", "t.obj", "--technique", "reuse", "--frames", "3", "-o", "%d.png"});
+    EXPECT_NE(ended.exit_code, 0);
+    EXPECT_EQ(read("2.png"), "mine");
+}
+
+TEST_F(Cli, MoreRoundsThanFramesAreRefused) {
+    expect_refused({"compare", "-o", "out", "--rounds", "30", "--frames", "20"}, 2,
+                   {"--rounds", "at most 20", "found 30"});
+    expect_refused({"compare", "-o", "out", "--rounds", "21"}, 2, {"--rounds", "at most 20"});
+    EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(Cli, CompareSaysTenthsWhereStderrIsNoTerminal) {
+    const Words words = quick({"compare", "-o", "out", "--techniques", "naive:bounces=0",
+                               "reuse:face=16", "parallax:face=16"});
+    const test::Ended ended = cli(words);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    for (const char* part : {"30 % done", "60 % done", "left"})
+        EXPECT_THAT(ended.err, HasSubstr(part));
+    for (const Words& silent : {Words{"--quiet"}, Words{"--progress", "never"}}) {
+        Words asked = words;
+        asked.insert(asked.end(), silent.begin(), silent.end());
+        EXPECT_THAT(cli(asked).err, Not(HasSubstr("% done")));
+    }
+}
+
+/// The cells of the first line and of the second by name. Cells of this test hold no quotes.
+std::map<std::string, std::string> first_row(const std::string& csv) {
+    std::istringstream lines(csv);
+    std::string header, row;
+    std::getline(lines, header);
+    std::getline(lines, row);
+    std::map<std::string, std::string> cells;
+    std::istringstream names(header), fields(row);
+    for (std::string name, field; std::getline(names, name, ',');) {
+        std::getline(fields, field, ',');
+        cells[name] = field;
+    }
+    return cells;
+}
+
+TEST_F(Cli, RowsHaveTheColumnsOfTheTableAndAllOnDemand) {
+    const Words words = quick({"compare", "-o", "out", "--techniques", "reuse:face=16"});
+    ASSERT_EQ(cli(words).exit_code, 0);
+    const auto few = first_row(read("out/rows.csv"));
+    for (const char* name : {"label", "scene", "device", "date", "place_first", "gpu_ms_median",
+                             "gpu_ms_ci95_low", "mirrors_flip", "mirrors_rmse"})
+        EXPECT_TRUE(few.contains(name)) << name;
+    for (const char* name : {"gpu_ms_samples", "mirror_1_flip", "all_psnr", "scene_hash"})
+        EXPECT_FALSE(few.contains(name)) << name;
+    EXPECT_LT(few.size(), 60U);
+
+    Words all = words;
+    all.insert(all.end(), {"--csv", "all"});
+    ASSERT_EQ(cli(all).exit_code, 0);
+    const auto every = first_row(read("out/rows.csv"));
+    for (const auto& [name, cell] : few) EXPECT_TRUE(every.contains(name)) << name;
+    for (const char* name : {"gpu_ms_samples", "mirror_1_flip", "all_psnr", "scene_hash"})
+        EXPECT_TRUE(every.contains(name)) << name;
+    expect_refused({"compare", "-o", "out", "--csv", "tabel"}, 2,
+                   {"--csv", "did you mean 'table'"});
+}
+
+TEST_F(Cli, ReportHasTheDateOfTheRun) {
+    ASSERT_EQ(cli(quick({"compare", "-o", "out", "--techniques", "naive:bounces=0"})).exit_code, 0);
+    const std::string date = nlohmann::json::parse(read("out/report.json"))["date"];
+    EXPECT_THAT(date, testing::MatchesRegex("20[0-9][0-9]-[01][0-9]-[0-3][0-9]T[0-9:]{8}Z"));
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    ::gmtime_r(&now, &utc);
+    EXPECT_EQ(std::stoi(date.substr(0, 4)), utc.tm_year + 1900);
+    EXPECT_THAT(read("out/report.md"), HasSubstr(date));
+}
+
+} // namespace

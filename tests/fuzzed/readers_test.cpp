@@ -1,0 +1,325 @@
+// Every reader of files from outside, against drawn files: half of them changed anywhere, half in
+// their structure, so that they pass the first parse. No signal, at most 10 s of processor time and
+// 1 GiB each, and a known exit code. CATOPTRIC_FUZZED says how many files a reader gets.
+#include "cli/program.hpp"
+#include "fuzzed/mutate.hpp"
+#include "measure/picture_file.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace {
+
+using namespace test::fuzzed;
+
+constexpr std::uint64_t kSeed = 20261124;
+constexpr std::uint64_t kMostBytes = 1ULL << 30;
+constexpr std::uint64_t kMostSeconds = 10;
+constexpr int kFewFiles = 24; ///< where nothing else is asked for
+
+int files_of_a_reader() {
+    const char* asked = std::getenv("CATOPTRIC_FUZZED");
+    return asked == nullptr ? kFewFiles : std::atoi(asked);
+}
+
+/// What a reader says of a file: taken, bad data, missing, out of memory; usage for what only the
+/// command line could have meant otherwise, and 1 where pictures differ or a benchmark is slower.
+const std::set<int> kExitCodes{0, 1, 2, 65, 66, 75};
+
+class Readers : public Cli {
+protected:
+    using Change = std::function<std::string(Random&)>;
+
+    /// Writes each changed file under the name `file` and reads it by `words`.
+    void feed(const std::string& file, const Words& words, const Change& anywhere,
+              const Change& in_structure) const {
+        std::map<int, int> codes;
+        std::uint64_t most_bytes = 0;
+        double longest = 0;
+        const int count = files_of_a_reader();
+        for (int i = 0; i < count; ++i) {
+            Random random(kSeed + static_cast<std::uint64_t>(i));
+            const bool is_structured = i % 2 == 0;
+            write(file, (is_structured ? in_structure : anywhere)(random));
+            test::Start process = start(words);
+            process.seconds_limit = kMostSeconds;
+            const test::Ended ended = test::run_process(process);
+            ++codes[ended.exit_code];
+            most_bytes = std::max(most_bytes, ended.peak_bytes);
+            longest = std::max(longest, ended.seconds);
+            const std::string which = file + " of seed " + std::to_string(kSeed) + " + " +
+                                      std::to_string(i) +
+                                      (is_structured ? ", in structure" : ", anywhere");
+            EXPECT_TRUE(kExitCodes.contains(ended.exit_code))
+                << which << ": exit code " << ended.exit_code << "\n"
+                << ended.err;
+            EXPECT_LE(ended.peak_bytes, kMostBytes) << which;
+            EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr("json.exception"))) << which;
+            if (HasFailure()) keep(file, i);
+        }
+        std::cout << "[ MEASURED ] " << file << ": " << count << " files, exit codes";
+        for (const auto& [code, times] : codes) std::cout << " " << code << " x" << times;
+        std::cout << ", at most " << (most_bytes >> 20) << " MiB and " << longest << " s\n";
+    }
+
+    /// A scene with textures, lights, a camera and a motion, in scene.gltf or .glb, with pictures
+    /// beside it.
+    Json scene(const std::string& buffer) const {
+        Json document = {
+            {"asset", {{"version", "2.0"}}},
+            {"scene", 0},
+            {"scenes", {{{"nodes", {0, 2, 3}}}}},
+            {"nodes",
+             {{{"name", "sheet"},
+               {"mesh", 0},
+               {"children", {1}},
+               {"rotation", {0, 0, 0, 1}},
+               {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}},
+              {{"mesh", 0}, {"scale", {1, 1, -1}}, {"translation", {0, 0, 1}}},
+              {{"camera", 0}, {"translation", {0.5, 0.5, 3}}},
+              {{"mesh", 1}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 0, 0, 1}}}}},
+            {"cameras",
+             {{{"type", "perspective"},
+               {"perspective", {{"yfov", 0.8}, {"znear", 0.1}, {"aspectRatio", 1.5}}}}}},
+            {"meshes",
+             {{{"primitives",
+                {{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}}},
+                  {"indices", 3},
+                  {"material", 0}}}}},
+              {{"name", "mirror"},
+               {"primitives",
+                {{{"attributes", {{"POSITION", 0}}}, {"mode", 5}, {"material", 1}}}}}}},
+            {"materials",
+             {{{"name", "painted"},
+               {"pbrMetallicRoughness",
+                {{"baseColorTexture", {{"index", 0}}}, {"roughnessFactor", 0.6}}},
+               {"emissiveFactor", {0.1, 0.1, 0.1}},
+               {"alphaMode", "MASK"},
+               {"alphaCutoff", 0.4},
+               {"extensions",
+                {{"KHR_materials_ior", {{"ior", 1.4}}},
+                 {"KHR_materials_specular", {{"specularFactor", 0.5}}}}}},
+              {{"name", "silver"},
+               {"doubleSided", true},
+               {"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0}}}}}},
+            {"textures", {{{"source", 0}, {"sampler", 0}}}},
+            {"samplers", {{{"magFilter", 9729}, {"wrapS", 10497}, {"wrapT", 33071}}}},
+            {"images", {{{"uri", "p.png"}}}},
+            {"extensionsUsed", {"KHR_lights_punctual", "KHR_materials_ior"}},
+            {"extensions",
+             {{"KHR_lights_punctual",
+               {{"lights",
+                 {{{"type", "spot"}, {"intensity", 20}, {"spot", {{"outerConeAngle", 0.7}}}}}}}}}},
+            {"animations",
+             {{{"samplers", {{{"input", 4}, {"output", 5}, {"interpolation", "LINEAR"}}}},
+               {"channels",
+                {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}}}},
+            {"accessors",
+             {{{"bufferView", 0},
+               {"componentType", 5126},
+               {"count", 4},
+               {"type", "VEC3"},
+               {"min", {0, 0, 0}},
+               {"max", {1, 1, 0}}},
+              {{"bufferView", 1}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}},
+              {{"bufferView", 2}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}},
+              {{"bufferView", 3}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}},
+              {{"bufferView", 4}, {"componentType", 5126}, {"count", 2}, {"type", "SCALAR"}},
+              {{"bufferView", 5}, {"componentType", 5126}, {"count", 2}, {"type", "VEC3"}}}},
+            {"bufferViews",
+             {{{"buffer", 0}, {"byteLength", 48}},
+              {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 48}},
+              {{"buffer", 0}, {"byteOffset", 96}, {"byteLength", 32}},
+              {{"buffer", 0}, {"byteOffset", 128}, {"byteLength", 12}},
+              {{"buffer", 0}, {"byteOffset", 140}, {"byteLength", 8}},
+              {{"buffer", 0}, {"byteOffset", 148}, {"byteLength", 24}}}},
+            {"buffers", {{{"byteLength", 172}}}}};
+        if (!buffer.empty()) document["buffers"][0]["uri"] = buffer;
+        return document;
+    }
+    static std::string buffer() {
+        std::string bytes;
+        const auto floats = [&](std::initializer_list<float> numbers) {
+            for (const float number : numbers)
+                bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+        };
+        floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
+        floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+        floats({0, 0, 1, 0, 0, 1, 1, 1});
+        constexpr std::uint16_t kIndices[] = {0, 1, 2, 2, 1, 3};
+        for (const std::uint16_t index : kIndices)
+            bytes.append(reinterpret_cast<const char*>(&index), sizeof index);
+        floats({0, 1, 0, 0, 1, 0, 1, 1});
+        return bytes;
+    }
+    static catoptric::measure::Picture picture() {
+        catoptric::measure::Picture made(24, 16);
+        for (std::size_t i = 0; i < made.pixels.size(); ++i)
+            made.pixels[i] = {static_cast<float>(i % 24) / 24, static_cast<float>(i) / 384, .5F};
+        return made;
+    }
+    /// Radiance: a header and plain pixels of four bytes.
+    static std::string hdr() {
+        std::string file = "#?RADIANCE\nEXPOSURE=1.0\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 6\n";
+        for (int i = 0; i < 24; ++i) file += std::string("\x40\x80\x20\x80", 4);
+        return file;
+    }
+    static std::string obj() {
+        return "# catoptric camera 0 1 4 0 0 0 45\nmtllib m.mtl\no sheet\nv -1 0 0\nv 1 0 0\nv 1 2 0\n"
+               "v -1 2 0 0.5 0.5 0.5\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nusemtl painted\n"
+               "f 1/1/1 2/2/1 3/3/1 4/4/1\ng mirror\nusemtl silver\nv 0 0 1\nv 1 0 1\nv 0 1 1\n"
+               "f -3 -2 -1\nl 1 2\ns off\n";
+    }
+    static std::string mtl() {
+        return "newmtl painted\nKd 0.5 0.4 0.3\nmap_Kd -s 2 2 1 p.png\nKs 0.2 0.2 0.2\nNs 40\nillum 2\n"
+               "d 0.9\nNi 1.4\nnewmtl silver\nKd 0 0 0\nKs 1 1 1\nillum 3\nNs 1000\nKe 0 0 0\nPr 0\nPm 1\n";
+    }
+
+    void SetUp() override {
+        write("a.bin", buffer());
+        write("p.png", catoptric::measure::png_bytes(picture()));
+        write("good.exr", catoptric::measure::exr_bytes(picture()));
+        write("m.mtl", mtl());
+        write("good.obj", obj());
+        std::filesystem::create_directory(kept());
+    }
+
+private:
+    static std::filesystem::path kept() {
+        return std::filesystem::path(CATOPTRIC_CLI).parent_path() / "fuzzed";
+    }
+    /// A file that was read wrongly stays for whoever looks into it.
+    void keep(const std::string& file, int index) const {
+        std::error_code error;
+        std::filesystem::copy_file(folder / file, kept() / (std::to_string(index) + "-" + file),
+                                   std::filesystem::copy_options::overwrite_existing, error);
+    }
+};
+
+TEST_F(Readers, Gltf) {
+    const Json document = scene("a.bin");
+    feed(
+        "scene.gltf", {"info", "scene.gltf"},
+        [&](Random& random) { return changed_bytes(document.dump(1), random); },
+        [&](Random& random) { return changed_json(document, random).dump(1); });
+}
+
+TEST_F(Readers, Glb) {
+    const std::string glb = glb_of(scene(""), buffer());
+    feed(
+        "scene.glb", {"info", "scene.glb"},
+        [&](Random& random) { return changed_bytes(glb, random); },
+        [&](Random& random) { return changed_glb(glb, random); });
+}
+
+TEST_F(Readers, Obj) {
+    feed(
+        "scene.obj", {"info", "scene.obj"},
+        [&](Random& random) { return changed_bytes(obj(), random); },
+        [&](Random& random) { return changed_lines(obj(), random); });
+}
+
+TEST_F(Readers, Mtl) {
+    feed(
+        "m.mtl", {"info", "good.obj"}, [&](Random& random) { return changed_bytes(mtl(), random); },
+        [&](Random& random) { return changed_lines(mtl(), random); });
+}
+
+TEST_F(Readers, Exr) {
+    const std::string exr = read("good.exr");
+    feed(
+        "a.exr", {"diff", "a.exr", "good.exr"},
+        [&](Random& random) { return changed_bytes(exr, random); },
+        [&](Random& random) { return changed_exr(exr, random); });
+}
+
+TEST_F(Readers, Hdr) {
+    feed(
+        "a.hdr", {"info", "good.obj", "--environment", "a.hdr"},
+        [&](Random& random) { return changed_bytes(hdr(), random); },
+        [&](Random& random) {
+            const std::size_t pixels = hdr().find('\x40');
+            return changed_lines(hdr().substr(0, pixels), random) + hdr().substr(pixels);
+        });
+}
+
+TEST_F(Readers, Png) {
+    const std::string png = read("p.png");
+    feed(
+        "a.png", {"diff", "a.png", "p.png"},
+        [&](Random& random) { return changed_bytes(png, random); },
+        [&](Random& random) { return changed_png(png, random); });
+}
+
+TEST_F(Readers, SceneFile) {
+    const Json document = {{"mirrors", {"sheet", "mirror=0.9"}},
+                           {"lights", {"painted"}},
+                           {"mirror_max_roughness", 0.1},
+                           {"dielectric_mirrors", false},
+                           {"environment", "good.exr"},
+                           {"environment_scale", 1},
+                           {"environment_rotate", 90},
+                           {"ambient", 0},
+                           {"exposure", 0},
+                           {"camera", "0,1.6,3:0,1,0:50"},
+                           {"up", "y"},
+                           {"animation", "none"}};
+    feed(
+        "good.catoptric.json", {"info", "good.obj"},
+        [&](Random& random) { return changed_bytes(document.dump(1), random); },
+        [&](Random& random) { return changed_json(document, random).dump(1); });
+}
+
+TEST_F(Readers, Plan) {
+    const Json document = {
+        {"plan",
+         {{{"mirror", 1}, {"technique", "secant"}, {"settings", {{"face", 64}, {"steps", "2"}}}},
+          {{"mirror", "ball*"}, {"technique", "reuse"}, {"name", "b"}, {"why", "small"}},
+          {{"mirror", "*"}, {"technique", "hybrid"}}}}};
+    feed(
+        "plan.json", {"graph", "--plan", "plan.json", "--why"},
+        [&](Random& random) { return changed_bytes(document.dump(1), random); },
+        [&](Random& random) { return changed_json(document, random).dump(1); });
+}
+
+TEST_F(Readers, Benchmarks) {
+    Json document = {{"context", {{"date", "2026-11-24T03:00:00+00:00"}, {"num_cpus", 2}}},
+                     {"benchmarks", Json::array()}};
+    for (int round = 0; round < 6; ++round)
+        for (const char* name : {"frame/reuse", "frame/hybrid"})
+            document["benchmarks"].push_back({{"name", name},
+                                              {"run_name", name},
+                                              {"run_type", "iteration"},
+                                              {"repetition_index", round},
+                                              {"repetitions", 6},
+                                              {"iterations", 4},
+                                              {"real_time", 4.0 + round / 10.0},
+                                              {"cpu_time", 8.0},
+                                              {"time_unit", "ms"}});
+    write("before.json", document.dump());
+    ASSERT_EQ(cli({"bench", "--compare", "before.json", "before.json"}).exit_code, 0);
+    feed(
+        "now.json", {"bench", "--compare", "before.json", "now.json"},
+        [&](Random& random) { return changed_bytes(document.dump(1), random); },
+        [&](Random& random) { return changed_json(document, random).dump(1); });
+}
+
+TEST_F(Readers, DeviceProfile) {
+    const Json info = Json::parse(cli({"list", "devices", "--json"}).out)["devices"][0];
+    const Json document = {
+        {"schema", "catoptric/device-profile/1"},
+        {"version", "0.1.0"},
+        {"device", {{"name", info["name"]}, {"driver", info["driver"]}, {"id", info["id"]}}},
+        {"variants", {{"groups", "scattered"}}},
+        {"measured", Json::array()}};
+    feed(
+        "profile.json", {"info", "--device-profile", "profile.json"},
+        [&](Random& random) { return changed_bytes(document.dump(1), random); },
+        [&](Random& random) { return changed_json(document, random).dump(1); });
+}
+
+} // namespace

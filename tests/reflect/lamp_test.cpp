@@ -1,0 +1,145 @@
+// Lamps beside closed forms, and light at facets whose corners' normals are not theirs, in both
+// worlds.
+#include "support/lit.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr double kPi = std::numbers::pi;
+const std::string kWorlds[] = {"raytrace", "naive:bounces=0"};
+
+/// A floor at y = 0, seen from beside what hangs above it, in one pixel.
+scene::Scene floor_below(double albedo) {
+    scene::Scene scene{.name = "floor"};
+    const std::size_t grey = test::add_material(scene,
+                                                {.name = "grey", .albedo = vec3(float(albedo))});
+    test::add_quad(scene, "floor", grey, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2});
+    scene.cameras.push_back({.name = "at its middle",
+                             .eye = {1, 1, 0},
+                             .target = {0, 0, 0},
+                             .vertical_fov_degrees = .1});
+    return scene;
+}
+
+double floor_pixel(const scene::Scene& scene, const std::string& technique) {
+    return test::render_dark(scene, technique, {1, 1}).hdr.at(0, 0).x;
+}
+
+TEST(Lamp, ASphereGivesItsClosedForm) {
+    scene::Scene scene = floor_below(.5);
+    const std::size_t lamp = test::add_material(scene, {.name = "lamp", .emission = vec3(30)});
+    scene::Mesh ball = scene::ball("lamp", 5);
+    for (dvec3& position : ball.positions) position = .1 * position + dvec3(0, 2, 0);
+    test::add_mesh(scene, ball, lamp);
+    for (const bool two_sided : {false, true}) {
+        scene.materials[lamp].two_sided = two_sided;
+        for (const std::string& technique : kWorlds)
+            EXPECT_NEAR(floor_pixel(scene, technique), .0375, .0002) << technique << two_sided;
+    }
+}
+
+TEST(Lamp, ABoardOfTwoSidesShinesByItsCosineBothWays) {
+    for (const double turn : {0.0, .5, 1.2, 2.6, kPi}) {
+        scene::Scene scene = floor_below(.5);
+        const std::size_t lamp = test::add_material(
+            scene, {.name = "lamp", .emission = vec3(30), .two_sided = true});
+        const dvec3 along = .1 * dvec3(std::cos(turn), std::sin(turn), 0), across(0, 0, .1);
+        const dvec3 at(0, 2, 0);
+        test::add_quad(scene, "lamp", lamp, at - along - across, at + along - across,
+                       at + along + across, at - along + across);
+        const double wanted = .5 / kPi * 30 * .04 * std::abs(std::cos(turn)) / 4;
+        for (const std::string& technique : kWorlds)
+            EXPECT_NEAR(floor_pixel(scene, technique), wanted, 1e-5) << technique << " " << turn;
+    }
+}
+
+/// A board that faces upwards, at whose corners normals lean towards +x, and a light that is `sine`
+/// above its plane in that direction.
+double leaning_pixel(double lean, double sine, const std::string& technique) {
+    scene::Scene scene = floor_below(.5);
+    for (vec3& normal : scene.meshes[0].normals) normal = vec3(std::sin(lean), std::cos(lean), 0);
+    scene::Punctual light{.intensity = vec3(9)};
+    light.world_from_light[3] = dvec4(3 * std::sqrt(1 - sine * sine), 3 * sine, 0, 1);
+    scene.punctual.push_back(light);
+    return floor_pixel(scene, technique) / (.5 / kPi * 9 / 9); // of a light straight above
+}
+
+TEST(Facets, ALightBelowTheirPlaneGivesNothing) {
+    for (const std::string technique :
+         {"raytrace", "raytrace:shadow=none", "naive:bounces=0", "naive:bounces=0,shadow=none"})
+        for (const double lean : {.2, .5, 1.2})
+            for (const double below : {.001, .02, .1, .4})
+                EXPECT_EQ(leaning_pixel(lean, -below, technique), 0) << technique << " " << lean;
+}
+
+TEST(Facets, LightFadesTowardsTheirPlane) {
+    const double fade = std::sin(glm::radians(6.0));
+    for (const std::string technique : {"raytrace", "naive:bounces=0"})
+        for (const double part : {.1, .5, .9, 1.1, 4.0}) {
+            const double sine = part * fade, cosine = std::sqrt(1 - sine * sine);
+            const double whole = std::sin(.5) * cosine + std::cos(.5) * sine;
+            const double t = std::min(part, 1.0);
+            EXPECT_NEAR(leaning_pixel(.5, sine, technique), whole * t * t * (3 - 2 * t), 2e-4)
+                << technique << " " << part;
+        }
+}
+
+TEST(Facets, NormalsWithinSixDegreesAloneCount) {
+    const double lean = glm::radians(5.0);
+    for (const std::string technique : {"raytrace:shadow=none", "naive:bounces=0,shadow=none"})
+        for (const double sine : {-.05, -.01, .01, .3})
+            EXPECT_NEAR(leaning_pixel(lean, sine, technique),
+                        std::sin(lean) * std::sqrt(1 - sine * sine) + std::cos(lean) * sine, 2e-4)
+                << technique << " " << sine;
+}
+
+/// A white ball of 4^(levels + 1) triangles, lit from the side.
+scene::Scene lit_ball(int levels) {
+    scene::Scene scene{.name = "ball"};
+    test::add_ball(scene, "ball", test::add_material(scene, {.name = "white", .albedo = vec3(1)}),
+                   {0, 0, 0}, 1, levels);
+    scene::Punctual light{.intensity = vec3(static_cast<float>(36 * kPi))};
+    light.world_from_light[3] = dvec4(-6, 0, 0, 1);
+    scene.punctual.push_back(light);
+    scene.cameras.push_back(
+        {.name = "front", .eye = {0, .6, 4}, .target = {0, 0, 0}, .vertical_fov_degrees = 32});
+    return scene;
+}
+
+constexpr uvec2 kBallSize{300, 300};
+
+/// Away from the outline, where a mesh is not the sphere.
+double farthest(const measure::Picture& a, const measure::Picture& b) {
+    double most = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) {
+            const double right = x + .5 - a.width / 2., down = y + .5 - a.height / 2.;
+            if (right * right + down * down < 110 * 110)
+                most = std::max(most, std::abs(double(a.at(x, y).x) - double(b.at(x, y).x)));
+        }
+    return most;
+}
+
+TEST(Facets, DoNotShowOnABallOf4096Triangles) {
+    const scene::Scene scene = lit_ball(5);
+    const measure::Picture exact = test::render_dark(scene, "raytrace:sphere=exact", kBallSize).hdr;
+    for (const std::string& technique : kWorlds) {
+        const double most = farthest(test::render_dark(scene, technique, kBallSize).hdr, exact);
+        std::cout << "[ MEASURED ] " << technique << ": off by at most " << most << " of 1.44\n";
+        EXPECT_LE(most, .02) << technique;
+    }
+}
+
+/// Of few triangles, so that light fades at their facets, an exact sphere is lit as one of many.
+TEST(Facets, DoNotCountOnAnExactSphere) {
+    const auto picture = [](int levels) {
+        return test::render_dark(lit_ball(levels), "raytrace:sphere=exact", kBallSize).hdr;
+    };
+    EXPECT_LE(farthest(picture(3), picture(5)), 1e-5);
+}
+
+} // namespace

@@ -1,0 +1,55 @@
+// How much a scene's file may ask for on this machine.
+#include "scene/budget_for.hpp"
+
+#include "support/folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace catoptric::scene {
+namespace {
+
+constexpr std::uint64_t kGibibyte = std::uint64_t{1} << 30;
+
+class BudgetFor : public test::InFolder {
+protected:
+    /// A file of so many bytes, none of which is on the disk.
+    std::filesystem::path file(std::uint64_t bytes) const {
+        const std::filesystem::path path = folder / "scene.glb";
+        std::ofstream(path).close();
+        std::filesystem::resize_file(path, bytes);
+        return path;
+    }
+};
+
+TEST_F(BudgetFor, ASmallFileGetsNoMoreOnALargeMachine) {
+    const Budget budget = budget_for(file(1000), {}, 1000 * kGibibyte);
+    EXPECT_EQ(budget.triangles, Budget().triangles);
+    EXPECT_EQ(budget.vertices, Budget().vertices);
+    EXPECT_EQ(budget.shown, Budget().shown);
+    EXPECT_EQ(budget.file_bytes, 125 * kGibibyte);
+}
+
+TEST_F(BudgetFor, ALargeFileGetsWhatItStoresAndMemoryHolds) {
+    const std::filesystem::path path = file(kGibibyte);
+    EXPECT_EQ(budget_for(path, {}, 1000 * kGibibyte).triangles, kGibibyte / 6);
+    EXPECT_EQ(budget_for(path, {}, 1000 * kGibibyte).vertices, 3 * (kGibibyte / 6));
+    EXPECT_EQ(budget_for(path, {}, 16 * kGibibyte).triangles, 16 * kGibibyte / kBytesPerTriangle);
+    EXPECT_EQ(budget_for(path, {}, kGibibyte).triangles, Budget().triangles);
+    EXPECT_EQ(budget_for(path, {}, kGibibyte).file_bytes, Budget().file_bytes);
+}
+
+TEST_F(BudgetFor, TheUserHasTheLastWord) {
+    const Budget most = budget_for(file(1000), {.bytes = 7, .triangles = 50'000'000}, 0);
+    EXPECT_EQ(most.file_bytes, 7u);
+    EXPECT_EQ(most.triangles, 50'000'000u);
+    EXPECT_EQ(most.vertices, 150'000'000u);
+    EXPECT_EQ(budget_for(file(1000), {.triangles = 3}, 0).triangles, 3u);
+    EXPECT_EQ(budget_for(file(1000), {.triangles = 3}, 0).vertices, Budget().vertices);
+}
+
+TEST_F(BudgetFor, FreeMemoryIsKnown) { EXPECT_GT(free_memory(), std::uint64_t{1} << 24); }
+
+} // namespace
+} // namespace catoptric::scene

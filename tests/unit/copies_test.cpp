@@ -1,0 +1,69 @@
+// Many objects in one place: what a ray's walk costs grows with what there is to see, not with how
+// often it is there.
+#include "app/rays.hpp"
+#include "app/scene_facts.hpp"
+#include "bvh/closest_hit.hpp"
+#include "bvh/copies.hpp"
+#include "render/space.hpp"
+#include "scene/load.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace catoptric {
+namespace {
+
+scene::Scene with_copies(std::size_t count) {
+    scene::Scene scene;
+    scene.name = "copies";
+    scene.materials.emplace_back();
+    scene.meshes.push_back({.name = "triangle",
+                            .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                            .normals = std::vector<vec3>(3, vec3(0, 0, 1)),
+                            .triangles = {{0, 1, 2}}});
+    for (std::size_t i = 0; i < count; ++i) scene.objects.push_back({.mesh = 0, .material = 0});
+    return scene;
+}
+
+/// Steps of all rays that cross the triangle's bounds in a grid.
+std::size_t steps_past(std::size_t count) {
+    const scene::Scene scene = with_copies(count);
+    const render::Geometry geometry = render::make_geometry(scene, render::space_of(scene));
+    const bvh::Bvh tree = app::hierarchy_without(geometry, geometry.ranges.size());
+    bvh::Steps steps;
+    int hits = 0;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const vec3 low(tree.nodes[0]), high(tree.nodes[1]);
+            const vec3 at = low +
+                            (high - low) * vec3((float(x) + .5f) / 16, (float(y) + .5f) / 16, 0);
+            const auto hit = bvh::closest_hit<float>(tree, {at + vec3(0, 0, 3), vec3(0, 0, -1), 0},
+                                                     std::numeric_limits<float>::max(), 0, &steps);
+            if (!hit) continue;
+            ++hits;
+            EXPECT_EQ(hit->object, 0u) << "the first of them is seen";
+        }
+    EXPECT_GT(hits, 100);
+    return steps.total();
+}
+
+TEST(CopiesInOnePlace, CostARayNoMoreThanAFew) {
+    const std::size_t few = steps_past(8);
+    EXPECT_EQ(steps_past(2000), few);
+    EXPECT_EQ(steps_past(4000), few);
+}
+
+/// Those that one object cuts out are seen through to another's.
+TEST(CopiesInOnePlace, OfMaskedSurfacesAreKept) {
+    std::vector<bvh::Triangle> triangles;
+    for (std::uint32_t i = 0; i < 40; ++i)
+        triangles.push_back(
+            {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), i / 2, i < 20 ? bvh::kMasked : 0});
+    const bvh::Bvh tree = bvh::build(triangles, {}, bvh::Copies::of_all);
+    EXPECT_EQ(bvh::triangle_count(tree), 11u); // of 10 masked objects one each, of the others one
+    EXPECT_EQ(bvh::triangle_count(bvh::build(triangles)), 20u);
+}
+
+} // namespace
+} // namespace catoptric

@@ -1,0 +1,81 @@
+// Parts of shipped scenes that lie in one plane on top of each other: which one a picture shows is
+// chance.
+#include "scene/load.hpp"
+#include "scene/scene.hpp"
+#include "scene/transform.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::scene;
+
+struct Facet {
+    std::array<dvec3, 3> corners;
+    dvec3 normal;
+    std::size_t object;
+};
+
+/// Whether two triangles of one plane share more than `slack` along every direction across their
+/// edges.
+bool overlap(const Facet& a, const Facet& b, double slack) {
+    for (const Facet* from : {&a, &b})
+        for (int i = 0; i < 3; ++i) {
+            const dvec3 edge = from->corners[(i + 1) % 3] - from->corners[i];
+            const dvec3 across = glm::normalize(glm::cross(from->normal, edge));
+            const auto span = [&](const Facet& of) {
+                std::array<double, 3> at{};
+                for (int k = 0; k < 3; ++k) at[k] = glm::dot(across, of.corners[k]);
+                return std::ranges::minmax(at);
+            };
+            const auto mine = span(a), other = span(b);
+            if (mine.max <= other.min + slack || other.max <= mine.min + slack) return false;
+        }
+    return true;
+}
+
+TEST(ShippedScenes, NoTwoPartsLieInOnePlane) {
+    for (const std::string name : {"cornell-mirrors", "room"}) {
+        const Scene scene = load(name);
+        const double size = glm::length(bounds(scene).extent()), slack = 1e-6 * size;
+        // By where their planes are, along a direction of no symmetry, in steps of the slack.
+        std::map<std::array<long, 4>, std::vector<Facet>> planes;
+        for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+            const Object& object = scene.objects[i];
+            const Mesh& mesh = scene.meshes[object.mesh];
+            for (const uvec3& t : mesh.triangles) {
+                Facet facet{.object = i};
+                for (int k = 0; k < 3; ++k)
+                    facet.corners[k] = transform_point(object.world_from_object,
+                                                       mesh.positions[t[k]]);
+                facet.normal = normalized_or_zero(glm::cross(facet.corners[1] - facet.corners[0],
+                                                             facet.corners[2] - facet.corners[0]));
+                if (facet.normal == dvec3(0)) continue;
+                if (glm::dot(facet.normal, dvec3(.9, .7, .3)) < 0) facet.normal = -facet.normal;
+                const double height = glm::dot(facet.normal, facet.corners[0]) / (4 * slack);
+                const dvec3 n = facet.normal * 1e5;
+                for (const double half : {-.25, .25}) // a step's edge is inside another step
+                    planes[{std::lround(n.x), std::lround(n.y), std::lround(n.z),
+                            std::lround(height + half)}]
+                        .push_back(facet);
+            }
+        }
+        for (const auto& [plane, facets] : planes)
+            for (std::size_t i = 0; i < facets.size(); ++i)
+                for (std::size_t j = 0; j < i; ++j) {
+                    if (facets[i].object == facets[j].object) continue;
+                    ASSERT_FALSE(overlap(facets[i], facets[j], 100 * slack))
+                        << name << ": " << scene.objects[facets[i].object].name << " and "
+                        << scene.objects[facets[j].object].name;
+                }
+    }
+}
+
+} // namespace

@@ -1,0 +1,67 @@
+// Differences of pictures in files, which are read in bands.
+#include "measure/file_difference.hpp"
+
+#include "measure/difference_sum.hpp"
+#include "measure/flip.hpp"
+#include "measure/picture_file.hpp"
+#include "support/folder.hpp"
+#include "support/refusal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace catoptric::measure {
+namespace {
+
+class FileDifferences : public test::InFolder {};
+
+/// Flat areas, edges and noise.
+Picture drawn(int width, int height, unsigned seed) {
+    std::mt19937 random(seed);
+    Picture picture(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const float noise = static_cast<float>(random() % 256) / 255;
+            const float area = static_cast<float>((x / 97 + y / 61) % 5) / 4;
+            picture.at(x, y) = (x / 211) % 2 ? vec3(area, area, .5F) : vec3(noise, area, .25F);
+        }
+    return picture;
+}
+
+/// Several bands high and not a multiple of one: every figure is that of the whole pictures.
+TEST_F(FileDifferences, BandsGiveTheFiguresOfWholePictures) {
+    const int width = 8192, height = 700;
+    write_exr(drawn(width, height, 1), folder / "a.exr");
+    write_exr(drawn(width, height, 2), folder / "b.exr");
+    const Picture a = read_picture(folder / "a.exr"), b = read_picture(folder / "b.exr");
+    const Difference whole = difference(a, b, {},
+                                        flip(to_unrounded_display(a), to_unrounded_display(b)));
+    const FileDifference found = difference_of_files(folder / "a.exr", folder / "b.exr", {}, 0);
+    EXPECT_EQ(found.width, width);
+    EXPECT_EQ(found.height, height);
+    EXPECT_GT(whole.flip, .01);
+    EXPECT_EQ(found.difference.flip, whole.flip);
+    EXPECT_EQ(found.difference.rmse, whole.rmse);
+    EXPECT_EQ(found.difference.mae, whole.mae);
+    EXPECT_EQ(found.difference.p99, whole.p99);
+    EXPECT_EQ(found.difference.max, whole.max);
+    EXPECT_EQ(found.difference.max_x, whole.max_x);
+    EXPECT_EQ(found.difference.max_y, whole.max_y);
+    EXPECT_EQ(found.difference.longest_line, whole.longest_line);
+    EXPECT_EQ(found.a_mean.all, mean_of(a, Range::unclamped).all);
+    EXPECT_EQ(found.b_clamped.all, mean_of(b, Range::clamped).all);
+}
+
+TEST_F(FileDifferences, PicturesOfTwoSizesAreRefusedByTheirHeaders) {
+    write_png(Picture(3, 2), folder / "a.png");
+    write_png(Picture(2, 3), folder / "b.png");
+    EXPECT_THAT(
+        test::refusal(Failure::bad_data,
+                      [&] { difference_of_files(folder / "a.png", folder / "b.png", {}, 0); }),
+        testing::HasSubstr("b.png is 2x3: wanted two pictures of one size"));
+}
+
+} // namespace
+} // namespace catoptric::measure

@@ -1,0 +1,239 @@
+// What lamps of any shape give, after they were read from files: beside closed forms.
+#include "load_fixture.hpp"
+#include "scene/shapes.hpp"
+#include "scene/topology.hpp"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <sstream>
+
+namespace {
+
+using namespace test::loading;
+
+constexpr double kPi = std::numbers::pi;
+
+/// Rings of places at these (radius, height), the ends closed; every vertex is its own, also where
+/// a ring ends where it began.
+Mesh turned(const std::vector<dvec2>& profile, int around) {
+    Mesh mesh{.name = "lamp"};
+    const auto place = [&](std::size_t ring, int k) {
+        const double turn = k == around ? 2 * kPi : 2 * kPi * k / around;
+        return dvec3(profile[ring].x * std::cos(turn), profile[ring].y,
+                     profile[ring].x * std::sin(turn));
+    };
+    const auto add = [&](const dvec3& a, const dvec3& b, const dvec3& c) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), {a, b, c});
+        mesh.normals.insert(mesh.normals.end(), 3,
+                            vec3(glm::normalize(glm::cross(b - a, c - a) + dvec3(0, 1e-300, 0))));
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+    };
+    for (std::size_t ring = 0; ring + 1 < profile.size(); ++ring)
+        for (int k = 0; k < around; ++k) {
+            const dvec3 a = place(ring, k), b = place(ring, k + 1), c = place(ring + 1, k + 1),
+                        d = place(ring + 1, k);
+            if (profile[ring].x > 0) add(a, c, b);
+            if (profile[ring + 1].x > 0) add(a, d, c);
+        }
+    return mesh;
+}
+
+/// Its rings gather towards the top.
+Mesh uneven_sphere(double radius) {
+    std::vector<dvec2> profile;
+    constexpr int kRings = 40;
+    for (int i = 0; i <= kRings; ++i) {
+        const double angle = kPi * (1 - std::pow(double(kRings - i) / kRings, 1.6));
+        profile.emplace_back(i == 0 || i == kRings ? 0 : radius * std::sin(angle),
+                             -radius * std::cos(angle));
+    }
+    return turned(profile, 64);
+}
+
+Mesh uneven_cylinder(double radius, double height) {
+    std::vector<dvec2> profile{{0, 0}, {radius, 0}};
+    for (int i = 1; i <= 12; ++i) profile.emplace_back(radius, height * std::sqrt(i / 12.0));
+    profile.emplace_back(radius / 3, height), profile.emplace_back(0, height);
+    return turned(profile, 64);
+}
+
+/// Its top is divided 8 by 8, without a vertex on its rim that its sides have not: a fan of its
+/// own.
+Mesh uneven_box(const dvec3& half) {
+    Mesh mesh = scene::box("lamp", -half, half);
+    std::erase_if(mesh.triangles, [&](const uvec3& t) { return mesh.normals[t.x].y > .5f; });
+    const dvec3 rim[] = {{-half.x, half.y, -half.z},
+                         {-half.x, half.y, half.z},
+                         {half.x, half.y, half.z},
+                         {half.x, half.y, -half.z}};
+    const auto vertex = [&](const dvec3& p) {
+        mesh.positions.push_back(p), mesh.normals.emplace_back(0, 1, 0);
+        return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+    };
+    const auto inner = [&](int ring, int k) {
+        return vertex(dvec3(rim[k % 4].x, 0, rim[k % 4].z) * (ring / 9.0) + dvec3(0, half.y, 0));
+    };
+    for (int k = 0; k < 4; ++k) {
+        for (int ring = 1; ring < 9; ++ring) {
+            const std::uint32_t a = inner(ring, k), b = inner(ring, k + 1), c = inner(ring + 1, k),
+                                d = inner(ring + 1, k + 1);
+            mesh.triangles.emplace_back(a, c, d), mesh.triangles.emplace_back(a, d, b);
+        }
+        mesh.triangles.emplace_back(vertex({0, half.y, 0}), inner(1, k), inner(1, k + 1));
+    }
+    mesh.uv[0].clear();
+    return mesh;
+}
+
+std::string obj_text(const Mesh& mesh) {
+    std::ostringstream text;
+    text.precision(9);
+    text << "mtllib lamp.mtl\no lamp\nusemtl lamp\n";
+    for (const dvec3& p : mesh.positions) text << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    for (const vec3& n : mesh.normals) text << "vn " << n.x << ' ' << n.y << ' ' << n.z << '\n';
+    for (const uvec3& t : mesh.triangles) {
+        text << 'f';
+        for (int i = 0; i < 3; ++i) text << ' ' << t[i] + 1 << "//" << t[i] + 1;
+        text << '\n';
+    }
+    return text.str();
+}
+
+std::string glb_of(const Mesh& mesh, bool double_sided) {
+    Gltf gltf;
+    std::vector<float> positions, normals;
+    for (const dvec3& p : mesh.positions)
+        for (int i = 0; i < 3; ++i) positions.push_back(static_cast<float>(p[i]));
+    for (const vec3& n : mesh.normals) normals.insert(normals.end(), {n.x, n.y, n.z});
+    std::vector<std::uint32_t> corners;
+    for (const uvec3& t : mesh.triangles) corners.insert(corners.end(), {t.x, t.y, t.z});
+    const std::size_t position = gltf.add(positions, "VEC3", 5126),
+                      normal = gltf.add(normals, "VEC3", 5126),
+                      indices = gltf.add(corners, "SCALAR", 5125);
+    gltf.root["nodes"] = {{{"name", "lamp"}, {"mesh", 0}}};
+    gltf.root["meshes"] = {{{"primitives",
+                             {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}},
+                               {"indices", indices},
+                               {"material", 0}}}}}};
+    gltf.root["materials"] = {
+        {{"emissiveFactor", {1, 1, 1}},
+         {"doubleSided", double_sided},
+         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 30}}}}}}};
+    gltf.root["extensionsUsed"] = {"KHR_materials_emissive_strength"};
+    return gltf.glb();
+}
+
+/// What arrives from all lights on a surface that faces the origin at this place.
+double irradiance(const Scene& scene, const dvec3& place) {
+    double sum = 0;
+    for (const PointLight& light : lights(scene)) {
+        const dvec3 way = place - light.position, along = glm::normalize(way);
+        sum += light.emission.x * light.area * share_towards(light, along) *
+               glm::dot(along, glm::normalize(place)) / glm::dot(way, way);
+    }
+    return sum;
+}
+
+double mean_of_six(const std::function<double(dvec3)>& towards) {
+    double sum = 0;
+    for (int i = 0; i < 6; ++i) {
+        dvec3 direction(0);
+        direction[i / 2] = i % 2 == 0 ? 1 : -1;
+        sum += towards(direction) / 6;
+    }
+    return sum;
+}
+
+class Lamps : public Load {
+protected:
+    /// The mesh's scenes by every way into the program.
+    std::vector<std::pair<std::string, Scene>> scenes(const Mesh& mesh) {
+        write("lamp.mtl", "newmtl lamp\nKd 0 0 0\nKe 30 30 30\n");
+        return {{"obj", load(write("lamp.obj", obj_text(mesh)))},
+                {"one side", load(write("one.glb", glb_of(mesh, false)))},
+                {"two sides", load(write("two.glb", glb_of(mesh, true)))}};
+    }
+};
+
+TEST_F(Lamps, ClosedOnesGiveAQuarterOfTheirSurface) {
+    constexpr double kAway = 2;
+    const struct {
+        const char* name;
+        Mesh mesh;
+        double area;
+    } lamps[] = {{"sphere", uneven_sphere(.1), 4 * kPi * .01},
+                 {"box", uneven_box({.1, .05, .08}), 8 * (.005 + .008 + .004)},
+                 {"cylinder", uneven_cylinder(.06, .2), 2 * kPi * .06 * (.06 + .2)}};
+    for (const auto& [name, mesh, area] : lamps)
+        for (const auto& [how, scene] : scenes(mesh)) {
+            ASSERT_EQ(lights(scene).size(), 1u) << name << ", " << how;
+            EXPECT_TRUE(lights(scene)[0].closed) << name << ", " << how;
+            const dvec3 centre = bounds(scene).centre();
+            const double found = mean_of_six(
+                [&](const dvec3& direction) { return irradiance(scene, kAway * direction); });
+            EXPECT_NEAR(found / (30 * area / 4 / (kAway * kAway)), 1, .02) << name << ", " << how;
+            EXPECT_LT(glm::length(centre), .11);
+        }
+}
+
+TEST_F(Lamps, AnOpenBoardOfTwoSidesShinesAsItIsSeen) {
+    const Mesh board = scene::quad("lamp", {-.1, .02, -.1}, {-.1, .02, .1}, {.1, .02, .1},
+                                   {.1, .02, -.1});
+    const Scene scene = load(write("two.glb", glb_of(board, true)));
+    ASSERT_EQ(lights(scene).size(), 1u);
+    const PointLight light = lights(scene)[0];
+    EXPECT_FALSE(light.closed);
+    for (const dvec3& along :
+         {dvec3(0, 1, 0), dvec3(0, -1, 0), dvec3(.6, .8, 0), dvec3(0, -.6, .8), dvec3(1, 0, 0)})
+        EXPECT_NEAR(share_towards(light, along), std::abs(along.y), 1e-7);
+    const Scene one = load(write("one.glb", glb_of(board, false)));
+    EXPECT_NEAR(share_towards(lights(one)[0], {.6, .8, 0}), .8, 1e-7);
+    EXPECT_EQ(share_towards(lights(one)[0], {.6, -.8, 0}), 0);
+}
+
+TEST_F(Lamps, AnOpenTubeOfTwoSidesHasTheMeanOfItsCosines) {
+    const Scene scene = load(write("two.glb", glb_of(turned({{.05, -.1}, {.05, .1}}, 64), true)));
+    ASSERT_EQ(lights(scene).size(), 1u);
+    // A facet at angle a is seen at |cos a| of the sine to the tube's axis; the mean of |cos| over
+    // a turn is 2 / pi.
+    for (const double angle : {0.0, .4, .9, kPi / 2})
+        EXPECT_NEAR(share_towards(lights(scene)[0], {std::sin(angle), std::cos(angle), 0}),
+                    2 / kPi * std::sin(angle), 1e-3);
+}
+
+TEST_F(Lamps, ASphereWithAHoleIsOpen) {
+    Mesh mesh = uneven_sphere(.1);
+    mesh.triangles.pop_back();
+    for (const auto& [how, scene] : scenes(mesh)) {
+        ASSERT_EQ(lights(scene).size(), 1u) << how;
+        EXPECT_FALSE(lights(scene)[0].closed) << how;
+    }
+    // Nearly all directions are in it, so it shines nearly alike all around: half of its surface,
+    // whose inside shines too.
+    const Scene two = load(write("two.glb", glb_of(mesh, true)));
+    EXPECT_NEAR(
+        mean_of_six([&](const dvec3& along) { return share_towards(lights(two)[0], along); }), .5,
+        .01);
+}
+
+TEST(Topology, PlacesAreOneWithinRoundings) {
+    const std::vector<dvec3> places{{1, 0, 0},     {1, 1e-17, -1e-17}, {1 + 2e-7, 0, 0},
+                                    {1.01, 0, 0},  {1, 2e-6, 0},       {0, 0, 0},
+                                    {0, -1e-9, 0}, {1, 0, 0}};
+    EXPECT_THAT(first_at_place(places), testing::ElementsAre(0, 0, 0, 3, 4, 5, 5, 0));
+    EXPECT_TRUE(first_at_place({}).empty());
+    EXPECT_THAT(first_at_place(std::vector(3, dvec3(0))), testing::ElementsAre(0, 0, 0));
+}
+
+TEST(Topology, ATriangleWithOneCornerTwiceHasNoSide) {
+    const std::vector<Corners> triangles{{0, 1, 2}, {2, 1, 1}, {3, 1, 2}};
+    const std::vector<Side> sides = sides_of(triangles);
+    EXPECT_EQ(sides.size(), 6u);
+    std::size_t shared = 0;
+    for_each_edge(sides, [&](std::span<const Side> edge) { shared += edge.size() == 2; });
+    EXPECT_EQ(shared, 1u);
+}
+
+} // namespace
