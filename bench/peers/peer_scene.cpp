@@ -118,7 +118,9 @@ void PeerScene::add_triangles(const render::Geometry& geometry, std::size_t obje
          ++k) {
         const std::uint32_t* const corners = &geometry.indices[3 * k];
         const auto normal = [&](int j) { return plain(geometry.vertices[corners[j]].normal); };
-        triangles.push_back(triangle_at(geometry, k));
+        const bvh::Triangle triangle = triangle_at(geometry, k);
+        triangles.push_back(triangle);
+        whitted_.corners.push_back({plain(triangle.a), plain(triangle.b), plain(triangle.c)});
         whitted_.normals.push_back({normal(0), normal(1), normal(2)});
         whitted_.places.push_back({place(corners[0]), place(corners[1]), place(corners[2])});
         whitted_.triangle_objects.push_back(static_cast<std::uint32_t>(object));

@@ -92,6 +92,7 @@ private:
         facet_ = {load<Real>(hits.hit.Ng_x), load<Real>(hits.hit.Ng_y), load<Real>(hits.hit.Ng_z)};
         normal_ = albedo_ = emission_ = reflectance_ = same<Real>({});
         diffuse_ = goes_on_ = fades_ = Mask{};
+        surface_lift_ = Real{};
         for (int i = 0; i < Kind::kCount; ++i) {
             if (!lane(active_, i) || lane(geometry, i) < 0) continue;
             const auto primitive = static_cast<std::size_t>(lane(number, i));
@@ -105,6 +106,7 @@ private:
     }
     void put_on_triangle(std::size_t triangle, float u, float v, int i) {
         put(normal_, i, normal_of(triangle, u, v));
+        put(surface_lift_, i, lift_of(triangle, u, v));
         const Surface& surface = scene_.surfaces[scene_.triangle_objects[triangle]];
         show(surface, i);
         if (surface.turns) turn(i);
@@ -121,8 +123,10 @@ private:
     /// The normal to the side of the facet where the ray comes from.
     void turn(int i) {
         const Three<float> normal = lane(normal_, i), facet = lane(facet_, i);
-        if (dot(normal, facet) * dot(lane(direction_, i), facet) > 0)
+        if (dot(normal, facet) * dot(lane(direction_, i), facet) > 0) {
             put(normal_, i, plain(-1.0f * normal));
+            put(surface_lift_, i, 0.0f); // hollow from this side
+        }
     }
     void texture(const Surface& surface, Place place, int i) {
         const Vector colour = colour_at(scene_.textures[*surface.texture], place);
@@ -147,6 +151,21 @@ private:
         const float w = 1 - u - v;
         return {w * a.x + u * b.x + v * c.x, w * a.y + u * b.y + v * c.y,
                 w * a.z + u * b.z + v * c.z};
+    }
+    /// Returns how far above its facet a smooth surface with these corner normals lies, as
+    /// smooth_lift of shaders/lib/math/leaving.glsl.
+    float lift_of(std::size_t triangle, float u, float v) const {
+        const auto& corners = scene_.corners[triangle];
+        const auto& normals = scene_.normals[triangle];
+        const std::array<float, 3> weights{1 - u - v, u, v};
+        Three<float> point{};
+        for (std::size_t k = 0; k < 3; ++k) point = point + weights[k] * same<float>(corners[k]);
+        float lift = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Three<float> arm = same<float>(corners[k]) - point;
+            lift += weights[k] * std::max(dot(arm, same<float>(normals[k])), 0.0f);
+        }
+        return lift;
     }
     /// The point is put back onto the surface.
     void put_on_sphere(std::size_t sphere, int i) {
@@ -175,6 +194,15 @@ private:
         return point_ + side * unit;
     }
 
+    /// Returns where a shadow ray along `direction` starts. A ray that goes below the facet starts
+    /// on the smooth surface (leaving_lifted of shaders/lib/whitted.glsl).
+    V shadow_origin(const V& direction, const V& normal) const {
+        const V unit = normalize(facet_);
+        const V facet = select(greater(Real{}, dot(normal, unit)), same<Real>({}) - unit, unit);
+        const V lifted = point_ + surface_lift_ * normal + (Real{} + scene_.lift) * facet;
+        return select(greater(Real{}, dot(direction, facet)), lifted, leaving(direction));
+    }
+
     void shade() {
         const V zero = same<Real>({});
         colour_ = colour_ + select(diffuse_,
@@ -199,7 +227,7 @@ private:
         if (!any(asks)) return;
         count(rays_.shadow, asks);
         alignas(64) typename Kind::Rays rays;
-        const V origin = leaving(direction);
+        const V origin = shadow_origin(direction, normal);
         fill(rays, origin, same<Real>(light.position) - origin, scene_.shadow_end);
         Kind::block(asks, scene_.tree, &context_, rays);
         const Mask lit = asks & greater(load<Real>(rays.tfar), Real{});
@@ -244,6 +272,7 @@ private:
     RTCIntersectContext context_{};
     V origin_, direction_, weight_, colour_;
     V point_, facet_, normal_, albedo_, emission_, reflectance_; ///< facet, normal: any length
+    Real surface_lift_; ///< how far the smooth surface lies above point_, scene units
     Mask active_, diffuse_, goes_on_, fades_;
 };
 

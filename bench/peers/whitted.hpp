@@ -56,7 +56,8 @@ enum GeometryNumber { kTriangles, kSpheres, kLamps };
 /// A scene with point lights and spots.
 struct Whitted {
     RTCScene tree = nullptr;
-    std::vector<std::array<Vector, 3>> normals; ///< of triangles, at their corners
+    std::vector<std::array<Vector, 3>> corners; ///< of triangles
+    std::vector<std::array<Vector, 3>> normals; ///< likewise, at their corners
     std::vector<std::array<Place, 3>> places;   ///< likewise
     std::vector<std::uint32_t> triangle_objects;
     std::size_t first_lamp = 0; ///< of triangles: those of lamps follow all others

@@ -3,9 +3,9 @@
 #include "core/error.hpp"
 #include "measure/difference_sum.hpp"
 #include "measure/lines.hpp"
-#include "measure/percentile.hpp"
 #include "measure/pixel_error.hpp"
 #include "measure/quantity.hpp"
+#include "measure/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -148,7 +148,7 @@ Difference DifferenceSum::take() {
     result.flip = flips_ / judged;
     if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
     result.off = static_cast<double>(off_count_) / judged;
-    result.p99 = percentile_of(std::move(largest), 0.99);
+    result.p99 = percentile(std::move(largest), 0.99);
     result.longest_line = longest_line(off, width_);
     return result;
 }

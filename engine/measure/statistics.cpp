@@ -1,7 +1,6 @@
 #include "measure/statistics.hpp"
 
 #include "core/error.hpp"
-#include "measure/percentile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +9,17 @@
 namespace catoptric::measure {
 
 double percentile(std::vector<double> values, double fraction) {
-    return percentile_of(std::move(values), fraction);
+    check(!values.empty(), Failure::internal, "a percentile wants at least one value, found none");
+    check(fraction >= 0 && fraction <= 1, Failure::internal,
+          "a percentile wants a fraction in [0,1], found ", fraction);
+    const double position = fraction * static_cast<double>(values.size() - 1);
+    const auto rank = static_cast<std::ptrdiff_t>(position);
+    const auto low = values.begin() + rank;
+    std::nth_element(values.begin(), low, values.end());
+    const double rest = position - static_cast<double>(rank);
+    if (rest == 0) return *low;
+    const double high = *std::min_element(low + 1, values.end());
+    return *low + rest * (high - *low);
 }
 
 Summary summarise(std::span<const double> samples) {
