@@ -82,9 +82,13 @@ double Session::Impl::stand(const Standing& wanted) {
     if (standing && standing->size != wanted.size) resident->forget_face_needs();
     standing.reset(); // should the update end half-way
     models.clear();
-    if (!now) now = scene;
-    scene::pose(*now, scene, wanted.time);
-    resident->update(*now, wanted.camera, wanted.size, wanted.ambient,
+    if (scene::is_animated(scene)) {
+        if (!moved) moved = scene;
+        scene::pose(*moved, scene, wanted.time);
+    } else {
+        scene::check_time(wanted.time);
+    }
+    resident->update(now(), wanted.camera, wanted.size, wanted.ambient,
                      static_cast<std::uint32_t>(copy));
     standing = wanted;
     ++counts.updates;
@@ -105,7 +109,7 @@ const std::shared_ptr<const require::Model>& Session::Impl::model_of(Modelling m
                                                                      bool is_mended) {
     std::shared_ptr<const require::Model>& model = models[{modelling, is_mended}];
     if (model) return model;
-    require::Question question{*now, standing->camera, standing->size};
+    require::Question question{now(), standing->camera, standing->size};
     reflect::demand(question, plans);
     question.whole_cubes = question.whole_cubes ||
                            is_mended; // what is exact looks where a search never would
@@ -204,7 +208,7 @@ void Session::change(const scene::Edit& edit) {
         ++self.units;
     }
     self.scene = std::move(edited);
-    self.now.reset();
+    self.moved.reset();
     self.mirrors = mirror_names(self.scene);
     self.standing.reset();
     ++self.edits;

@@ -36,6 +36,8 @@ struct Session::Impl {
         mirrors = mirror_names(scene);
     }
 
+    /// Returns the scene at the instant of `standing`. A scene that is not animated is not copied.
+    const scene::Scene& now() const { return moved ? *moved : scene; }
     /// Writes what is wanted and the device does not have yet; milliseconds of work.
     double stand(const Standing& wanted);
     /// Until no frame is in flight that reads this copy of what is written.
@@ -67,7 +69,7 @@ struct Session::Impl {
     graph::Runner runner;
     std::vector<std::string> mirrors; ///< their names
     std::optional<Standing> standing;
-    std::optional<scene::Scene> now; ///< as it stands there
+    std::optional<scene::Scene> moved; ///< `scene` as it stands there, where it is animated
     std::vector<std::string> texts;
     std::vector<reflect::Plan> plans;      ///< of `texts`
     std::vector<reflect::Plan> remembered; ///< whose history the runner has

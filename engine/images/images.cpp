@@ -101,7 +101,7 @@ CodecResult open(const ByteSource& bytes, const std::string& format, const std::
 
 /// Rows of tiles that hold these rows, of which those are kept.
 bool read_tiles(OIIO::ImageInput& input, std::uint32_t first, std::uint32_t row_count,
-                int channel_count, OIIO::TypeDesc type, void* values) {
+                int channel_count, const OIIO::TypeDesc& type, void* values) {
     const OIIO::ImageSpec& spec = input.spec();
     const int begin = static_cast<int>(first), end = begin + static_cast<int>(row_count);
     const int from = begin / spec.tile_height * spec.tile_height;

@@ -36,25 +36,29 @@ bool same_kind(const scene::Material& a, scene::Material b) {
 Changes Seen::take_over(const scene::Scene& now, bool anew) {
     Changes changes;
     changes.layout = anew || objects_.size() != now.objects.size();
+    const std::size_t known = objects_.size();
     objects_.resize(now.objects.size());
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         const scene::Object& object = now.objects[i];
         const scene::Material& material = now.materials[object.material];
         Object& seen = objects_[i];
         const bool moved = seen.world_from_object != object.world_from_object;
-        const bool repainted = seen.material != material;
+        const bool is_new = i >= known;
+        const bool repainted = is_new || materials_[seen.material] != material;
         changes.layout = changes.layout || seen.mesh != object.mesh ||
                          seen.seen_by_camera != object.seen_by_camera ||
                          seen.mirror != object.mirror ||
-                         seen.sphere.has_value() != object.sphere.has_value() ||
-                         !same_kind(seen.material, material);
+                         seen.sphere.has_value() != object.sphere.has_value() || is_new ||
+                         !same_kind(materials_[seen.material], material);
         changes.lights = changes.lights ||
-                         ((moved || repainted) && (lights(seen.material) || lights(material)));
+                         ((moved || repainted) &&
+                          (lights(material) || (!is_new && lights(materials_[seen.material]))));
         changes.materials = changes.materials || repainted || !same(seen.sphere, object.sphere);
         if (moved) changes.moved.push_back(i);
-        seen = {object.mesh,           material,     object.world_from_object, object.sphere,
-                object.seen_by_camera, object.mirror};
+        seen = {object.mesh,   object.material,       object.world_from_object,
+                object.sphere, object.seen_by_camera, object.mirror};
     }
+    if (materials_ != now.materials) materials_ = now.materials;
     const bool other_lights = !std::ranges::equal(
         punctual_, now.punctual,
         [](const scene::Punctual& a, const scene::Punctual& b) { return same(a, b); });

@@ -24,13 +24,13 @@ public:
 
 private:
     struct Object {
-        std::size_t mesh = 0;
-        scene::Material material;
+        std::size_t mesh = 0, material = 0;
         dmat4 world_from_object{1};
         std::optional<scene::Sphere> sphere;
         bool seen_by_camera = true, mirror = false;
     };
     std::vector<Object> objects_;
+    std::vector<scene::Material> materials_;
     std::vector<scene::Punctual> punctual_;
 };
 

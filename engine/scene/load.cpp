@@ -26,6 +26,7 @@ std::string lower_case_extension(const std::filesystem::path& path) {
 
 Scene classified(Scene scene) {
     classify(scene);
+    scene.meshes.shrink_to_fit(), scene.objects.shrink_to_fit(); // no file adds to them later
     return scene;
 }
 

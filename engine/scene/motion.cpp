@@ -183,9 +183,13 @@ Camera camera_at(const Camera& camera, double seconds) {
     return camera.follows.rig ? carried(camera, Poses(seconds).of(camera.follows)) : camera;
 }
 
-void pose(Scene& still, const Scene& scene, double seconds) {
+void check_time(double seconds) {
     check(std::isfinite(seconds), Failure::usage, "time: wanted a finite number of seconds, found ",
           seconds);
+}
+
+void pose(Scene& still, const Scene& scene, double seconds) {
+    check_time(seconds);
     still.objects = scene.objects, still.punctual = scene.punctual, still.cameras = scene.cameras;
     Poses poses(seconds);
     const auto move = [&](dmat4& place, const Motion& motion) {

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 namespace catoptric::cli {
 
@@ -80,7 +81,8 @@ struct Options {
     bool writes = false, replaces = false;
 };
 
-/// The exposure that the scene is shown with; none where no device can tell.
+/// Returns the exposure that the scene is shown with; none where no device can tell. Moves the
+/// scene away.
 std::optional<double> exposure_of(app::Request& request, const Options& options) {
     if (!request.auto_exposure) return request.exposure;
     constexpr std::size_t kMostTriangles =
@@ -94,7 +96,7 @@ std::optional<double> exposure_of(app::Request& request, const Options& options)
     try {
         app::Engine engine(engine_options(options.common.device));
         introduce(engine, options.common.manners);
-        app::Session session(engine, request.scene);
+        app::Session session(engine, std::move(request.scene));
         return app::auto_exposure(session, request);
     } catch (const Error& error) {
         if (error.failure != Failure::no_device) throw;
@@ -128,11 +130,11 @@ int about_scene(const Options& options) {
     app::Request& request = asked.request;
     if (options.writes) write_scene_file(options, asked.wanted, request);
     SceneWords words{.info = app::scene_info(request)};
+    words.warnings = request.scene.warnings;
     words.auto_exposure = request.auto_exposure;
-    words.exposure = exposure_of(request, options);
+    words.exposure = exposure_of(request, options); // takes the scene
     words.ambient = request.ambient;
     if (asked.wanted.scene_file) words.scene_file = asked.wanted.scene_file->string();
-    words.warnings = request.scene.warnings;
     put(options.common.manners.json ? scene_json(words) : scene_text(words));
     return 0;
 }

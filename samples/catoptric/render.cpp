@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace catoptric::cli {
 
@@ -176,7 +177,9 @@ int run(const Options& options) {
     Progress progress(manners);
     const app::Watcher watcher = watcher_of(progress);
     watcher.row(choice.label, 0, 1);
-    app::Session session(engine, request.scene);
+    scene::Scene scene = std::exchange(request.scene, {});
+    request.scene.name = scene.name;
+    app::Session session(engine, std::move(scene));
     app::settle_exposure(session, request);
     app::Frames frames(session, request);
     const std::vector<std::string> files = pictures_of(options);

@@ -52,4 +52,33 @@ TEST_F(Cli, CopiesTakeTheMemoryOfOneAndTransforms) {
     EXPECT_LT(peaks[1], peaks[0] + (64u << 20));
 }
 
+/// 100,000 objects of one triangle each, in one place or side by side.
+std::string objects(bool apart) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 100'000; ++i) {
+        text += "o part" + std::to_string(i) + "\n";
+        if (apart) {
+            const std::string x = std::to_string(i % 316), y = std::to_string(i / 316);
+            text += "v " + x + " " + y + " 0\nv " + x + ".9 " + y + " 0\nv " + x + " " + y +
+                    ".9 0\nf -3 -2 -1\n";
+        } else {
+            text += "f 1 2 3\n";
+        }
+    }
+    return text;
+}
+
+TEST_F(Cli, ManyObjectsTakeAtMostHalfAGibibyte) {
+    for (const bool apart : {false, true}) {
+        write("many.obj", objects(apart));
+        for (const std::vector<std::string>& words :
+             {std::vector<std::string>{"info", "many.obj"},
+              quick({"render", "many.obj", "--technique", "raytrace", "-o", "x.png"})}) {
+            const test::Ended ended = test::run_process(start(words));
+            ASSERT_EQ(ended.exit_code, 0) << ended.err;
+            EXPECT_LE(ended.peak_bytes, 512U << 20) << words[0] << ", apart: " << apart;
+        }
+    }
+}
+
 } // namespace

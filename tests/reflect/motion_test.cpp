@@ -1,4 +1,5 @@
 // Time: frame k of an animation shows the scene (k - 1) / 60 s after its start.
+#include "scene/edit.hpp"
 #include "support/rendering.hpp"
 
 namespace {
@@ -60,6 +61,27 @@ TEST(Motion, FramesCountFromOneToTheLast) {
     EXPECT_EQ(result.frames.size(), 3u) << "the measured ones of four";
     EXPECT_TRUE(test::same_bytes(result.parts.front().hdr,
                                  test::render(test::room(2, 1), "reuse:face=32", {32, 32}, 4).hdr));
+}
+
+// Of many copies in one place the tree keeps one, so a copy that leaves must come into it.
+TEST(Motion, ACopyThatLeavesItsPlaceIsSeen) {
+    scene::Scene scene{.name = "copies"};
+    const std::size_t lamp = test::add_material(scene, {.name = "glow", .emission = vec3(.5F)});
+    test::add_quad(scene, "copy", lamp, {-.5, -.5, 0}, {.5, -.5, 0}, {.5, .5, 0}, {-.5, .5, 0});
+    for (int i = 1; i < 40; ++i) scene.objects.push_back(scene.objects.front());
+    scene.cameras.push_back({.eye = {0, 0, 4}, .target = {0, 0, 0}});
+    app::Request still = test::request(scene, {"raytrace"}, {48, 48});
+    dmat4 there(1);
+    there[3] = {.8, .4, 0, 1};
+    for (const std::size_t leaves : {0U, 7U, 39U}) {
+        app::Session session(test::engine(), scene);
+        const measure::Picture before = session.frame(still).hdr();
+        session.change(scene::move(leaves, there));
+        const measure::Picture after = session.frame(still).hdr();
+        EXPECT_FALSE(test::same_bytes(before, after)) << leaves;
+        app::Session anew(test::engine(), session.scene());
+        EXPECT_TRUE(test::same_bytes(after, anew.frame(still).hdr())) << leaves;
+    }
 }
 
 TEST(Samples, OnlyAnIrregularNumberDependsOnTheSeed) {
