@@ -6,6 +6,7 @@
 #include "core/text.hpp"
 #include "measure/interval.hpp"
 #include "reflect/plan.hpp"
+#include "scene/pose.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -13,7 +14,8 @@
 namespace catoptric::app {
 
 std::vector<std::string> default_techniques(const Request& base) {
-    const scene::Scene now = scene::at(base.scene, base.time);
+    const scene::SceneAt at_time(base.scene, base.time);
+    const scene::Scene& now = *at_time;
     std::vector<scene::FlatFaces> flats;
     for (const std::size_t object : scene::mirrors(now))
         flats.push_back(scene::flat_faces(now.meshes[now.objects[object].mesh],

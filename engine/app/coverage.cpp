@@ -22,8 +22,9 @@ struct Box {
     }
 };
 
-/// Pixels whose rays can meet a triangle, and one more on each side for roundings. All of them
-/// where a corner lies behind the eye.
+/// Returns the pixels whose rays can meet a triangle: those whose centres lie within its bounds on
+/// the screen, or less than half a pixel beside them (roundings). All pixels if a corner lies
+/// behind the eye.
 Box bounds_on_screen(const shared::View& view, uvec2 size, const std::array<vec3, 3>& corners) {
     dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     int behind = 0;
@@ -38,10 +39,12 @@ Box bounds_on_screen(const shared::View& view, uvec2 size, const std::array<vec3
     if (behind == 3) return {};
     const dvec2 pixels(size);
     if (behind > 0) low = dvec2(-1), high = dvec2(1);
+    // The centre of pixel i is at i + .5, so it lies less than half a pixel beside [low, high]
+    // where low - 1 < i < high.
     const auto pixel = [&](const dvec2& ndc, double more) {
-        return ivec2(glm::clamp((ndc + 1.0) * .5 * pixels + more, dvec2(0), pixels));
+        return ivec2(glm::clamp(glm::floor((ndc + 1.0) * .5 * pixels) + more, dvec2(0), pixels));
     };
-    return {pixel(low, -1.5), pixel(high, 1.5)};
+    return {pixel(low, 0), pixel(high, 1)};
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "app/rays.hpp"
 #include "bvh/closest_hit.hpp"
 #include "render/views.hpp"
+#include "scene/pose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,8 @@ f32::Ray reflected(const render::Geometry& geometry, const f32::Ray& ray,
 } // namespace
 
 Oracle::Oracle(const Request& request) {
-    const scene::Scene now = scene::at(request.scene, request.time);
+    const scene::SceneAt at_time(request.scene, request.time);
+    const scene::Scene& now = *at_time;
     const render::Space space = render::space_of(request.scene);
     geometry_ = render::make_geometry(now, space);
     mirror_objects_ = scene::mirrors(now);

@@ -6,6 +6,7 @@
 #include "bvh/closest_hit.hpp"
 #include "render/views.hpp"
 #include "scene/load.hpp"
+#include "scene/pose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +25,15 @@ uvec2 small_size(uvec2 size) {
 }
 
 std::vector<int> objects_seen(const Request& request, uvec2 size) {
-    const scene::Scene now = scene::at(request.scene, request.time);
+    const scene::SceneAt at_time(request.scene, request.time);
+    const scene::Scene& now = *at_time;
     const render::Space space = render::space_of(request.scene);
     const render::Geometry geometry = render::make_geometry(now, space);
     const shared::View view = render::camera_view(request.camera, space, size, 0);
-    // As many as a tree over a few million triangles costs.
-    constexpr std::uint64_t kMostTests = std::uint64_t{1} << 24;
-    if (auto covering = objects_covering(geometry, view, size, kMostTests)) return *covering;
+    // More tests than that take longer than a tree does.
+    const std::uint64_t most_tests = std::max<std::uint64_t>(std::uint64_t{1} << 24,
+                                                             16 * (geometry.indices.size() / 3));
+    if (auto covering = objects_covering(geometry, view, size, most_tests)) return *covering;
     const bvh::Bvh hierarchy = hierarchy_without(geometry, geometry.ranges.size());
     std::vector<int> seen;
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {

@@ -5,6 +5,7 @@
 #include "app/views.hpp"
 #include "scene/classify.hpp"
 #include "scene/load.hpp"
+#include "scene/pose.hpp"
 
 #include <algorithm>
 #include <map>
@@ -125,7 +126,7 @@ SceneInfo scene_info(const Request& request) {
     SceneInfo info{.facts = scene_facts(request, seen)};
     add_sizes(info, scene);
     info.materials = materials_of(scene);
-    info.mirrors = mirrors_of(scene::at(scene, request.time), seen);
+    info.mirrors = mirrors_of(*scene::SceneAt(scene, request.time), seen);
     if (info.mirrors.empty()) info.mirror_options = mirror_options(scene);
     for (const scene::Camera& camera : scene.cameras) info.cameras.push_back(facts_of(camera));
     return info;

@@ -1,6 +1,7 @@
 #include "app/suggested.hpp"
 
 #include "require/suggest.hpp"
+#include "scene/pose.hpp"
 
 #include <utility>
 
@@ -8,7 +9,8 @@ namespace catoptric::app {
 
 reflect::Plan suggested(reflect::Plan plan, const scene::Scene& scene, const FrameSpec& spec) {
     if (!plan.is_auto) return plan;
-    const scene::Scene now = scene::at(scene, spec.time);
+    const scene::SceneAt at_time(scene, spec.time);
+    const scene::Scene& now = *at_time;
     const scene::Camera camera = scene::camera_at(spec.camera, spec.time);
     const require::Suggestion suggestion = require::suggest(
         {.now = now, .camera = camera, .size = spec.size});

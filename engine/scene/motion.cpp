@@ -211,6 +211,11 @@ void pose(Scene& still, const Scene& scene, double seconds) {
         if (camera.follows.rig) camera = carried(camera, poses.of(camera.follows));
 }
 
+SceneAt::SceneAt(const Scene& scene, double seconds) : scene_(scene) {
+    check_time(seconds);
+    if (is_animated(scene)) moved_ = at(scene, seconds);
+}
+
 Scene at(const Scene& scene, double seconds) {
     Scene still = scene;
     pose(still, scene, seconds);
