@@ -1,0 +1,63 @@
+// Which object each pixel shows, found without a tree: an independent witness is the tree's walk.
+#include "app/coverage.hpp"
+#include "app/rays.hpp"
+#include "bvh/closest_hit.hpp"
+#include "render/space.hpp"
+#include "scene/load.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace catoptric {
+namespace {
+
+std::vector<int> by_tree(const render::Geometry& geometry, const shared::View& view, uvec2 size) {
+    const bvh::Bvh tree = app::hierarchy_without(geometry, geometry.ranges.size());
+    std::vector<int> seen;
+    for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
+        const auto hit = bvh::closest_hit<float>(tree, app::camera_ray(view, size, pixel),
+                                                 std::numeric_limits<float>::max(),
+                                                 bvh::kHidden | bvh::kOneSided);
+        seen.push_back(hit ? static_cast<int>(hit->object) : -1);
+    }
+    return seen;
+}
+
+scene::Camera drawn_camera(const scene::Camera& near, std::mt19937& random) {
+    std::uniform_real_distribution<double> apart(-.6, .6);
+    scene::Camera camera = near;
+    camera.eye += dvec3(apart(random), apart(random), apart(random));
+    camera.target += dvec3(apart(random), apart(random), apart(random));
+    camera.vertical_fov_degrees = 45 + 50 * apart(random);
+    return camera;
+}
+
+TEST(Coverage, SeesWhatATreeSees) {
+    constexpr uvec2 kSize{61, 47};
+    std::mt19937 random(5);
+    for (const char* name : {"cornell-mirrors", "room", "courtyard", "gallery"}) {
+        const scene::Scene scene = scene::load(name);
+        const render::Space space = render::space_of(scene);
+        const render::Geometry geometry = render::make_geometry(scene, space);
+        for (int k = 0; k < 8; ++k) {
+            const scene::Camera camera = drawn_camera(scene.cameras.front(), random);
+            const shared::View view = render::camera_view(camera, space, kSize, 0);
+            const auto seen = app::objects_covering(geometry, view, kSize, 1U << 30);
+            ASSERT_TRUE(seen.has_value());
+            EXPECT_EQ(*seen, by_tree(geometry, view, kSize)) << name << ", camera " << k;
+        }
+    }
+}
+
+TEST(Coverage, EndsAtTheLimitOfTests) {
+    const scene::Scene scene = scene::load("cornell-mirrors");
+    const render::Space space = render::space_of(scene);
+    const render::Geometry geometry = render::make_geometry(scene, space);
+    const shared::View view = render::camera_view(scene.cameras.front(), space, {64, 64}, 0);
+    EXPECT_FALSE(app::objects_covering(geometry, view, {64, 64}, 100));
+}
+
+} // namespace
+} // namespace catoptric
