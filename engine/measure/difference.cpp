@@ -156,7 +156,7 @@ Difference DifferenceSum::take() {
 Difference difference(const Picture& a, const Picture& b, const Mask& mask,
                       std::span<const float> flip_map) {
     check_sizes(a, b, mask, flip_map.size());
-    DifferenceSum sum(a.width);
+    DifferenceSum sum(a.width, a.pixels.size());
     sum.add(a.pixels, b.pixels, mask, flip_map);
     Difference result = sum.take();
     result.others = other_figures({a, b, mask, flip_map});

@@ -11,7 +11,10 @@ namespace catoptric::measure {
 /// a pixel are kept. What comes out does not depend on how many rows come at once.
 class DifferenceSum {
 public:
-    explicit DifferenceSum(int width) : width_(width) {}
+    /// Takes memory for all pixels at once: growing step by step would take twice as much.
+    DifferenceSum(int width, std::size_t pixel_count) : width_(width) {
+        off_.reserve(pixel_count), largest_.reserve(pixel_count);
+    }
 
     /// The next rows, linear RGB as exposed, with their FLIP. `mask` of as many pixels; empty: all
     /// count.

@@ -49,6 +49,14 @@ std::vector<float> flip_of(const Picture& a, const Picture& b, double exposure_s
     return flip(display(a, exposure_stops), display(b, exposure_stops));
 }
 
+/// Returns nothing for pictures that are shown as they are.
+std::vector<vec3> exposed_rows(std::span<const vec3> rows, double exposure_stops) {
+    if (exposure_stops == 0) return {};
+    std::vector<vec3> result;
+    for (const vec3& pixel : rows) result.push_back(exposed(pixel, exposure_stops));
+    return result;
+}
+
 template <typename Value>
 std::span<const Value> rows_of(const std::vector<Value>& values, int width, int first, int end) {
     if (values.empty()) return {};
@@ -72,7 +80,7 @@ FileDifference difference_of_files(const std::filesystem::path& a, const std::fi
 
     const bool is_of_bytes = is_png(a) || is_png(b);
     Window window_a(std::move(of_a)), window_b(std::move(of_b));
-    DifferenceSum sum(width);
+    DifferenceSum sum(width, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     MeanSum a_mean(Range::unclamped), b_mean(Range::unclamped), a_clamped(Range::clamped),
         b_clamped(Range::clamped);
     const int band = std::max(1, kBandPixels / width), reach = flip_reach();
@@ -87,11 +95,10 @@ FileDifference difference_of_files(const std::filesystem::path& a, const std::fi
         const auto rows_b = rows_of(part_b.pixels, width, first - above, end - above);
         a_mean.add(rows_a, counted), a_clamped.add(rows_a, counted);
         b_mean.add(rows_b, counted), b_clamped.add(rows_b, counted);
-        std::vector<vec3> exposed_a(rows_a.begin(), rows_a.end()),
-            exposed_b(rows_b.begin(), rows_b.end());
-        for (std::vector<vec3>* rows : {&exposed_a, &exposed_b})
-            for (vec3& pixel : *rows) pixel = exposed(pixel, exposure_stops);
-        sum.add(exposed_a, exposed_b, counted, rows_of(map, width, first - above, end - above));
+        const std::vector<vec3> exposed_a = exposed_rows(rows_a, exposure_stops),
+                                exposed_b = exposed_rows(rows_b, exposure_stops);
+        sum.add(exposed_a.empty() ? rows_a : exposed_a, exposed_b.empty() ? rows_b : exposed_b,
+                counted, rows_of(map, width, first - above, end - above));
     }
     return {width,         height,           sum.take(),       a_mean.mean(),
             b_mean.mean(), a_clamped.mean(), b_clamped.mean(), is_of_bytes};

@@ -18,15 +18,15 @@ Picture exposed(Picture picture, double exposure_stops) {
 
 namespace {
 
-/// `step` gets what the sRGB curve makes of a value between 0 and 1.
-template <typename Step>
-Picture displayed(const Picture& picture, double exposure_stops, Step&& step) {
+/// `curve` gets values between 0 and 1.
+template <typename Curve>
+Picture displayed(const Picture& picture, double exposure_stops, Curve&& curve) {
     const double gain = std::exp2(exposure_stops);
     const auto shown = [&](float linear) {
         const double value = gain * static_cast<double>(linear);
         if (!(value > 0)) return 0.0F; // NaN falls here
         if (value >= 1) return 1.0F;
-        return static_cast<float>(step(srgb_from_linear(value)));
+        return static_cast<float>(curve(value));
     };
     Picture display(picture.width, picture.height);
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -39,12 +39,11 @@ Picture displayed(const Picture& picture, double exposure_stops, Step&& step) {
 } // namespace
 
 Picture to_display(const Picture& picture, double exposure_stops) {
-    return displayed(picture, exposure_stops,
-                     [](double value) { return std::round(value * 255) / 255; });
+    return displayed(picture, exposure_stops, srgb_in_8_bits);
 }
 
 Picture to_unrounded_display(const Picture& picture, double exposure_stops) {
-    return displayed(picture, exposure_stops, [](double value) { return value; });
+    return displayed(picture, exposure_stops, srgb_from_linear);
 }
 
 } // namespace catoptric::measure

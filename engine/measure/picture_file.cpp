@@ -54,7 +54,7 @@ public:
         for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = curve(stored(i));
     }
     float operator()(float value) const {
-        const auto i = static_cast<std::size_t>(value * 255 + .5F);
+        const auto i = static_cast<std::size_t>(std::floor(value * 255 + .5F));
         return stored(i) == value ? table_[i] : curve(value);
     }
 

@@ -1,10 +1,16 @@
 #pragma once
 
-#include "core/parallel.hpp"
-
-#include <algorithm>
 #include <cstddef>
 #include <vector>
+
+/// Marks a function whose loops are also compiled for processors with AVX2, chosen at run time.
+/// Both versions give the same bits: no product is fused with a sum.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
+    !defined(__SANITIZE_ADDRESS__)
+#define CATOPTRIC_WIDE [[gnu::target_clones("avx2", "default")]]
+#else
+#define CATOPTRIC_WIDE
+#endif
 
 namespace catoptric::measure {
 
@@ -35,20 +41,8 @@ struct Kernel {
     }
 };
 
-/// Calls body(y) for every row, on all cores; rows are independent, so the result does not depend
-/// on how many there are.
-template <typename Body>
-void for_rows(int height, const Body& body) {
-    constexpr int kRows = 16;
-    in_parallel(static_cast<std::size_t>((height + kRows - 1) / kRows), all_threads(),
-                [&](std::size_t i) {
-                    const int first = static_cast<int>(i) * kRows;
-                    for (int y = first; y < std::min(first + kRows, height); ++y) body(y);
-                });
-}
-
 /// Convolution along x or y; beyond the border the outermost pixel goes on. Costs
-/// 2 * radius + 1 multiplications a pixel.
+/// 2 * radius + 1 multiplications a pixel, on one core.
 Plane along_x(const Plane& in, const Kernel& kernel);
 Plane along_y(const Plane& in, const Kernel& kernel);
 

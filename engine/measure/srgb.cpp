@@ -1,0 +1,71 @@
+#include "measure/srgb.hpp"
+
+#include <bit>
+#include <cstdint>
+
+namespace catoptric::measure {
+namespace {
+
+int code_by_formula(double linear) {
+    return static_cast<int>(std::lround(srgb_from_linear(linear) * 255));
+}
+
+/// Returns the least value in [0,1] whose code is `code`. The curve rises, and the bits of positive
+/// numbers rise with them.
+double least_with(int code) {
+    std::uint64_t below = 0, there = std::bit_cast<std::uint64_t>(1.0);
+    while (there - below > 1) {
+        const std::uint64_t middle = below + (there - below) / 2;
+        (code_by_formula(std::bit_cast<double>(middle)) < code ? below : there) = middle;
+    }
+    return std::bit_cast<double>(there);
+}
+
+/// Codes of light: where each begins, and a guess by the first bits of a float.
+class Codes {
+public:
+    Codes() {
+        for (std::size_t code = 1; code < least_.size(); ++code)
+            least_[code] = least_with(static_cast<int>(code));
+        int code = 0;
+        for (std::size_t i = 0; i < guesses_.size(); ++i) {
+            const auto bits = static_cast<std::uint32_t>(i << kDropped);
+            const auto value = static_cast<double>(std::bit_cast<float>(bits));
+            while (code < 255 && value >= least_[static_cast<std::size_t>(code) + 1]) ++code;
+            guesses_[i] = static_cast<std::uint8_t>(code);
+        }
+        for (std::size_t i = 0; i < values_.size(); ++i)
+            values_[i] = static_cast<float>(static_cast<double>(i) / 255);
+    }
+
+    float value_of(double linear) const {
+        const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(linear));
+        std::size_t code = guesses_[bits >> kDropped];
+        while (code < 255 && linear >= least_[code + 1]) ++code;
+        while (linear < least_[code]) --code; // the float was rounded up
+        return values_[code];
+    }
+
+private:
+    static constexpr int kDropped = 16;
+    std::array<double, 256> least_{};
+    std::array<std::uint8_t, (std::bit_cast<std::uint32_t>(1.0F) >> kDropped) + 1> guesses_{};
+    std::array<float, 256> values_{};
+};
+
+} // namespace
+
+LinearTable::Stored::Stored() {
+    for (std::size_t code = 0; code < srgb.size(); ++code) {
+        srgb[code] = static_cast<float>(static_cast<double>(code) / 255);
+        linear[code] = linear_from_srgb(static_cast<double>(srgb[code]));
+    }
+}
+const LinearTable::Stored LinearTable::kStored;
+
+float srgb_in_8_bits(double linear) {
+    static const Codes kCodes;
+    return kCodes.value_of(linear);
+}
+
+} // namespace catoptric::measure

@@ -1,0 +1,46 @@
+// Tables of the sRGB curve: they return what the formula does.
+#include "measure/srgb.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace catoptric::measure {
+namespace {
+
+float by_formula(double linear) {
+    return static_cast<float>(std::round(srgb_from_linear(linear) * 255) / 255);
+}
+
+TEST(Srgb, EightBitsAreThoseOfTheFormula) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> even(0, 1), exponent(-40, 0);
+    for (int i = 0; i < 200'000; ++i)
+        for (const double linear : {even(random), std::exp2(exponent(random))})
+            ASSERT_EQ(srgb_in_8_bits(linear), by_formula(linear)) << linear;
+    EXPECT_EQ(srgb_in_8_bits(0), 0.F);
+    EXPECT_EQ(srgb_in_8_bits(1), 1.F);
+}
+
+// Where the code changes, and the doubles before and after.
+TEST(Srgb, EightBitsChangeWhereTheFormulaDoes) {
+    for (int code = 0; code < 255; ++code) {
+        const double middle = linear_from_srgb((code + .5) / 255);
+        for (double linear : {middle, std::nextafter(middle, 0.0), std::nextafter(middle, 1.0),
+                              middle * (1 - 1e-9), middle * (1 + 1e-9)})
+            EXPECT_EQ(srgb_in_8_bits(linear), by_formula(linear)) << code;
+    }
+}
+
+TEST(Srgb, LightOfStoredValuesIsThatOfTheFormula) {
+    constexpr LinearTable kLinear;
+    for (int code = 0; code < 256; ++code)
+        for (const float srgb : {static_cast<float>(code / 255.0),
+                                 std::min(1.F, static_cast<float>((code + .3) / 255))})
+            EXPECT_EQ(kLinear(srgb), linear_from_srgb(static_cast<double>(srgb))) << code;
+}
+
+} // namespace
+} // namespace catoptric::measure
