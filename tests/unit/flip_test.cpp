@@ -71,6 +71,29 @@ const Case kCases[] = {
     {natural, 64, 48, 150, 0.1438341, {0.0776868, 0.1680495, 0.1197986, 0.1379943, 0.1346316}},
 };
 
+Picture cut_out(const Picture& picture, int left, int top, int width, int height) {
+    Picture part(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) part.at(x, y) = picture.at(left + x, top + y);
+    return part;
+}
+
+// Pictures are computed in tiles; where these end must not show.
+TEST(Flip, APixelDependsOnNothingBeyondItsReach) {
+    constexpr int kWidth = 620, kHeight = 310, kLeft = 117, kTop = 23;
+    const Picture a = picture_of(noise, kWidth, kHeight, false),
+                  b = picture_of(noise, kWidth, kHeight, true);
+    const int width = kWidth - 2 * kLeft, height = kHeight - 2 * kTop, reach = flip_reach();
+    const std::vector<float> whole = flip(a, b),
+                             part = flip(cut_out(a, kLeft, kTop, width, height),
+                                         cut_out(b, kLeft, kTop, width, height));
+    for (int y = reach; y < height - reach; ++y)
+        for (int x = reach; x < width - reach; ++x)
+            ASSERT_EQ(part[static_cast<std::size_t>(y * width + x)],
+                      whole[static_cast<std::size_t>((y + kTop) * kWidth + x + kLeft)])
+                << x << ", " << y;
+}
+
 class Published : public testing::TestWithParam<Case> {};
 
 TEST_P(Published, MapAndMeanEqualTheAuthorsProgram) {
