@@ -34,10 +34,15 @@ class Readers : public Cli {
 protected:
     using Change = std::function<std::string(Random&)>;
 
-    /// Writes each changed file under the name `file` and reads it by `words`.
-    void feed(const std::string& file, const Words& words, const Change& anywhere,
-              const Change& in_structure) const {
+    /// Writes each changed file under the name `file` and reads it by `words`. `good`: the file
+    /// before it is changed, which must be taken, else no change would be looked at.
+    void feed(const std::string& file, const std::string& good, const Words& words,
+              const Change& anywhere, const Change& in_structure) const {
+        write(file, good);
+        const test::Ended taken = cli(words);
+        ASSERT_EQ(taken.exit_code, 0) << file << ", unchanged\n" << taken.err;
         std::map<int, int> codes;
+        int structured_taken = 0;
         std::uint64_t most_bytes = 0;
         double longest = 0;
         const int count = files_of_a_reader();
@@ -49,6 +54,7 @@ protected:
             process.seconds_limit = kMostSeconds;
             const test::Ended ended = test::run_process(process);
             ++codes[ended.exit_code];
+            structured_taken += is_structured && ended.exit_code <= 1;
             most_bytes = std::max(most_bytes, ended.peak_bytes);
             longest = std::max(longest, ended.seconds);
             const std::string which = file + " of seed " + std::to_string(kSeed) + " + " +
@@ -61,9 +67,12 @@ protected:
             EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr("json.exception"))) << which;
             if (HasFailure()) keep(file, i);
         }
+        EXPECT_GT(codes[0], 0) << file << ": every change was refused";
+        EXPECT_LT(codes[0], count) << file << ": the file is not read";
         std::cout << "[ MEASURED ] " << file << ": " << count << " files, exit codes";
         for (const auto& [code, times] : codes) std::cout << " " << code << " x" << times;
-        std::cout << ", at most " << (most_bytes >> 20) << " MiB and " << longest << " s\n";
+        std::cout << "; of " << (count + 1) / 2 << " changed in structure " << structured_taken
+                  << " taken; at most " << (most_bytes >> 20) << " MiB and " << longest << " s\n";
     }
 
     /// A scene with textures, lights, a camera and a motion, in scene.gltf or .glb, with pictures
@@ -169,13 +178,13 @@ protected:
         return file;
     }
     static std::string obj() {
-        return "# catoptric camera 0 1 4 0 0 0 45\nmtllib m.mtl\no sheet\nv -1 0 0\nv 1 0 0\nv 1 2 0\n"
+        return "# catoptric camera front 0 1 4 0 0 0 0 1 0 45\nmtllib m.mtl\no sheet\nv -1 0 0\nv 1 0 0\nv 1 2 0\n"
                "v -1 2 0 0.5 0.5 0.5\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nusemtl painted\n"
                "f 1/1/1 2/2/1 3/3/1 4/4/1\ng mirror\nusemtl silver\nv 0 0 1\nv 1 0 1\nv 0 1 1\n"
                "f -3 -2 -1\nl 1 2\ns off\n";
     }
     static std::string mtl() {
-        return "newmtl painted\nKd 0.5 0.4 0.3\nmap_Kd -s 2 2 1 p.png\nKs 0.2 0.2 0.2\nNs 40\nillum 2\n"
+        return "newmtl painted\nKd 0.5 0.4 0.3\nKe 0.1 0.1 0.1\nmap_Kd -s 2 2 1 p.png\nKs 0.2 0.2 0.2\nNs 40\nillum 2\n"
                "d 0.9\nNi 1.4\nnewmtl silver\nKd 0 0 0\nKs 1 1 1\nillum 3\nNs 1000\nKe 0 0 0\nPr 0\nPm 1\n";
     }
 
@@ -203,7 +212,7 @@ private:
 TEST_F(Readers, Gltf) {
     const Json document = scene("a.bin");
     feed(
-        "scene.gltf", {"info", "scene.gltf"},
+        "scene.gltf", document.dump(1), {"info", "scene.gltf"},
         [&](Random& random) { return changed_bytes(document.dump(1), random); },
         [&](Random& random) { return changed_json(document, random).dump(1); });
 }
@@ -211,35 +220,36 @@ TEST_F(Readers, Gltf) {
 TEST_F(Readers, Glb) {
     const std::string glb = glb_of(scene(""), buffer());
     feed(
-        "scene.glb", {"info", "scene.glb"},
+        "scene.glb", glb, {"info", "scene.glb"},
         [&](Random& random) { return changed_bytes(glb, random); },
         [&](Random& random) { return changed_glb(glb, random); });
 }
 
 TEST_F(Readers, Obj) {
     feed(
-        "scene.obj", {"info", "scene.obj"},
+        "scene.obj", obj(), {"info", "scene.obj"},
         [&](Random& random) { return changed_bytes(obj(), random); },
         [&](Random& random) { return changed_lines(obj(), random); });
 }
 
 TEST_F(Readers, Mtl) {
     feed(
-        "m.mtl", {"info", "good.obj"}, [&](Random& random) { return changed_bytes(mtl(), random); },
+        "m.mtl", mtl(), {"info", "good.obj"},
+        [&](Random& random) { return changed_bytes(mtl(), random); },
         [&](Random& random) { return changed_lines(mtl(), random); });
 }
 
 TEST_F(Readers, Exr) {
     const std::string exr = read("good.exr");
     feed(
-        "a.exr", {"diff", "a.exr", "good.exr"},
+        "a.exr", exr, {"diff", "a.exr", "good.exr"},
         [&](Random& random) { return changed_bytes(exr, random); },
         [&](Random& random) { return changed_exr(exr, random); });
 }
 
 TEST_F(Readers, Hdr) {
     feed(
-        "a.hdr", {"info", "good.obj", "--environment", "a.hdr"},
+        "a.hdr", hdr(), {"info", "good.obj", "--environment", "a.hdr"},
         [&](Random& random) { return changed_bytes(hdr(), random); },
         [&](Random& random) {
             const std::size_t pixels = hdr().find('\x40');
@@ -250,14 +260,14 @@ TEST_F(Readers, Hdr) {
 TEST_F(Readers, Png) {
     const std::string png = read("p.png");
     feed(
-        "a.png", {"diff", "a.png", "p.png"},
+        "a.png", png, {"diff", "a.png", "p.png"},
         [&](Random& random) { return changed_bytes(png, random); },
         [&](Random& random) { return changed_png(png, random); });
 }
 
 TEST_F(Readers, SceneFile) {
-    const Json document = {{"mirrors", {"sheet", "mirror=0.9"}},
-                           {"lights", {"painted"}},
+    const Json document = {{"mirrors", Json::array({"mirror=0.9"})},
+                           {"lights", Json::array({"sheet"})},
                            {"mirror_max_roughness", 0.1},
                            {"dielectric_mirrors", false},
                            {"environment", "good.exr"},
@@ -269,7 +279,7 @@ TEST_F(Readers, SceneFile) {
                            {"up", "y"},
                            {"animation", "none"}};
     feed(
-        "good.catoptric.json", {"info", "good.obj"},
+        "good.obj.catoptric.json", document.dump(1), {"info", "good.obj"},
         [&](Random& random) { return changed_bytes(document.dump(1), random); },
         [&](Random& random) { return changed_json(document, random).dump(1); });
 }
@@ -281,7 +291,7 @@ TEST_F(Readers, Plan) {
           {{"mirror", "ball*"}, {"technique", "reuse"}, {"name", "b"}, {"why", "small"}},
           {{"mirror", "*"}, {"technique", "hybrid"}}}}};
     feed(
-        "plan.json", {"graph", "--plan", "plan.json", "--why"},
+        "plan.json", document.dump(1), {"graph", "--plan", "plan.json", "--why"},
         [&](Random& random) { return changed_bytes(document.dump(1), random); },
         [&](Random& random) { return changed_json(document, random).dump(1); });
 }
@@ -303,7 +313,7 @@ TEST_F(Readers, Benchmarks) {
     write("before.json", document.dump());
     ASSERT_EQ(cli({"bench", "--compare", "before.json", "before.json"}).exit_code, 0);
     feed(
-        "now.json", {"bench", "--compare", "before.json", "now.json"},
+        "now.json", document.dump(1), {"bench", "--compare", "before.json", "now.json"},
         [&](Random& random) { return changed_bytes(document.dump(1), random); },
         [&](Random& random) { return changed_json(document, random).dump(1); });
 }
@@ -317,7 +327,7 @@ TEST_F(Readers, DeviceProfile) {
         {"variants", {{"groups", "scattered"}}},
         {"measured", Json::array()}};
     feed(
-        "profile.json", {"info", "--device-profile", "profile.json"},
+        "profile.json", document.dump(1), {"info", "--device-profile", "profile.json"},
         [&](Random& random) { return changed_bytes(document.dump(1), random); },
         [&](Random& random) { return changed_json(document, random).dump(1); });
 }
