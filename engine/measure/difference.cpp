@@ -6,8 +6,10 @@
 #include "measure/pixel_error.hpp"
 #include "measure/quantity.hpp"
 #include "measure/statistics.hpp"
+#include "measure/wide.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -107,23 +109,65 @@ const Registered kMeanClamped{
      .order = 281,
      .get = [](const Row& row) -> Value { return row.mean_clamped.rgb; }}};
 
+/// Differences of the pixels of a short run; `largest` is NaN where a pixel is not finite.
+struct Run {
+    static constexpr std::size_t kPixels = 256;
+    std::array<double, kPixels> largest, square, absolute;
+};
+
+/// Fills `run` with the differences of `count` pixels, each of three values.
+CATOPTRIC_WIDE void take_apart(const float* __restrict a, const float* __restrict b,
+                               std::size_t count, Run& run) {
+    double* __restrict const largest = run.largest.data();
+    double* __restrict const square = run.square.data();
+    double* __restrict const absolute = run.absolute.data();
+    const auto one = [](float value) {
+        const auto wide = static_cast<double>(value);
+        const double least = wide < 0.0 ? 0.0 : wide;
+        return least > 1.0 ? 1.0 : least;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const float *const p = a + 3 * i, *const q = b + 3 * i;
+        const double x = std::abs(one(p[0]) - one(q[0])), y = std::abs(one(p[1]) - one(q[1])),
+                     z = std::abs(one(p[2]) - one(q[2]));
+        const double two = x < y ? y : x;
+        // 0 times a value is not 0 where the value is not finite.
+        const float finite = 0 * p[0] + 0 * p[1] + 0 * p[2] + 0 * q[0] + 0 * q[1] + 0 * q[2];
+        largest[i] = (two < z ? z : two) + static_cast<double>(finite);
+        square[i] = x * x + y * y + z * z;
+        absolute[i] = x + y + z;
+    }
+}
+
 } // namespace
 
 void DifferenceSum::add(std::span<const vec3> a, std::span<const vec3> b,
                         std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
+    for (std::size_t first = 0; first < a.size(); first += Run::kPixels) {
+        const std::size_t count = std::min(Run::kPixels, a.size() - first);
+        const auto part = [&](auto values) {
+            return values.empty() ? values : values.subspan(first, count);
+        };
+        add_run(part(a), part(b), part(mask), part(flip_map));
+    }
+}
+
+void DifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
+                            std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
+    Run run;
+    take_apart(&a[0].x, &b[0].x, a.size(), run);
     const std::size_t first = off_.size();
     off_.resize(first + a.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
         if (!mask.empty() && mask[i] == 0) continue;
         ++result_.pixels;
-        if (!is_finite(a[i]) || !is_finite(b[i])) {
+        const double largest = run.largest[i];
+        if (std::isnan(largest)) {
             ++result_.nonfinite;
             continue;
         }
-        const dvec3 channels = apart(a[i], b[i]);
-        const double largest = std::max({channels.x, channels.y, channels.z});
-        squares_ += glm::dot(channels, channels);
-        absolutes_ += channels.x + channels.y + channels.z;
+        squares_ += run.square[i];
+        absolutes_ += run.absolute[i];
         flips_ += static_cast<double>(flip_map[i]);
         largest_.push_back(largest);
         off_[first + i] = largest > kOff;
@@ -164,24 +208,28 @@ Difference difference(const Picture& a, const Picture& b, const Mask& mask,
 }
 
 void MeanSum::add(std::span<const vec3> pixels, std::span<const std::uint8_t> mask) {
+    dvec3 sum = sum_, clamped_sum = clamped_sum_; // stay in registers
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         if (!mask.empty() && mask[i] == 0) continue;
-        sum_ += range_ == Range::clamped ? clamped(pixels[i]) : dvec3(pixels[i]);
-        count_ += 1;
+        sum += dvec3(pixels[i]);
+        clamped_sum += clamped(pixels[i]);
+        ++count_;
     }
+    sum_ = sum, clamped_sum_ = clamped_sum;
 }
 
-Mean MeanSum::mean() const {
-    const dvec3 rgb = sum_ / count_; // 0/0 is NaN
+Mean MeanSum::mean(Range range) const {
+    const dvec3 rgb = (range == Range::clamped ? clamped_sum_ : sum_) /
+                      static_cast<double>(count_); // 0/0 is NaN
     return {rgb, (rgb.x + rgb.y + rgb.z) / 3};
 }
 
 Mean mean_of(const Picture& picture, Range range, const Mask& mask) {
     check(mask.empty() || mask.size() == picture.pixels.size(), Failure::bad_data, "a mean of ",
           picture.pixels.size(), " pixels wants a mask of as many, found ", mask.size());
-    MeanSum sum(range);
+    MeanSum sum;
     sum.add(picture.pixels, mask);
-    return sum.mean();
+    return sum.mean(range);
 }
 
 } // namespace catoptric::measure

@@ -25,6 +25,9 @@ public:
     Difference take();
 
 private:
+    void add_run(std::span<const vec3> a, std::span<const vec3> b,
+                 std::span<const std::uint8_t> mask, std::span<const float> flip_map);
+
     int width_;
     Difference result_;
     std::vector<double> largest_; ///< of each judged pixel
@@ -33,18 +36,16 @@ private:
     double squares_ = 0, absolutes_ = 0, flips_ = 0;
 };
 
-/// The same of a mean.
+/// Adds the means of a picture up row by row: of values as they are and of values clamped to [0,1].
 class MeanSum {
 public:
-    explicit MeanSum(Range range) : range_(range) {}
-
+    /// Adds the next rows. `mask` of as many pixels; empty: all count.
     void add(std::span<const vec3> pixels, std::span<const std::uint8_t> mask);
-    Mean mean() const;
+    Mean mean(Range range) const;
 
 private:
-    Range range_;
-    dvec3 sum_{0};
-    double count_ = 0;
+    dvec3 sum_{0}, clamped_sum_{0};
+    std::size_t count_ = 0;
 };
 
 } // namespace catoptric::measure

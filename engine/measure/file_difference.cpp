@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "measure/difference_sum.hpp"
+#include "measure/display.hpp"
 #include "measure/flip.hpp"
 #include "measure/picture_file.hpp"
 #include "measure/quantity.hpp"
@@ -41,13 +42,28 @@ private:
     Picture rows_;
 };
 
-/// Of rows that are equal nothing need be computed.
-std::vector<float> flip_of(const Picture& a, const Picture& b, double exposure_stops,
-                           bool is_of_bytes) {
-    if (a.pixels == b.pixels) return std::vector<float>(a.pixels.size());
-    const auto display = is_of_bytes ? to_display : to_unrounded_display;
-    return flip(display(a, exposure_stops), display(b, exposure_stops));
-}
+/// FLIP of parts of two pictures, one after the other in the same memory.
+class FlipOfParts {
+public:
+    FlipOfParts(double exposure_stops, bool is_of_bytes)
+        : exposure_stops_(exposure_stops), is_of_bytes_(is_of_bytes) {}
+
+    /// Returns FLIP of the rows from `first` to before `end`; does not compute it of equal
+    /// pictures.
+    std::vector<float> of_rows(const Picture& a, const Picture& b, int first, int end) {
+        if (a.pixels == b.pixels)
+            return std::vector<float>(static_cast<std::size_t>(end - first) *
+                                      static_cast<std::size_t>(a.width));
+        write_display(a, exposure_stops_, is_of_bytes_, display_a_);
+        write_display(b, exposure_stops_, is_of_bytes_, display_b_);
+        return flip_of_rows(display_a_, display_b_, first, end);
+    }
+
+private:
+    double exposure_stops_;
+    bool is_of_bytes_;
+    Picture display_a_, display_b_;
+};
 
 /// Returns nothing for pictures that are shown as they are.
 std::vector<vec3> exposed_rows(std::span<const vec3> rows, double exposure_stops) {
@@ -81,27 +97,33 @@ FileDifference difference_of_files(const std::filesystem::path& a, const std::fi
     const bool is_of_bytes = is_png(a) || is_png(b);
     Window window_a(std::move(of_a)), window_b(std::move(of_b));
     DifferenceSum sum(width, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    MeanSum a_mean(Range::unclamped), b_mean(Range::unclamped), a_clamped(Range::clamped),
-        b_clamped(Range::clamped);
+    MeanSum a_mean, b_mean;
+    FlipOfParts flip(exposure_stops, is_of_bytes);
     const int band = std::max(1, kBandPixels / width), reach = flip_reach();
     for (int first = 0; first < height; first += band) {
         const int end = std::min(first + band, height), above = std::max(0, first - reach),
                   below = std::min(height, end + reach);
         const Picture& part_a = window_a.show(above, below);
         const Picture& part_b = window_b.show(above, below);
-        const std::vector<float> map = flip_of(part_a, part_b, exposure_stops, is_of_bytes);
+        const std::vector<float> map = flip.of_rows(part_a, part_b, first - above, end - above);
         const auto counted = rows_of(mask, width, first, end);
         const auto rows_a = rows_of(part_a.pixels, width, first - above, end - above);
         const auto rows_b = rows_of(part_b.pixels, width, first - above, end - above);
-        a_mean.add(rows_a, counted), a_clamped.add(rows_a, counted);
-        b_mean.add(rows_b, counted), b_clamped.add(rows_b, counted);
+        a_mean.add(rows_a, counted);
+        b_mean.add(rows_b, counted);
         const std::vector<vec3> exposed_a = exposed_rows(rows_a, exposure_stops),
                                 exposed_b = exposed_rows(rows_b, exposure_stops);
         sum.add(exposed_a.empty() ? rows_a : exposed_a, exposed_b.empty() ? rows_b : exposed_b,
-                counted, rows_of(map, width, first - above, end - above));
+                counted, map);
     }
-    return {width,         height,           sum.take(),       a_mean.mean(),
-            b_mean.mean(), a_clamped.mean(), b_clamped.mean(), is_of_bytes};
+    return {width,
+            height,
+            sum.take(),
+            a_mean.mean(Range::unclamped),
+            b_mean.mean(Range::unclamped),
+            a_mean.mean(Range::clamped),
+            b_mean.mean(Range::clamped),
+            is_of_bytes};
 }
 
 } // namespace catoptric::measure

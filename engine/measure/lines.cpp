@@ -3,6 +3,12 @@
 #include "measure/quantity.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
 
 namespace catoptric::measure {
 namespace {
@@ -11,37 +17,67 @@ constexpr int kPatch = 4; ///< edge of the square that makes a patch
 constexpr int kReach =
     3; ///< two pixels dilated by 1 touch where their columns and rows are so near
 
-/// A mask as columns and rows; outside nothing counts.
-struct Grid {
-    const Mask& mask;
-    int width, height;
-
-    std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-               static_cast<std::size_t>(x);
-    }
-    bool counts(int x, int y) const { return mask[index(x, y)] != 0; }
-};
-
-/// Where a square of kPatch x kPatch pixels that count ends, at its lower right.
-Mask patch_corners(const Grid& grid) {
-    Mask corners(grid.mask.size());
-    // Edges of the largest squares that end in this row and the one above, up to kPatch.
-    std::vector<int> edges(static_cast<std::size_t>(grid.width)), above(edges.size());
-    for (int y = 0; y < grid.height; ++y) {
-        std::swap(edges, above);
-        for (int x = 0; x < grid.width; ++x) {
-            const auto i = static_cast<std::size_t>(x);
-            edges[i] = 0;
-            if (!grid.counts(x, y)) continue;
-            const int before = x > 0 && y > 0 ? std::min({edges[i - 1], above[i], above[i - 1]})
-                                              : 0;
-            edges[i] = std::min(before + 1, kPatch);
-            corners[grid.index(x, y)] = edges[i] == kPatch;
-        }
+/// Returns where a square of kPatch x kPatch pixels that count ends, at its lower right.
+Mask patch_corners(const Mask& mask, std::size_t width) {
+    Mask corners(mask.size());
+    const std::size_t height = mask.size() / width;
+    if (width < kPatch || height < kPatch) return corners;
+    // Of each of the last rows: whether kPatch pixels side by side count, the last at x.
+    std::array<Mask, kPatch> runs;
+    runs.fill(Mask(width));
+    for (std::size_t y = 0; y < height; ++y) {
+        const std::uint8_t* const row = mask.data() + y * width;
+        std::uint8_t* const run = runs[y % kPatch].data();
+        for (std::size_t x = kPatch - 1; x < width; ++x)
+            run[x] = (row[x] != 0) & (row[x - 1] != 0) & (row[x - 2] != 0) & (row[x - 3] != 0);
+        std::uint8_t* const corner = corners.data() + y * width;
+        if (y + 1 >= kPatch)
+            for (std::size_t x = 0; x < width; ++x)
+                corner[x] = runs[0][x] & runs[1][x] & runs[2][x] & runs[3][x];
     }
     return corners;
 }
+
+/// The pixels that are in no set yet, with a border of pixels that do not count.
+class Remaining {
+public:
+    Remaining(const Mask& mask, std::size_t width)
+        : stride_(width + 2 * kReach), pixels_(stride_ * (mask.size() / width + 2 * kReach)) {
+        for (std::size_t first = 0, y = 0; first < mask.size(); first += width, ++y)
+            std::copy_n(mask.begin() + static_cast<std::ptrdiff_t>(first), width,
+                        pixels_.begin() + static_cast<std::ptrdiff_t>((y + kReach) * stride_) +
+                            kReach);
+    }
+
+    std::uint8_t& at(int x, int y) { return row(y)[x + kReach]; }
+
+    /// Takes the pixels out that (x, y) touches, and calls `found` with each, row by row.
+    template <typename Found>
+    void take_around(int x, int y, Found&& found) {
+        for (int v = y - kReach; v <= y + kReach; ++v) {
+            std::uint8_t* const around = row(v) + x; // x - kReach, as rows have a border
+            if ((four(around) | four(around + kReach)) == 0) continue;
+            for (int i = 0; i <= 2 * kReach; ++i) {
+                if (around[i] == 0) continue;
+                around[i] = 0;
+                found(x - kReach + i, v);
+            }
+        }
+    }
+
+private:
+    std::uint8_t* row(int y) {
+        return pixels_.data() + static_cast<std::size_t>(y + kReach) * stride_;
+    }
+    static std::uint32_t four(const std::uint8_t* pixels) {
+        std::uint32_t result;
+        std::memcpy(&result, pixels, sizeof(result));
+        return result;
+    }
+
+    std::size_t stride_;
+    Mask pixels_;
+};
 
 /// Pixels that belong together.
 struct Set {
@@ -51,13 +87,13 @@ struct Set {
     int length() const { return std::max(high_x - low_x, high_y - low_y) + 1; }
 };
 
-/// The set of pixel (x, y), which is taken out of `left`.
-Set take_set(const Grid& grid, const Mask& corners, Mask& left, int x, int y) {
+/// Takes the set of pixel (x, y) out of `remaining`.
+Set take_set(const Mask& corners, std::size_t width, Remaining& remaining, int x, int y) {
     Set set{x, x, y, y};
     // From the outline inwards: as many wait as the set's edge is long, where the last found first
     // would let most of a large set wait.
     std::vector<std::pair<int, int>> open{{x, y}}, next;
-    left[grid.index(x, y)] = 0;
+    remaining.at(x, y) = 0;
     for (std::size_t i = 0; !open.empty(); ++i) {
         if (i == open.size()) {
             open.clear(), std::swap(open, next), i = 0;
@@ -66,14 +102,10 @@ Set take_set(const Grid& grid, const Mask& corners, Mask& left, int x, int y) {
         const auto [at_x, at_y] = open[i];
         set.low_x = std::min(set.low_x, at_x), set.high_x = std::max(set.high_x, at_x);
         set.low_y = std::min(set.low_y, at_y), set.high_y = std::max(set.high_y, at_y);
-        set.is_patch = set.is_patch || corners[grid.index(at_x, at_y)] != 0;
-        for (int v = std::max(at_y - kReach, 0); v <= std::min(at_y + kReach, grid.height - 1); ++v)
-            for (int u = std::max(at_x - kReach, 0); u <= std::min(at_x + kReach, grid.width - 1);
-                 ++u) {
-                if (left[grid.index(u, v)] == 0) continue;
-                left[grid.index(u, v)] = 0;
-                next.emplace_back(u, v);
-            }
+        set.is_patch =
+            set.is_patch ||
+            corners[static_cast<std::size_t>(at_y) * width + static_cast<std::size_t>(at_x)] != 0;
+        remaining.take_around(at_x, at_y, [&](int u, int v) { next.emplace_back(u, v); });
     }
     return set;
 }
@@ -93,14 +125,15 @@ const Registered kLongestLine{
 
 int longest_line(const Mask& off, int width) {
     if (off.empty()) return 0;
-    const Grid grid{off, width, static_cast<int>(off.size()) / width};
-    const Mask corners = patch_corners(grid);
-    Mask left = off;
+    const auto columns = static_cast<std::size_t>(width);
+    const int height = static_cast<int>(off.size() / columns);
+    const Mask corners = patch_corners(off, columns);
+    Remaining remaining(off, columns);
     int longest = 0;
-    for (int y = 0; y < grid.height; ++y)
-        for (int x = 0; x < grid.width; ++x) {
-            if (left[grid.index(x, y)] == 0) continue;
-            const Set set = take_set(grid, corners, left, x, y);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            if (remaining.at(x, y) == 0) continue;
+            const Set set = take_set(corners, columns, remaining, x, y);
             if (!set.is_patch) longest = std::max(longest, set.length());
         }
     return longest;

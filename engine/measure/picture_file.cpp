@@ -54,7 +54,8 @@ public:
         for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = curve(stored(i));
     }
     float operator()(float value) const {
-        const auto i = static_cast<std::size_t>(std::floor(value * 255 + .5F));
+        const float above = value * 255 + .5F; // not negative: the cast rounds it down, as floor
+        const auto i = static_cast<std::size_t>(static_cast<int>(above));
         return stored(i) == value ? table_[i] : curve(value);
     }
 
@@ -113,12 +114,14 @@ void PictureReader::read_rows(int first, std::span<vec3> pixels) {
         const std::size_t count = std::min(most, pixels.size());
         open_->values.resize(count * channel_count);
         open_->reader.read_rows(row, open_->values);
-        for (std::size_t i = 0; i < count; ++i)
-            for (int c = 0; c < 3; ++c) {
-                const float value =
-                    open_->values[i * channel_count + open_->rgb[static_cast<std::size_t>(c)]];
-                pixels[i][c] = is_stored ? kDecoded(value) : value;
-            }
+        const auto [red, green, blue] = open_->rgb;
+        const float* value = open_->values.data();
+        if (is_stored)
+            for (std::size_t i = 0; i < count; ++i, value += channel_count)
+                pixels[i] = {kDecoded(value[red]), kDecoded(value[green]), kDecoded(value[blue])};
+        else
+            for (std::size_t i = 0; i < count; ++i, value += channel_count)
+                pixels[i] = {value[red], value[green], value[blue]};
         pixels = pixels.subspan(count);
         row += static_cast<std::uint32_t>(count / columns);
     }

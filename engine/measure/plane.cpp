@@ -1,6 +1,6 @@
 #include "measure/plane.hpp"
 
-#include <algorithm>
+#include "measure/wide.hpp"
 
 namespace catoptric::measure {
 namespace {
@@ -32,33 +32,30 @@ CATOPTRIC_WIDE void weigh(const double* const* rows, const double* weights, std:
 
 } // namespace
 
-Plane along_x(const Plane& in, const Kernel& kernel) {
-    Plane out(in.width, in.height);
-    const int radius = kernel.radius;
-    std::vector<double> padded(static_cast<std::size_t>(in.width + 2 * radius));
-    std::vector<const double*> shifted;
-    for (std::size_t tap = 0; tap < kernel.weights.size(); ++tap)
-        shifted.push_back(padded.data() + tap);
+void along_x(const Plane& in, const Kernel& kernel, int border, Plane& out) {
+    out.resize(in.width - 2 * border, in.height);
+    std::vector<const double*> shifted(kernel.weights.size());
     for (int y = 0; y < in.height; ++y) {
-        const double* from = in.row(y);
-        std::fill_n(padded.begin(), radius, from[0]);
-        std::copy_n(from, in.width, padded.begin() + radius);
-        std::fill_n(padded.end() - radius, radius, from[in.width - 1]);
-        weigh(shifted.data(), kernel.weights.data(), shifted.size(), in.width, out.row(y));
+        const double* const first = in.row(y) + border - kernel.radius;
+        for (std::size_t tap = 0; tap < shifted.size(); ++tap) shifted[tap] = first + tap;
+        weigh(shifted.data(), kernel.weights.data(), shifted.size(), out.width, out.row(y));
     }
-    return out;
 }
 
-Plane along_y(const Plane& in, const Kernel& kernel) {
-    Plane out(in.width, in.height);
-    std::vector<const double*> rows(kernel.weights.size());
-    for (int y = 0; y < in.height; ++y) {
-        for (std::size_t tap = 0; tap < rows.size(); ++tap)
-            rows[tap] = in.row(
-                std::clamp(y + static_cast<int>(tap) - kernel.radius, 0, in.height - 1));
-        weigh(rows.data(), kernel.weights.data(), rows.size(), in.width, out.row(y));
+void sum_along_y(std::initializer_list<Filtered> parts, int border, Plane& out) {
+    const Plane& one = parts.begin()->plane;
+    out.resize(one.width, one.height - 2 * border);
+    std::vector<const double*> rows;
+    std::vector<double> weights;
+    for (const Filtered& part : parts)
+        weights.insert(weights.end(), part.kernel.weights.begin(), part.kernel.weights.end());
+    for (int y = 0; y < out.height; ++y) {
+        rows.clear();
+        for (const Filtered& part : parts)
+            for (int offset = -part.kernel.radius; offset <= part.kernel.radius; ++offset)
+                rows.push_back(part.plane.row(y + border + offset));
+        weigh(rows.data(), weights.data(), rows.size(), out.width, out.row(y));
     }
-    return out;
 }
 
 } // namespace catoptric::measure

@@ -1,16 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
-
-/// Marks a function whose loops are also compiled for processors with AVX2, chosen at run time.
-/// Both versions give the same bits: no product is fused with a sum.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
-    !defined(__SANITIZE_ADDRESS__)
-#define CATOPTRIC_WIDE [[gnu::target_clones("avx2", "default")]]
-#else
-#define CATOPTRIC_WIDE
-#endif
 
 namespace catoptric::measure {
 
@@ -20,9 +12,11 @@ struct Plane {
     int height = 0;
     std::vector<double> values;
 
-    Plane(int columns, int rows)
-        : width(columns), height(rows),
-          values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
+    /// Sets the size. Keeps the memory, and leaves the values undefined.
+    void resize(int columns, int rows) {
+        width = columns, height = rows;
+        values.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    }
     double* row(int y) { return values.data() + static_cast<std::ptrdiff_t>(y) * width; }
     const double* row(int y) const {
         return values.data() + static_cast<std::ptrdiff_t>(y) * width;
@@ -41,9 +35,19 @@ struct Kernel {
     }
 };
 
-/// Convolution along x or y; beyond the border the outermost pixel goes on. Costs
-/// 2 * radius + 1 multiplications a pixel, on one core.
-Plane along_x(const Plane& in, const Kernel& kernel);
-Plane along_y(const Plane& in, const Kernel& kernel);
+/// Writes the convolution of `in` along x to `out`, another plane, but for `border` columns on each
+/// side, at least as many as the kernel's radius. Costs 2 * radius + 1 multiplications a pixel, on
+/// one core.
+void along_x(const Plane& in, const Kernel& kernel, int border, Plane& out);
+
+/// A plane and the kernel it is convolved with.
+struct Filtered {
+    const Plane& plane;
+    const Kernel& kernel;
+};
+
+/// Writes the sum of convolutions along y, of planes of one size, to `out`, but for `border` rows
+/// above and below.
+void sum_along_y(std::initializer_list<Filtered> parts, int border, Plane& out);
 
 } // namespace catoptric::measure

@@ -21,38 +21,6 @@ double least_with(int code) {
     return std::bit_cast<double>(there);
 }
 
-/// Codes of light: where each begins, and a guess by the first bits of a float.
-class Codes {
-public:
-    Codes() {
-        for (std::size_t code = 1; code < least_.size(); ++code)
-            least_[code] = least_with(static_cast<int>(code));
-        int code = 0;
-        for (std::size_t i = 0; i < guesses_.size(); ++i) {
-            const auto bits = static_cast<std::uint32_t>(i << kDropped);
-            const auto value = static_cast<double>(std::bit_cast<float>(bits));
-            while (code < 255 && value >= least_[static_cast<std::size_t>(code) + 1]) ++code;
-            guesses_[i] = static_cast<std::uint8_t>(code);
-        }
-        for (std::size_t i = 0; i < values_.size(); ++i)
-            values_[i] = static_cast<float>(static_cast<double>(i) / 255);
-    }
-
-    float value_of(double linear) const {
-        const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(linear));
-        std::size_t code = guesses_[bits >> kDropped];
-        while (code < 255 && linear >= least_[code + 1]) ++code;
-        while (linear < least_[code]) --code; // the float was rounded up
-        return values_[code];
-    }
-
-private:
-    static constexpr int kDropped = 16;
-    std::array<double, 256> least_{};
-    std::array<std::uint8_t, (std::bit_cast<std::uint32_t>(1.0F) >> kDropped) + 1> guesses_{};
-    std::array<float, 256> values_{};
-};
-
 } // namespace
 
 LinearTable::Stored::Stored() {
@@ -63,9 +31,24 @@ LinearTable::Stored::Stored() {
 }
 const LinearTable::Stored LinearTable::kStored;
 
-float srgb_in_8_bits(double linear) {
-    static const Codes kCodes;
-    return kCodes.value_of(linear);
+EightBitCurve::EightBitCurve() {
+    for (std::size_t code = 1; code <= 255; ++code)
+        least_[code] = least_with(static_cast<int>(code));
+    least_.back() = 2;
+    std::size_t code = 0;
+    for (std::size_t i = 0; i < guesses_.size(); ++i) {
+        const auto bits = static_cast<std::uint32_t>(i << kDropped);
+        const auto value = static_cast<double>(std::bit_cast<float>(bits));
+        while (value >= least_[code + 1]) ++code;
+        guesses_[i] = static_cast<std::uint8_t>(code);
+    }
+    for (std::size_t i = 0; i < values_.size(); ++i)
+        values_[i] = static_cast<float>(static_cast<double>(i) / 255);
+}
+
+const EightBitCurve& EightBitCurve::get() {
+    static const EightBitCurve kCurve;
+    return kCurve;
 }
 
 } // namespace catoptric::measure
