@@ -98,7 +98,6 @@ private:
 
     void start() {
         const Request& base = request_.base;
-        const DeviceInfo& device = engine_.device();
         comparison_.version = version();
         comparison_.commit = commit();
         comparison_.date = utc_now();
@@ -106,7 +105,7 @@ private:
         comparison_.images = request_.images;
         comparison_.complete = false;
         comparison_.asked = base.techniques.size();
-        comparison_.device = facts_of(device);
+        comparison_.device = facts_of(engine_);
         comparison_.scene = scene_facts(base);
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);
@@ -149,7 +148,7 @@ private:
         std::vector<double>& samples = clear_ms_.emplace_back();
         for (int k = 0; k < warmup + frames; ++k) {
             const FrameTimes times = session_.clear_cubes();
-            if (k >= warmup) samples.push_back(times.passes_ms());
+            if (k >= warmup) samples.push_back(times.passes_ms);
             request_.watcher.check_stopped();
         }
         comparison_.clear_ms = measure::summarise(clear_ms_);

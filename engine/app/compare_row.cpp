@@ -31,6 +31,14 @@ report::HostParts host_parts(const Rounds& rounds) {
             part(&HostTimes::record)};
 }
 
+/// Returns the frames whose passes are kept one by one (kDetailedFrames).
+Rounds with_passes(Rounds rounds) {
+    for (std::vector<FrameTimes>& round : rounds)
+        std::erase_if(round, [](const FrameTimes& frame) { return frame.passes.empty(); });
+    std::erase_if(rounds, [](const std::vector<FrameTimes>& round) { return round.empty(); });
+    return rounds;
+}
+
 /// Every pass that some frame has, as they come: what is kept is not rendered in each.
 std::vector<std::string> names_of_passes(const Rounds& rounds) {
     std::vector<std::string> names;
@@ -128,12 +136,15 @@ report::Row make_row(const std::string& text, const Part& part) {
 void fill_times(report::Row& row, const Rounds& rounds, const std::string& prefix,
                 bool on_processor) {
     const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };
-    row.gpu_ms = over_frames(rounds, [&](const FrameTimes& frame) {
-        if (prefix.empty()) return frame.gpu_ms;
-        double sum = 0;
-        for (const PassTime& pass : frame.passes) sum += mine(pass) ? pass.ms() : 0;
-        return sum;
-    });
+    const Rounds detailed = with_passes(rounds);
+    row.gpu_ms = prefix.empty()
+                     ? over_frames(rounds, [](const FrameTimes& frame) { return frame.gpu_ms; })
+                     : over_frames(detailed, [&](const FrameTimes& frame) {
+                           double sum = 0;
+                           for (const PassTime& pass : frame.passes)
+                               sum += mine(pass) ? pass.ms() : 0;
+                           return sum;
+                       });
     const auto summary = [&](double FrameTimes::*which) {
         return over_frames(rounds, [&](const FrameTimes& frame) { return frame.*which; });
     };
@@ -142,14 +153,14 @@ void fill_times(report::Row& row, const Rounds& rounds, const std::string& prefi
     row.wall_ms = summary(&FrameTimes::wall_ms);
     if (on_processor) row.cpu_ms = summary(&FrameTimes::cpu_ms);
     row.closure = over_frames(
-        rounds, [](const FrameTimes& frame) { return frame.passes_ms() / frame.wall_ms; });
+        rounds, [](const FrameTimes& frame) { return frame.passes_ms / frame.wall_ms; });
     row.host_ms = over_frames(rounds, [](const FrameTimes& frame) { return frame.host.sum(); });
     row.frame_ms = over_frames(rounds, [](const FrameTimes& frame) { return frame.frame_ms(); });
     row.host_parts = host_parts(rounds);
     row.passes.clear();
-    for (const std::string& name : names_of_passes(rounds))
+    for (const std::string& name : names_of_passes(detailed))
         if (name.starts_with(prefix))
-            row.passes.push_back({name, over_frames(rounds, [&](const FrameTimes& frame) {
+            row.passes.push_back({name, over_frames(detailed, [&](const FrameTimes& frame) {
                                       const auto pass = std::ranges::find(frame.passes, name,
                                                                           &PassTime::name);
                                       return pass == frame.passes.end() ? 0 : pass->ms();

@@ -5,10 +5,15 @@
 namespace catoptric::app {
 
 FrameTimes to_times(const graph::FrameTimes& times) {
-    FrameTimes frame{{}, times.span_ms, times.record_ms, times.wall_ms, times.wait_ms, {}};
+    FrameTimes frame{.gpu_ms = times.span_ms,
+                     .record_ms = times.record_ms,
+                     .wall_ms = times.wall_ms,
+                     .wait_ms = times.wait_ms};
     frame.host.compile = times.compile_ms, frame.host.record = times.record_ms;
-    for (const graph::PassTime& pass : times.passes)
+    for (const graph::PassTime& pass : times.passes) {
         frame.passes.push_back({pass.name, pass.begin_ms, pass.end_ms});
+        frame.passes_ms += pass.ms();
+    }
     return frame;
 }
 

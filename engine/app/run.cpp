@@ -30,6 +30,8 @@ bool Frames::next() {
     if (number_ > request_.warmup) {
         times_.push_back(frame_->times());
         times_.back().cpu_ms = 1e3 * (process_seconds() - used_before);
+        if (times_.size() > kDetailedFrames)
+            times_[times_.size() - kDetailedFrames - 1].passes = std::vector<PassTime>();
     }
     if (request_.until_settled) {
         std::vector<std::byte> state = frame_->state();

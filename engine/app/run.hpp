@@ -27,6 +27,10 @@ struct Request : FrameSpec {
     double instant(int k) const { return time + (animate ? (k - 1) / 60.0 : 0.0); }
 };
 
+/// Measured frames of a run whose passes are kept one by one, so that the memory of a long run does
+/// not grow with the number of its passes.
+constexpr std::size_t kDetailedFrames = 1000;
+
 struct Result {
     std::vector<Part> parts;        ///< one per technique, of the last frame
     std::vector<FrameTimes> frames; ///< the measured ones; fewer than asked for where they settled

@@ -89,7 +89,9 @@ struct HostTimes {
 
 /// One frame on the clock. On a cpu device "gpu" time is time of the driver's threads.
 struct FrameTimes {
+    /// In order of execution. Of a run of many frames only the last kDetailedFrames have them.
     std::vector<PassTime> passes;
+    double passes_ms = 0; ///< sum over all passes
     double gpu_ms = 0;    ///< first to last stamp
     double record_ms = 0; ///< filling the command buffer
     double wall_ms = 0;   ///< submit until done, without recording and read-back
@@ -100,11 +102,6 @@ struct FrameTimes {
     /// measured it (Frames does).
     double cpu_ms = 0;
     HostTimes host;
-    double passes_ms() const {
-        double sum = 0;
-        for (const PassTime& pass : passes) sum += pass.ms();
-        return sum;
-    }
     /// Host and device work, which do not overlap; waiting is no work.
     double frame_ms() const { return host.sum() + gpu_ms; }
 };

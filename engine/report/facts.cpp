@@ -12,6 +12,7 @@ namespace {
 std::string device_text(const DeviceFacts& device) {
     std::string threads;
     if (device.threads > 0) threads = fmt::format(", {} threads", device.threads);
+    if (device.lanes > 0) threads += fmt::format(", {} lanes", device.lanes);
     if (device.held_threads > 0)
         threads += fmt::format(", {} of them held on a processor each", device.held_threads);
     const std::string profile = device.profile.empty() ? "" : ", profile " + device.profile;

@@ -1,3 +1,4 @@
+#include "core/text.hpp"
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_texture.hpp"
 #include "scene/repair.hpp"
@@ -20,10 +21,11 @@ constexpr Unread kUnread[] = {{"KHR_materials_clearcoat", "clearcoatFactor", "cl
                               {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
                               {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"}};
 constexpr std::string_view kTransmission = "KHR_materials_transmission";
+constexpr std::string_view kVolume = "KHR_materials_volume"; // says nothing without transmission
 constexpr std::string_view kRead[] = {kEmissiveStrength,     kTransmission,
                                       "KHR_materials_ior",   "KHR_materials_specular",
                                       "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
-                                      "KHR_materials_volume"}; // says nothing without transmission
+                                      kVolume};
 
 dvec3 vector_of(const Item& item, std::string_view key, double otherwise) {
     const std::vector<double> list = item.numbers(key, 3);
@@ -153,6 +155,9 @@ void Reader::transmission() {
     const std::optional<Item> glass = extension(kTransmission);
     if (!glass || glass->number("transmissionFactor", 0) == 0 || is_metal_everywhere()) return;
     gap("glass-as-diffuse"), gap("glass-shadow");
+    for (const std::string_view name : {kTransmission, kVolume})
+        if (extension(name))
+            source_.notes.add("extension " + in_quotes(name) + ", not read", from_.label());
 }
 
 void Reader::left_out() {

@@ -12,7 +12,9 @@ constexpr std::size_t kLongestName = 1024; // of an attribute, which messages sa
 constexpr std::string_view kRead[] = {
     kEmissiveStrength,        "KHR_lights_punctual",   "KHR_materials_ior",
     "KHR_materials_specular", "KHR_materials_unlit",   "KHR_materials_pbrSpecularGlossiness",
-    "KHR_texture_transform",  "KHR_mesh_quantization", "EXT_texture_webp"};
+    "KHR_texture_transform",  "KHR_mesh_quantization", "EXT_texture_webp",
+    // The reader of materials says whether these change anything.
+    "KHR_materials_transmission", "KHR_materials_volume"};
 
 bool is_read(std::string_view extension) {
     return std::ranges::find(kRead, extension) != std::end(kRead);

@@ -64,14 +64,13 @@ report::Stress run(app::Engine& engine, const StressRequest& request) {
     std::vector<const Property*> chosen;
     for (const std::string& id : request.only) chosen.push_back(&find_property(id));
     if (chosen.empty()) chosen = properties();
-    const app::DeviceInfo& device = engine.device();
     report::Stress stress{app::version(),
                           app::commit(),
                           request.command,
                           false,
                           chosen.size(),
                           {},
-                          app::facts_of(device),
+                          app::facts_of(engine),
                           static_cast<int>(request.size.x),
                           static_cast<int>(request.size.y),
                           request.seed,

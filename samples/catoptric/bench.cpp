@@ -152,7 +152,7 @@ int measure(const Options& options) {
     const measure::BenchmarkRun run = app::bench(
         subjects, meter,
         {.iterations = iterations, .rounds = options.rounds, .watcher = watcher_of(progress)},
-        app::facts_of(engine.device()), options.command);
+        app::facts_of(engine), options.command);
     progress.clear();
     put_result(options, report::to_json(run), bench_table(run));
     if (options.common.device.validate) engine.check_validation();

@@ -46,6 +46,16 @@ TEST_F(Cli, ListsEveryQuantity) {
     }
 }
 
+TEST_F(Cli, ReportSaysHowManyLanesRunTogether) {
+    ASSERT_EQ(cli(quick({"compare", "-o", "out", "--techniques", "reuse:face=8"})).exit_code, 0);
+    const json report = json::parse(read_path(folder / "out/report.json"))["device"],
+               info = json::parse(cli({"info", "--json"}).out)["device"];
+    EXPECT_GT(report["lanes"], 0);
+    EXPECT_EQ(report["lanes"], info["lanes"]);
+    EXPECT_THAT(read_path(folder / "out/report.md"),
+                testing::HasSubstr(" " + report["lanes"].dump() + " lanes"));
+}
+
 TEST_F(Cli, InfoParses) {
     const json document = json::parse(cli({"info", "--json"}).out);
     EXPECT_EQ(document["version"], "0.1.0");

@@ -1,5 +1,6 @@
 // Time stamps are true: passes add up to the frame, in order, and four times the work takes about
 // four times as long. Only ratios are asserted, never a time.
+#include "app/compare_row.hpp"
 #include "measure/statistics.hpp"
 #include "support/rendering.hpp"
 
@@ -59,6 +60,29 @@ TEST(Timing, PipelinedSpansAreInOrderToo) {
             EXPECT_GE(pass.ms(), 0) << pass.name;
             EXPECT_LE(pass.end_ms, frame.gpu_ms) << pass.name;
         }
+}
+
+TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
+    app::Request request = test::request(test::room(2, 1), {"reuse:face=8,shadow_map=8"}, {8, 8});
+    request.warmup = 0, request.frames = static_cast<int>(app::kDetailedFrames) + 2;
+    const std::vector<app::FrameTimes> frames = app::run(test::engine(), request).frames;
+    ASSERT_EQ(frames.size(), app::kDetailedFrames + 2);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        EXPECT_EQ(frames[i].passes.capacity() == 0, i < 2) << i;
+        EXPECT_GT(frames[i].passes_ms, 0) << i;
+    }
+    double sum = 0;
+    for (const app::PassTime& pass : frames.back().passes) sum += pass.ms();
+    EXPECT_DOUBLE_EQ(frames.back().passes_ms, sum);
+    const report::Row row = [&] {
+        report::Row filled;
+        app::fill_times(filled, {{frames}}, "", true);
+        return filled;
+    }();
+    EXPECT_EQ(row.gpu_ms.samples.size(), frames.size());
+    ASSERT_FALSE(row.passes.empty());
+    EXPECT_EQ(row.passes.front().gpu_ms.samples.size(), app::kDetailedFrames);
+    EXPECT_GT(row.passes.front().gpu_ms.median, 0);
 }
 
 TEST(Timing, FourTimesTheWorkReadsAboutFourTimes) {

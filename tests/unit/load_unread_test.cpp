@@ -48,13 +48,18 @@ TEST_F(LoadUnread, Materials) {
     gltf.root["materials"] = {
         {{"name", "wood"},
          {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"baseColorTexture", {{"index", 0}}}}}},
-        {{"name", "gold"}, {"pbrMetallicRoughness", {{"roughnessFactor", .3}}}},
+        {{"name", "gold"},
+         {"pbrMetallicRoughness", {{"roughnessFactor", .3}}},
+         {"extensions", // change nothing of a metal
+          {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+           {"KHR_materials_volume", Json::object()}}}},
         {{"name", "glass"},
          {"alphaMode", "BLEND"},
          {"normalTexture", {{"index", 0}}},
-         {"pbrMetallicRoughness", {{"roughnessFactor", 0}}},
+         {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
          {"extensions",
           {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+           {"KHR_materials_volume", Json::object()},
            {"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}}}}};
     gltf.root["textures"] = {{{"source", 0}}};
     gltf.root["images"] = {{{"bufferView", 0}, {"mimeType", "image/png"}}};
@@ -65,7 +70,8 @@ TEST_F(LoadUnread, Materials) {
             "images[0])",
             "materials with a normalTexture, drawn without it: 1 (first: materials[2] 'glass')",
             "materials with alphaMode BLEND, cut where half is left: 1 (first: materials[2] 'glass')",
-            "extension 'KHR_materials_transmission', not read: 1 (first: materials[2] 'glass')"));
+            "extension 'KHR_materials_transmission', not read: 1 (first: materials[2] 'glass')",
+            "extension 'KHR_materials_volume', not read: 1 (first: materials[2] 'glass')"));
 }
 
 TEST_F(LoadUnread, TheRestOfGltf) {
