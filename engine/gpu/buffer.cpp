@@ -103,13 +103,15 @@ Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse 
       bytes_(std::max<std::uint64_t>(bytes, kFewestBytes)) {
     buffer_ = make_buffer(device, bytes_, usage(use), name_);
     memory_ = back(device, buffer_,
-                   has(use, BufferUse::read_back) ? Home::host_reads : Home::device, name_,
-                   mapped_);
+                   has(use, BufferUse::read_back) ? Home::host_reads
+                   : has(use, BufferUse::staging) ? Home::host_writes
+                                                  : Home::device,
+                   name_, mapped_);
     const auto [format, texel_bytes] = texels_of(use);
     if (texel_bytes == 0) return;
-    check(bytes_ / texel_bytes <= device.limits().maxTexelBufferElements, Failure::exhausted,
-          "buffer '", name_, "' wants ", bytes_ / texel_bytes, " texels, the device allows ",
-          device.limits().maxTexelBufferElements);
+    check(bytes_ / 16 <= device.most_texels(), Failure::exhausted, "buffer '", name_, "' wants ",
+          bytes_ / 16, " texels, the device allows ", device.most_texels());
+    if (device.texels_in_storage()) return;
     VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     view.buffer = buffer_;
     view.format = format;
@@ -128,12 +130,16 @@ void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) {
         std::memcpy(static_cast<std::byte*>(mapped_) + offset, data.data(), data.size());
         return;
     }
-    void* mapped = nullptr;
-    const UniqueBuffer staging = make_buffer(*device_, data.size(),
-                                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "staging");
-    const UniqueMemory memory = back(*device_, staging, Home::host_writes, "staging", mapped);
-    std::memcpy(mapped, data.data(), data.size());
-    copy(*device_, "write buffer '" + name_ + "'", staging, 0, buffer_, offset, data.size());
+    upload_.ticket = device_->uploads().write(buffer_, offset, data);
+}
+
+/// Copies to it end before it does.
+Buffer::~Buffer() {
+    if (upload_.ticket == 0 || device_->abandoned()) return;
+    try {
+        device_->uploads().finish(upload_.ticket);
+    } catch (const Error&) { // the device is abandoned now, or nothing was submitted
+    }
 }
 
 std::vector<std::byte> Buffer::read() const {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "gpu/device.hpp"
+#include "gpu/uploads.hpp"
 
 #include <cstring>
 #include <span>
+#include <utility>
 
 namespace catoptric::gpu {
 
@@ -17,7 +19,8 @@ enum class BufferUse : std::uint32_t {
     texels = 8, ///< of four floats
     read_back = 16,
     words = 32, ///< texels of a whole number
-    quads = 64  ///< texels of four whole numbers
+    quads = 64, ///< texels of four whole numbers
+    staging = 128 ///< filled by the host for copies, and so in the host's memory
 };
 constexpr BufferUse operator|(BufferUse a, BufferUse b) {
     return static_cast<BufferUse>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
@@ -30,11 +33,15 @@ constexpr bool has(BufferUse set, BufferUse bit) {
 class Buffer {
 public:
     Buffer() = default;
+    Buffer(Buffer&&) = default;
+    Buffer& operator=(Buffer&&) = default;
+    ~Buffer();
     /// At least 16 bytes are made, so that an empty list can still be bound.
     /// Throws `exhausted` naming the bytes, or the limit for texel buffers.
     Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use);
 
-    /// Copies `data` to `offset`; through a staging buffer where device memory cannot be mapped.
+    /// Copies `data` to `offset`. Where device memory cannot be mapped, the bytes are there for all
+    /// that is submitted from now on (Uploads).
     /// Not while a frame that reads the buffer is in flight.
     void write(std::uint64_t offset, std::span<const std::byte> data);
     template <typename T>
@@ -53,6 +60,16 @@ private:
     Device* device_ = nullptr;
     std::string name_;
     std::uint64_t bytes_ = 0;
+    /// The last write through the staging ring, which goes with the buffer that it is of.
+    struct Upload {
+        Upload() = default;
+        Upload(Upload&& other) noexcept : ticket(std::exchange(other.ticket, 0)) {}
+        Upload& operator=(Upload&& other) noexcept {
+            std::swap(ticket, other.ticket);
+            return *this;
+        }
+        Uploads::Ticket ticket = 0;
+    } upload_;
     UniqueMemory memory_; // before the buffer: destroyed after it
     UniqueBuffer buffer_;
     UniqueBufferView view_;

@@ -1,5 +1,7 @@
 #include "gpu/device.hpp"
 
+#include "gpu/uploads.hpp"
+
 #include <algorithm>
 #include <atomic>
 
@@ -36,6 +38,7 @@ void Device::close() {
         static_cast<void>(messages_.release());
         return;
     }
+    uploads_.reset();
     one_shot_pool_ = {};
     if (is_given_) return;
     if (device_) vkDestroyDevice(device_, nullptr);
@@ -111,8 +114,18 @@ void Device::set_name(VkObjectType type, std::uint64_t handle, const std::string
     set_object_name_(device_, &info);
 }
 
+Uploads& Device::uploads() {
+    if (!uploads_) uploads_ = std::make_unique<Uploads>(*this);
+    return *uploads_;
+}
+
+void Device::submit_uploads() {
+    if (uploads_) uploads_->submit();
+}
+
 void Device::begin_one_shot(const std::string& doing) {
     check_usable();
+    submit_uploads();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check_vk(vkBeginCommandBuffer(one_shot_, &begin), doing + " (begin a command buffer)");

@@ -27,6 +27,8 @@ struct DeviceInfo {
 /// Throws `Failure::no_device` saying what to install when there is no driver.
 std::vector<DeviceInfo> list_devices();
 
+class Uploads;
+
 /// Somebody else's, made with Features::switch_on; all of it outlives the Device.
 struct GivenDevice {
     VkInstance instance = VK_NULL_HANDLE;
@@ -81,6 +83,16 @@ public:
     void choose(const Choices& choices) { choices_ = choices; }
     /// Vertex shaders may write gl_Layer; otherwise layered passes run layer by layer.
     bool layered() const { return layered_; }
+    /// Whether lists of texels are read from storage buffers, since texel buffers hold few. The
+    /// smallest that a device may allow, 65,536, hold a scene of 21,845 triangles.
+    bool texels_in_storage() const { return limits_.maxTexelBufferElements < (1u << 26); }
+    /// Texels of 16 bytes that a list may have.
+    std::uint64_t most_texels() const {
+        return texels_in_storage() ? limits_.maxStorageBufferRange / 16
+                                   : limits_.maxTexelBufferElements;
+    }
+    /// Whether images of 32-bit floats can be sampled with linear filtering.
+    bool filters_floats() const { return filters_floats_; }
     /// Shaders may compute with doubles.
     bool doubles() const { return doubles_; }
     bool staged() const { return staged_; }
@@ -121,6 +133,11 @@ public:
         end_one_shot(doing);
     }
 
+    /// What is written to buffers that cannot be mapped. Made at its first use.
+    Uploads& uploads();
+    /// Submits the writes so far: before what is to see them.
+    void submit_uploads();
+
     /// Messages of the validation layer so far (errors and warnings).
     const std::vector<std::string>& validation_messages() const { return *messages_; }
     /// Throws `internal` with the first message when there is any.
@@ -153,6 +170,7 @@ private:
     Choices choices_{};
     bool layered_ = true;
     bool doubles_ = false;
+    bool filters_floats_ = false;
     bool staged_ = false;
     bool has_debug_utils_ = false;
     bool is_given_ = false;
@@ -162,6 +180,7 @@ private:
     std::unique_ptr<std::vector<std::string>> messages_;
     UniqueCommandPool one_shot_pool_;
     VkCommandBuffer one_shot_ = VK_NULL_HANDLE;
+    std::unique_ptr<Uploads> uploads_;
 };
 
 } // namespace catoptric::gpu

@@ -123,6 +123,7 @@ void Device::look_at(const DeviceOptions& options) {
     vkGetPhysicalDeviceFeatures2(physical_, &has.core);
     layered_ = options.layered && has.v12.shaderOutputLayer;
     doubles_ = has.core.features.shaderFloat64;
+    filters_floats_ = Features::filters_floats(physical_);
     std::uint32_t count = queue_family_ + 1;
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());

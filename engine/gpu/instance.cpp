@@ -104,10 +104,7 @@ int cpu_threads() {
     return threads;
 }
 
-constexpr VkFormatFeatureFlags kCaptured = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
-                                           VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
-
-/// Of images in optimal tiling. Formats that Vulkan itself demands are not asked for.
+/// Of images in optimal tiling.
 bool allows(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags features) {
     VkFormatProperties properties;
     vkGetPhysicalDeviceFormatProperties(device, format, &properties);
@@ -277,6 +274,12 @@ Features::Features() {
     core.pNext = &v11, v11.pNext = &v12, v12.pNext = &v13;
 }
 
+bool Features::filters_floats(VkPhysicalDevice device) {
+    constexpr VkFormatFeatureFlags kFilter = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    return allows(device, VK_FORMAT_R32_SFLOAT, kFilter) &&
+           allows(device, VK_FORMAT_R32G32B32A32_SFLOAT, kFilter);
+}
+
 std::string Features::missing(VkPhysicalDevice device) {
     Features has;
     vkGetPhysicalDeviceFeatures2(device, &has.core);
@@ -296,9 +299,6 @@ std::string Features::missing(VkPhysicalDevice device) {
         {"subgroup ballots in compute shaders",
          has_subgroups(device, VK_SUBGROUP_FEATURE_BALLOT_BIT)},
         {"work groups of 256", largest_work_group(device) >= 256},
-        {"linear filtering of R32_SFLOAT", allows(device, VK_FORMAT_R32_SFLOAT, kCaptured)},
-        {"linear filtering of R32G32B32A32_SFLOAT",
-         allows(device, VK_FORMAT_R32G32B32A32_SFLOAT, kCaptured)},
     };
     std::string names;
     for (const auto& [name, there] : required)

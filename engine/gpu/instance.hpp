@@ -39,6 +39,9 @@ struct Features {
     Features& operator=(const Features&) = delete;
     /// Names of the required ones that `device` lacks, comma-separated.
     static std::string missing(VkPhysicalDevice device);
+    /// Whether images of 32-bit floats can be sampled with linear filtering, which Vulkan leaves
+    /// open.
+    static bool filters_floats(VkPhysicalDevice device);
     VkPhysicalDeviceFeatures2 core{};
     VkPhysicalDeviceVulkan11Features v11{};
     VkPhysicalDeviceVulkan12Features v12{};

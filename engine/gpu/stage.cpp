@@ -6,6 +6,18 @@
 
 namespace catoptric::gpu {
 
+namespace {
+
+/// Constants for what the device lacks; a shader that has not got one needs nothing for it.
+Constants constants_of(const Device& device) {
+    Constants constants;
+    if (device.texels_in_storage()) constants.emplace_back("texels_in_storage", 1u);
+    if (!device.filters_floats()) constants.emplace_back("distances_by_gather", 1u);
+    return constants;
+}
+
+} // namespace
+
 Stage::Stage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
              const Constants& constants, const Constants& features)
     : bit(stage) {
@@ -14,7 +26,8 @@ Stage::Stage(const Device& device, const std::string& name, VkShaderStageFlagBit
     check(!reflection.doubles || device.doubles(), Failure::no_device, "shader '", name,
           "' computes with doubles, which device '", device.info().name, "' cannot");
     std::map<std::uint32_t, std::uint32_t> values;
-    for (const Constants* list : {&constants, &features})
+    const Constants of_device = constants_of(device);
+    for (const Constants* list : {&of_device, &constants, &features})
         for (const auto& [constant, value] : *list)
             if (const Constant* known = find(constant)) values[known->id] = bits_of(value);
     const std::vector<std::uint32_t> words = specialise(name, shader.words, values);

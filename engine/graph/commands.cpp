@@ -198,7 +198,7 @@ void Commands::write_images(const gpu::Binding& binding, const Bound& bound,
     for (std::size_t i = 0; i < binding.count; ++i) {
         const Image image = images[i < count ? i : 0];
         infos.push_back(
-            {binding.kind == BindingKind::sampled_image ? recorder_.sampler(filter)
+            {binding.kind == BindingKind::sampled_image ? recorder_.sampler(filter_of(image, filter))
                                                         : VK_NULL_HANDLE,
              recorder_.physical(image).view(recorder_.device(), binding.shape, image),
              stored ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
@@ -213,6 +213,22 @@ void Commands::write_buffer(const gpu::Binding& binding, const Bound& bound,
     check(owned && (*owned)->texels(), Failure::internal, "pass '", pass_.name, "': '",
           binding.name, "' wants a buffer of texels");
     texels = (*owned)->texels();
+}
+
+/// Returns the name that a binding is bound by: that of a list of texels, also where it is read
+/// from a storage buffer (shaders/lib/texels.glsl).
+std::string_view Commands::list_of(const gpu::Binding& binding) {
+    constexpr std::string_view kInStorage = "_in_storage";
+    std::string_view name = binding.name;
+    if (name.ends_with(kInStorage)) name.remove_suffix(kInStorage.size());
+    return name;
+}
+
+/// Returns the filter that a sampler gets. Distances in 32-bit floats are weighed by the shader
+/// where the device cannot (`distances_by_gather`).
+Filter Commands::filter_of(Image image, Filter filter) const {
+    const bool is_float = graph_.images()[image.id].format == Format::r32f;
+    return is_float && !recorder_.device().filters_floats() ? Filter::nearest : filter;
 }
 
 /// Writes a fresh descriptor set when pipeline or bindings changed, then the push constants.
@@ -232,7 +248,7 @@ void Commands::flush() {
         writes.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             const gpu::Binding& binding = pipeline_->bindings[i];
-            const auto bound = bound_.find(binding.name);
+            const auto bound = bound_.find(list_of(binding));
             check(bound != bound_.end(), Failure::internal, "pass '", pass_.name,
                   "': nothing is bound to '", binding.name, "' of ", pipeline_name_);
             require_kind(binding, bound->second);

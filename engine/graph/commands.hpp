@@ -95,6 +95,8 @@ private:
     void require_kind(const gpu::Binding& binding, const Bound& bound) const;
     void write_images(const gpu::Binding& binding, const Bound& bound,
                       std::vector<VkDescriptorImageInfo>& infos);
+    static std::string_view list_of(const gpu::Binding& binding);
+    Filter filter_of(Image image, Filter filter) const;
     void write_buffer(const gpu::Binding& binding, const Bound& bound,
                       VkDescriptorBufferInfo& buffer, VkBufferView& texels);
 

@@ -176,6 +176,7 @@ void Runner::submit(Slot& slot, const Compiled& shape, const Outside& outside) {
     submit.pWaitSemaphoreInfos = &wait;
     submit.signalSemaphoreInfoCount = outside.signal ? 2 : 1;
     submit.pSignalSemaphoreInfos = signals.data();
+    device_.submit_uploads();
     slot.submitted = Clock::now();
     const VkResult result = vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE);
     if (result != VK_SUCCESS)

@@ -12,7 +12,12 @@ render::CaptureOptions capture_options(const render::FrameInputs& inputs,
     options.face = settings.is_special("face")
                        ? inputs.scene.common_face()
                        : static_cast<std::uint32_t>(settings.integer("face"));
-    if (settings.choice("colour") == "float") options.colour = Format::rgba32f;
+    if (settings.choice("colour") == "float") {
+        check(inputs.scene.device().filters_floats(), Failure::no_device,
+              "colour=float filters images of 32-bit floats, which device '",
+              inputs.scene.device().info().name, "' cannot; take colour=half");
+        options.colour = Format::rgba32f;
+    }
     if (!settings.has("distance")) return options;
     constexpr Format kFormats[] = {Format::r32f, Format::r16f, Format::r8_unorm};
     options.distance = kFormats[settings.integer("distance")];

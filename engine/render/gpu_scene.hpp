@@ -45,6 +45,7 @@ public:
     const std::vector<std::uint8_t>& backdrops(std::uint32_t light) const {
         return backdrops_[light];
     }
+    const gpu::Device& device() const { return device_; }
     const Space& space() const { return space_; }
     const std::vector<DrawRange>& ranges() const { return geometry_.ranges; }
     const std::vector<shared::View>& views() const { return views_; }

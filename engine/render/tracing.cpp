@@ -248,11 +248,8 @@ std::uint64_t Tracing::largest_bytes(Spheres spheres, std::size_t slot) const {
 void Tracing::bind(graph::Commands& commands, Spheres spheres, std::size_t slot) const {
     const Hierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
     commands.bind("bvh_nodes", hierarchy.nodes.at(slot));
-    commands.bind("BvhNodes", hierarchy.nodes.at(slot));
     commands.bind("bvh_triangles", hierarchy.triangles.at(slot));
-    commands.bind("BvhTriangles", hierarchy.triangles.at(slot));
     commands.bind("normals", normals_buffer_.at(slot));
-    commands.bind("Normals", normals_buffer_.at(slot));
 }
 
 } // namespace catoptric::render

@@ -33,6 +33,9 @@
 #define ORTHOGRAPHIC_CONSTANT 27
 #define MIRROR_TREE_CONSTANT 28
 #define ONE_LIGHT_CONSTANT 29
+// Of gpu::Device, what it lacks:
+#define TEXELS_IN_STORAGE_CONSTANT 30
+#define DISTANCES_BY_GATHER_CONSTANT 31
 // Of engine/gpu/variants.hpp:
 #define GROUPS_IN_ORDER_CONSTANT 32
 #define BVH_IN_STORAGE_CONSTANT 33

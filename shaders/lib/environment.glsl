@@ -8,9 +8,9 @@
 const uint kNoEnvironment = 0u, kMapEnvironment = 1u, kStudioEnvironment = 2u;
 layout(constant_id = ENVIRONMENT_CONSTANT) const uint environment_kind = kNoEnvironment;
 layout(set = 0, binding = 28, scalar) uniform SkyBuffer { Sky value; } sky;
-layout(set = 0, binding = 29) uniform samplerBuffer sky_texels; // row by row
+TEXEL_LIST(29, sky_texels, vec4, samplerBuffer, false) // row by row
 
-vec3 sky_texel(uint column, uint row) { return texelFetch(sky_texels, int(row * sky.value.size.x + column)).rgb; }
+vec3 sky_texel(uint column, uint row) { return sky_texels_at(row * sky.value.size.x + column).rgb; }
 
 // Radiance from a direction, unit.
 vec3 environment(vec3 direction) {

@@ -8,14 +8,13 @@
 
 layout(constant_id = DETAILS_CONSTANT) const uint details = 0u; // 1: some surface is more than one colour, or has two sides
 layout(constant_id = MASKS_CONSTANT) const uint masks = 0u;     // 1: something is cut out
-// See Detail, and lib/bindings.glsl for why these are texels.
-layout(set = 0, binding = DETAILS_BINDING) uniform usamplerBuffer detail_quads;
-layout(set = 0, binding = ATTRIBUTES_BINDING) uniform samplerBuffer attribute_texels; // two each
+TEXEL_LIST(DETAILS_BINDING, detail_quads, uvec4, usamplerBuffer, false) // see Detail
+TEXEL_LIST(ATTRIBUTES_BINDING, attribute_texels, vec4, samplerBuffer, false) // two each
 // First what 256 bytes of sRGB are in linear light, as floats; then texels, red in the low byte.
-layout(set = 0, binding = TEXELS_BINDING) uniform usamplerBuffer texture_words;
+TEXEL_LIST(TEXELS_BINDING, texture_words, uint, usamplerBuffer, false)
 
 // Four words of an object's detail.
-uvec4 detail_quad(uint object, int quad) { return texelFetch(detail_quads, int(kDetailQuads * object) + quad); }
+uvec4 detail_quad(uint object, uint quad) { return detail_quads_at(kDetailQuads * object + quad); }
 
 // What is not used is not read.
 Detail detail_of(uint object) {
@@ -30,18 +29,16 @@ Detail detail_of(uint object) {
                   TextureUse(q7.w, q8.x, q8.y, vec3(uintBitsToFloat(q8.zw), f9.x), f9.yzw));
 }
 Attribute attribute_at_vertex(uint vertex) {
-    int i = 2 * int(vertex);
-    return Attribute(texelFetch(attribute_texels, i), texelFetch(attribute_texels, i + 1));
+    return Attribute(attribute_texels_at(2u * vertex), attribute_texels_at(2u * vertex + 1u));
 }
-uint texture_word(uint i) { return texelFetch(texture_words, int(i)).r; }
 
 const Attribute kNoAttribute = Attribute(vec4(0), vec4(1));
 
 vec4 texel_colour(TextureUse use, int x, int y) {
-    uint texel = texture_word(use.first + uint(y) * (use.size & 0xffffu) + uint(x));
+    uint texel = texture_words_at(use.first + uint(y) * (use.size & 0xffffu) + uint(x));
     if ((use.how & kTextureSrgb) == 0u) return unpackUnorm4x8(texel);
-    return vec4(uintBitsToFloat(texture_word(texel & 0xffu)), uintBitsToFloat(texture_word(texel >> 8u & 0xffu)),
-                uintBitsToFloat(texture_word(texel >> 16u & 0xffu)), float(texel >> 24u) / 255.0);
+    return vec4(uintBitsToFloat(texture_words_at(texel & 0xffu)), uintBitsToFloat(texture_words_at(texel >> 8u & 0xffu)),
+                uintBitsToFloat(texture_words_at(texel >> 16u & 0xffu)), float(texel >> 24u) / 255.0);
 }
 
 // `uv`: both texture spaces. White where there is no texture.

@@ -9,7 +9,7 @@
 // 1: there is a tree (engine/render/mirror_tree.hpp).
 layout(constant_id = MIRROR_TREE_CONSTANT) const uint mirror_tree = 0u;
 // Two a node: lowest corner, mirror from 1 or 0; highest corner, number of the node after all that is below it.
-layout(set = 0, binding = MIRROR_NODES_BINDING) uniform samplerBuffer mirror_nodes;
+TEXEL_LIST(MIRROR_NODES_BINDING, mirror_nodes, vec4, samplerBuffer, false)
 
 // An accepted sphere may lie 22 roundings of the largest coordinate aside of a ray, and its first point by the root of
 // what that is before it is entered; box_ray's slack is 16 of them, and three times that is more than both.
@@ -26,15 +26,15 @@ bool meets_mirror(uint mirror, Ray ray, out float t) {
 // The first mirror on the ray, but for `except`; of equally near ones that with the lowest number. `only_spheres`: those
 // that are no exact sphere are passed by.
 bool first_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out float t) {
-    vec4 low = texelFetch(mirror_nodes, 0), high = texelFetch(mirror_nodes, 1);
+    vec4 low = mirror_nodes_at(0u), high = mirror_nodes_at(1u);
     BoxRay boxes = box_ray(ray, low.xyz, high.xyz, kSphereSlack);
     uint end = floatBitsToUint(high.w) & kBvhIdMask;
     bool found = false;
     t = kLargest;
     uint node = 0u;
     do { // loops ask at their end: see lib/trace.glsl
-        low = texelFetch(mirror_nodes, int(2u * node));
-        high = texelFetch(mirror_nodes, int(2u * node + 1u));
+        low = mirror_nodes_at(2u * node);
+        high = mirror_nodes_at(2u * node + 1u);
         float enters, met;
         bool inside = slab_test(low.xyz, high.xyz, boxes, t, enters);
         node = inside ? node + 1u : floatBitsToUint(high.w) & kBvhIdMask;

@@ -57,13 +57,18 @@ int distance_edge(uint mirror) {
     RETURN_OF_ARRAY(mirror, DISTANCE_EDGE)
 }
 
+// How much each of the four texels around a direction counts, in the order of textureGather.
+vec4 texel_weights(vec3 direction, int edge) {
+    vec3 place = cube_coordinates(cube_face(direction), direction);
+    vec2 share = fract((place.xy / place.z * 0.5 + 0.5) * float(edge) - 0.5);
+    return vec4(1.0 - share.x, share.x, share.x, 1.0 - share.x) * vec4(share.yy, 1.0 - share.yy);
+}
+
 // Of the objects in the four texels around a direction the one with the greatest weight, from its texels only.
 vec3 colour_of_object(uint mirror, vec3 direction) {
     vec4 numbers = object_numbers(mirror, direction);
     if (all(equal(numbers, numbers.xxxx))) return bilinear_colour(mirror, direction);
-    vec3 place = cube_coordinates(cube_face(direction), direction);
-    vec2 share = fract((place.xy / place.z * 0.5 + 0.5) * float(surface_edge(mirror)) - 0.5);
-    vec4 weights = vec4(1.0 - share.x, share.x, share.x, 1.0 - share.x) * vec4(share.yy, 1.0 - share.yy);
+    vec4 weights = texel_weights(direction, surface_edge(mirror));
     vec4 best = vec4(0);
     for (int i = 0; i < 4; ++i) {
         vec4 of_object = weights * vec4(equal(numbers, vec4(numbers[i])));
@@ -93,8 +98,17 @@ float exact_distance(uint mirror, vec3 direction);
 // 0: only for measuring what the test costs and what it is worth (docs/robustness.md).
 layout(constant_id = TESTS_VOID_CONSTANT) const uint tests_void = 1u;
 
+// 1: the device cannot filter 32-bit floats, so this program does.
+layout(constant_id = DISTANCES_BY_GATHER_CONSTANT) const uint distances_by_gather = 0u;
+vec4 four_distances(uint mirror, vec3 direction) {
+#define DISTANCES(i) textureGather(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_of(mirror)), 0)
+    RETURN_OF_ARRAY(mirror, DISTANCES)
+}
+
 // As stored, bilinear, and of the nearest texel.
 float stored_distance(uint mirror, vec3 direction) {
+    if (distances_by_gather != 0u)
+        return dot(texel_weights(direction, distance_edge(mirror)), four_distances(mirror, direction));
 #define STORED(i) textureLod(DISTANCE_CUBES(i), vec4(direction, cube_of(mirror)), 0).r
     RETURN_OF_ARRAY(mirror, STORED)
 }

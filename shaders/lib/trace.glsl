@@ -1,7 +1,7 @@
 // Ray tracing in compute shaders: a walk over the two-child hierarchy of engine/bvh/bvh.hpp.
 // The including shader defines BVH_NODES_BINDING and BVH_TRIANGLES_BINDING (set 0), and
-// TRACE_LOCAL_SIZE where its work group has not 64 invocations. One with BVH_STORED_NODES_BINDING and
-// BVH_STORED_TRIANGLES_BINDING can be specialised to fetch both from storage buffers (bvh_in_storage).
+// TRACE_LOCAL_SIZE where its work group has not 64 invocations. It can be specialised to fetch both from storage
+// buffers (bvh_in_storage).
 // TRACE_PRIVATE_STACK: for stages that have no shared memory. TRACE_SEES(object): false for objects that
 // rays pass through. TRACE_BALLS: whether the hierarchy may hold some. TRACE_IS_THERE(stored triangle, object,
 // barycentric): false where one of kBvhMasked is cut out.
@@ -15,6 +15,7 @@
 #include "lib/constants.glsl"
 #include "lib/math.glsl"
 #include "lib/plain.glsl"
+#include "lib/texels.glsl"
 
 #ifndef TRACE_LOCAL_SIZE
 #define TRACE_LOCAL_SIZE 64
@@ -29,30 +30,13 @@
 #define TRACE_PRIVATE_STACK
 #endif
 
-layout(set = 0, binding = BVH_NODES_BINDING) uniform samplerBuffer bvh_nodes;
-layout(set = 0, binding = BVH_TRIANGLES_BINDING) uniform samplerBuffer bvh_triangles;
-#ifdef BVH_STORED_NODES_BINDING
-layout(set = 0, binding = BVH_STORED_NODES_BINDING, std430) readonly buffer BvhNodes { vec4 stored_nodes[]; };
-layout(set = 0, binding = BVH_STORED_TRIANGLES_BINDING, std430) readonly buffer BvhTriangles { vec4 stored_triangles[]; };
 #ifdef NAIVE
 const uint bvh_in_storage = 1u;
 #else
 layout(constant_id = BVH_IN_STORAGE_CONSTANT) const uint bvh_in_storage = 0u;
 #endif
-vec4 node_texel(uint i) {
-    if (bvh_in_storage != 0u) return stored_nodes[i];
-    return texelFetch(bvh_nodes, int(i));
-}
-vec4 triangle_texel(uint i) {
-    if (bvh_in_storage != 0u) return stored_triangles[i];
-    return texelFetch(bvh_triangles, int(i));
-}
-#define NODE_TEXEL(i) node_texel(i)
-#define TRIANGLE_TEXEL(i) triangle_texel(i)
-#else
-#define NODE_TEXEL(i) texelFetch(bvh_nodes, int(i))
-#define TRIANGLE_TEXEL(i) texelFetch(bvh_triangles, int(i))
-#endif
+TEXEL_LIST(BVH_NODES_BINDING, bvh_nodes, vec4, samplerBuffer, bvh_in_storage != 0u)
+TEXEL_LIST(BVH_TRIANGLES_BINDING, bvh_triangles, vec4, samplerBuffer, bvh_in_storage != 0u)
 #ifdef TRACE_PRIVATE_STACK
 #define STACK(i) stack[i]
 #else
@@ -87,12 +71,12 @@ vec3 trace_low = vec3(0);
 
 Place place_at(uint record) {
     uint i = 4u * record;
-    return Place(NODE_TEXEL(i).xyz, NODE_TEXEL(i + 1u).xyz, NODE_TEXEL(i + 2u).xyz, NODE_TEXEL(i + 4u).xyz,
-                 NODE_TEXEL(i + 5u).xyz, NODE_TEXEL(i + 6u).xyz, NODE_TEXEL(i + 3u).xyz, NODE_TEXEL(i + 7u).xyz);
+    return Place(bvh_nodes_at(i).xyz, bvh_nodes_at(i + 1u).xyz, bvh_nodes_at(i + 2u).xyz, bvh_nodes_at(i + 4u).xyz,
+                 bvh_nodes_at(i + 5u).xyz, bvh_nodes_at(i + 6u).xyz, bvh_nodes_at(i + 3u).xyz, bvh_nodes_at(i + 7u).xyz);
 }
 // What is added to the number of a triangle below the record.
-uint number_shift(uint record) { return floatBitsToUint(NODE_TEXEL(4u * record + 2u).w) & kBvhIdMask; }
-float own_radius(uint record) { return NODE_TEXEL(4u * record + 9u).w; }
+uint number_shift(uint record) { return floatBitsToUint(bvh_nodes_at(4u * record + 2u).w) & kBvhIdMask; }
+float own_radius(uint record) { return bvh_nodes_at(4u * record + 9u).w; }
 
 // The tree that is walked: its ray, and what stands in its triangles' place of object, flags and number.
 struct Walked {
@@ -105,9 +89,9 @@ struct Walked {
 
 // Corners in scene units or in those of the thing's own space.
 void triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
-    a = TRIANGLE_TEXEL(3u * place).xyz;
-    b = TRIANGLE_TEXEL(3u * place + 1u).xyz;
-    c = TRIANGLE_TEXEL(3u * place + 2u).xyz;
+    a = bvh_triangles_at(3u * place).xyz;
+    b = bvh_triangles_at(3u * place + 1u).xyz;
+    c = bvh_triangles_at(3u * place + 2u).xyz;
 }
 
 bool meets_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) {
@@ -117,9 +101,9 @@ bool meets_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) 
 // One triangle or ball against the best hit so far; of equal t the lowest original number wins.
 void trace_triangle(uint place, Walked walked, uint skipped_flags, inout Hit best, inout bool found) {
     Ray ray = walked.ray;
-    vec4 a = TRIANGLE_TEXEL(3u * place);
-    vec4 b = TRIANGLE_TEXEL(3u * place + 1u);
-    vec4 c = TRIANGLE_TEXEL(3u * place + 2u);
+    vec4 a = bvh_triangles_at(3u * place);
+    vec4 b = bvh_triangles_at(3u * place + 1u);
+    vec4 c = bvh_triangles_at(3u * place + 2u);
     float t;
     vec3 weights;
     bool hit = keeps(kWatertight) ? triangle_test(a.xyz, b.xyz, c.xyz, ray.origin, walked.shear, t, weights)
@@ -156,10 +140,10 @@ bool trace_box(vec3 lo, vec3 hi, BoxRay ray, float t_max, out float t_near) {
 
 // Two boxes of a node: the nearer child that the ray meets (or kBvhNothing), and the other.
 void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint second) {
-    vec4 lo_0 = NODE_TEXEL(4u * node);
-    vec4 hi_0 = NODE_TEXEL(4u * node + 1u);
-    vec4 lo_1 = NODE_TEXEL(4u * node + 2u);
-    vec4 hi_1 = NODE_TEXEL(4u * node + 3u);
+    vec4 lo_0 = bvh_nodes_at(4u * node);
+    vec4 hi_0 = bvh_nodes_at(4u * node + 1u);
+    vec4 lo_1 = bvh_nodes_at(4u * node + 2u);
+    vec4 hi_1 = bvh_nodes_at(4u * node + 3u);
     float near_0, near_1;
     bool meets_0 = trace_box(lo_0.xyz, hi_0.xyz, boxes, t_max, near_0);
     bool meets_1 = trace_box(lo_1.xyz, hi_1.xyz, boxes, t_max, near_1);
@@ -172,8 +156,8 @@ void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint s
 
 // The scene's own tree.
 Walked trace_outside(Ray ray) {
-    vec3 lo = NODE_TEXEL(0u).xyz, hi = NODE_TEXEL(1u).xyz;
-    float times = own_spaces != 0u ? NODE_TEXEL(2u).x : 1.0;
+    vec3 lo = bvh_nodes_at(0u).xyz, hi = bvh_nodes_at(1u).xyz;
+    float times = own_spaces != 0u ? bvh_nodes_at(2u).x : 1.0;
     BoxRay boxes = keeps(kBoxSlack) ? box_ray(ray, lo, hi, times) : plain_box_ray(ray);
     return Walked(ray, boxes, ray_shear(ray.direction), 0u, 0u, 0u, 0u);
 }
@@ -181,11 +165,11 @@ Walked trace_outside(Ray ray) {
 // The tree of a thing in its own space, and its root.
 Walked trace_inside(uint record, Ray ray, vec3 low, out uint root) {
     uint i = 4u * record;
-    root = floatBitsToUint(NODE_TEXEL(i).w);
+    root = floatBitsToUint(bvh_nodes_at(i).w);
     Ray own = own_ray(place_at(record), ray, low);
-    BoxRay boxes = keeps(kBoxSlack) ? box_ray(own, NODE_TEXEL(i + 8u).xyz, NODE_TEXEL(i + 9u).xyz, 1.0) : plain_box_ray(own);
-    return Walked(own, boxes, ray_shear(own.direction), record, floatBitsToUint(NODE_TEXEL(i + 1u).w) & kBvhIdMask,
-                  floatBitsToUint(NODE_TEXEL(i + 3u).w) & kBvhIdMask, number_shift(record));
+    BoxRay boxes = keeps(kBoxSlack) ? box_ray(own, bvh_nodes_at(i + 8u).xyz, bvh_nodes_at(i + 9u).xyz, 1.0) : plain_box_ray(own);
+    return Walked(own, boxes, ray_shear(own.direction), record, floatBitsToUint(bvh_nodes_at(i + 1u).w) & kBvhIdMask,
+                  floatBitsToUint(bvh_nodes_at(i + 3u).w) & kBvhIdMask, number_shift(record));
 }
 
 // A thing that stands for an exact sphere around the middle of its space, where spheres are exact.
@@ -203,7 +187,7 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
     best = Hit(t_max, vec3(0), 0u, 0u, 0u, 0u);
     vec3 low = trace_low;
     trace_low = vec3(0);
-    bool empty = (floatBitsToUint(NODE_TEXEL(0u).w) & kBvhIdMask) == 0u;
+    bool empty = (floatBitsToUint(bvh_nodes_at(0u).w) & kBvhIdMask) == 0u;
     if (empty || !is_valid(ray) || !(t_max > 0.0)) return false;
 #ifdef TRACE_PRIVATE_STACK
     uint stack[kBvhMaxStack];

@@ -13,15 +13,13 @@
 
 // A texel a corner: its normal, and the number of its attribute as a word of engine/bvh/words.hpp.
 #ifdef NAIVE
-layout(set = 0, binding = NORMALS_BINDING, std430) readonly buffer Normals { vec4 normals[]; };
-#define CORNER(i) normals[i]
+TEXEL_LIST(NORMALS_BINDING, normals, vec4, samplerBuffer, true)
 #else
-layout(set = 0, binding = NORMALS_BINDING) uniform samplerBuffer normals;
-#define CORNER(i) texelFetch(normals, int(i))
+TEXEL_LIST(NORMALS_BINDING, normals, vec4, samplerBuffer, false)
 #endif
-#define NORMAL(i) CORNER(i).xyz
+#define NORMAL(i) normals_at(i).xyz
 
-Attribute attribute_of(uint corner) { return attribute_at_vertex(floatBitsToUint(CORNER(corner).w) & kBvhIdMask); }
+Attribute attribute_of(uint corner) { return attribute_at_vertex(floatBitsToUint(normals_at(corner).w) & kBvhIdMask); }
 
 // At a place of the triangle whose corners are stored from `corner` on.
 Attribute attribute_at(uint corner, vec3 barycentric) {

@@ -25,5 +25,5 @@ void main() {
     put(d.alpha_cutoff), put(d.f0), put(d.f90), put(d.albedo), put(d.emission), put(d.rough);
     Attribute a = attribute_at_vertex(number);
     put(a.uv), put(a.colour);
-    put(texture_word(number));
+    put(texture_words_at(number));
 }

@@ -54,7 +54,8 @@ TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
               (std::vector<std::string>{
                   "bvh_in_storage", "details", "environment_kind", "exact_spheres", "fixed_offset",
                   "groups_in_order", "light_kinds", "masks", "max_depth", "one_light",
-                  "orthographic", "own_spaces", "pixels_in_rows", "shadow", "without"}));
+                  "orthographic", "own_spaces", "pixels_in_rows", "shadow", "texels_in_storage",
+                  "without"}));
 }
 
 TEST(Reflection, LeavesOutWhatTheCodeDoesNotUse) {

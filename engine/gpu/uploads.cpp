@@ -1,0 +1,148 @@
+#include "gpu/uploads.hpp"
+
+#include "gpu/buffer.hpp"
+
+#include <algorithm>
+
+namespace catoptric::gpu {
+
+namespace {
+
+constexpr std::uint64_t kBlockBytes = 4 << 20;
+constexpr const char* kDoing = "write buffers";
+
+void barrier(VkCommandBuffer commands, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.dstStageMask = stages;
+    barrier.dstAccessMask = access;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+} // namespace
+
+Uploads::Uploads(Device& device) : device_(device) {
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    pool.queueFamilyIndex = device.queue_family();
+    VkCommandPool pool_handle = VK_NULL_HANDLE;
+    check_vk(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_handle),
+             "create a command pool");
+    pool_ = {device.handle(), pool_handle};
+    VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
+    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+    VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type};
+    VkSemaphore semaphore_handle = VK_NULL_HANDLE;
+    check_vk(vkCreateSemaphore(device.handle(), &semaphore, nullptr, &semaphore_handle),
+             "create a semaphore");
+    timeline_ = {device.handle(), semaphore_handle};
+    for (Block& block : blocks_) {
+        block.staging = std::make_unique<Buffer>(device, "staging", kBlockBytes,
+                                                 BufferUse::staging);
+        VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+        allocate.commandPool = pool_;
+        allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+        allocate.commandBufferCount = 1;
+        check_vk(vkAllocateCommandBuffers(device.handle(), &allocate, &block.commands),
+                 "allocate a command buffer");
+    }
+}
+
+/// Nothing is recorded any more: what it writes to is gone, and has waited for it.
+Uploads::~Uploads() {
+    if (device_.abandoned() || ended_ == submitted_) return;
+    try {
+        wait(submitted_);
+    } catch (const Error&) { // the device is abandoned now
+    }
+}
+
+void Uploads::wait(Ticket ticket) {
+    if (ticket <= ended_) return;
+    const VkSemaphore semaphore = timeline_;
+    VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
+    wait.semaphoreCount = 1;
+    wait.pSemaphores = &semaphore;
+    wait.pValues = &ticket;
+    device_.check_waited(vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0}), kDoing);
+    ended_ = ticket;
+}
+
+/// Returns a block that records and has room.
+Uploads::Block& Uploads::open_block() {
+    if (is_recording_ && blocks_[current_].used < kBlockBytes) return blocks_[current_];
+    submit();
+    Block& block = blocks_[current_];
+    wait(block.ends);
+    block.used = 0, block.targets.clear();
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check_vk(vkBeginCommandBuffer(block.commands, &begin), kDoing);
+    is_recording_ = true;
+    return block;
+}
+
+/// Two writes to the same bytes happen in the order of their calls.
+void Uploads::keep_order(Block& block, const Target& target) {
+    const bool overlaps = std::ranges::any_of(block.targets, [&](const Target& other) {
+        return other.buffer == target.buffer && other.first < target.end &&
+               target.first < other.end;
+    });
+    if (overlaps) {
+        barrier(block.commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        block.targets.clear();
+    }
+    block.targets.push_back(target);
+}
+
+Uploads::Ticket Uploads::write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data) {
+    device_.check_usable();
+    while (!data.empty()) {
+        Block& block = open_block();
+        const auto part = data.first(std::min<std::uint64_t>(data.size(),
+                                                             kBlockBytes - block.used));
+        block.staging->write(block.used, part);
+        keep_order(block, {to, offset, offset + part.size()});
+        const VkBufferCopy region{block.used, offset, part.size()};
+        vkCmdCopyBuffer(block.commands, block.staging->handle(), to, 1, &region);
+        block.used += part.size(), offset += part.size();
+        data = data.subspan(part.size());
+    }
+    return submitted_ + 1;
+}
+
+void Uploads::submit() {
+    if (!is_recording_) return;
+    Block& block = blocks_[current_];
+    barrier(block.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+    is_recording_ = false;
+    check_vk(vkEndCommandBuffer(block.commands), kDoing);
+    VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    commands.commandBuffer = block.commands;
+    VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+    signal.semaphore = timeline_;
+    signal.value = submitted_ + 1;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    submit.commandBufferInfoCount = 1;
+    submit.pCommandBufferInfos = &commands;
+    submit.signalSemaphoreInfoCount = 1;
+    submit.pSignalSemaphoreInfos = &signal;
+    device_.check_alive(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE), kDoing);
+    block.ends = ++submitted_;
+    current_ = (current_ + 1) % blocks_.size();
+}
+
+void Uploads::finish(Ticket ticket) {
+    if (ticket > submitted_) submit();
+    // What could not be submitted is never written.
+    wait(std::min(ticket, submitted_));
+}
+
+} // namespace catoptric::gpu

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "gpu/vulkan.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace catoptric::gpu {
+
+class Buffer;
+class Device;
+
+/// Writes to buffers that the host cannot map: a ring of staging blocks. A write copies its bytes
+/// into a block and records a copy on the device, so it waits only where the whole ring is in
+/// flight. Copies are submitted before the next frame, and everything that is submitted after them
+/// sees what they wrote.
+class Uploads {
+public:
+    /// Names a write; 0: none. Larger ones end later.
+    using Ticket = std::uint64_t;
+
+    explicit Uploads(Device& device);
+    ~Uploads();
+
+    /// Writes `data` to `to` from `offset` bytes on. `to` lives until the ticket has ended.
+    /// Throws as Device::check_alive and check_waited do.
+    Ticket write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data);
+    /// Submits what is recorded and not submitted yet.
+    void submit();
+    /// Waits until the write has ended.
+    void finish(Ticket ticket);
+
+private:
+    /// Bytes of `to` that a block's commands write.
+    struct Target {
+        VkBuffer buffer;
+        std::uint64_t first, end;
+    };
+    struct Block {
+        std::unique_ptr<Buffer> staging;
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        std::uint64_t used = 0;   ///< bytes of its staging buffer
+        Ticket ends = 0;          ///< value of the timeline at which it is free
+        std::vector<Target> targets; ///< since the last barrier
+    };
+    Block& open_block();
+    void wait(Ticket ticket);
+    void keep_order(Block& block, const Target& target);
+
+    Device& device_;
+    UniqueCommandPool pool_;
+    UniqueSemaphore timeline_;
+    std::array<Block, 3> blocks_;
+    std::size_t current_ = 0;
+    bool is_recording_ = false;
+    Ticket submitted_ = 0, ended_ = 0;
+};
+
+} // namespace catoptric::gpu

@@ -1,0 +1,25 @@
+// Lists that invocations read at places of their own. Uniform texel buffers, since a software driver reads storage
+// buffers lane by lane (docs/performance.md). Devices that allow few texels in one buffer (gpu::Device) get storage
+// buffers of the same contents: another descriptor, the same bytes.
+#ifndef CATOPTRIC_TEXELS_GLSL
+#define CATOPTRIC_TEXELS_GLSL
+
+#include "lib/constants.glsl"
+
+layout(constant_id = TEXELS_IN_STORAGE_CONSTANT) const uint texels_in_storage = 0u;
+
+#define STORED_TEXELS 64 // what is added to a binding's number for the storage buffer
+
+// A list of `vector`s (vec4, uvec4 or uint) that the engine binds as `name`, read by name_at(i) and, if `stored`,
+// from a storage buffer on every device.
+#define TEXEL_LIST(number, name, vector, sampler, stored)                                                              \
+    layout(set = 0, binding = number) uniform sampler name;                                                            \
+    layout(set = 0, binding = number + STORED_TEXELS, std430) readonly buffer name##_in_storage {                      \
+        vector name##_stored[];                                                                                        \
+    };                                                                                                                 \
+    vector name##_at(uint i) {                                                                                         \
+        if (texels_in_storage != 0u || stored) return name##_stored[i];                                                \
+        return vector(texelFetch(name, int(i)));                                                                       \
+    }
+
+#endif

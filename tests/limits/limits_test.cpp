@@ -1,0 +1,78 @@
+// A device with the small limits that layer/limits_layer.cpp shows: it draws the same pictures, and
+// refuses what it cannot do. All tests of gpu/ and reflect/ on such a device: ./dev test --label
+// limits-all.
+#include "cli/program.hpp"
+
+namespace {
+
+class SmallLimits : public Cli {
+protected:
+    test::Ended on_small_device(const Words& words) const {
+        test::Start process = start(words);
+        process.environment["VK_ADD_LAYER_PATH"] = CATOPTRIC_LIMITS_LAYER;
+        process.environment["VK_INSTANCE_LAYERS"] = "VK_LAYER_CATOPTRIC_limits";
+        return test::run_process(process);
+    }
+    /// Both devices draw the same bytes.
+    void expect_same_picture(Words words) const {
+        words.insert(words.end(), {"--validate", "-o", "small.exr"});
+        const test::Ended small = on_small_device(quick(words));
+        ASSERT_EQ(small.exit_code, 0) << small.err;
+        words.back() = "usual.exr";
+        ASSERT_EQ(cli(quick(words)).exit_code, 0);
+        EXPECT_EQ(read("small.exr"), read("usual.exr")) << testing::PrintToString(words);
+    }
+    double error_between() const {
+        const test::Ended ended = cli({"diff", "small.exr", "usual.exr", "--json"});
+        return nlohmann::json::parse(ended.out)["rmse"].get<double>();
+    }
+};
+
+/// Every list of texels: surfaces, mirrors and their tree, attributes, textures, the environment,
+/// what rays walk.
+TEST_F(SmallLimits, RayTracerDrawsTheSamePicture) {
+    for (const std::string scene : {"cornell-mirrors", "room", "courtyard"})
+        expect_same_picture({"render", scene, "--technique", "raytrace"});
+}
+
+TEST_F(SmallLimits, CapturesOfHalfDistancesGiveTheSamePicture) {
+    expect_same_picture({"render", "gallery", "--technique", "naive:face=32"});
+    expect_same_picture({"render", "cornell-mirrors", "--technique", "layered:face=32"});
+}
+
+/// Distances of 32-bit floats are filtered by the shader, which rounds otherwise than the driver.
+TEST_F(SmallLimits, FilteredDistancesGiveNearlyTheSamePicture) {
+    for (const std::string technique : {"parallax", "secant", "pyramid", "hybrid"}) {
+        Words words = quick({"render", "--technique", technique + ":face=64", "--validate"});
+        words.insert(words.end(), {"-o", "small.exr"});
+        const test::Ended small = on_small_device(words);
+        ASSERT_EQ(small.exit_code, 0) << technique << ": " << small.err;
+        words.back() = "usual.exr";
+        ASSERT_EQ(cli(words).exit_code, 0);
+        EXPECT_LT(error_between(), 1e-3) << technique;
+    }
+}
+
+/// 30,000 triangles have 90,000 corners: more than a texel buffer holds there.
+TEST_F(SmallLimits, SceneOfManyTrianglesIsDrawn) {
+    std::string text = "mtllib m.mtl\nusemtl white\n";
+    for (int i = 0; i < 30000; ++i) {
+        const double x = i % 200 / 100.0 - 1, y = i / 200 / 75.0 - 1;
+        text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\nv " +
+                std::to_string(x + .01) + " " + std::to_string(y) + " 0\nv " + std::to_string(x) +
+                " " + std::to_string(y + .012) + " .01\nf -3 -2 -1\n";
+    }
+    write("many.obj", text), write("m.mtl", "newmtl white\nKd .8 .7 .6\n");
+    expect_same_picture({"render", "many.obj", "--technique", "raytrace"});
+}
+
+TEST_F(SmallLimits, ColourOf32BitFloatsIsRefused) {
+    expect_ended(on_small_device({"render", "--technique", "parallax:colour=float", "-o", "x.png"}),
+                 69, {"colour=float filters images of 32-bit floats", "take colour=half"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+    const test::Ended half = on_small_device(
+        quick({"render", "--technique", "parallax:colour=half", "-o", "x.png"}));
+    EXPECT_EQ(half.exit_code, 0) << half.err;
+}
+
+} // namespace
