@@ -227,8 +227,14 @@ std::string_view Commands::list_of(const gpu::Binding& binding) {
 /// Returns the filter that a sampler gets. Distances in 32-bit floats are weighed by the shader
 /// where the device cannot (`distances_by_gather`).
 Filter Commands::filter_of(Image image, Filter filter) const {
-    const bool is_float = graph_.images()[image.id].format == Format::r32f;
-    return is_float && !recorder_.device().filters_floats() ? Filter::nearest : filter;
+    const ImageDesc& desc = graph_.images()[image.id];
+    const bool is_float = desc.format == Format::r32f || desc.format == Format::rgba32f;
+    if (!is_float || filter == Filter::nearest || recorder_.device().filters_floats())
+        return filter;
+    check(desc.format == Format::r32f && filter == Filter::linear, Failure::no_device, "pass '",
+          pass_.name, "' filters '", desc.name, "', an image of 32-bit floats, which device '",
+          recorder_.device().info().name, "' cannot");
+    return Filter::nearest;
 }
 
 /// Writes a fresh descriptor set when pipeline or bindings changed, then the push constants.

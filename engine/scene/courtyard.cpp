@@ -76,7 +76,7 @@ void add_dish(Scene& scene, std::size_t mirror, std::size_t stone) {
     scene.objects.back().world_from_object = place;
     add_mesh(scene, lathe("back of the dish", back, 64), stone);
     scene.objects.back().world_from_object = place;
-    add_mesh(scene, box("foot", {-1.2, 0, -1.5}, {-.6, .7, -.9}), stone);
+    add_mesh(scene, box("foot", {-1.2, kStandingGap, -1.5}, {-.6, .7, -.9}), stone);
 }
 
 } // namespace

@@ -73,7 +73,8 @@ Mesh shape_of(const Exhibit& exhibit) {
 
 void add_exhibit(Scene& scene, const Exhibit& exhibit, std::size_t stone, std::size_t mirror) {
     const double half = .8 * std::max(exhibit.size, .2);
-    Mesh plinth = box(std::string("plinth of ") + exhibit.name, exhibit.at - dvec3(half, 0, half),
+    Mesh plinth = box(std::string("plinth of ") + exhibit.name,
+                      exhibit.at + dvec3(-half, kStandingGap, -half),
                       exhibit.at + dvec3(half, exhibit.plinth, half));
     for (vec2& uv : plinth.uv[0]) uv *= 2;
     add_mesh(scene, std::move(plinth), stone);

@@ -12,10 +12,6 @@ namespace catoptric::scene {
 
 namespace {
 
-/// What stands on something is so far above it: of two surfaces in one plane, which one a picture
-/// shows is chance.
-constexpr double kGap = .001;
-
 dmat4 placed(dvec3 at, double degrees = 0) {
     const double angle = glm::radians(degrees);
     dmat4 world(1);
@@ -74,10 +70,10 @@ void add_furniture(Scene& scene) {
                                        {{-.22, 0, .18}, {-.18, .42, .22}},
                                        {{.18, 0, .18}, {.22, .42, .22}}});
     add_copies(scene, chair, oak,
-               {placed({-.45, kGap, .95}), placed({.45, kGap, .95}),
-                placed({-.45, kGap, -.35}, 180), placed({.45, kGap, -.35}, 180),
-                placed({1.05, kGap, .3}, 90), placed({1.9, kGap, 1.7}, 130)});
-    Mesh cushion = box("cushion", {-.2, .46 + 2 * kGap, -.2}, {.2, .5, .17});
+               {placed({-.45, kStandingGap, .95}), placed({.45, kStandingGap, .95}),
+                placed({-.45, kStandingGap, -.35}, 180), placed({.45, kStandingGap, -.35}, 180),
+                placed({1.05, kStandingGap, .3}, 90), placed({1.9, kStandingGap, 1.7}, 130)});
+    Mesh cushion = box("cushion", {-.2, .46 + 2 * kStandingGap, -.2}, {.2, .5, .17});
     for (vec2& uv : cushion.uv[0]) uv *= 4;
     add_copies(scene, cushion, linen,
                {placed({-.45, 0, .95}), placed({.45, 0, .95}), placed({-.45, 0, -.35}, 180),
@@ -89,14 +85,14 @@ void add_furniture(Scene& scene) {
         oak,
         {placed({-.7, 0, -.1}), placed({.7, 0, -.1}), placed({-.7, 0, .7}), placed({.7, 0, .7})});
     add_copies(scene, lathe("bowl", {{0, 0}, {.1, 0}, {.16, .07}, {.2, .16}}, 32), glaze,
-               {placed({.15, .75 + kGap, .3})});
+               {placed({.15, .75 + kStandingGap, .3})});
     add_copies(
         scene,
         lathe("vase", {{0, 0}, {.07, 0}, {.11, .12}, {.08, .26}, {.03, .36}, {.05, .42}}, 32),
         glaze,
-        {placed({-.45, .75 + kGap, .45}), placed({2.2, .9 + kGap, -1.2}),
-         placed({2.2, .9 + kGap, -1.6})});
-    add_mesh(scene, box("sideboard", {1.95, kGap, -2}, {2.45, .9, -.8}), oak);
+        {placed({-.45, .75 + kStandingGap, .45}), placed({2.2, .9 + kStandingGap, -1.2}),
+         placed({2.2, .9 + kStandingGap, -1.6})});
+    add_mesh(scene, box("sideboard", {1.95, kStandingGap, -2}, {2.45, .9, -.8}), oak);
 }
 
 void add_lights(Scene& scene) {

@@ -5,6 +5,10 @@
 
 namespace catoptric::scene {
 
+/// How far above its support a part of a shipped scene stands, in metres. Of two surfaces in one
+/// plane, which one a picture shows is chance.
+inline constexpr double kStandingGap = .001;
+
 /// Two triangles (a b c) (a c d) with the flat normal normalize(cross(b-a, c-a)).
 CATOPTRIC_API Mesh quad(std::string name, dvec3 a, dvec3 b, dvec3 c, dvec3 d);
 

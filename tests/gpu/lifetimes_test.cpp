@@ -206,7 +206,7 @@ TEST(Mips, AreSampledTogether) {
     graph::Runner runner(test::bench().device, test::bench().pipelines);
     for (const float lod : {0.0f, 1.0f, 1.5f, 2.25f, 9.0f}) {
         graph::Graph graph;
-        const graph::Image image = graph.image({"pyramid", Format::r32f, 16, 16, 1, false, 5});
+        const graph::Image image = graph.image({"pyramid", Format::r16f, 16, 16, 1, false, 5});
         for (std::uint32_t m = 0; m < 5; ++m)
             graph.pass("mip" + std::to_string(m))
                 .writes(image.mip(m), Use::colour, graph::Clear{10.0f * static_cast<float>(m)})

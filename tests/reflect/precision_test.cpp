@@ -75,7 +75,9 @@ TEST(Precision, HalfCapturesEndWhereHalvesEnd) {
             return most;
         };
         EXPECT_EQ(brightest("half"), 65504) << technique;
-        EXPECT_EQ(brightest("float"), kEmission) << technique;
+        if (test::has_float_colour()) {
+            EXPECT_EQ(brightest("float"), kEmission) << technique;
+        }
     }
 }
 
@@ -97,7 +99,9 @@ TEST(Precision, TexelsThatHalvesCutOffAreCounted) {
     EXPECT_GT(naive.value(), 10u) << "the lamp";
     for (const std::string technique : {"reuse:", "layered:", "hybrid:"})
         EXPECT_EQ(counted(technique + "face=64"), naive) << technique;
-    EXPECT_FALSE(counted("reuse:face=64,colour=float").has_value());
+    if (test::has_float_colour()) {
+        EXPECT_FALSE(counted("reuse:face=64,colour=float").has_value());
+    }
     for (int channel = 0; channel < 3; ++channel) { // a texel counts once, whichever are cut off
         vec3 one_colour(1);
         one_colour[channel] = 1e5f;

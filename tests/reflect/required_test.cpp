@@ -119,6 +119,8 @@ INSTANTIATE_TEST_SUITE_P(Rows, Required,
                          });
 
 TEST_P(Required, ShowsWhatEverythingShows) {
+    if (std::string_view(GetParam()).ends_with("colour=float") && !test::has_float_colour())
+        GTEST_SKIP() << "this device does not filter images of 32-bit floats";
     Pair pair(test::room(3, 2), {GetParam()});
     for (int k = 0; k < 6; ++k) pair.frame();
     scene::Material dark = pair.scene().materials[1];

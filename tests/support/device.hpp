@@ -83,6 +83,10 @@ inline app::Engine& engine(bool layered = true) {
     return *made;
 }
 
+/// Whether the device draws with `colour=float`, which filters images of 32-bit floats. Tests of
+/// devices that do not (limits/limits_test.cpp) look at the refusal.
+inline bool has_float_colour() { return bench().device.filters_floats(); }
+
 /// One frame of a graph; the runner keeps what the frame after it may ask for.
 inline graph::FrameTimes run(graph::Runner& runner, const graph::Graph& graph,
                              graph::Timing timing = graph::Timing::isolated) {

@@ -42,7 +42,8 @@ bool overlap(const Facet& a, const Facet& b, double slack) {
 }
 
 TEST(ShippedScenes, NoTwoPartsLieInOnePlane) {
-    for (const std::string name : {"cornell-mirrors", "room"}) {
+    for (const std::string name : {"cornell-mirrors", "cornell-mirrors-closed", "courtyard", "flat",
+                                   "gallery", "room"}) {
         const Scene scene = load(name);
         const double size = glm::length(bounds(scene).extent()), slack = 1e-6 * size;
         // By where their planes are, along a direction of no symmetry, in steps of the slack.
@@ -71,7 +72,7 @@ TEST(ShippedScenes, NoTwoPartsLieInOnePlane) {
             for (std::size_t i = 0; i < facets.size(); ++i)
                 for (std::size_t j = 0; j < i; ++j) {
                     if (facets[i].object == facets[j].object) continue;
-                    ASSERT_FALSE(overlap(facets[i], facets[j], 100 * slack))
+                    EXPECT_FALSE(overlap(facets[i], facets[j], 100 * slack))
                         << name << ": " << scene.objects[facets[i].object].name << " and "
                         << scene.objects[facets[j].object].name;
                 }
