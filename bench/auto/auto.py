@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures `auto` beside rows of one technique each, over six shipped and six drawn scenes and drawn views of them.
 
-auto.py [--views N] [--size WxH] [--rounds N] [--rows T ...] CATOPTRIC OUT [SCENE...]: compares in each view, writes
+auto.py [--views N] [--size WxH] [--rounds N] [--frames N] [--rows T ...] CATOPTRIC OUT [SCENE...]: compares in each view, writes
 OUT/auto.json (every figure) and OUT/auto.md (a line for each scene), and lists the views in which a row beats `auto`:
   faster: its processor time is less than auto's / 1.15 and its FLIP is no larger;
   better: its FLIP is less than auto's / 1.1 and its processor time is no larger;
@@ -27,7 +27,8 @@ def measured(arguments, name, scene, view, rows):
     """By row: processor milliseconds of a frame, FLIP on mirrors, pixels traced, and the plan of `auto`."""
     folder = os.path.join(arguments.out, "compare")
     run = subprocess.run([arguments.program, "compare", scene, "-o", folder, "--size", arguments.size, "--camera", "seeded",
-                          "--seed", str(view), "--frames", str(2 * arguments.rounds), "--warmup", "4", "--rounds",
+                          "--seed", str(view), "--frames", str(arguments.frames or 2 * arguments.rounds),
+                          "--warmup", "4", "--rounds",
                           str(arguments.rounds), "--quiet", "--json", "--techniques", *rows],
                          capture_output=True, text=True)
     if run.returncode != 0:
@@ -72,6 +73,7 @@ def main():
     parser.add_argument("--views", type=int, default=30)
     parser.add_argument("--size", default="96x96")
     parser.add_argument("--rounds", type=int, default=6)
+    parser.add_argument("--frames", type=int, help="measured, of each row; two a round if not given")
     parser.add_argument("--rows", nargs="+", default=ROWS)
     parser.add_argument("--again", action="store_true")
     parser.add_argument("program")

@@ -31,7 +31,8 @@ public:
 
     struct Path {
         std::vector<std::uint32_t> mirrors; ///< in the order in which they are met, from 0
-        bool is_hidden = false;             ///< see Paths::hidden
+        std::vector<bool>
+            is_hidden; ///< by mirror on the way: its capture does not show what follows
     };
     Path follow(f32::Ray ray) const {
         Path path;
@@ -41,7 +42,7 @@ public:
             path.mirrors.push_back(mirror);
             ray = reflected(ray, *hit);
             hit = bvh::closest_hit<float>(tree_, ray, kFar, bvh::kOneSided);
-            path.is_hidden = path.is_hidden || !shows(mirror, ray, hit);
+            path.is_hidden.push_back(!shows(mirror, ray, hit));
         }
         return path;
     }
@@ -149,9 +150,11 @@ Paths paths_of(const Question& question) {
             auto [met, is_hidden] = stage.follow(ray);
             if (met.empty()) continue;
             ++paths.first[met.front()];
-            paths.hidden[met.front()] += is_hidden;
-            for (std::vector<std::uint32_t> begin = met; !begin.empty(); begin.pop_back())
+            paths.hidden[met.front()] += std::ranges::find(is_hidden, true) != is_hidden.end();
+            for (std::vector<std::uint32_t> begin = met; !begin.empty(); begin.pop_back()) {
                 ++paths.through[begin];
+                if (is_hidden[begin.size() - 1]) ++paths.hidden_after[begin];
+            }
             std::ranges::sort(met);
             met.erase(std::ranges::unique(met).begin(), met.end());
             for (const std::uint32_t mirror : met) ++paths.reached[mirror];

@@ -86,6 +86,19 @@ double pass_of(const Known& known, double pixels) {
 /// How a mirror is drawn.
 enum class Way { planes, hybrid, march, small };
 
+/// Adds what a mirror costs and gets wrong that planes show: paths `path`, of which it is the last.
+/// A search looks into its capture there, too, but nothing is traced that this does not show.
+void weigh_in_planes(Candidate& candidate, const Known& known,
+                     const std::vector<std::uint32_t>& path, std::size_t count, Way way) {
+    const bool is_searched = way != Way::small;
+    if (is_searched) candidate.cost += kCosts.searched * known.pixels_of(count);
+    const double error = is_searched ? kErrors.search : kErrors.reuse;
+    candidate.error += static_cast<double>(count) * (error - kErrors.planar);
+    const auto found = known.paths.hidden_after.find(path);
+    if (is_searched && found != known.paths.hidden_after.end())
+        candidate.error += static_cast<double>(found->second) * (kErrors.unknown - error);
+}
+
 /// Adds what the candidate's techniques cost and get wrong. `face`: of the captures of flat mirrors
 /// that are drawn by planes; 0: there are no captures.
 void weigh(Candidate& candidate, const Known& known, const std::vector<Way>& ways,
@@ -113,7 +126,10 @@ void weigh(Candidate& candidate, const Known& known, const std::vector<Way>& way
     }
     for (const auto& [path, count] : known.paths.through) {
         const auto bounces = static_cast<std::size_t>(known.bounces);
-        if (length_of_run(path, by_planes) != path.size()) continue;
+        const std::size_t planes = length_of_run(path, by_planes);
+        if (planes > 0 && planes + 1 == path.size() && planes <= bounces)
+            weigh_in_planes(candidate, known, path, count, ways[path.back()]);
+        if (planes != path.size()) continue;
         if (path.size() <= bounces) candidate.cost += pass_of(known, known.pixels_of(count));
         if (path.size() == bounces + 1)
             candidate.error += static_cast<double>(count) * (kErrors.black - kErrors.planar);

@@ -32,6 +32,8 @@ struct CostTable {
 /// Mean FLIP of a mirror's pixel, by what draws it; rounded, over the scenes of docs/require.md.
 struct ErrorTable {
     double planar = .003, search = .03, reuse = .3;
+    double unknown =
+        .5;            ///< not in the capture of a mirror that planes show, where nothing is traced
     double black = .5; ///< flat mirrors one behind the other, more than are drawn
 };
 

@@ -146,6 +146,28 @@ TEST(RequireSuggest, CountsThePixelsThatShowAMirror) {
     EXPECT_LT(open.hidden[0], open.first[0] / 4);
 }
 
+/// A flat mirror shows a ball whose centre is walled in, so the ball's capture shows none of what
+/// the ball reflects. Views in mirrors trace nothing, so planes would show that wrongly.
+TEST(RequireSuggest, PlanesAreNotTakenForMirrorsWhoseCapturesTheyWouldTrust) {
+    for (const bool is_walled_in : {false, true}) {
+        scene::Scene scene = scene::flat();
+        const std::size_t mirror = scene.objects[6].material;
+        test::add_ball(scene, "ball", mirror, {.9, 1.1, -2}, .85, 3);
+        if (is_walled_in)
+            add_mesh(scene, scene::box("core", {.8, 1, -2.1}, {1, 1.2, -1.9}),
+                     test::add_material(scene, {.name = "grey", .albedo = vec3(.5f)}));
+        const Question question{scene, scene.cameras[0], {64, 64}};
+        Paths paths = paths_of(question);
+        const std::size_t through = paths.through[{0, 1}], hidden = paths.hidden_after[{0, 1}];
+        EXPECT_EQ(paths.first[1], 0u) << "the ball is seen in the flat mirror alone";
+        EXPECT_GT(through, 60u);
+        EXPECT_LE(hidden, is_walled_in ? through : through / 4);
+        EXPECT_GE(hidden, is_walled_in ? through : 0);
+        const Suggestion suggestion = suggest(question);
+        EXPECT_EQ(suggestion.candidates.front().techniques.front(), is_walled_in ? "hybrid" : "planar");
+    }
+}
+
 TEST(RequireSuggest, SaysWhy) {
     scene::Scene scene = test::hall();
     const std::size_t mirror = scene.objects.back().material;
