@@ -1,11 +1,28 @@
 #include "program.hpp"
 #include "signals.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace {
+
+/// Gives large blocks back to the system as soon as they are freed. Left alone, glibc keeps blocks
+/// of up to 32 MB for later, which added 115 MB to a scene of 100,000 objects.
+void return_freed_memory() {
+#ifdef __GLIBC__
+    constexpr int kLargeBlock = 128 * 1024;
+    mallopt(M_MMAP_THRESHOLD, kLargeBlock);
+    mallopt(M_TRIM_THRESHOLD, kLargeBlock);
+#endif
+}
 
 /// Before any object of the program is made; main would be later by all of them.
 [[gnu::constructor(101)]] void begin() { catoptric::cli::answer_signals("catoptric"); }
 
 } // namespace
 
-int main(int argc, char** argv) { return catoptric::cli::run_program(argc, argv); }
+int main(int argc, char** argv) {
+    return_freed_memory();
+    return catoptric::cli::run_program(argc, argv);
+}
