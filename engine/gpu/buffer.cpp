@@ -130,16 +130,7 @@ void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) {
         std::memcpy(static_cast<std::byte*>(mapped_) + offset, data.data(), data.size());
         return;
     }
-    upload_.ticket = device_->uploads().write(buffer_, offset, data);
-}
-
-/// Copies to it end before it does.
-Buffer::~Buffer() {
-    if (upload_.ticket == 0 || device_->abandoned()) return;
-    try {
-        device_->uploads().finish(upload_.ticket);
-    } catch (const Error&) { // the device is abandoned now, or nothing was submitted
-    }
+    upload_.renew(*device_, device_->uploads().write(buffer_, offset, data));
 }
 
 std::vector<std::byte> Buffer::read() const {

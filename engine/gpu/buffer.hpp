@@ -5,7 +5,6 @@
 
 #include <cstring>
 #include <span>
-#include <utility>
 
 namespace catoptric::gpu {
 
@@ -33,9 +32,6 @@ constexpr bool has(BufferUse set, BufferUse bit) {
 class Buffer {
 public:
     Buffer() = default;
-    Buffer(Buffer&&) = default;
-    Buffer& operator=(Buffer&&) = default;
-    ~Buffer();
     /// At least 16 bytes are made, so that an empty list can still be bound.
     /// Throws `exhausted` naming the bytes, or the limit for texel buffers.
     Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use);
@@ -60,19 +56,10 @@ private:
     Device* device_ = nullptr;
     std::string name_;
     std::uint64_t bytes_ = 0;
-    /// The last write through the staging ring, which goes with the buffer that it is of.
-    struct Upload {
-        Upload() = default;
-        Upload(Upload&& other) noexcept : ticket(std::exchange(other.ticket, 0)) {}
-        Upload& operator=(Upload&& other) noexcept {
-            std::swap(ticket, other.ticket);
-            return *this;
-        }
-        Uploads::Ticket ticket = 0;
-    } upload_;
     UniqueMemory memory_; // before the buffer: destroyed after it
     UniqueBuffer buffer_;
     UniqueBufferView view_;
+    PendingUpload upload_; // after the buffer: destroyed before it
     void* mapped_ = nullptr;
 };
 

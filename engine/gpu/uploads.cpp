@@ -145,4 +145,12 @@ void Uploads::finish(Ticket ticket) {
     wait(std::min(ticket, submitted_));
 }
 
+PendingUpload::~PendingUpload() {
+    if (ticket_ == 0 || device_->abandoned()) return;
+    try {
+        device_->uploads().finish(ticket_);
+    } catch (const Error&) { // the device is abandoned now, or nothing was submitted
+    }
+}
+
 } // namespace catoptric::gpu

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace catoptric::gpu {
@@ -43,8 +44,8 @@ private:
     struct Block {
         std::unique_ptr<Buffer> staging;
         VkCommandBuffer commands = VK_NULL_HANDLE;
-        std::uint64_t used = 0;   ///< bytes of its staging buffer
-        Ticket ends = 0;          ///< value of the timeline at which it is free
+        std::uint64_t used = 0;      ///< bytes of its staging buffer
+        Ticket ends = 0;             ///< value of the timeline at which it is free
         std::vector<Target> targets; ///< since the last barrier
     };
     Block& open_block();
@@ -58,6 +59,29 @@ private:
     std::size_t current_ = 0;
     bool is_recording_ = false;
     Ticket submitted_ = 0, ended_ = 0;
+};
+
+/// The last upload to a buffer. Its destructor waits until the upload has ended, so that the buffer
+/// may be destroyed.
+class PendingUpload {
+public:
+    PendingUpload() = default;
+    PendingUpload(PendingUpload&& other) noexcept { swap(other); }
+    PendingUpload& operator=(PendingUpload&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+    ~PendingUpload();
+    /// Replaces the ticket by that of a later write to the same buffer.
+    void renew(Device& device, Uploads::Ticket ticket) { device_ = &device, ticket_ = ticket; }
+
+private:
+    void swap(PendingUpload& other) noexcept {
+        std::swap(device_, other.device_), std::swap(ticket_, other.ticket_);
+    }
+
+    Device* device_ = nullptr;
+    Uploads::Ticket ticket_ = 0;
 };
 
 } // namespace catoptric::gpu

@@ -57,6 +57,47 @@ TEST_P(Staging, UploadGrowsTheBuffer) {
     EXPECT_EQ(std::memcmp(buffer.read().data(), longer.data(), 400), 0);
 }
 
+/// 40 MB are more than the whole staging ring holds.
+TEST_P(Staging, LargeWritesArriveWhole) {
+    std::vector<std::uint32_t> words(10'000'003);
+    std::iota(words.begin(), words.end(), 3u);
+    gpu::Buffer buffer(device(), "large", 4 * words.size(), gpu::BufferUse::plain);
+    buffer.write(std::span<const std::uint32_t>(words));
+    EXPECT_EQ(std::memcmp(buffer.read().data(), words.data(), 4 * words.size()), 0);
+}
+
+TEST_P(Staging, OverlappingWritesHappenInTheirOrder) {
+    std::vector<std::uint32_t> expected(1000, 0u);
+    gpu::Buffer buffer(device(), "list", 4 * expected.size(), gpu::BufferUse::plain);
+    buffer.write(std::span<const std::uint32_t>(expected));
+    for (std::uint32_t k = 0; k < 200; ++k) {
+        const std::size_t first = 3 * k, count = 400 - 2 * k;
+        const std::vector<std::uint32_t> part(count, k + 1);
+        buffer.write(4 * first, std::as_bytes(std::span(part)));
+        std::ranges::fill_n(expected.begin() + static_cast<std::ptrdiff_t>(first),
+                            static_cast<std::ptrdiff_t>(count), k + 1);
+    }
+    const std::vector<std::byte> read = buffer.read();
+    EXPECT_EQ(std::memcmp(read.data(), expected.data(), read.size()), 0);
+}
+
+/// The validation layer would tell of a copy to what is gone.
+TEST_P(Staging, BuffersMayGoRightAfterAWrite) {
+    const std::vector<std::uint32_t> words(50'000, 7u);
+    gpu::Buffer kept(device(), "kept", 4 * words.size(), gpu::BufferUse::plain);
+    for (int k = 0; k < 5; ++k) {
+        gpu::Buffer gone(device(), "gone", 4 * words.size(), gpu::BufferUse::plain);
+        gone.write(std::span<const std::uint32_t>(words));
+        gpu::Buffer other = std::move(gone);
+        other = {};
+        other = gpu::Buffer(device(), "other", 4 * words.size(), gpu::BufferUse::plain);
+        other.write(std::span<const std::uint32_t>(words));
+    }
+    kept.write(std::span<const std::uint32_t>(words));
+    EXPECT_EQ(std::memcmp(kept.read().data(), words.data(), 4 * words.size()), 0);
+    device().check_validation();
+}
+
 /// Vertices, texel buffers and read-back: a whole picture by way of staging buffers.
 TEST(StagedScene, PictureEqualsTheMappedOne) {
     const auto picture = [](bool staged) {
