@@ -50,12 +50,12 @@ TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
         EXPECT_EQ(one->binding, binding) << name;
         EXPECT_EQ(one->kind, kind) << name;
     }
-    EXPECT_EQ(constants(found),
-              (std::vector<std::string>{
-                  "bvh_in_storage", "details", "environment_kind", "exact_spheres", "fixed_offset",
-                  "groups_in_order", "light_kinds", "masks", "max_depth", "one_light",
-                  "orthographic", "own_spaces", "pixels_in_rows", "shadow", "texels_in_storage",
-                  "without"}));
+    EXPECT_EQ(
+        constants(found),
+        (std::vector<std::string>{"bvh_in_storage", "details", "environment_kind", "exact_spheres",
+                                  "fixed_offset", "groups_in_order", "light_kinds", "masks",
+                                  "max_depth", "one_light", "orthographic", "own_spaces",
+                                  "pixels_in_rows", "shadow", "texels_in_storage", "without"}));
 }
 
 TEST(Reflection, LeavesOutWhatTheCodeDoesNotUse) {

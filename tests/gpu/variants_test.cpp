@@ -37,7 +37,8 @@ TEST(Variants, WhatIsNotFetchedFromIsNotBound) {
         EXPECT_THAT(texels, testing::IsSupersetOf({"bvh_nodes", "bvh_triangles"}));
         EXPECT_THAT(texels, Not(Contains("bvh_nodes_in_storage")));
     }
-    EXPECT_THAT(stored, testing::IsSupersetOf({"bvh_nodes_in_storage", "bvh_triangles_in_storage"}));
+    EXPECT_THAT(stored,
+                testing::IsSupersetOf({"bvh_nodes_in_storage", "bvh_triangles_in_storage"}));
     EXPECT_THAT(stored, Not(Contains("bvh_nodes")));
 }
 

@@ -3,7 +3,12 @@
 #include "view/settings.hpp"
 #include "view/window.hpp"
 
+#include "places.hpp"
+#include "support/process.hpp"
+
 #include <algorithm>
+#include <array>
+#include <csignal>
 #include <fstream>
 #include <set>
 
@@ -68,6 +73,23 @@ TEST_F(ViewLife, RefusesWhatItCannotDo) {
     refused({"--frames", "1"}, Failure::no_device,
             "no display: a window needs one (is DISPLAY set?); 'catoptric render' makes pictures");
     ::setenv("DISPLAY", shown.c_str(), 1);
+}
+
+/// From the first object of the program on, whatever main has come to.
+TEST_F(ViewLife, AnswersEarlySignals) {
+    constexpr std::array kSignals{SIGHUP, SIGINT, SIGTERM};
+    int answered = 0;
+    for (int i = 0; i < 12; ++i) {
+        test::Start process{.command = {CATOPTRIC_VIEW}, .environment = {{"LD_DEBUG", "files"}}};
+        process.signal = kSignals[static_cast<std::size_t>(i) % kSignals.size()];
+        process.signal_at = "transferring control";
+        process.signal_after = std::chrono::milliseconds(4 * i);
+        const test::Ended ended = test::run_process(process);
+        EXPECT_EQ(ended.exit_code, 128 + process.signal);
+        answered += ended.err.find("catoptric-view: stopped by signal " +
+                                   std::to_string(process.signal)) != std::string::npos;
+    }
+    EXPECT_GE(answered, 10); // the others: between the linker's word and the program's first
 }
 
 /// 20 sizes and more; for a while there is nothing to draw on.
