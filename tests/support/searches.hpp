@@ -134,8 +134,10 @@ inline std::vector<measure::Difference> seen_in_mirrors(const scene::Scene& scen
     const app::Part& truth = parts.back();
     std::vector<measure::Difference> seen;
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-        seen.push_back(measure::difference(parts[i].hdr, truth.hdr, measure::mirrors(truth.hits),
-                                           measure::flip(parts[i].display, truth.display)));
+        seen.push_back(
+            measure::difference(parts[i].hdr, truth.hdr, measure::mirrors(truth.hits),
+                                measure::flip(measure::to_unrounded_display(parts[i].hdr),
+                                              measure::to_unrounded_display(truth.hdr))));
         std::cout << "[ MEASURED ] " << look.camera.name << ", " << parts[i].label << ": FLIP "
                   << seen.back().flip << ", off " << seen.back().off << ", longest line "
                   << seen.back().longest_line << "\n";
