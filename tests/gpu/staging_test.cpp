@@ -81,7 +81,7 @@ TEST_P(Staging, OverlappingWritesHappenInTheirOrder) {
     EXPECT_EQ(std::memcmp(read.data(), expected.data(), read.size()), 0);
 }
 
-/// The validation layer would tell of a copy to what is gone.
+/// A buffer that is emptied or replaced ends its copies on the device that it had.
 TEST_P(Staging, BuffersMayGoRightAfterAWrite) {
     const std::vector<std::uint32_t> words(50'000, 7u);
     gpu::Buffer kept(device(), "kept", 4 * words.size(), gpu::BufferUse::plain);
