@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -111,6 +112,63 @@ ImageShape radiance_header(const ByteSource& bytes, const std::string& name) {
     return {size, 3, {"R", "G", "B"}};
 }
 
+/// The first directory of a TIFF file, in either byte order (TIFF 6.0, section 2).
+class TiffDirectory {
+public:
+    explicit TiffDirectory(const ByteSource& bytes)
+        : numbers_(bytes), is_big_endian_(numbers_.big(0, 2) == 0x4d4d), first_(number(4, 4)) {}
+
+    /// Returns the first value of a tag, of 16 or 32 bits; `otherwise` where there is none.
+    std::uint32_t value(std::uint32_t tag, std::uint32_t otherwise) const {
+        constexpr std::uint32_t kShort = 3;
+        for (std::uint32_t i = 0; i < number(first_, 2); ++i) {
+            const std::uint64_t entry = first_ + 2 + std::uint64_t{12} * i;
+            if (number(entry, 2) != tag) continue;
+            const std::size_t size = number(entry + 2, 2) == kShort ? 2 : 4;
+            const bool is_inside = size * number(entry + 4, 4) <= 4; // else at an offset
+            return number(is_inside ? entry + 8 : number(entry + 8, 4), size);
+        }
+        return otherwise;
+    }
+
+private:
+    std::uint32_t number(std::uint64_t at, std::size_t size) const {
+        return is_big_endian_ ? numbers_.big(at, size) : numbers_.little(at, size);
+    }
+
+    Numbers numbers_;
+    bool is_big_endian_;
+    std::uint64_t first_;
+};
+
+/// Bytes that a TIFF file needs at least for so many decoded ones; 0: whatever there is may do.
+std::uint64_t least_of_tiff(std::uint64_t decoded, std::uint64_t compression) {
+    constexpr std::uint64_t kNone = 1, kLzw = 5, kDeflate = 8, kOldDeflate = 32946,
+                            kPackBits = 32773;
+    constexpr std::uint64_t kMostLzw = 4096; // bytes of a code, more than deflate's 1032
+    if (compression == kNone) return decoded;
+    if (compression == kPackBits) return decoded / 64;
+    const bool is_known = compression == kLzw || compression == kDeflate ||
+                          compression == kOldDeflate;
+    return is_known ? decoded / kMostLzw : 0;
+}
+
+ImageShape tiff_header(const ByteSource& bytes, const std::string& name) {
+    constexpr std::uint32_t kWidth = 256, kHeight = 257, kBits = 258, kCompression = 259,
+                            kChannels = 277;
+    const TiffDirectory directory(bytes);
+    const std::uint32_t width = directory.value(kWidth, 0), height = directory.value(kHeight, 0),
+                        channels = std::clamp(directory.value(kChannels, 1), 1u, 64u),
+                        bits = std::clamp(directory.value(kBits, 1), 1u, 64u);
+    const std::uint64_t texels = std::uint64_t{width} * height;
+    constexpr std::uint64_t kAbsurd = std::uint64_t{1} << 40; // refused by its sides
+    const std::uint64_t least = least_of_tiff(std::min(texels, kAbsurd) * channels * bits / 8,
+                                              directory.value(kCompression, 1));
+    check(least <= bytes.size(), Failure::bad_data, name, ": wanted at least ", least,
+          " bytes for ", width, "x", height, " pixels, found ", bytes.size());
+    return shape_of(width, height, channels);
+}
+
 } // namespace
 
 std::optional<ImageShape> header_of(const ByteSource& bytes, const std::string& format,
@@ -118,6 +176,7 @@ std::optional<ImageShape> header_of(const ByteSource& bytes, const std::string& 
     const Numbers numbers(bytes);
     if (format == "openexr") return openexr_header(bytes, name);
     if (format == "hdr") return radiance_header(bytes, name);
+    if (format == "tiff") return tiff_header(bytes, name);
     if (format == "jpeg") return jpeg_header(bytes);
     if (format == "webp") return webp_header(bytes);
     if (format == "gif") return shape_of(numbers.little(6, 2), numbers.little(8, 2), 4);
