@@ -27,7 +27,7 @@ int count_lanes(gpu::Device& device) {
             commands.dispatch(1, 1);
         });
     graph.want(lanes);
-    runner.run(graph, graph::Timing::pipelined);
+    runner.run(graph, graph::Timing::isolated);
     std::uint32_t count = 0;
     std::memcpy(&count, runner.read(lanes).data(), sizeof count);
     return static_cast<int>(count);

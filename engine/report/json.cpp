@@ -35,8 +35,8 @@ Json device_json(const DeviceFacts& device) {
               {"driver", device.driver},
               {"api", device.api},
               {"type", device.type},
-              {"threads", device.threads},
-              {"lanes", device.lanes > 0 ? Json(device.lanes) : Json()}};
+              {"threads", device.threads}};
+    if (device.lanes > 0) json["lanes"] = device.lanes;
     json["profile"] = device.profile.empty() ? Json() : Json(device.profile);
     json["variants"] = Json::object();
     for (const auto& [name, choice] : device.variants) json["variants"][name] = choice;
