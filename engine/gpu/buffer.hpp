@@ -17,8 +17,8 @@ enum class BufferUse : std::uint32_t {
     uniform = 4,
     texels = 8, ///< of four floats
     read_back = 16,
-    words = 32, ///< texels of a whole number
-    quads = 64, ///< texels of four whole numbers
+    words = 32,   ///< texels of a whole number
+    quads = 64,   ///< texels of four whole numbers
     staging = 128 ///< filled by the host for copies, and so in the host's memory
 };
 constexpr BufferUse operator|(BufferUse a, BufferUse b) {

@@ -104,8 +104,8 @@ Uploads::Ticket Uploads::write(VkBuffer to, std::uint64_t offset, std::span<cons
     device_.check_usable();
     while (!data.empty()) {
         Block& block = open_block();
-        const auto part = data.first(std::min<std::uint64_t>(data.size(),
-                                                             kBlockBytes - block.used));
+        const auto part = data.first(
+            std::min<std::uint64_t>(data.size(), kBlockBytes - block.used));
         block.staging->write(block.used, part);
         keep_order(block, {to, offset, offset + part.size()});
         const VkBufferCopy region{block.used, offset, part.size()};

@@ -198,8 +198,9 @@ void Commands::write_images(const gpu::Binding& binding, const Bound& bound,
     for (std::size_t i = 0; i < binding.count; ++i) {
         const Image image = images[i < count ? i : 0];
         infos.push_back(
-            {binding.kind == BindingKind::sampled_image ? recorder_.sampler(filter_of(image, filter))
-                                                        : VK_NULL_HANDLE,
+            {binding.kind == BindingKind::sampled_image
+                 ? recorder_.sampler(filter_of(image, filter))
+                 : VK_NULL_HANDLE,
              recorder_.physical(image).view(recorder_.device(), binding.shape, image),
              stored ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
     }

@@ -26,7 +26,7 @@ struct DeviceFacts {
     std::string profile; ///< file name of its profile; empty: none holds
     std::vector<std::pair<std::string, std::string>> variants; ///< of its shaders, by name
     int held_threads =
-        0; ///< of a cpu device's, how many stayed on a processor while rows were measured
+        0;         ///< of a cpu device's, how many stayed on a processor while rows were measured
     int lanes = 0; ///< 32-bit lanes of a shader that run together; 0: not counted
 };
 

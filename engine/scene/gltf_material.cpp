@@ -22,9 +22,12 @@ constexpr Unread kUnread[] = {{"KHR_materials_clearcoat", "clearcoatFactor", "cl
                               {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"}};
 constexpr std::string_view kTransmission = "KHR_materials_transmission";
 constexpr std::string_view kVolume = "KHR_materials_volume"; // says nothing without transmission
-constexpr std::string_view kRead[] = {kEmissiveStrength,     kTransmission,
-                                      "KHR_materials_ior",   "KHR_materials_specular",
-                                      "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
+constexpr std::string_view kRead[] = {kEmissiveStrength,
+                                      kTransmission,
+                                      "KHR_materials_ior",
+                                      "KHR_materials_specular",
+                                      "KHR_materials_unlit",
+                                      "KHR_materials_pbrSpecularGlossiness",
                                       kVolume};
 
 dvec3 vector_of(const Item& item, std::string_view key, double otherwise) {

@@ -10,9 +10,9 @@ namespace {
 constexpr std::size_t kLongestName = 1024; // of an attribute, which messages say in full
 /// Extensions that are read, or say only how other things are written.
 constexpr std::string_view kRead[] = {
-    kEmissiveStrength,        "KHR_lights_punctual",   "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_unlit",   "KHR_materials_pbrSpecularGlossiness",
-    "KHR_texture_transform",  "KHR_mesh_quantization", "EXT_texture_webp",
+    kEmissiveStrength, "KHR_lights_punctual", "KHR_materials_ior", "KHR_materials_specular",
+    "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform",
+    "KHR_mesh_quantization", "EXT_texture_webp",
     // The reader of materials says whether these change anything.
     "KHR_materials_transmission", "KHR_materials_volume"};
 

@@ -42,8 +42,8 @@ bool overlap(const Facet& a, const Facet& b, double slack) {
 }
 
 TEST(ShippedScenes, NoTwoPartsLieInOnePlane) {
-    for (const std::string name : {"cornell-mirrors", "cornell-mirrors-closed", "courtyard", "flat",
-                                   "gallery", "room"}) {
+    for (const std::string name :
+         {"cornell-mirrors", "cornell-mirrors-closed", "courtyard", "flat", "gallery", "room"}) {
         const Scene scene = load(name);
         const double size = glm::length(bounds(scene).extent()), slack = 1e-6 * size;
         // By where their planes are, along a direction of no symmetry, in steps of the slack.

@@ -164,7 +164,8 @@ TEST(RequireSuggest, PlanesAreNotTakenForMirrorsWhoseCapturesTheyWouldTrust) {
         EXPECT_LE(hidden, is_walled_in ? through : through / 4);
         EXPECT_GE(hidden, is_walled_in ? through : 0);
         const Suggestion suggestion = suggest(question);
-        EXPECT_EQ(suggestion.candidates.front().techniques.front(), is_walled_in ? "hybrid" : "planar");
+        EXPECT_EQ(suggestion.candidates.front().techniques.front(),
+                  is_walled_in ? "hybrid" : "planar");
     }
 }
 
