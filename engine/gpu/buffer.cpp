@@ -101,17 +101,19 @@ void copy(Device& device, const std::string& doing, VkBuffer from, std::uint64_t
 Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use)
     : device_(&device), name_(std::move(name)),
       bytes_(std::max<std::uint64_t>(bytes, kFewestBytes)) {
+    const auto [format, texel_bytes] = texels_of(use);
+    if (texel_bytes > 0) {
+        const std::uint64_t texels = bytes_ / texel_bytes, most = device.most_texels(texel_bytes);
+        check(texels <= most, Failure::exhausted, "buffer '", name_, "' wants ", texels,
+              " texels, the device allows ", most);
+    }
     buffer_ = make_buffer(device, bytes_, usage(use), name_);
     memory_ = back(device, buffer_,
                    has(use, BufferUse::read_back) ? Home::host_reads
                    : has(use, BufferUse::staging) ? Home::host_writes
                                                   : Home::device,
                    name_, mapped_);
-    const auto [format, texel_bytes] = texels_of(use);
-    if (texel_bytes == 0) return;
-    check(bytes_ / 16 <= device.most_texels(), Failure::exhausted, "buffer '", name_, "' wants ",
-          bytes_ / 16, " texels, the device allows ", device.most_texels());
-    if (device.texels_in_storage()) return;
+    if (texel_bytes == 0 || device.texels_in_storage()) return;
     VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     view.buffer = buffer_;
     view.format = format;

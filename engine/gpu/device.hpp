@@ -83,12 +83,12 @@ public:
     void choose(const Choices& choices) { choices_ = choices; }
     /// Vertex shaders may write gl_Layer; otherwise layered passes run layer by layer.
     bool layered() const { return layered_; }
-    /// Whether lists of texels are read from storage buffers, since texel buffers hold few. The
-    /// smallest that a device may allow, 65,536, hold a scene of 21,845 triangles.
+    /// Whether lists of texels are read from storage buffers, because texel buffers hold few. A
+    /// device may allow as few as 65,536 texels: enough for 21,845 triangles.
     bool texels_in_storage() const { return limits_.maxTexelBufferElements < (1u << 26); }
-    /// Texels of 16 bytes that a list may have.
-    std::uint64_t most_texels() const {
-        return texels_in_storage() ? limits_.maxStorageBufferRange / 16
+    /// Returns how many texels of `texel_bytes` bytes each a list may have.
+    std::uint64_t most_texels(std::uint64_t texel_bytes) const {
+        return texels_in_storage() ? limits_.maxStorageBufferRange / texel_bytes
                                    : limits_.maxTexelBufferElements;
     }
     /// Whether images of 32-bit floats can be sampled with linear filtering.
@@ -135,7 +135,7 @@ public:
 
     /// What is written to buffers that cannot be mapped. Made at its first use.
     Uploads& uploads();
-    /// Submits the writes so far: before what is to see them.
+    /// Submits the uploads so far. Called before a submit that reads them.
     void submit_uploads();
 
     /// Messages of the validation layer so far (errors and warnings).

@@ -61,7 +61,7 @@ std::vector<bool> expected_motion(const scene::Scene& scene) {
 /// The scene, once its numbers are known to fit.
 const scene::Scene& fitting(const gpu::Device& device, const scene::Scene& scene) {
     check_limits(scene.name, amounts_of(scene),
-                 {device.most_texels(), device.limits().maxStorageBufferRange,
+                 {device.most_texels(sizeof(vec4)), device.limits().maxStorageBufferRange,
                   device.max_allocation(), device.memory_budget()});
     return scene;
 }
@@ -91,7 +91,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         move(now, changes.moved);
     if (changes.shapes() || changes.materials) fill_surfaces(now);
     if (changes.layout || changes.materials || vertices_.layouts() != known_layouts_)
-        details_.fill(now, geometry_, vertices_, device_.most_texels());
+        details_.fill(now, geometry_, vertices_, device_.most_texels(sizeof(std::uint32_t)));
     known_layouts_ = vertices_.layouts();
     if (changes.shapes() || changes.lights) fill_lights(now, changes.lights);
     if (changes.shapes() || changes.lights) {

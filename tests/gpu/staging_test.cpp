@@ -40,6 +40,19 @@ TEST_P(Staging, AWriteBeyondTheEndIsRefused) {
     buffer.write(12, std::as_bytes(std::span(words)));
 }
 
+/// Before memory is asked for. A list of words may have as many texels as one of four floats.
+TEST_P(Staging, MoreTexelsThanTheDeviceAllowsAreRefused) {
+    for (const auto& [use, bytes] : {std::pair{gpu::BufferUse::words, 4u},
+                                     {gpu::BufferUse::quads, 16u},
+                                     {gpu::BufferUse::texels, 16u}}) {
+        const std::uint64_t most = device().most_texels(bytes);
+        test::expect_refused([&] { gpu::Buffer(device(), "list", (most + 1) * bytes, use); },
+                             Failure::exhausted,
+                             {"buffer 'list' wants " + std::to_string(most + 1) +
+                              " texels, the device allows " + std::to_string(most)});
+    }
+}
+
 TEST_P(Staging, AnEmptyBufferCanBeMadeAndWritten) {
     gpu::Buffer buffer;
     gpu::upload(device(), buffer, "empty", std::vector<float>{}, gpu::BufferUse::plain);
@@ -88,6 +101,7 @@ TEST_P(Staging, BuffersMayGoRightAfterAWrite) {
     for (int k = 0; k < 5; ++k) {
         gpu::Buffer gone(device(), "gone", 4 * words.size(), gpu::BufferUse::plain);
         gone.write(std::span<const std::uint32_t>(words));
+        if (k % 2) device().submit_uploads();
         gpu::Buffer other = std::move(gone);
         other = {};
         other = gpu::Buffer(device(), "other", 4 * words.size(), gpu::BufferUse::plain);
