@@ -11,18 +11,6 @@ namespace {
 constexpr std::uint64_t kBlockBytes = 4 << 20;
 constexpr const char* kDoing = "write buffers";
 
-void barrier(VkCommandBuffer commands, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
-    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    barrier.dstStageMask = stages;
-    barrier.dstAccessMask = access;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands, &dependency);
-}
-
 } // namespace
 
 Uploads::Uploads(Device& device) : device_(device) {
@@ -52,7 +40,7 @@ Uploads::Uploads(Device& device) : device_(device) {
     }
 }
 
-/// Nothing is recorded any more: what it writes to is gone, and has waited for it.
+/// By now each buffer that it wrote to is destroyed, and has waited for its upload.
 Uploads::~Uploads() {
     if (device_.abandoned() || ended_ == submitted_) return;
     try {
@@ -93,8 +81,8 @@ void Uploads::keep_order(Block& block, const Target& target) {
                target.first < other.end;
     });
     if (overlaps) {
-        barrier(block.commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                VK_ACCESS_2_TRANSFER_WRITE_BIT);
+        barrier_after_copies(block.commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                             VK_ACCESS_2_TRANSFER_WRITE_BIT);
         block.targets.clear();
     }
     block.targets.push_back(target);
@@ -119,8 +107,8 @@ Uploads::Ticket Uploads::write(VkBuffer to, std::uint64_t offset, std::span<cons
 void Uploads::submit() {
     if (!is_recording_) return;
     Block& block = blocks_[current_];
-    barrier(block.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+    barrier_after_copies(block.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                         VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
     is_recording_ = false;
     check_vk(vkEndCommandBuffer(block.commands), kDoing);
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};

@@ -66,4 +66,17 @@ VkFormat vk_format(Format format) {
     return VK_FORMAT_UNDEFINED;
 }
 
+void barrier_after_copies(VkCommandBuffer commands, VkPipelineStageFlags2 stages,
+                          VkAccessFlags2 access) {
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.dstStageMask = stages;
+    barrier.dstAccessMask = access;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
 } // namespace catoptric::gpu

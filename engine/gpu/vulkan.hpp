@@ -19,6 +19,10 @@ const char* name_of(VkResult result);
 
 VkFormat vk_format(Format format);
 
+/// Records a barrier: what copies before it wrote is visible to `stages` and `access` after it.
+void barrier_after_copies(VkCommandBuffer commands, VkPipelineStageFlags2 stages,
+                          VkAccessFlags2 access);
+
 /// The surface that a number stands for, as window libraries hand it over.
 inline VkSurfaceKHR surface_of(std::uint64_t number) { return std::bit_cast<VkSurfaceKHR>(number); }
 

@@ -15,6 +15,8 @@
 //
 // For one instance, one device and one thread at a time, as the engine has them; those that it
 // abandoned may go on beside them.
+#include "support/layer_link.hpp"
+
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -309,22 +311,11 @@ const Hook kDeviceHooks[] = {
 #undef CALL
 };
 
-/// The loader's link to what is below us, in the chain of a create call.
-template <typename Link, typename Info>
-Link* find_link(const Info* create, VkStructureType type) {
-    for (auto* next = static_cast<const VkBaseInStructure*>(create->pNext); next;
-         next = next->pNext) {
-        auto* link = const_cast<Link*>(reinterpret_cast<const Link*>(next));
-        if (next->sType == type && link->function == VK_LAYER_LINK_INFO) return link;
-    }
-    return nullptr;
-}
-
 VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationCallbacks* callbacks,
                          VkInstance* instance) {
     begin();
     if (const VkResult result = refusal("vkCreateInstance"); result != VK_SUCCESS) return result;
-    auto* link = find_link<VkLayerInstanceCreateInfo>(
+    auto* link = test::find_link<VkLayerInstanceCreateInfo>(
         create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     state.next_instance_proc = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
@@ -377,8 +368,8 @@ VkResult surface_support(VkPhysicalDevice physical, std::uint32_t family, VkSurf
 VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* create,
                        const VkAllocationCallbacks* callbacks, VkDevice* device) {
     if (const VkResult result = refusal("vkCreateDevice"); result != VK_SUCCESS) return result;
-    auto* link = find_link<VkLayerDeviceCreateInfo>(create,
-                                                    VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+    auto* link = test::find_link<VkLayerDeviceCreateInfo>(
+        create, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     state.next_device_proc = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;

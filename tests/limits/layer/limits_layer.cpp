@@ -5,6 +5,8 @@
 // Ends the program with a message where it does what the device so shown does not allow.
 //
 // The driver below must have one memory type, as the software driver has.
+#include "support/layer_link.hpp"
+
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -273,20 +275,9 @@ const Hook kInstanceHooks[] = {
     {"vkGetPhysicalDeviceMemoryProperties", as_void(memory_properties)},
 };
 
-/// The loader's link to what is below us, in the chain of a create call.
-template <typename Link, typename Info>
-Link* find_link(const Info* create, VkStructureType type) {
-    for (auto* next = static_cast<const VkBaseInStructure*>(create->pNext); next;
-         next = next->pNext) {
-        auto* link = const_cast<Link*>(reinterpret_cast<const Link*>(next));
-        if (next->sType == type && link->function == VK_LAYER_LINK_INFO) return link;
-    }
-    return nullptr;
-}
-
 VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationCallbacks* callbacks,
                          VkInstance* instance) {
-    auto* link = find_link<VkLayerInstanceCreateInfo>(
+    auto* link = test::find_link<VkLayerInstanceCreateInfo>(
         create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     const PFN_vkGetInstanceProcAddr proc = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
@@ -314,8 +305,8 @@ void destroy_instance(VkInstance instance, const VkAllocationCallbacks* callback
 
 VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* create,
                        const VkAllocationCallbacks* callbacks, VkDevice* device) {
-    auto* link = find_link<VkLayerDeviceCreateInfo>(create,
-                                                    VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+    auto* link = test::find_link<VkLayerDeviceCreateInfo>(
+        create, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     const PFN_vkGetDeviceProcAddr proc = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vulkan/vk_layer.h>
+
+/// What the test layers (faults/layer, limits/layer) share.
+namespace test {
+
+/// Returns the loader's link to the next layer or the driver, from the chain of a create call; null
+/// where there is none.
+template <typename Link, typename Info>
+Link* find_link(const Info* create, VkStructureType type) {
+    for (auto* next = static_cast<const VkBaseInStructure*>(create->pNext); next;
+         next = next->pNext) {
+        auto* link = const_cast<Link*>(reinterpret_cast<const Link*>(next));
+        if (next->sType == type && link->function == VK_LAYER_LINK_INFO) return link;
+    }
+    return nullptr;
+}
+
+} // namespace test
