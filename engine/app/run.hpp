@@ -27,8 +27,8 @@ struct Request : FrameSpec {
     double instant(int k) const { return time + (animate ? (k - 1) / 60.0 : 0.0); }
 };
 
-/// Measured frames of a run whose passes are kept one by one, so that the memory of a long run does
-/// not grow with the number of its passes.
+/// How many frames of a run, the last ones, keep the times of their passes. Older frames keep their
+/// totals alone, so a long run takes little memory.
 constexpr std::size_t kDetailedFrames = 1000;
 
 struct Result {

@@ -141,7 +141,8 @@ private:
     std::uint64_t first_;
 };
 
-/// Bytes that a TIFF file needs at least for so many decoded ones; 0: whatever there is may do.
+/// Returns how many bytes a TIFF file needs at least for so many decoded bytes; 0 if its
+/// compression has no limit that we know.
 std::uint64_t least_of_tiff(std::uint64_t decoded, std::uint64_t compression) {
     constexpr std::uint64_t kNone = 1, kLzw = 5, kDeflate = 8, kOldDeflate = 32946,
                             kPackBits = 32773;

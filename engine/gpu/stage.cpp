@@ -8,7 +8,8 @@ namespace catoptric::gpu {
 
 namespace {
 
-/// Constants for what the device lacks; a shader that has not got one needs nothing for it.
+/// Returns the constants that replace what the device lacks. A shader without such a constant is
+/// not affected.
 Constants constants_of(const Device& device) {
     Constants constants;
     if (device.texels_in_storage()) constants.emplace_back("texels_in_storage", 1u);

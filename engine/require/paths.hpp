@@ -24,8 +24,8 @@ struct Paths {
     /// Entry n-1: whose first hit is mirror n and that go on to a place which the capture of a
     /// mirror on the way, made from the centre of its bounds, does not show.
     std::vector<std::size_t> hidden;
-    /// Of the rays that begin with these mirrors, how many go on to a place which the capture of
-    /// the last of them does not show.
+    /// How many rays meet these mirrors first and then a place that the capture of the last of
+    /// these mirrors does not show.
     std::map<std::vector<std::uint32_t>, std::size_t> hidden_after;
 
     std::size_t on_mirrors() const; ///< whose first hit is a mirror

@@ -86,8 +86,9 @@ double pass_of(const Known& known, double pixels) {
 /// How a mirror is drawn.
 enum class Way { planes, hybrid, march, small };
 
-/// Adds what a mirror costs and gets wrong that planes show: paths `path`, of which it is the last.
-/// A search looks into its capture there, too, but nothing is traced that this does not show.
+/// Adds the cost and the error of a mirror that is seen in flat mirrors drawn by planes. `path`:
+/// the mirrors that `count` rays meet, this one last. A view in a plane looks into the mirror's
+/// capture but traces nothing, so what the capture does not show is a guess.
 void weigh_in_planes(Candidate& candidate, const Known& known,
                      const std::vector<std::uint32_t>& path, std::size_t count, Way way) {
     const bool is_searched = way != Way::small;

@@ -5,8 +5,8 @@
 
 namespace catoptric::scene {
 
-/// How far above its support a part of a shipped scene stands, in metres. Of two surfaces in one
-/// plane, which one a picture shows is chance.
+/// How far above its support a part of a shipped scene stands, in metres. If two
+/// surfaces lie in one plane, chance decides which one a picture shows.
 inline constexpr double kStandingGap = .001;
 
 /// Two triangles (a b c) (a c d) with the flat normal normalize(cross(b-a, c-a)).

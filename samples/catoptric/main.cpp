@@ -8,7 +8,7 @@
 namespace {
 
 /// Gives large blocks back to the system as soon as they are freed. Left alone, glibc keeps blocks
-/// of up to 32 MB for later, which added 115 MB to a scene of 100,000 objects.
+/// of up to 32 MB for later: 803 MB instead of 730 for a scene of 100,000 nodes.
 void return_freed_memory() {
 #ifdef __GLIBC__
     constexpr int kLargeBlock = 128 * 1024;

@@ -1,6 +1,6 @@
-// Lists that invocations read at places of their own. Uniform texel buffers, since a software driver reads storage
-// buffers lane by lane (docs/performance.md). Devices that allow few texels in one buffer (gpu::Device) get storage
-// buffers of the same contents: another descriptor, the same bytes.
+// Lists that each invocation reads at an index of its own. They are uniform texel buffers, because a software driver
+// reads storage buffers lane by lane (docs/performance.md). On devices that allow few texels in a buffer
+// (gpu::Device::texels_in_storage) the same bytes are bound as storage buffers.
 #ifndef CATOPTRIC_TEXELS_GLSL
 #define CATOPTRIC_TEXELS_GLSL
 
