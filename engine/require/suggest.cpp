@@ -86,6 +86,13 @@ double pass_of(const Known& known, double pixels) {
 /// How a mirror is drawn.
 enum class Way { planes, hybrid, march, small };
 
+/// Whether tracing what its capture does not show takes a tenth off the mirror's estimated error.
+bool is_traced(const Known& known, std::size_t mirror) {
+    const auto first = static_cast<double>(known.paths.first[mirror]),
+               hidden = static_cast<double>(known.paths.hidden[mirror]);
+    return hidden * (kErrors.unknown - kErrors.search) > (kAsGood - 1) * kErrors.search * first;
+}
+
 /// Adds the cost and the error of a mirror that is seen in flat mirrors drawn by planes. `path`:
 /// the mirrors that `count` rays meet, this one last. A view in a plane looks into the mirror's
 /// capture but traces nothing, so what the capture does not show is a guess.
@@ -121,6 +128,9 @@ void weigh(Candidate& candidate, const Known& known, const std::vector<Way>& way
         if (is_searched) candidate.cost += kCosts.searched * known.pixels_of(known.paths.first[i]);
         if (ways[i] == Way::hybrid)
             candidate.cost += kCosts.traced * known.pixels_of(known.paths.hidden[i]);
+        if (ways[i] == Way::march)
+            candidate.error += static_cast<double>(known.paths.hidden[i]) *
+                               (kErrors.unknown - kErrors.search);
         candidate.error += first * (by_planes[i]  ? kErrors.planar
                                     : is_searched ? kErrors.search
                                                   : kErrors.reuse);
@@ -156,8 +166,7 @@ Candidate candidate_of(const Known& known, bool planes) {
     bool is_searched = false; // some mirror's captures are looked up with care
     for (std::size_t i = 0; i < known.count(); ++i) {
         if (!known.is_seen[i] || (planes && known.is_flat[i])) continue;
-        const double most = kHardlyHidden * static_cast<double>(known.paths.first[i]);
-        ways[i] = static_cast<double>(known.paths.hidden[i]) <= most ? Way::march : Way::hybrid;
+        ways[i] = is_traced(known, i) ? Way::hybrid : Way::march;
         is_searched = true;
     }
     bool has_captures = false;
@@ -208,10 +217,12 @@ std::string reason_of(const Question& question, const Known& known, std::size_t 
                         : kind == scene::Shape::Kind::sphere ? "a sphere"
                                                              : "curved";
     std::string reason = std::string(shape) + ", " + seen;
-    if (technique == "march") reason += "; its centre sees all that it shows";
-    if (technique == "hybrid")
-        reason += "; its centre does not see what " + share(known.paths.hidden[mirror]) +
-                  " of the picture show";
+    const std::size_t hidden = known.paths.hidden[mirror];
+    if (technique == "march" && hidden == 0)
+        reason += "; its centre sees all that it shows";
+    else if (technique == "march" || technique == "hybrid")
+        reason += "; its centre does not see what " + share(hidden) + " of the picture show";
+    if (technique == "march" && hidden > 0) reason += ", too little to trace";
     return reason;
 }
 

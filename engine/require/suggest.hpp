@@ -13,9 +13,6 @@ namespace catoptric::require {
 /// looked up in the cheapest way, in a capture of this edge.
 inline constexpr double kHardlySeen = .002;
 inline constexpr std::uint32_t kSmallFace = 64, kUsualFace = 256;
-/// A mirror whose capture does not show what at most this share of its pixels show is searched by
-/// `march`: tracing would mend nothing.
-inline constexpr double kHardlyHidden = .0005;
 /// A mirror whose bent part is larger than this share of its area is not drawn by planes.
 inline constexpr double kMostBent = .1;
 
@@ -32,9 +29,8 @@ struct CostTable {
 /// Mean FLIP of a mirror's pixel, by what draws it; rounded, over the scenes of docs/require.md.
 struct ErrorTable {
     double planar = .003, search = .03, reuse = .3;
-    double unknown =
-        .5;            ///< not in the capture of a mirror that planes show, where nothing is traced
-    double black = .5; ///< flat mirrors one behind the other, more than are drawn
+    double unknown = .5; ///< not in the mirror's capture, where nothing is traced
+    double black = .5;   ///< flat mirrors one behind the other, more than are drawn
 };
 
 /// One way to draw all mirrors.
@@ -54,8 +50,9 @@ struct Suggestion {
 /// Chooses by what the pixels show (paths_of) and by shape (scene::flat_faces): mirrors that are
 /// hardly seen get `reuse` with small faces. For the others two candidates are weighed: `planar`
 /// for the flat ones and a search for the rest, and a search for all. A search is `hybrid`, or
-/// `march` where nothing would have to be traced (Paths::hidden). The one with the smaller
-/// estimated error wins; where they are within a tenth, the cheaper one.
+/// `march` where tracing what captures do not show (Paths::hidden) would take less than a tenth off
+/// the mirror's estimated error. The candidate with the smaller estimated error wins. Within a
+/// tenth, the cheaper one does.
 Suggestion suggest(const Question& question);
 
 /// The candidates with cost and error, a line each, for the user to read.
