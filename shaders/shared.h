@@ -146,19 +146,20 @@ struct Frame {
     uint shadow_faces; // layers of each light: 5 when every light is one-sided, else 6
 };
 
-// Push constants of one draw.
+// Push constants of a pass that draws objects. They are the same for all of its objects: a driver may keep a copy of
+// its state for each draw that changes them.
 struct Draw {
-    uint first_view;   // the view of gl_InstanceIndex 0
-    Surface surface;   // of what is drawn
-    vec3 probe_centre; // of a mirror's capture
-    uint object;       // what is drawn
-    uint mended;       // causes of error to take away: kMend..., in builds that can (lib/mend.glsl)
+    uint first_view; // the view of layer 0
+    uint mended;     // causes of error to take away: kMend..., in builds that can (lib/mend.glsl)
 };
+// gl_InstanceIndex of such a draw: index of the object << kLayerBits | layer.
+const uint kLayerBits = 3u;
 
-// Follows the push constants of a draw whose vertices are in a space of their own.
+// Where the vertices of an object with a space of its own are.
 struct Placement {
-    vec3 x, y, z;  // columns of the matrix to the scene's axes
-    vec3 from_eye; // to the middle of that space, from the eye that all views of the draw share
+    vec3 x, y, z;    // columns of the matrix to the scene's axes
+    vec3 centre;     // of that space, scene units
+    vec3 centre_low; // what `centre` lacks as a sum of two floats
 };
 
 // Causes of error that a rendering can be without (engine/app/causes.cpp).
@@ -229,8 +230,8 @@ static_assert(sizeof(CaptureTable) == 8256); // every device has uniform buffers
 static_assert(sizeof(View) == 84);
 static_assert(sizeof(Sky) == 128);
 static_assert(sizeof(Frame) == 20);
-static_assert(sizeof(Draw) == 80);
-static_assert(sizeof(Draw) + sizeof(Placement) == 128); // what every device has
+static_assert(sizeof(Draw) == 8);
+static_assert(sizeof(Placement) == 60);
 static_assert(sizeof(Trace) == 24);
 static_assert(sizeof(Counters) == 28);
 static_assert(sizeof(Screening) == 24);

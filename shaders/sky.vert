@@ -17,12 +17,12 @@ layout(location = 4) out vec4 out_colour;
 const float kBehindAll = 1e-36; // of reversed depth, whose picture begins with 0
 
 void main() {
-    View view = views[draw.first_view + gl_InstanceIndex];
+    View view = views[draw.first_view + drawn_layer()];
     gl_Position = vec4(corner.xy, kBehindAll, 1);
 #ifdef LAYERED
-    gl_Layer = gl_InstanceIndex;
+    gl_Layer = int(drawn_layer());
 #endif
-    write_drawn(view, gl_InstanceIndex);
+    write_drawn(view, Surface(vec3(0), vec3(0), vec3(0), 0u, vec3(0), 0.0));
     out_normal = vec3(0);
     out_from_eye = view.forward;
     if (orthographic == 0u)

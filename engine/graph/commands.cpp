@@ -84,12 +84,12 @@ void Commands::geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices)
 }
 
 void Commands::draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer,
-                    std::uint32_t layer_count) {
+                    std::uint32_t layer_count, std::uint32_t first_instance) {
     const std::uint32_t first = std::max(first_layer, first_layer_);
     const std::uint32_t end = std::min(first_layer + layer_count, first_layer_ + layer_count_);
     if (first >= end || index_count == 0) return;
     flush();
-    vkCmdDrawIndexed(commands_, index_count, end - first, first_index, 0, first);
+    vkCmdDrawIndexed(commands_, index_count, end - first, first_index, 0, first_instance + first);
 }
 
 void Commands::cover() {
@@ -280,7 +280,7 @@ void Commands::flush() {
                                 nullptr);
     }
     dirty_ = false;
-    if (pipeline_->push_bytes) {
+    if (pipeline_->push_bytes && !std::exchange(is_pushed_, true)) {
         check(push_.size() == pipeline_->push_bytes, Failure::internal, "pass '", pass_.name,
               "': ", pipeline_name_, " wants ", pipeline_->push_bytes,
               " bytes of push constants, got ", push_.size());

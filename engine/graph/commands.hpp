@@ -38,8 +38,8 @@ public:
           first_layer_(first_layer), layer_count_(layer_count) {}
 
     /// In a pass of several layers the vertex shader's "#layered" build is used where the device
-    /// can; otherwise the body is called once for each layer. Either way gl_InstanceIndex is the
-    /// layer.
+    /// can; otherwise the body is called once for each layer. Either way gl_InstanceIndex tells the
+    /// layer (see draw).
     void use(gpu::RasterState state);
     void use(const gpu::ComputeState& state);
     /// The image must be declared by the pass.
@@ -53,18 +53,21 @@ public:
     void bind(std::string_view name, Filter sampler);
     void bind(std::string_view name, Buffer buffer);
     void bind(std::string_view name, const gpu::Buffer& buffer);
+    /// Push constants of the draws and dispatches that follow.
     template <typename T>
     void push(const T& value) {
         push_.assign(reinterpret_cast<const std::byte*>(&value),
                      reinterpret_cast<const std::byte*>(&value) + sizeof value);
+        is_pushed_ = false;
     }
     /// 32-bit indices into vertices as shaders/shared.h has them.
     /// Three vertices without attributes: screen.vert makes them a triangle over the whole picture.
     void cover();
     void geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices);
-    /// Draws into layers [first_layer, first_layer + layer_count) of the pass.
+    /// Draws into layers [first_layer, first_layer + layer_count) of the pass. gl_InstanceIndex is
+    /// `first_instance` plus the layer.
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
-              std::uint32_t layer_count = 1);
+              std::uint32_t layer_count = 1, std::uint32_t first_instance = 0);
     /// Draws from here on change no pixel outside the area, which lies within the attachments.
     void scissor(const Area& area);
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
@@ -111,6 +114,7 @@ private:
     bool dirty_ = true;
     VkBuffer vertices_ = VK_NULL_HANDLE, indices_ = VK_NULL_HANDLE; ///< bound by this pass
     std::vector<std::byte> push_;
+    bool is_pushed_ = false; ///< the current pipeline has them
 };
 
 } // namespace catoptric::graph

@@ -100,7 +100,7 @@ std::vector<std::string> add_mirrored(graph::Graph& graph, const render::FrameIn
                                                                    inputs.size, most);
     std::vector<graph::Image> made(views.size());
     for (std::size_t i = views.size(); i-- > 0;) { // what a view shows comes after it
-        const std::uint32_t number = inputs.scene.add_view(views[i].view, views[i].eye);
+        const std::uint32_t number = inputs.scene.add_view(views[i].view);
         const Face& face = all.faces[views[i].mirror];
         const std::optional<std::uint32_t> whole = face.number == 0 ? std::optional(face.mirror)
                                                                     : std::nullopt;

@@ -20,29 +20,19 @@ gpu::Winding turns_away(const shared::View& view) {
                : gpu::Winding::counterclockwise;
 }
 
-/// Push constants of placed.vert.
-struct PlacedDraw {
-    shared::Draw draw;
-    shared::Placement placement;
-};
-
 /// One object in the layers whose view it may meet; neighbouring layers in one draw for each run of
 /// its triangles.
 void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
-                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
-                 Triangles triangles) {
+                 std::uint32_t first_view, std::uint32_t layers, Triangles triangles) {
     const DrawRange& range = scene.ranges()[object];
-    shared::Draw draw = scene.draw_of(object, first_view);
-    draw.mended = mended;
-    if (range.own)
-        commands.push(PlacedDraw{draw, scene.placement_of(object, first_view)});
-    else
-        commands.push(draw);
+    const auto instance = static_cast<std::uint32_t>(object) << shared::kLayerBits;
     scene.bind_vertices(commands, object);
     const auto draw_layers = [&](std::uint32_t first, std::uint32_t count) {
-        if (!triangles) return commands.draw(range.first_index, range.index_count, first, count);
-        for (const auto& [from, end] : *triangles)
-            commands.draw(range.first_index + 3 * from, 3 * (end - from), first, count);
+        const auto draw = [&](std::uint32_t from, std::uint32_t indices) {
+            commands.draw(range.first_index + from, indices, first, count, instance);
+        };
+        if (!triangles) return draw(0, range.index_count);
+        for (const auto& [from, end] : *triangles) draw(3 * from, 3 * (end - from));
     };
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
@@ -145,8 +135,11 @@ void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState st
         bool in_use = false; // a pipeline that draws nothing is not made
         for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
             if (scene.ranges()[i].own.has_value() != own || !wanted(i)) continue;
-            if (!std::exchange(in_use, true)) commands.use(state);
-            draw_object(commands, scene, i, first_view, layers, mended, triangles);
+            if (!std::exchange(in_use, true)) {
+                commands.use(state);
+                commands.push(shared::Draw{first_view, mended});
+            }
+            draw_object(commands, scene, i, first_view, layers, triangles);
         }
     }
 }

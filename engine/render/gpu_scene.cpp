@@ -1,5 +1,6 @@
 #include "render/gpu_scene.hpp"
 
+#include "bvh/two_level.hpp"
 #include "core/stopwatch.hpp"
 #include "render/enclosure.hpp"
 #include "render/face_needs.hpp"
@@ -73,6 +74,7 @@ GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t s
       vertices_(expected_motion(scene), slots), view_buffer_("views", gpu::BufferUse::plain, slots),
       frame_("frame", gpu::BufferUse::uniform, slots),
       surface_buffer_("surfaces", gpu::BufferUse::texels, slots),
+      placement_buffer_("placements", gpu::BufferUse::plain, slots),
       light_buffer_("lights", gpu::BufferUse::uniform, slots),
       probe_buffer_("probes", gpu::BufferUse::texels, slots),
       mirror_tree_("mirror_tree", gpu::BufferUse::texels, slots), details_(slots), sky_(slots),
@@ -90,6 +92,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     else
         move(now, changes.moved);
     if (changes.shapes() || changes.materials) fill_surfaces(now);
+    if (changes.shapes()) fill_placements();
     if (changes.layout || changes.materials || vertices_.layouts() != known_layouts_)
         details_.fill(now, geometry_, vertices_, device_.most_texels(sizeof(std::uint32_t)));
     known_layouts_ = vertices_.layouts();
@@ -169,16 +172,24 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
     surface_buffer_.set(texels_of(listed));
 }
 
+/// Where vertices in spaces of their own are; an entry an object, one in all if no object has such
+/// a space.
+void GpuScene::fill_placements() {
+    std::vector<shared::Placement> placements(has_own_spaces_ ? geometry_.ranges.size() : 1);
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+        const std::optional<OwnSpace>& own = geometry_.ranges[i].own;
+        if (!own) continue;
+        const dmat3& axes = own->scene_from_own;
+        placements[i] = {vec3(axes[0]), vec3(axes[1]), vec3(axes[2]), vec3(own->centre),
+                         bvh::low_part(own->centre)};
+    }
+    placement_buffer_.set(placements);
+}
+
 bool GpuScene::has_other_mirrors() const {
     return std::ranges::any_of(geometry_.ranges, [](const DrawRange& range) {
         return range.mirror && (!range.exact_sphere || range.lit);
     });
-}
-
-shared::Draw GpuScene::draw_of(std::size_t object, std::uint32_t first_view) const {
-    const shared::Surface& surface = surfaces_[object];
-    return {first_view, surface, surface.mirror ? probes_[surface.mirror - 1].centre : vec3(0),
-            static_cast<std::uint32_t>(object), 0};
 }
 
 /// Six views for each mirror, then the shadow faces of each light.
@@ -208,10 +219,16 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
         const float gap = nearest_.distance(
             geometry_, probe_places_[mirror],
             [&](std::size_t i, const DrawRange&) { return i == object; });
-        std::ranges::copy(cube_views(probe.centre, gap), std::back_inserter(scene_views_));
+        for (shared::View& view : cube_views(probe.centre, gap)) {
+            view.eye_low = bvh::low_part(probe_places_[mirror]);
+            scene_views_.push_back(view);
+        }
     }
-    for (const shared::Light& light : lights_)
-        std::ranges::copy(shadow_views(light), std::back_inserter(scene_views_));
+    for (std::size_t light = 0; light < lights_.size(); ++light)
+        for (shared::View& view : shadow_views(lights_[light])) {
+            view.eye_low = bvh::low_part(light_places_[light]);
+            scene_views_.push_back(view);
+        }
     probe_buffer_.set(texels_of(probes_));
     if (is_crowd()) mirror_tree_.set(mirror_tree(probes_));
 }
@@ -228,8 +245,8 @@ std::uint32_t GpuScene::common_face() const {
 
 void GpuScene::write(std::size_t slot) {
     uploads_ += vertices_.write(device_, slot) + sky_.write(device_, slot);
-    for (Resident* buffer :
-         {&frame_, &view_buffer_, &surface_buffer_, &light_buffer_, &probe_buffer_, &mirror_tree_})
+    for (Resident* buffer : {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_,
+                             &light_buffer_, &probe_buffer_, &mirror_tree_})
         uploads_ += buffer->write(device_, slot);
     uploads_ += details_.write(device_, slot);
 }
@@ -238,6 +255,7 @@ void GpuScene::bind(graph::Commands& commands) const {
     commands.bind("frame", frame_.at(slot_));
     commands.bind("Views", view_buffer_.at(slot_));
     commands.bind("surface_texels", surface_buffer_.at(slot_));
+    commands.bind("Placements", placement_buffer_.at(slot_));
     commands.bind("Lights", light_buffer_.at(slot_));
     commands.bind("probe_texels", probe_buffer_.at(slot_));
     commands.bind("mirror_nodes", mirror_tree_.at(slot_));
@@ -272,7 +290,7 @@ void GpuScene::bind_vertices(graph::Commands& commands, std::size_t object) cons
 }
 
 void GpuScene::prepare() const {
-    if (!added_eyes_.empty()) {
+    if (added_views_ > 0) {
         view_buffer_.set(views_);
         uploads_ += view_buffer_.write(device_, slot_);
     }

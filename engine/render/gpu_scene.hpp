@@ -75,10 +75,6 @@ public:
     std::uint32_t common_face() const;
     /// Cubes that the device keeps in one array.
     std::uint32_t most_cubes() const { return device_.limits().maxImageArrayLayers / 6; }
-    /// Push constants that draw an object into the views from `first_view` on.
-    shared::Draw draw_of(std::size_t object, std::uint32_t first_view) const;
-    /// What follows them where the object has a space of its own.
-    shared::Placement placement_of(std::size_t object, std::uint32_t first_view) const;
     /// Whether some object has (DrawRange::own).
     bool has_own_spaces() const { return has_own_spaces_; }
     /// What shaders that show this view are to be built for; what the scene has not got costs
@@ -97,7 +93,7 @@ public:
     void begin_frame() const;
     /// One more view for passes of this frame; its number. Costs a write of all views where it is
     /// another than that of the frame before.
-    std::uint32_t add_view(const shared::View& view, const dvec3& eye) const;
+    std::uint32_t add_view(const shared::View& view) const;
     /// After they are declared: whether `prepare` writes views, so that no frame may be in flight
     /// in this slot.
     bool has_new_views() const;
@@ -140,12 +136,12 @@ private:
     void find_shells(const scene::Scene& now);
     void move(const scene::Scene& now, const std::vector<std::size_t>& objects);
     void fill_surfaces(const scene::Scene& now);
+    void fill_placements();
     void fill_lights(const scene::Scene& now, bool others);
     void fill_probes(const scene::Scene& now, const Changes& changes);
     std::vector<shared::View> shadow_views(const shared::Light& light) const;
     void fill_views(const scene::Camera& camera, uvec2 size);
     void fill_frame(double ambient);
-    const dvec3& eye_of(std::uint32_t view) const;
     void write(std::size_t slot);
 
     gpu::Device& device_;
@@ -156,7 +152,7 @@ private:
     Vertices vertices_;
     mutable std::vector<shared::View> views_;        ///< all
     std::vector<shared::View> scene_views_;          ///< of mirrors and lights
-    mutable std::vector<dvec3> added_eyes_;          ///< of the last of `views_`, which were added
+    mutable std::size_t added_views_ = 0;            ///< the last of `views_`, of this frame alone
     std::vector<scene::FlatFaces> flats_;            ///< of mirrors
     std::vector<dvec3> probe_places_, light_places_; ///< scene units
     dvec3 eye_{0};
@@ -178,7 +174,7 @@ private:
     std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
     mutable Resident view_buffer_;
-    Resident frame_, surface_buffer_, light_buffer_, probe_buffer_, mirror_tree_;
+    Resident frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_, mirror_tree_;
     Details details_;
     Sky sky_;
     std::unique_ptr<Tracing> tracing_;

@@ -7,26 +7,12 @@
 namespace catoptric::render {
 
 /// What all views that one draw may go to share.
-const dvec3& GpuScene::eye_of(std::uint32_t view) const {
-    if (view == kCameraView) return eye_;
-    const std::size_t own = views_.size() - added_eyes_.size();
-    if (view >= own) return added_eyes_[view - own];
-    if (view < shadow_view(0)) return probe_places_[(view - 1) / 6];
-    return light_places_[(view - shadow_view(0)) / shadow_faces_];
-}
-
-shared::Placement GpuScene::placement_of(std::size_t object, std::uint32_t first_view) const {
-    const OwnSpace& own = *geometry_.ranges[object].own;
-    return {vec3(own.scene_from_own[0]), vec3(own.scene_from_own[1]), vec3(own.scene_from_own[2]),
-            vec3(own.centre - eye_of(first_view))};
-}
-
 /// The camera's, then those of mirrors and lights.
 void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
     eye_ = space_.place(camera.eye);
     const float gap = nearest_.distance(
         geometry_, eye_, [](std::size_t, const DrawRange& range) { return !range.seen_by_camera; });
-    added_eyes_.clear();
+    added_views_ = 0;
     views_ = {camera_view(camera, space_, size, gap, bounds_of(geometry_))};
     const bool is_parallel = views_.front().parallel != 0;
     if (is_parallel) eye_ = dvec3(views_.front().eye) + dvec3(views_.front().eye_low);
@@ -41,16 +27,16 @@ void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
 Eye GpuScene::eye() const { return {views_[kCameraView], eye_, bounds_of(geometry_)}; }
 
 void GpuScene::begin_frame() const {
-    views_.resize(views_.size() - added_eyes_.size());
-    added_eyes_.clear();
+    views_.resize(views_.size() - added_views_);
+    added_views_ = 0;
 }
 
-std::uint32_t GpuScene::add_view(const shared::View& view, const dvec3& eye) const {
+std::uint32_t GpuScene::add_view(const shared::View& view) const {
     views_.push_back(view);
-    added_eyes_.push_back(eye);
+    ++added_views_;
     return static_cast<std::uint32_t>(views_.size() - 1);
 }
 
-bool GpuScene::has_new_views() const { return !added_eyes_.empty() && view_buffer_.set(views_); }
+bool GpuScene::has_new_views() const { return added_views_ > 0 && view_buffer_.set(views_); }
 
 } // namespace catoptric::render

@@ -10,15 +10,21 @@
 // engine/render/texels.hpp. Views are read by vertex shaders, for which texels were no cheaper.
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame value; } frame;
 layout(set = 0, binding = 1, scalar) readonly buffer Views { View views[]; };
-TEXEL_LIST(2, surface_texels, vec4, samplerBuffer, false)
+#ifdef VERTEX_STAGE // which reads them at one place for all lanes
+#define STORED_FOR_VERTICES true
+#else
+#define STORED_FOR_VERTICES false
+#endif
+TEXEL_LIST(2, surface_texels, vec4, samplerBuffer, STORED_FOR_VERTICES)
 layout(set = 0, binding = 3, scalar) uniform Lights { Light lights[kMaxLights]; };
-TEXEL_LIST(4, probe_texels, vec4, samplerBuffer, false)
+TEXEL_LIST(4, probe_texels, vec4, samplerBuffer, STORED_FOR_VERTICES)
 layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 // 6, 7, 8, 17, 18, 19: captures, see lib/captures.glsl
 #define BVH_NODES_BINDING 9
 #define BVH_TRIANGLES_BINDING 10
 #define NORMALS_BINDING 11
 #define PICTURE_BINDING 12
+#define PLACEMENTS_BINDING 13 // by object, see lib/vertex.glsl
 #define COUNTERS_BINDING 14
 #define HDR_BINDING 15
 #define FIRST_LAYER_BINDING 16

@@ -6,12 +6,7 @@
 
 #include "lib/bindings.glsl"
 
-layout(push_constant, scalar) uniform Push {
-    Draw draw;
-#ifdef PLACED
-    Placement placement;
-#endif
-};
+layout(push_constant, scalar) uniform Push { Draw draw; };
 
 #ifdef VERTEX_STAGE
 #define DRAWN(place) layout(location = place) flat out
@@ -29,12 +24,21 @@ DRAWN(9) vec4 down_ambient;
 DRAWN(10) vec4 forward_faces;        // and the shadow faces of a light
 DRAWN(11) vec4 emission_kind; // of the object; of the light
 DRAWN(12) vec3 light_share;          // reach, cos_outer, sharpness
+DRAWN(13) uvec2 object_mirror; // index of the object; number of the mirror that it is, from 1, or 0
+DRAWN(14) vec3 drawn_reflectance;
+DRAWN(15) vec3 capture_centre; // of a mirror
 
 #ifdef VERTEX_STAGE
 
-void write_drawn(View view, uint layer) {
-    eye_layer = vec4(view.eye, layer);
-    Surface surface = draw.surface;
+// The layer that this instance is drawn into, and the object that it shows.
+uint drawn_layer() { return uint(gl_InstanceIndex) & ((1u << kLayerBits) - 1u); }
+uint drawn_object() { return uint(gl_InstanceIndex) >> kLayerBits; }
+
+void write_drawn(View view, Surface surface) {
+    eye_layer = vec4(view.eye, drawn_layer());
+    object_mirror = uvec2(drawn_object(), surface.mirror);
+    drawn_reflectance = surface.reflectance;
+    capture_centre = probe_at(max(surface.mirror, 1u) - 1u).centre;
     Light light = lights[0];
     position_near = vec4(light.position, light.near);
     normal_red = vec4(light.normal, surface.albedo.r);
@@ -50,9 +54,11 @@ void write_drawn(View view, uint layer) {
 
 vec3 eye() { return eye_layer.xyz; }
 int view_layer() { return int(eye_layer.w); }
+uint drawn_object() { return object_mirror.x; }
+uint drawn_mirror() { return object_mirror.y; }
 Surface drawn_surface() {
-    return Surface(vec3(normal_red.w, intensity_green.w, right_blue.w), emission_kind.xyz, draw.surface.reflectance,
-                   draw.surface.mirror, vec3(0), 0.0);
+    return Surface(vec3(normal_red.w, intensity_green.w, right_blue.w), emission_kind.xyz, drawn_reflectance, drawn_mirror(),
+                   vec3(0), 0.0);
 }
 Light first_light() {
     return Light(position_near.xyz, normal_red.xyz, intensity_green.xyz, right_blue.xyz, down_ambient.xyz, forward_faces.xyz,

@@ -113,11 +113,11 @@ vec3 mended_radiance(Path path, Lookup lookup) {
         target = end_of(search_ray, i == 0u ? kBvhHidden : 0u);
         if (i == 0u) {
             // The rasteriser and the ray disagree on what is seen here: another cause.
-            if (target.mirror != draw.surface.mirror) return path.weight * lookup_colour(path.mirror, lookup);
+            if (target.mirror != drawn_mirror()) return path.weight * lookup_colour(path.mirror, lookup);
             first = target;
             search_ray = reflected(camera, first.point);
         } else if (i == 1u) {
-            bool is_own = target.mirror == draw.surface.mirror;
+            bool is_own = target.mirror == drawn_mirror();
             bool is_mirrored = !is_own && (target.mirror != 0u || path.hops > 0u);
             from_camera = is_own ? mends(kMendOwn) : is_mirrored && mends(kMendMirrors);
             if (path.hops > 0u) search_ray = Ray(path.at, path.direction, 0u);

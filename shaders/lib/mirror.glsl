@@ -163,15 +163,15 @@ void main() {
     leave_out_what_is_cut();
     vec3 n = normalize(normal);
     Surface surface = surface_here(n, facet);
-    Path path = Path(draw.surface.mirror - 1u, surface_position(), mirror_direction(normalize(seen_along()), n, facet),
-                     draw.probe_centre, surface.reflectance, 0u);
+    Path path = Path(drawn_mirror() - 1u, surface_position(), mirror_direction(normalize(seen_along()), n, facet),
+                     capture_centre, surface.reflectance, 0u);
     Lookup lookup = follow(path);
 #ifdef MEND
     vec3 colour = mended_radiance(path, lookup);
 #else
     vec3 colour = path.weight * lookup_colour(path.mirror, lookup);
 #ifdef LIT
-    colour += shade(surface, surface_position(), n, lit_facet(draw.object, facet));
+    colour += shade(surface, surface_position(), n, lit_facet(drawn_object(), facet));
 #endif
 #endif
     write_surface(shown(colour, lookup));

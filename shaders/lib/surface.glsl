@@ -53,7 +53,7 @@ bool is_peeled() {
 
 // Before anything is written, after the derivatives.
 void leave_out_what_is_cut() {
-    if (masks != 0u && is_cut_out(draw.object, Attribute(in_uv, in_colour))) discard;
+    if (masks != 0u && is_cut_out(drawn_object(), Attribute(in_uv, in_colour))) discard;
 }
 
 // The object's surface here. `facet`: along its triangle's normal.
@@ -61,15 +61,15 @@ Surface surface_here(inout vec3 n, vec3 facet) {
     Surface surface = drawn_surface();
     if (details != 0u) {
         vec3 direction = normalize(seen_along());
-        n = turned_normal(draw.object, n, facet, direction);
-        evaluate(surface, draw.object, Attribute(in_uv, in_colour), -dot(n, direction));
+        n = turned_normal(drawn_object(), n, facet, direction);
+        evaluate(surface, drawn_object(), Attribute(in_uv, in_colour), -dot(n, direction));
     }
     return surface;
 }
 
 // Exact as a half; objects that far apart in the scene's list may share one.
 float surface_number() {
-    return draw.surface.mirror != 0u ? float(draw.surface.mirror) : -1.0 - float(draw.object % 2047u);
+    return drawn_mirror() != 0u ? float(drawn_mirror()) : -1.0 - float(drawn_object() % 2047u);
 }
 
 // Of the format. Colour saturates there, so that no capture ever holds an infinity.

@@ -1,5 +1,5 @@
 // Every raster pass: triangles into the view of this layer. With LAYERED the layer is written here; otherwise the
-// pass draws one layer at a time. gl_InstanceIndex is the layer either way. PLACED: vertices in a space of their own.
+// pass draws one layer at a time. gl_InstanceIndex holds the layer and the object. PLACED: vertices in a space of their own.
 // CLIPPED: nothing behind the view's plane.
 #ifndef CATOPTRIC_VERTEX_GLSL
 #define CATOPTRIC_VERTEX_GLSL
@@ -19,8 +19,10 @@ layout(location = 4) out vec4 out_colour;
 invariant gl_Position;
 
 #ifdef PLACED
+layout(set = 0, binding = PLACEMENTS_BINDING, scalar) readonly buffer Placements { Placement placements[]; };
+
 // By the cofactors of the matrix, scaled so that small things do not underflow.
-vec3 scene_direction(vec3 n) {
+vec3 scene_direction(Placement placement, vec3 n) {
     float size = max(largest(abs(placement.x)), max(largest(abs(placement.y)), largest(abs(placement.z))));
     vec3 x = placement.x / size, y = placement.y / size, z = placement.z / size;
     vec3 turned = n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y);
@@ -29,9 +31,12 @@ vec3 scene_direction(vec3 n) {
 #endif
 
 void main() {
-    View view = views[draw.first_view + gl_InstanceIndex];
+    View view = views[draw.first_view + drawn_layer()];
+    Surface surface = surface_of(drawn_object());
 #ifdef PLACED
-    vec3 v = placement.from_eye + (placement.x * position.x + placement.y * position.y + placement.z * position.z);
+    Placement placement = placements[drawn_object()];
+    vec3 from_eye = difference_of_sums(placement.centre, placement.centre_low, view.eye, view.eye_low);
+    vec3 v = from_eye + (placement.x * position.x + placement.y * position.y + placement.z * position.z);
 #else
     vec3 v = position - view.eye;
 #endif
@@ -42,18 +47,18 @@ void main() {
     gl_ClipDistance[0] = dot(view.clip.xyz, v) + view.clip.w;
 #endif
 #ifdef LAYERED
-    gl_Layer = gl_InstanceIndex;
+    gl_Layer = int(drawn_layer());
 #endif
-    write_drawn(view, gl_InstanceIndex);
+    write_drawn(view, surface);
 #ifdef PLACED
-    out_normal = scene_direction(normal);
+    out_normal = scene_direction(placement, normal);
 #else
     out_normal = normal;
 #endif
     out_from_eye = v;
     Attribute at = kNoAttribute;
-    if (details != 0u && (detail_of(draw.object).flags & kDetailAttributes) != 0u)
-        at = attribute_at_vertex(uint(gl_VertexIndex) + detail_of(draw.object).first_attribute);
+    if (details != 0u && (detail_of(drawn_object()).flags & kDetailAttributes) != 0u)
+        at = attribute_at_vertex(uint(gl_VertexIndex) + detail_of(drawn_object()).first_attribute);
     out_uv = at.uv;
     out_colour = at.colour;
 }

@@ -12,6 +12,7 @@ layout(set = 0, binding = 3, scalar) readonly buffer Probes { Probe probes[2]; }
 layout(set = 0, binding = 4, scalar) readonly buffer Views { View views[2]; };
 layout(set = 0, binding = 5, scalar) readonly buffer Frames { Frame frames[2]; };
 layout(set = 0, binding = 6, scalar) readonly buffer Draws { Draw draws[2]; };
+layout(set = 0, binding = 11, scalar) readonly buffer Placements { Placement placements[2]; };
 layout(set = 0, binding = 7, scalar) readonly buffer Traces { Trace traces[2]; };
 layout(set = 0, binding = 8, scalar) readonly buffer AllCounters { Counters counters[2]; };
 layout(set = 0, binding = 10, scalar) readonly buffer Skies { Sky skies[2]; };
@@ -43,10 +44,9 @@ void main() {
     for (int i = 0; i < 9; ++i) put(s.irradiance[i]);
     Frame f = frames[1];
     put(f.ambient), put(f.light_count), put(f.mirror_count), put(f.object_count), put(f.shadow_faces);
-    put(draws[1].first_view);
-    Surface d = draws[1].surface;
-    put(d.albedo), put(d.emission), put(d.reflectance), put(d.mirror), put(d.centre), put(d.radius), put(draws[1].probe_centre);
-    put(draws[1].object), put(draws[1].mended);
+    put(draws[1].first_view), put(draws[1].mended);
+    Placement p = placements[1];
+    put(p.x), put(p.y), put(p.z), put(p.centre), put(p.centre_low);
     Trace t = traces[1];
     put(t.sample_offset), put(t.sample_index), put(t.sample_count), put(t.size);
     Counters c = counters[1];

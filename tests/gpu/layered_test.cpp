@@ -53,9 +53,10 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
                         const render::DrawRange& range = gpu_scene.ranges()[i];
                         if (range.mirror != mirrors_now || i == gpu_scene.mirror_object(mirror))
                             continue;
-                        commands.push(gpu_scene.draw_of(i, gpu_scene.capture_view(mirror)));
+                        commands.push(shared::Draw{gpu_scene.capture_view(mirror), 0});
                         gpu_scene.bind_vertices(commands, i);
-                        commands.draw(range.first_index, range.index_count, 0, 6);
+                        commands.draw(range.first_index, range.index_count, 0, 6,
+                                      static_cast<std::uint32_t>(i) << shared::kLayerBits);
                     }
                 }
             });

@@ -64,10 +64,12 @@ const std::vector<Member> kMembers{MEMBER(Vertex, position),
                                    MEMBER(Frame, object_count),
                                    MEMBER(Frame, shadow_faces),
                                    MEMBER(Draw, first_view),
-                                   MEMBER(Draw, surface),
-                                   MEMBER(Draw, probe_centre),
-                                   MEMBER(Draw, object),
                                    MEMBER(Draw, mended),
+                                   MEMBER(Placement, x),
+                                   MEMBER(Placement, y),
+                                   MEMBER(Placement, z),
+                                   MEMBER(Placement, centre),
+                                   MEMBER(Placement, centre_low),
                                    MEMBER(Trace, sample_offset),
                                    MEMBER(Trace, sample_index),
                                    MEMBER(Trace, sample_count),
@@ -105,7 +107,7 @@ TEST(Layout, EveryMemberOfEveryStructureArrives) {
         .writes(output, graph::Use::storage_write)
         .record([&](graph::Commands& commands) {
             for (const char* name : {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Skies",
-                                     "Frames", "Draws", "Traces", "AllCounters"})
+                                     "Frames", "Draws", "Placements", "Traces", "AllCounters"})
                 commands.bind(name, input);
             commands.bind("Words", output);
             commands.use(gpu::ComputeState{"tests/layout.comp", {}});
@@ -126,7 +128,7 @@ TEST(Layout, TheMembersAboveAreAllMembers) {
         size[structure] = member.size_of_struct;
     }
     EXPECT_EQ(sum, size); // scalar layout: no padding, so nothing is left over
-    EXPECT_EQ(sum.size(), 10u);
+    EXPECT_EQ(sum.size(), 11u);
 }
 
 TEST(Layout, PushConstantsHaveTheSizeOfTheirStructure) {

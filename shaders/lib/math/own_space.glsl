@@ -23,6 +23,16 @@ INLINE vec3 scene_normal(Place place, vec3 own) {
     return size > real(0) ? normalize(n / size) : vec3(real(0));
 }
 
+// (a + a_low) - (b + b_low), rounded about once: a - b is split into a float and its error (Knuth's two-sum).
+INLINE vec3 difference_of_sums(vec3 a, vec3 a_low, vec3 b, vec3 b_low) {
+    precise vec3 high = a - b;
+    precise vec3 taken = a - high;
+    precise vec3 lost = (a - (high + taken)) + (taken - b);
+    precise vec3 rest = lost + (a_low - b_low);
+    precise vec3 result = high + rest;
+    return result;
+}
+
 // The ray as the thing sees it, with the same t; `low`: what its origin lacks.
 INLINE Ray own_ray(Place place, Ray ray, vec3 low) {
     precise vec3 high = ray.origin - place.centre;
