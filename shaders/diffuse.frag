@@ -11,7 +11,7 @@ void main() {
     leave_out_what_is_cut();
     vec3 n = normalize(normal);
     Surface surface = surface_here(n, facet);
-    vec3 shown = shade(surface, surface_position(), n, lit_facet(drawn_object(), facet));
+    vec3 shown = shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
     // A smooth surface that is no mirror shows what surrounds the scene, and nothing nearer.
     if (details != 0u && surface.reflectance != vec3(0))
         shown += surface.reflectance * environment(mirror_direction(normalize(seen_along()), n, normalize(facet)));

@@ -3,10 +3,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/material.glsl"
 
-layout(location = 13) flat in uvec2 object_mirror; // see lib/drawn.glsl
+layout(location = 13) flat in uvec3 drawn_numbers; // see lib/drawn.glsl
 layout(location = 3) in vec4 in_uv;
 layout(location = 4) in vec4 in_colour;
 
 void main() {
-    if (is_cut_out(object_mirror.x, Attribute(in_uv, in_colour))) discard;
+    if (is_cut_out(drawn_numbers.z, Attribute(in_uv, in_colour))) discard;
 }

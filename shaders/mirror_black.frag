@@ -19,7 +19,7 @@ void main() {
 #ifdef LIT
     vec3 n = normalize(normal);
     Surface surface = surface_here(n, facet);
-    shown = shade(surface, surface_position(), n, lit_facet(drawn_object(), facet));
+    shown = shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
 #endif
     write_surface(shown);
 }

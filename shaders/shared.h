@@ -27,6 +27,7 @@ struct Surface {
     vec3 emission;    // Ke, radiance
     vec3 reflectance; // of a mirror
     uint mirror;      // 0: not a mirror; otherwise its number, from 1
+    uint detail;      // index of its Detail
     vec3 centre;      // of the exact sphere the mesh stands for
     float radius;     // 0: no exact sphere
 };
@@ -41,7 +42,7 @@ struct TextureUse {
 };
 const uint kTextureNearest = 16u, kTextureSrgb = 32u, kTextureSecondUv = 64u;
 
-// What the surface of one object is beyond Surface.
+// What a surface is beyond Surface. Objects that agree in all of it share one.
 struct Detail {
     uint flags;             // kDetail...
     uint first_attribute;   // added to the number of a vertex as it is drawn: its attribute
@@ -220,7 +221,7 @@ const uint kSurfaceTexels = 4u, kProbeTexels = 5u, kDetailQuads = 10u; // the la
 
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);
-static_assert(sizeof(Surface) == 56);
+static_assert(sizeof(Surface) == 60);
 static_assert(sizeof(Light) == 92);
 static_assert(sizeof(TextureUse) == 36);
 static_assert(sizeof(Detail) == 16 * kDetailQuads);

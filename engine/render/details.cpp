@@ -6,8 +6,11 @@
 #include "scene/texel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <map>
+#include <string>
+#include <unordered_map>
 
 namespace catoptric::render {
 
@@ -85,12 +88,14 @@ void Details::fill(const scene::Scene& now, const Geometry& geometry, const Vert
                    std::uint64_t most) {
     fill_texels(now, most);
     std::vector<shared::Detail> details;
+    std::unordered_map<std::string, std::uint32_t> known; // index, by the bytes of a detail
+    indices_.clear();
     any_ = masks_ = false;
     std::map<std::size_t, bool> leaves; // by mesh
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
         const scene::Material& material = now.materials[now.objects[i].material];
-        shared::Detail& detail = details.emplace_back(detail_of(material, range));
+        shared::Detail detail = detail_of(material, range);
         detail.sharp_below = now.mirror_max_roughness;
         // Wraps around: what is drawn counts from the first vertex of its buffer.
         if (range.first_attribute)
@@ -107,6 +112,11 @@ void Details::fill(const scene::Scene& now, const Geometry& geometry, const Vert
             any_ = any_ || entry->second;
         }
         masks_ = masks_ || range.masked;
+        const auto bytes = std::bit_cast<std::array<char, sizeof detail>>(detail);
+        const auto [entry, is_new] = known.try_emplace(std::string(bytes.data(), bytes.size()),
+                                                       static_cast<std::uint32_t>(details.size()));
+        if (is_new) details.push_back(detail);
+        indices_.push_back(entry->second);
     }
     if (details.empty()) details.emplace_back(); // a buffer is never empty
     details_.set(details);

@@ -23,6 +23,8 @@ public:
 
     bool any() const { return any_; }     ///< some surface is more than one colour
     bool masks() const { return masks_; } ///< something is cut out
+    /// By object, where in the list of details its own is. Objects with equal details share one.
+    const std::vector<std::uint32_t>& indices() const { return indices_; }
 
 private:
     shared::TextureUse use_of(const std::optional<scene::Texture>& texture) const;
@@ -30,6 +32,7 @@ private:
 
     std::vector<std::shared_ptr<const scene::Image>> images_; ///< in the buffer, one after another
     std::vector<std::uint32_t> first_texels_;                 ///< by image
+    std::vector<std::uint32_t> indices_;                      ///< by object
     bool any_ = false, masks_ = false;
     Resident details_, attributes_, texels_;
 };

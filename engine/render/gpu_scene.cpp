@@ -91,10 +91,11 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         lay_out(now);
     else
         move(now, changes.moved);
-    if (changes.shapes() || changes.materials) fill_surfaces(now);
-    if (changes.shapes()) fill_placements();
-    if (changes.layout || changes.materials || vertices_.layouts() != known_layouts_)
+    const bool moves_vertices = vertices_.layouts() != known_layouts_;
+    if (changes.layout || changes.materials || moves_vertices)
         details_.fill(now, geometry_, vertices_, device_.most_texels(sizeof(std::uint32_t)));
+    if (changes.shapes() || changes.materials || moves_vertices) fill_surfaces(now);
+    if (changes.shapes()) fill_placements();
     known_layouts_ = vertices_.layouts();
     if (changes.shapes() || changes.lights) fill_lights(now, changes.lights);
     if (changes.shapes() || changes.lights) {
@@ -164,6 +165,7 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
         const scene::Material& material = now.materials[object.material];
         surfaces_.push_back(surface_of(
             object, material, scene::is_mirror(now, object) ? ++mirrors : kNoMirror, space_));
+        surfaces_.back().detail = details_.indices()[surfaces_.size() - 1];
     }
     // The walk meets exact spheres in spaces of their own; the shaders' list has the others.
     std::vector<shared::Surface> listed = surfaces_;

@@ -8,9 +8,10 @@ std::vector<vec4> texels_of(std::span<const shared::Surface> surfaces) {
     std::vector<vec4> texels;
     texels.reserve(shared::kSurfaceTexels * surfaces.size());
     for (const shared::Surface& surface : surfaces)
-        texels.insert(texels.end(), {vec4(surface.albedo, bvh::id_word(surface.mirror)),
-                                     vec4(surface.emission, 0), vec4(surface.reflectance, 0),
-                                     vec4(surface.centre, surface.radius)});
+        texels.insert(texels.end(),
+                      {vec4(surface.albedo, bvh::id_word(surface.mirror)),
+                       vec4(surface.emission, bvh::id_word(surface.detail)),
+                       vec4(surface.reflectance, 0), vec4(surface.centre, surface.radius)});
     return texels;
 }
 

@@ -178,6 +178,10 @@ void World::follow(const scene::Scene& now) {
 
 void World::find_walls() {
     walls_.clear();
+    const auto keep_largest = [&] { // of equal ones the first
+        std::ranges::stable_sort(walls_, std::ranges::greater(), &Wall::area);
+        if (walls_.size() > kMostWalls) walls_.resize(kMostWalls);
+    };
     const double extent = rounding_ / kRounding, least = kLeastWall * extent * extent;
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const Thing& thing = things_[i];
@@ -190,9 +194,9 @@ void World::find_walls() {
             wall.seen_by_camera = thing.seen_by_camera;
             if (wall.area > 0 && wall.area >= least) walls_.push_back(wall);
         }
+        if (walls_.size() >= 8 * kMostWalls) keep_largest();
     }
-    std::ranges::stable_sort(walls_, std::ranges::greater(), &Wall::area);
-    if (walls_.size() > kMostWalls) walls_.resize(kMostWalls);
+    keep_largest();
 }
 
 void World::find_epoch() {

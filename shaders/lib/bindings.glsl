@@ -38,9 +38,9 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 // Of an object.
 Surface surface_of(uint object) {
     uint i = kSurfaceTexels * object;
-    vec4 albedo = surface_texels_at(i), sphere = surface_texels_at(i + 3u);
-    return Surface(albedo.rgb, surface_texels_at(i + 1u).rgb, surface_texels_at(i + 2u).rgb,
-                   floatBitsToUint(albedo.w) & kBvhIdMask, sphere.xyz, sphere.w);
+    vec4 albedo = surface_texels_at(i), emission = surface_texels_at(i + 1u), sphere = surface_texels_at(i + 3u);
+    return Surface(albedo.rgb, emission.rgb, surface_texels_at(i + 2u).rgb, floatBitsToUint(albedo.w) & kBvhIdMask,
+                   floatBitsToUint(emission.w) & kBvhIdMask, sphere.xyz, sphere.w);
 }
 
 // Of a mirror, from 0. What is not used is not read.

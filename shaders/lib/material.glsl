@@ -13,14 +13,14 @@ TEXEL_LIST(ATTRIBUTES_BINDING, attribute_texels, vec4, samplerBuffer, false) // 
 // First what 256 bytes of sRGB are in linear light, as floats; then texels, red in the low byte.
 TEXEL_LIST(TEXELS_BINDING, texture_words, uint, usamplerBuffer, false)
 
-// Four words of an object's detail.
-uvec4 detail_quad(uint object, uint quad) { return detail_quads_at(kDetailQuads * object + quad); }
+// Four words of a Detail.
+uvec4 detail_quad(uint detail, uint quad) { return detail_quads_at(kDetailQuads * detail + quad); }
 
 // What is not used is not read.
-Detail detail_of(uint object) {
-    uvec4 q0 = detail_quad(object, 0), q1 = detail_quad(object, 1), q2 = detail_quad(object, 2), q3 = detail_quad(object, 3);
-    uvec4 q4 = detail_quad(object, 4), q5 = detail_quad(object, 5), q6 = detail_quad(object, 6), q7 = detail_quad(object, 7);
-    uvec4 q8 = detail_quad(object, 8), q9 = detail_quad(object, 9);
+Detail detail_at(uint detail) {
+    uvec4 q0 = detail_quad(detail, 0), q1 = detail_quad(detail, 1), q2 = detail_quad(detail, 2), q3 = detail_quad(detail, 3);
+    uvec4 q4 = detail_quad(detail, 4), q5 = detail_quad(detail, 5), q6 = detail_quad(detail, 6), q7 = detail_quad(detail, 7);
+    uvec4 q8 = detail_quad(detail, 8), q9 = detail_quad(detail, 9);
     vec4 f1 = uintBitsToFloat(q1), f2 = uintBitsToFloat(q2), f5 = uintBitsToFloat(q5), f9 = uintBitsToFloat(q9);
     return Detail(q0.x, q0.y, uintBitsToFloat(q0.z), uintBitsToFloat(q0.w), f1.x, f1.y, f1.z, vec3(f1.w, f2.xy),
                   vec3(f2.zw, uintBitsToFloat(q3.x)),
@@ -58,30 +58,30 @@ vec4 texture_colour(TextureUse use, vec4 uv) {
                mix(texel_colour(use, left, bottom), texel_colour(use, right, bottom), across), down);
 }
 
-// Whether the surface is not there.
-bool is_cut_out(uint object, Attribute at) {
-    Detail detail = detail_of(object);
+// Whether the surface is not there. `number`: of its Detail.
+bool is_cut_out(uint number, Attribute at) {
+    Detail detail = detail_at(number);
     float alpha = detail.alpha * at.colour.a;
     if (detail.alpha_cutoff <= 0.0) return false;
     return !(alpha * texture_colour(detail.albedo, at.uv).a >= detail.alpha_cutoff);
 }
 
 // The normal on the side of the facet that `direction` comes from, where the surface has two sides.
-vec3 turned_normal(uint object, vec3 normal, vec3 facet, vec3 direction) {
-    if ((detail_of(object).flags & kDetailTurns) == 0u) return normal;
+vec3 turned_normal(uint detail, vec3 normal, vec3 facet, vec3 direction) {
+    if ((detail_at(detail).flags & kDetailTurns) == 0u) return normal;
     return dot(normal, facet) * dot(direction, facet) > 0.0 ? -normal : normal;
 }
 
-// The facet as `shade` wants it: zero where the object's normals nowhere leave those of its facets.
-vec3 lit_facet(uint object, vec3 facet) {
-    if (details == 0u || (detail_of(object).flags & kDetailFacets) == 0u) return vec3(0);
+// The facet as `shade` wants it: zero where the mesh's normals nowhere leave those of its facets.
+vec3 lit_facet(uint detail, vec3 facet) {
+    if (details == 0u || (detail_at(detail).flags & kDetailFacets) == 0u) return vec3(0);
     return facet;
 }
 
 // What the surface is here: albedo becomes what is left for diffuse light, reflectance what a ray that is mirrored
 // counts. `cosine`: between the normal and the direction to who looks.
-void evaluate(inout Surface surface, uint object, Attribute at, float cosine) {
-    Detail detail = detail_of(object);
+void evaluate(inout Surface surface, Attribute at, float cosine) {
+    Detail detail = detail_at(surface.detail);
     bool is_constant = (detail.flags & kDetailConstant) != 0u;
     if (!is_constant) surface.reflectance = vec3(0);
     if ((detail.flags & kDetailVaries) == 0u) return;

@@ -78,7 +78,7 @@ vec3 shaded(Point at, vec3 direction, uint by) {
     shadow_by = by;
     Surface surface = surface_at(at, direction);
     point = at; // whose shadow rays start there
-    return shade(surface, at.position, at.normal, lit_facet(at.object, at.facet));
+    return shade(surface, at.position, at.normal, lit_facet(surface.detail, at.facet));
 }
 
 // Of what the search looked up, with texels or shadows mended.

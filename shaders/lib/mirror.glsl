@@ -171,7 +171,7 @@ void main() {
 #else
     vec3 colour = path.weight * lookup_colour(path.mirror, lookup);
 #ifdef LIT
-    colour += shade(surface, surface_position(), n, lit_facet(drawn_object(), facet));
+    colour += shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
 #endif
 #endif
     write_surface(shown(colour, lookup));

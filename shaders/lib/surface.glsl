@@ -53,7 +53,7 @@ bool is_peeled() {
 
 // Before anything is written, after the derivatives.
 void leave_out_what_is_cut() {
-    if (masks != 0u && is_cut_out(drawn_object(), Attribute(in_uv, in_colour))) discard;
+    if (masks != 0u && is_cut_out(drawn_detail(), Attribute(in_uv, in_colour))) discard;
 }
 
 // The object's surface here. `facet`: along its triangle's normal.
@@ -61,8 +61,8 @@ Surface surface_here(inout vec3 n, vec3 facet) {
     Surface surface = drawn_surface();
     if (details != 0u) {
         vec3 direction = normalize(seen_along());
-        n = turned_normal(drawn_object(), n, facet, direction);
-        evaluate(surface, drawn_object(), Attribute(in_uv, in_colour), -dot(n, direction));
+        n = turned_normal(surface.detail, n, facet, direction);
+        evaluate(surface, Attribute(in_uv, in_colour), -dot(n, direction));
     }
     return surface;
 }

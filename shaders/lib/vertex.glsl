@@ -57,8 +57,8 @@ void main() {
 #endif
     out_from_eye = v;
     Attribute at = kNoAttribute;
-    if (details != 0u && (detail_of(drawn_object()).flags & kDetailAttributes) != 0u)
-        at = attribute_at_vertex(uint(gl_VertexIndex) + detail_of(drawn_object()).first_attribute);
+    if (details != 0u && (detail_at(surface.detail).flags & kDetailAttributes) != 0u)
+        at = attribute_at_vertex(uint(gl_VertexIndex) + detail_at(surface.detail).first_attribute);
     out_uv = at.uv;
     out_colour = at.colour;
 }

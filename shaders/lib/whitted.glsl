@@ -27,9 +27,10 @@ Attribute attribute_at(uint corner, vec3 barycentric) {
     return Attribute(barycentric.x * a.uv + barycentric.y * b.uv + barycentric.z * c.uv,
                      barycentric.x * a.colour + barycentric.y * b.colour + barycentric.z * c.colour);
 }
-bool has_attributes(uint object) { return (detail_of(object).flags & kDetailAttributes) != 0u; }
+bool has_attributes(uint detail) { return (detail_at(detail).flags & kDetailAttributes) != 0u; }
 bool is_there(uint triangle, uint object, vec3 barycentric) {
-    return !is_cut_out(object, has_attributes(object) ? attribute_at(3u * triangle, barycentric) : kNoAttribute);
+    uint detail = surface_of(object).detail;
+    return !is_cut_out(detail, has_attributes(detail) ? attribute_at(3u * triangle, barycentric) : kNoAttribute);
 }
 #define TRACE_IS_THERE(triangle, object, barycentric) is_there(triangle, object, barycentric)
 layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
@@ -180,10 +181,10 @@ bool trace_ray(Ray ray, uint skipped, out Point p) {
 Surface surface_at(inout Point p, vec3 direction) {
     Surface surface = surface_of(p.object);
     if (details != 0u) {
-        vec3 turned = turned_normal(p.object, p.normal, p.facet, direction);
+        vec3 turned = turned_normal(surface.detail, p.normal, p.facet, direction);
         if (turned != p.normal) p.lift = 0.0; // hollow from there
         p.normal = turned;
-        evaluate(surface, p.object, p.at, -dot(p.normal, direction));
+        evaluate(surface, p.at, -dot(p.normal, direction));
     }
     return surface;
 }
@@ -261,7 +262,7 @@ vec3 radiance(Ray ray, uint first, out uint met) {
         if (details != 0u) reflects = surface.reflectance != vec3(0);
         if (details != 0u && bounce == 0u && reflects && surface.mirror == 0u) met = kMostMirrors << kMetBits;
         // One call for both: the driver's compiler inlines each, with the walk of its shadow ray.
-        if (!reflects || details != 0u) result += weight * shade(surface, point.position, point.normal, lit_facet(point.object, point.facet));
+        if (!reflects || details != 0u) result += weight * shade(surface, point.position, point.normal, lit_facet(surface.detail, point.facet));
         if (!reflects) {
             done = true;
         } else if (bounce == max_depth) {

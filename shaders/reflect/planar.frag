@@ -17,7 +17,7 @@ void main() {
     Surface surface = surface_here(n, facet);
     vec3 shown = surface.reflectance * texelFetch(mirrored, ivec2(gl_FragCoord.xy), 0).rgb;
 #ifdef LIT
-    shown += shade(surface, surface_position(), n, lit_facet(drawn_object(), facet));
+    shown += shade(surface, surface_position(), n, lit_facet(surface.detail, facet));
 #endif
     write_surface(shown);
 }

@@ -26,7 +26,7 @@ void put(uvec2 v) { put(v.x), put(v.y); }
 void put(vec3 v) { put(v.x), put(v.y), put(v.z); }
 void put(vec4 v) { put(v.x), put(v.y), put(v.z), put(v.w); }
 void put(Surface s) {
-    put(s.albedo), put(s.emission), put(s.reflectance), put(s.mirror), put(s.centre), put(s.radius);
+    put(s.albedo), put(s.emission), put(s.reflectance), put(s.mirror), put(s.detail), put(s.centre), put(s.radius);
 }
 
 void main() {

@@ -35,7 +35,7 @@ TEST(Texels, HoldEveryMemberOfTheOneThatIsAskedFor) {
     std::vector<std::uint32_t> texels;
     for (std::uint32_t i = 0; i < kAsked + 2; ++i) {
         surfaces.push_back(filled<shared::Surface>(next));
-        surfaces.back().mirror = 1000 + i;
+        surfaces.back().mirror = 1000 + i, surfaces.back().detail = 2000 + i;
         probes.push_back(filled<shared::Probe>(next));
         probes.back().kind = i % 3;
         details.push_back(filled<shared::Detail>(next));
