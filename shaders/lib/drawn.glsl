@@ -25,8 +25,6 @@ DRAWN(10) vec4 forward_faces;        // and the shadow faces of a light
 DRAWN(11) vec4 emission_kind; // of the object; of the light
 DRAWN(12) vec3 light_share;          // reach, cos_outer, sharpness
 DRAWN(13) uvec3 drawn_numbers; // index of the object; number of the mirror that it is, from 1, or 0; of its Detail
-DRAWN(14) vec3 drawn_reflectance;
-DRAWN(15) vec3 capture_centre; // of a mirror
 
 #ifdef VERTEX_STAGE
 
@@ -37,8 +35,6 @@ uint drawn_object() { return uint(gl_InstanceIndex) >> kLayerBits; }
 void write_drawn(View view, Surface surface) {
     eye_layer = vec4(view.eye, drawn_layer());
     drawn_numbers = uvec3(drawn_object(), surface.mirror, surface.detail);
-    drawn_reflectance = surface.reflectance;
-    capture_centre = probe_at(max(surface.mirror, 1u) - 1u).centre;
     Light light = lights[0];
     position_near = vec4(light.position, light.near);
     normal_red = vec4(light.normal, surface.albedo.r);
@@ -58,8 +54,8 @@ uint drawn_object() { return drawn_numbers.x; }
 uint drawn_mirror() { return drawn_numbers.y; }
 uint drawn_detail() { return drawn_numbers.z; }
 Surface drawn_surface() {
-    return Surface(vec3(normal_red.w, intensity_green.w, right_blue.w), emission_kind.xyz, drawn_reflectance, drawn_mirror(),
-                   drawn_detail(), vec3(0), 0.0);
+    return Surface(vec3(normal_red.w, intensity_green.w, right_blue.w), emission_kind.xyz,
+                   surface_of(drawn_object()).reflectance, drawn_mirror(), drawn_detail(), vec3(0), 0.0);
 }
 Light first_light() {
     return Light(position_near.xyz, normal_red.xyz, intensity_green.xyz, right_blue.xyz, down_ambient.xyz, forward_faces.xyz,

@@ -164,7 +164,7 @@ void main() {
     vec3 n = normalize(normal);
     Surface surface = surface_here(n, facet);
     Path path = Path(drawn_mirror() - 1u, surface_position(), mirror_direction(normalize(seen_along()), n, facet),
-                     capture_centre, surface.reflectance, 0u);
+                     probe_at(drawn_mirror() - 1u).centre, surface.reflectance, 0u);
     Lookup lookup = follow(path);
 #ifdef MEND
     vec3 colour = mended_radiance(path, lookup);
