@@ -42,7 +42,7 @@ struct StressRow {
     std::vector<StressPicture> pictures; ///< of cases that do not hold
     double seconds = 0;
     std::vector<NotRun> not_run;
-    std::string turned_red_by; ///< wrong code under tests/mutations that it must notice
+    std::string turned_red_by; ///< rule of tests/mutations for wrong code that it must notice
     /// The case nearest to or furthest beyond its limit, one that is wrong before all that look
     /// worse; null when there is none.
     const StressCase* worst() const;

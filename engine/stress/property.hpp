@@ -14,7 +14,7 @@ struct Property {
     std::string_view id, stimulus, property;
     /// Renders its scenes and adds cases to the row.
     void (*judge)(Bench& bench) = nullptr;
-    /// Name of a patch under tests/mutations: wrong code that this row notices.
+    /// Name of the rule in tests/mutations/rules.toml: wrong code that turns this row red.
     std::string_view turned_red_by = {};
     std::string_view not_covered = {}; ///< what of the property this does not look at
 };

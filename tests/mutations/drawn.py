@@ -1,0 +1,192 @@
+"""Mutants that universalmutator draws of C++ and GLSL: builds each, runs the tests, and reports the share killed.
+
+mutate.py drawn [--count N] [--seed S] [--folder F...] [--out FILE]
+
+Each folder of code gets a share of the N mutants by its lines, but at least kLeast. A draw is a file (weighted by lines of
+code), a line of it, and one mutant of that line. Mutants that do not compile, or that leave all object code and SPIR-V as
+they are, are written down and drawn again. Results are kept in FILE (out/mutants/seed-S.json) after each mutant, so that
+a run that was interrupted goes on from there.
+"""
+import argparse
+import contextlib
+import glob
+import hashlib
+import io
+import json
+import os
+import random
+import re
+import subprocess
+import sys
+import time
+
+import checkout
+
+kLeast = 6            # mutants of a folder, at least
+kMostTries = 12       # draws for each counted mutant of a folder
+kTestSeconds = 900    # of a stage
+NOT_RUN = "^(long|clone|fuzz|limits-all)$"
+# Tests in the order in which they are asked, cheap and general first: target to build, tests to run, tests to leave out.
+STAGES = [("unit_test", "^unit$", "^$"), ("gpu_test", "^gpu/", "^$"), ("reflect_test", "^reflect/", "^$"),
+          ("all", "^cli/", "^$"), ("all", ".", "^(unit$|gpu/|reflect/|cli/)")]
+RULES = {".cpp": ["universal.rules", "c_like.rules", "cpp.rules"], ".hpp": ["universal.rules", "c_like.rules", "cpp.rules"]}
+
+
+def sources():
+    """Returns the code files of each folder: {folder: [path]}. Shaders for tests are no product."""
+    listed = subprocess.run(["git", "ls-files", *checkout.CODE], capture_output=True, text=True, check=True).stdout.split()
+    folders = {}
+    for path in listed:
+        if not re.search(r"\.(cpp|hpp|glsl|frag|vert|comp)$", path) or path.startswith("shaders/tests/"):
+            continue
+        parts = path.split("/")
+        folder = parts[0] if parts[0] == "shaders" else "/".join(parts[:2])
+        if "." not in folder and folder not in ("samples/scenes", "samples/embedded"):
+            folders.setdefault(folder, []).append(path)
+    return {folder: files for folder, files in folders.items()
+            if folder.startswith(("engine/", "shaders")) or folder in ("samples/catoptric", "samples/view")}
+
+
+def code_lines(path):
+    """Returns the number of lines that hold code."""
+    return sum(1 for line in open(path, encoding="utf-8") if line.strip() and not line.strip().startswith("//"))
+
+
+def shares(folders, count):
+    """Returns how many mutants each folder gets."""
+    lines = {folder: sum(map(code_lines, files)) for folder, files in folders.items()}
+    return {folder: max(kLeast, round(count * of / sum(lines.values()))) for folder, of in lines.items()}
+
+
+def mutants_of(path):
+    """Returns the mutants of a file by line: {number from 1: [(text of the line, rule)]}."""
+    from universalmutator import mutator
+    lines = open(path, encoding="utf-8").read().splitlines(keepends=True)
+    with contextlib.redirect_stdout(io.StringIO()):
+        found = mutator.mutants_regexp(lines, ruleFiles=RULES.get(os.path.splitext(path)[1], ["universal.rules", "c_like.rules"]),
+                                       ignorePatterns=[r"^\s*(//|///|#|namespace|using |static_assert)"])
+    by_line = {}
+    for number, text, rule in found:
+        if text != lines[number - 1]:
+            by_line.setdefault(number, []).append((text, rule[0]))
+    return by_line
+
+
+def draw(files, seed):
+    """Returns a mutant as a record: file, line, the text before and after, and the rule. The same seed draws the same."""
+    chance = random.Random(seed)
+    while True:
+        path = chance.choices(files, weights=map(code_lines, files))[0]
+        by_line = mutants_of(path)
+        if by_line:
+            break
+    line = chance.choice(sorted(by_line))
+    after, rule = chance.choice(by_line[line])
+    before = open(path, encoding="utf-8").read().splitlines(keepends=True)[line - 1]
+    return {"file": path, "line": line, "before": before.strip(), "after": after.strip(), "rule": rule}, after
+
+
+class Objects:
+    """Hashes of the object files of a build, SPIR-V among them, which is compiled in."""
+
+    def __init__(self):
+        self.known = {}
+        self.baseline = self.hashes()
+
+    def hashes(self):
+        for path in glob.glob(f"{checkout.BUILD}/**/*.o", recursive=True):
+            stamp = os.stat(path).st_mtime_ns
+            if self.known.get(path, (0, ""))[0] != stamp:
+                self.known[path] = (stamp, hashlib.sha1(open(path, "rb").read()).hexdigest())
+        return {path: value for path, (_, value) in self.known.items()}
+
+    def differ(self):
+        """Whether some object of the product differs from the right code's. Tests may inline headers: they count."""
+        now = self.hashes()
+        return any(now[path] != value for path, value in self.baseline.items())
+
+
+def judge(record, objects):
+    """Builds the mutant that lies in the checkout and runs the tests, until one fails. Adds "outcome" and "by"."""
+    first = True
+    for target, tests, left_out in STAGES:
+        targets = [target, "catoptric_cli", "catoptric-view"] if record["file"].startswith("samples/") else [target]
+        if not checkout.build(*targets):
+            # A target later than the first can only fail by what it alone compiles.
+            return record.update(outcome="does not compile")
+        if first and not objects.differ():
+            return record.update(outcome="same code")
+        first = False
+        code, output = checkout.run(["nice", "ctest", "--test-dir", checkout.BUILD, "-j2", "--stop-on-failure", "--timeout",
+                                     "300", "-R", tests, "-E", left_out, "-LE", NOT_RUN], kTestSeconds)
+        if code != 0:
+            failed = re.search(r"(\S+) \.+\s*\**(Failed|Timeout|Exception|Subprocess|Not Run)", output)
+            return record.update(outcome="killed", by=failed[1] if failed else f"{tests} ended with {code}")
+    record.update(outcome="survived")
+
+
+def report(records, out=sys.stdout):
+    """Prints the share killed by folder, and the survivors."""
+    print("| folder | killed | survived | share | no compile | same code |\n|---|--:|--:|--:|--:|--:|", file=out)
+    folders = sorted({record["folder"] for record in records})
+    for folder in [*folders, "all"]:
+        count = {}
+        for record in records:
+            if folder in (record["folder"], "all"):
+                count[record["outcome"]] = count.get(record["outcome"], 0) + 1
+        killed, survived = count.get("killed", 0), count.get("survived", 0)
+        share = f"{killed / (killed + survived):.2f}" if killed + survived else ""
+        print(f"| {folder} | {killed} | {survived} | {share} | {count.get('does not compile', 0)} | "
+              f"{count.get('same code', 0)} |", file=out)
+    for record in records:
+        if record["outcome"] == "survived":
+            print(f"\nsurvived: {record['file']}:{record['line']}\n-   {record['before']}\n+   {record['after']}", file=out)
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="mutate drawn")
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--seed", default="1")
+    parser.add_argument("--folder", nargs="+", help="only these, for example engine/bvh shaders")
+    parser.add_argument("--out")
+    chosen = parser.parse_args(arguments)
+    store = chosen.out or f"out/mutants/seed-{chosen.seed}.json"
+    checkout.require_clean()
+    checkout.BUILD = "build/mutants"
+    folders = sources()
+    wanted = shares(folders, chosen.count)
+    records = json.load(open(store)) if os.path.exists(store) else []
+    known = {(record["folder"], record["draw"]): record for record in records}
+    if not checkout.build("all"):
+        checkout.fail("the code that is right does not build")
+    objects = Objects()
+    os.makedirs(os.path.dirname(store) or ".", exist_ok=True)
+    # Folder by folder in turns, so that what an interrupted run has judged is spread over all of them.
+    counted, draws = dict.fromkeys(folders, 0), dict.fromkeys(folders, 0)
+    while True:
+        open_folders = [folder for folder in folders if counted[folder] < wanted[folder]
+                        and draws[folder] < kMostTries * wanted[folder] and folder in (chosen.folder or folders)]
+        if not open_folders:
+            break
+        for folder in open_folders:
+            number = draws[folder]
+            draws[folder] += 1
+            record = known.get((folder, number))
+            if record is None:
+                begin = time.monotonic()
+                record, after = draw(folders[folder], f"{chosen.seed}/{folder}/{number}")
+                lines = open(record["file"], encoding="utf-8").read().splitlines(keepends=True)
+                lines[record["line"] - 1] = after
+                with checkout.replaced({record["file"]: "".join(lines)}):
+                    judge(record, objects)
+                record.update(folder=folder, draw=number, seconds=round(time.monotonic() - begin))
+                records.append(record)
+                json.dump(records, open(store + ".new", "w"), indent=1)
+                os.replace(store + ".new", store)
+                print(f"{record['outcome']:16} {record.get('by', ''):28} {record['file']}:{record['line']}: {record['after']}",
+                      flush=True)
+            counted[folder] += record["outcome"] in ("killed", "survived")
+    checkout.build("all")
+    report(records)
+    judged = [record for record in records if record["outcome"] in ("killed", "survived")]
+    return 1 if any(record["outcome"] == "survived" for record in judged) else 0

@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""Shows that the tests notice wrong code. Called by `./dev mutate`, from the top of a checkout that is built in build/ci.
+
+mutate.py check            whether each rule of rules.toml still fits the code; changes nothing
+mutate.py run [NAME...]    applies the rules, or those named (by name or stress row), one after the other; the test or
+                           stress row of each must fail
+mutate.py drawn ...        mutants that a tool draws; see drawn.py
+
+Exit codes: 0 all were noticed, 1 some were not, 2 nothing could be judged.
+"""
+import os
+import re
+import sys
+
+sys.dont_write_bytecode = True
+import checkout
+import drawn
+import rules
+
+RULES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "rules.toml")
+
+
+def texts_with(rule):
+    """Returns the text of each file that the rule changes, by path. Raises RuleError where it does not fit."""
+    texts = {}
+    for edit in rule.edits:
+        before = texts.get(edit.file)
+        if before is None:
+            try:
+                before = open(edit.file, encoding="utf-8").read()
+            except FileNotFoundError:
+                raise rules.RuleError(f"mutation '{rule.name}': there is no file {edit.file}") from None
+        texts[edit.file] = rules.apply(edit, before, rule.name)
+    return texts
+
+
+def check(listed):
+    """Prints the rules that no longer fit. Returns how many there are."""
+    wrong = 0
+    for rule in listed.values():
+        try:
+            texts_with(rule)
+        except rules.RuleError as error:
+            print(error, file=sys.stderr)
+            wrong += 1
+    return wrong
+
+
+def fails_test(rule):
+    """Returns what failed, or nothing if the rule's tests pass."""
+    program, tests = rule.test.split(maxsplit=1)
+    if not checkout.build(program):
+        checkout.fail(f"{rule.name} does not compile")
+    code, output = checkout.run([f"{checkout.BUILD}/{program}", f"--gtest_filter={tests}"], 1800)
+    if "[  PASSED  ] 0 tests" in output:
+        checkout.fail(f"{rule.name}: {program} has no test {tests}")
+    failed = re.search(r"\[  FAILED  \] (\w[\w/]*\.[\w/]*)", output)
+    return "" if code == 0 else failed[1] if failed else f"{tests} ends with {code}"
+
+
+def fails_row(rule):
+    """Returns what the stress row measured, or nothing if it passes. Small pictures show wrong code as well."""
+    if not checkout.build("catoptric_cli"):
+        checkout.fail(f"{rule.name} does not compile")
+    command = [f"{checkout.BUILD}/catoptric", "stress", "--quiet", "--size", "128x128", "--only", rule.row]
+    code, output = checkout.run(command, 1800)
+    row = next((line.split() for line in output.splitlines() if line.split()[:1] == [rule.row]), None)
+    if row is None or code not in (0, 1):
+        checkout.fail(f"{rule.name}: stress row {rule.row} ended with {code}:\n{output}")
+    return f"{rule.row}: {row[2]} of {row[3]}" if row[1] == "fail" else ""
+
+
+def apply_all(listed):
+    """Applies one rule after the other. Returns the names of those that nothing noticed."""
+    checkout.require_clean()
+    unnoticed = []
+    for rule in listed:
+        with checkout.replaced(texts_with(rule)):
+            failed = fails_row(rule) if rule.row else fails_test(rule)
+        print(f"{rule.name:28} {'red    ' + failed if failed else 'GREEN  ' + (rule.row or rule.test)}", flush=True)
+        if not failed:
+            unnoticed.append(rule.name)
+    checkout.build("all")
+    return unnoticed
+
+
+def main():
+    verb, names = (sys.argv[1:2] or [""])[0], sys.argv[2:]
+    if verb == "drawn":
+        return drawn.main(names)
+    try:
+        listed = rules.read(RULES)
+        if verb == "check":
+            return 2 if check(listed) else 0
+        if verb != "run":
+            checkout.fail(f"wanted check, run or drawn, found '{verb}'")
+        chosen = [rule for rule in listed.values() if not names or rule.name in names or rule.row in names]
+        for name in names:
+            if not any(name in (rule.name, rule.row) for rule in chosen):
+                checkout.fail(f"there is no mutation and no stress row '{name}' in {RULES}")
+        unnoticed = apply_all(chosen)
+    except rules.RuleError as error:
+        checkout.fail(str(error))
+    if unnoticed:
+        print("mutate: nothing noticed", ", ".join(unnoticed), file=sys.stderr)
+    return 1 if unnoticed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
