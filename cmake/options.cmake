@@ -34,3 +34,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
     # GCC 12 warns of std::string's own code (GCC bug 105651).
     target_compile_options(catoptric_warnings INTERFACE -Wno-restrict)
 endif()
+if(CATOPTRIC_UNITY)
+    # The warning takes a source that a group includes for a header.
+    target_compile_options(catoptric_warnings INTERFACE -Wno-subobject-linkage)
+endif()

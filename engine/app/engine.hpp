@@ -53,7 +53,7 @@ CATOPTRIC_API std::filesystem::path cache_folder();
 /// path.
 CATOPTRIC_API std::filesystem::path profile_folder();
 
-struct Knob {
+struct KnobInfo {
     std::string name, help;
     double low = 0, high = 1;
     std::string value;                ///< default
@@ -62,7 +62,7 @@ struct Knob {
 };
 struct TechniqueInfo {
     std::string name, summary;
-    std::vector<Knob> knobs;
+    std::vector<KnobInfo> knobs;
 };
 /// Every technique in the table's order.
 CATOPTRIC_API std::vector<TechniqueInfo> techniques();

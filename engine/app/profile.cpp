@@ -17,7 +17,7 @@ using report::Json;
 namespace {
 
 constexpr const char* kSchema = "catoptric/device-profile/1";
-constexpr std::uintmax_t kMostBytes = 1U << 20U;
+constexpr std::uintmax_t kMostProfileBytes = 1U << 20U;
 
 /// Text without the quotes of JSON.
 std::string shown(const Json& value) {
@@ -54,8 +54,8 @@ std::string small_file(const fs::path& file) {
     check(!fs::exists(file, error) || fs::is_regular_file(file, error), Failure::bad_data,
           file.string(), ": wanted a file with a device profile, found something else");
     const std::uintmax_t bytes = fs::file_size(file, error);
-    check(error || bytes <= kMostBytes, Failure::bad_data, file.string(),
-          ": wanted a device profile of at most ", kMostBytes, " bytes, found ", bytes);
+    check(error || bytes <= kMostProfileBytes, Failure::bad_data, file.string(),
+          ": wanted a device profile of at most ", kMostProfileBytes, " bytes, found ", bytes);
     return read_file(file);
 }
 

@@ -15,7 +15,7 @@ namespace catoptric::app {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 struct Required {
     scene::Scene now;
@@ -42,15 +42,15 @@ Required required(const Request& request) {
     return required;
 }
 
-Json mirror_of(const Required& required, const std::string& name, std::size_t i) {
+OrderedJson mirror_of(const Required& required, const std::string& name, std::size_t i) {
     const require::MirrorNeeds& needs = required.model.mirrors[i];
-    Json sees = Json::array(), faces = Json::array();
+    OrderedJson sees = OrderedJson::array(), faces = OrderedJson::array();
     if (needs.is_captured) faces = split(require::names_of(needs.faces), " ");
     for (const std::uint32_t other : needs.sees) sees.push_back(other + 1);
     return {{"mirror", i + 1},
             {"name", name},
             {"seen", needs.is_seen},
-            {"seen_in", needs.seen_in ? Json(needs.seen_in.number()) : Json()},
+            {"seen_in", needs.seen_in ? OrderedJson(needs.seen_in.number()) : OrderedJson()},
             {"captured", needs.is_captured},
             {"faces", faces},
             {"sees", sees},
@@ -84,10 +84,10 @@ std::string why_text(const Request& request, const std::optional<Slices>& slices
 std::string why_json(const Request& request, const std::optional<Slices>& slices) {
     const Required required = app::required(request);
     const std::vector<std::string> names = mirror_names(required.now);
-    Json document{{"schema", "catoptric/why/1"}, {"mirrors", Json::array()},
-                  {"lights", Json::array()},     {"left_out", Json::array()},
-                  {"not_drawn", Json::array()},  {"suggested", required.suggestion.plan},
-                  {"candidates", Json::array()}};
+    OrderedJson document{{"schema", "catoptric/why/1"}, {"mirrors", OrderedJson::array()},
+                  {"lights", OrderedJson::array()},     {"left_out", OrderedJson::array()},
+                  {"not_drawn", OrderedJson::array()},  {"suggested", required.suggestion.plan},
+                  {"candidates", OrderedJson::array()}};
     for (const require::Candidate& candidate : required.suggestion.candidates)
         document["candidates"].push_back(
             {{"name", candidate.name}, {"cost", candidate.cost}, {"flip", candidate.error}});
@@ -105,13 +105,13 @@ std::string why_json(const Request& request, const std::optional<Slices>& slices
                                          {"why", kRemedy},
                                          {"first", gap->first},
                                          {"pixel_share", *gap->pixel_share}});
-    document["captures"] = slices ? Json{{"mirrors", slices->mirrors},
+    document["captures"] = slices ? OrderedJson{{"mirrors", slices->mirrors},
                                          {"most", slices->most},
                                          {"oldest_frames", slices->round() - 1},
                                          {"round_frames", slices->round()},
                                          {"said", to_text(*slices)}}
-                                  : Json();
-    return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
+                                  : OrderedJson();
+    return document.dump(2, ' ', true, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::optional<Slices> measured_slices(Engine& engine, const Request& request) {

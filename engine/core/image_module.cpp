@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFile = "catoptric-images.so";
 constexpr std::size_t kRoom = std::size_t{512} << 20; // all its libraries
-constexpr const char* kWanted = "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
+constexpr const char* kModuleNeeds = "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
                                 "libopenimageio2.4)";
 
 /// The folder of the library or program that this function is part of.
@@ -44,7 +44,7 @@ fs::path module_file() {
     for (const fs::path& folder : folders)
         if (fs::exists(folder / kFile)) return folder / kFile;
     fail(Failure::internal, "pictures cannot be read or written: ", kFile, " is in none of ",
-         folders[0].string(), ", ", folders[1].string(), ", ", folders[2].string(), ". ", kWanted);
+         folders[0].string(), ", ", folders[1].string(), ", ", folders[2].string(), ". ", kModuleNeeds);
 }
 
 const ImageCodecs* load() {
@@ -53,7 +53,7 @@ const ImageCodecs* load() {
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // to the end of the process
     check(module != nullptr, Failure::internal,
           "pictures cannot be read or written: ", file.string(),
-          " cannot be loaded: ", module ? "" : dlerror(), ". ", kWanted);
+          " cannot be loaded: ", module ? "" : dlerror(), ". ", kModuleNeeds);
     const auto codecs = reinterpret_cast<ImageCodecsFunction>(dlsym(module, kImageCodecs));
     check(codecs != nullptr, Failure::internal,
           "pictures cannot be read or written: ", file.string(), " is of another version: wanted ",

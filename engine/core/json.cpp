@@ -18,7 +18,7 @@ constexpr int kDeepest = 64;
 constexpr int kOutOfRange = 406; // the parser's number for a number that no double holds
 
 /// The parser's words, and what it wanted there. The first that fits holds.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kWanted{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kExpectedTokens{
     {{"missing closing quote", "a closing quotation mark"},
      {"control character", "control characters of a text written as \\n, \\t or \\u00XX"},
      {"ill-formed UTF-8", "UTF-8"},
@@ -87,7 +87,7 @@ public:
         const std::size_t at = is_end ? text_.size()
                                       : std::min(read - std::min(read, length), text_.size());
         const auto* wanted = std::ranges::find_if(
-            kWanted, [&](const auto& one) { return words.find(one.first) != words.npos; });
+            kExpectedTokens, [&](const auto& one) { return words.find(one.first) != words.npos; });
         fail(Failure::bad_data, place_of(file_, text_, at), ": wanted ",
              error.id == kOutOfRange ? "a number that a double can hold" : wanted->second,
              ", found ", found_at(text_, at, length));

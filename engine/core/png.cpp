@@ -28,7 +28,7 @@ void append(png_structp png, png_bytep data, std::size_t size) {
 }
 void flush(png_structp) {}
 
-[[noreturn]] void give_up(png_structp png, png_const_charp why) {
+[[noreturn]] void give_up_writing(png_structp png, png_const_charp why) {
     auto& destination = *static_cast<Destination*>(png_get_error_ptr(png));
     try {
         destination.why = why;
@@ -36,7 +36,7 @@ void flush(png_structp) {}
     }
     png_longjmp(png, 1);
 }
-void ignore(png_structp, png_const_charp) {}
+void ignore_warning_of_writing(png_structp, png_const_charp) {}
 
 /// What it says of itself: sRGB, and a time that is not the clock's, so that the same picture is
 /// the same bytes.
@@ -79,7 +79,7 @@ std::string png_bytes(const ImageShape& shape, std::span<const std::uint8_t> val
           " cannot be written as PNG: wanted 1 to 4 channels, found ", shape.channel_count, " and ",
           values.size(), " values");
     Destination destination;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &destination, give_up, ignore);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &destination, give_up_writing, ignore_warning_of_writing);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     const auto destroy = [&](png_structp) { png_destroy_write_struct(&png, &info); };
     const std::unique_ptr<png_struct, decltype(destroy)> owner(png, destroy);

@@ -22,7 +22,7 @@ struct Origin {
     std::string why;
 };
 
-[[noreturn]] void give_up(png_structp png, png_const_charp why) {
+[[noreturn]] void give_up_reading(png_structp png, png_const_charp why) {
     auto& origin = *static_cast<Origin*>(png_get_error_ptr(png));
     try {
         origin.why = printable(why);
@@ -30,7 +30,7 @@ struct Origin {
     }
     png_longjmp(png, 1);
 }
-void ignore(png_structp, png_const_charp) {}
+void ignore_warning_of_reading(png_structp, png_const_charp) {}
 
 void take(png_structp png, png_bytep into, std::size_t size) {
     auto& origin = *static_cast<Origin*>(png_get_io_ptr(png));
@@ -96,7 +96,7 @@ void convert(const std::uint8_t* row, std::size_t count, bool is_wide, Value* va
 
 struct PngReader::Open {
     Open(const ByteSource& bytes, const std::string& its_name) : origin{bytes}, name(its_name) {
-        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &origin, give_up, ignore);
+        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &origin, give_up_reading, ignore_warning_of_reading);
         info = png ? png_create_info_struct(png) : nullptr;
         if (!info) {
             png_destroy_read_struct(&png, &info, nullptr);

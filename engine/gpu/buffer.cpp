@@ -46,12 +46,12 @@ UniqueBuffer make_buffer(const Device& device, std::uint64_t bytes, VkBufferUsag
 enum class Home { device, host_writes, host_reads };
 
 /// A memory type, and whether it is to be mapped.
-struct Type {
+struct MemoryType {
     int index = -1;
     bool mapped = false;
 };
 
-Type type_for(const Device& device, const VkMemoryRequirements& needs, Home home) {
+MemoryType type_for(const Device& device, const VkMemoryRequirements& needs, Home home) {
     constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
                                             VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const auto find = [&](VkMemoryPropertyFlags properties) {
@@ -78,7 +78,7 @@ UniqueMemory back(const Device& device, VkBuffer buffer, Home home, const std::s
                   void*& mapped) {
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
-    const Type type = type_for(device, needs, home);
+    const MemoryType type = type_for(device, needs, home);
     check(type.index >= 0, Failure::internal, "no memory type for buffer '", name, "'");
     UniqueMemory memory = device.allocate(needs.size, static_cast<std::uint32_t>(type.index), name);
     check_vk(vkBindBufferMemory(device.handle(), buffer, memory, 0), "bind buffer '" + name + "'");

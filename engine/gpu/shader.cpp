@@ -49,7 +49,7 @@ enum Storage : std::uint32_t {
 constexpr std::uint32_t kFloat64 = 10; // a capability
 enum Dim : std::uint32_t { kDim2D = 1, kDimCube = 3, kDimBuffer = 5 };
 
-struct Type {
+struct SpirvType {
     std::uint32_t op = 0;
     std::vector<std::uint32_t> words; // operands after the result id
 };
@@ -134,7 +134,7 @@ private:
 
     /// Bytes of a type in the scalar layout.
     std::uint32_t size_of(std::uint32_t id) const {
-        const Type& type = types_.at(id);
+        const SpirvType& type = types_.at(id);
         switch (type.op) {
         case kTypeInt:
         case kTypeFloat: return type.words[0] / 8;
@@ -156,7 +156,7 @@ private:
         result.binding = *decoration(variable.id, kBinding);
         check(decoration(variable.id, kDescriptorSet).value_or(0) == 0, Failure::internal,
               "shader '", name_, "': '", result.name, "' is not in set 0");
-        const Type* type = &types_.at(pointee(variable));
+        const SpirvType* type = &types_.at(pointee(variable));
         if (type->op == kTypeStruct) {
             if (result.name.empty()) result.name = name_of(pointee(variable));
             result.kind = variable.storage == kUniform ? BindingKind::uniform_buffer
@@ -190,7 +190,7 @@ private:
     std::string_view name_;
     std::map<std::uint32_t, std::string> names_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> decorations_, member_offsets_;
-    std::map<std::uint32_t, Type> types_;
+    std::map<std::uint32_t, SpirvType> types_;
     std::map<std::uint32_t, std::uint32_t> constants_;
     std::vector<Variable> variables_;
     std::set<std::uint32_t> used_;

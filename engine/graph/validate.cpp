@@ -11,8 +11,6 @@ namespace catoptric::graph {
 
 namespace {
 
-constexpr auto kWrong = Failure::internal;
-
 /// The first layers of `access` for which `there` is false; empty when all are there.
 std::string missing_layers(const Graph& graph, const Ledger<char>& there, const Access& access) {
     if (!there.any(access, false)) return "";
@@ -28,8 +26,8 @@ void check_names(const Graph& graph) {
     std::unordered_set<std::string_view> seen;
     seen.reserve(graph.images().size() + graph.buffers().size());
     const auto resource = [&](const std::string& name, std::string_view kind) {
-        check(!name.empty(), kWrong, kind, " number ", seen.size(), " has no name");
-        check(seen.insert(name).second, kWrong, kind, " '", name,
+        check(!name.empty(), kInvalidGraph, kind, " number ", seen.size(), " has no name");
+        check(seen.insert(name).second, kInvalidGraph, kind, " '", name,
               "': another image or buffer has the same name");
     };
     for (const ImageDesc& desc : graph.images()) resource(desc.name, "image");
@@ -37,18 +35,18 @@ void check_names(const Graph& graph) {
     seen.clear();
     seen.reserve(graph.passes().size());
     for (const Pass& pass : graph.passes()) {
-        check(!pass.name.empty(), kWrong, "pass number ", seen.size(), " has no name");
-        check(seen.insert(pass.name).second, kWrong, "pass '", pass.name,
+        check(!pass.name.empty(), kInvalidGraph, "pass number ", seen.size(), " has no name");
+        check(seen.insert(pass.name).second, kInvalidGraph, "pass '", pass.name,
               "' is declared twice: names are unique");
     }
 }
 
 void check_image(const ImageDesc& desc, const Limits& limits) {
-    check(desc.width > 0 && desc.height > 0 && desc.layers > 0, kWrong, "image '", desc.name,
+    check(desc.width > 0 && desc.height > 0 && desc.layers > 0, kInvalidGraph, "image '", desc.name,
           "' is empty: ", desc.width, "x", desc.height, ", ", desc.layers, " layers");
-    check(!desc.cube || desc.layers % 6 == 0, kWrong, "image '", desc.name, "' is a cube, but its ",
+    check(!desc.cube || desc.layers % 6 == 0, kInvalidGraph, "image '", desc.name, "' is a cube, but its ",
           desc.layers, " layers are not a multiple of 6");
-    check(!desc.cube || desc.width == desc.height, kWrong, "image '", desc.name,
+    check(!desc.cube || desc.width == desc.height, kInvalidGraph, "image '", desc.name,
           "' is a cube, but not square: ", desc.width, "x", desc.height);
     const std::uint32_t size = std::max(desc.width, desc.height);
     const std::uint32_t allowed = desc.cube ? limits.max_size_cube : limits.max_size_2d;
@@ -58,7 +56,7 @@ void check_image(const ImageDesc& desc, const Limits& limits) {
     check(desc.layers <= limits.max_layers, Failure::exhausted, "image '", desc.name, "' wants ",
           desc.layers, " layers, device allows max_layers = ", limits.max_layers);
     const auto most_mips = static_cast<std::uint32_t>(std::bit_width(size));
-    check(desc.mips > 0 && desc.mips <= most_mips, kWrong, "image '", desc.name, "' wants ",
+    check(desc.mips > 0 && desc.mips <= most_mips, kInvalidGraph, "image '", desc.name, "' wants ",
           desc.mips, " mips, but of ", desc.width, "x", desc.height, " there are 1 to ", most_mips);
 }
 
@@ -68,7 +66,7 @@ void check_image(const ImageDesc& desc, const Limits& limits) {
                        : a.use == Use::storage ? "reads and writes "
                        : a.clears              ? "updates "
                                                : "loads (has no clear for) ";
-    fail(kWrong, "pass '", pass.name, "' ", verb, describe(graph, a), " as ", name_of(a.use),
+    fail(kInvalidGraph, "pass '", pass.name, "' ", verb, describe(graph, a), " as ", name_of(a.use),
          " before any pass writes ", missing);
 }
 
@@ -107,7 +105,7 @@ void check_stamped(const Graph& graph, const Stamped& stamped) {
     const ImageDesc& desc = graph.images()[part.id];
     if (part.layer_count == 0 || part.end_layer() > desc.layers || part.mip_count == 0 ||
         part.end_mip() > desc.mips)
-        fail(kWrong, describe(graph, part),
+        fail(kInvalidGraph, describe(graph, part),
              " is said to be made from something, but the image has "
              "layers [0,",
              desc.layers, ") and ", desc.mips, " mip(s)");
@@ -124,14 +122,14 @@ void check_stamps(const Graph& graph, const Accesses& all) {
         for (const Access& a : all.of(p)) {
             if (!a.write || a.is_buffer || graph.lifetime(a.id) != Lifetime::kept) continue;
             if (stamped.any(a, false))
-                fail(kWrong, "pass '", graph.passes()[p].name, "' writes ", describe(graph, a),
+                fail(kInvalidGraph, "pass '", graph.passes()[p].name, "' writes ", describe(graph, a),
                      ", which is kept, but nobody says what ", missing_layers(graph, stamped, a),
                      " are made from");
             written.set(a, true);
         }
     for (const Stamped& s : graph.stamps())
         if (const Access a = access_to(s.part); written.any(a, false))
-            fail(kWrong, describe(graph, a),
+            fail(kInvalidGraph, describe(graph, a),
                  " is said to be made from something, but no pass writes ",
                  missing_layers(graph, written, a));
 }
@@ -139,9 +137,9 @@ void check_stamps(const Graph& graph, const Accesses& all) {
 [[noreturn]] void refuse_previous(const Graph& graph, const Pass& pass, const Access& a,
                                   const Ledger<char>& written) {
     const std::string name = quoted_name(graph, a);
-    check(written.any(access_to_all(graph, a.id), true), kWrong, "pass '", pass.name,
+    check(written.any(access_to_all(graph, a.id), true), kInvalidGraph, "pass '", pass.name,
           "' reads previous(", name, ") as ", name_of(a.use), " but no pass writes ", name);
-    fail(kWrong, "pass '", pass.name, "' reads ", describe(graph, a), " as ", name_of(a.use),
+    fail(kInvalidGraph, "pass '", pass.name, "' reads ", describe(graph, a), " as ", name_of(a.use),
          " but no pass writes ", missing_layers(graph, written, a), " of ", name);
 }
 
@@ -154,28 +152,28 @@ void check_previous(const Graph& graph, const Accesses& all, const Ledger<char>&
 
 void check_wanted(const Graph& graph, const Ledger<char>& written) {
     for (const Image& image : graph.wanted_images()) {
-        check(image.id < graph.images().size(), kWrong, "image number ", image.id,
+        check(image.id < graph.images().size(), kInvalidGraph, "image number ", image.id,
               " is wanted, but the graph has ", graph.images().size());
         const Access a = access_to(image);
         const std::string what = describe(graph, a);
-        check(!image.previous, kWrong, what, " is wanted: only this frame's contents can be");
+        check(!image.previous, kInvalidGraph, what, " is wanted: only this frame's contents can be");
         const ImageDesc& desc = graph.images()[image.id];
-        check(a.layer_count > 0 && a.end_layer() <= desc.layers, kWrong, what,
+        check(a.layer_count > 0 && a.end_layer() <= desc.layers, kInvalidGraph, what,
               " is wanted, but the image has layers [0,", desc.layers, ")");
-        check(a.mip_count > 0 && a.end_mip() <= desc.mips, kWrong, what,
+        check(a.mip_count > 0 && a.end_mip() <= desc.mips, kInvalidGraph, what,
               " is wanted, but the image has mips [0,", desc.mips, ")");
-        check(graph.lifetime(a.id) != Lifetime::imported, kWrong, what,
+        check(graph.lifetime(a.id) != Lifetime::imported, kInvalidGraph, what,
               " is wanted, but imported: read it where it comes from");
         const std::string missing = missing_layers(graph, written, a);
-        check(missing.empty(), kWrong, what, " is wanted, but no pass writes ", missing);
+        check(missing.empty(), kInvalidGraph, what, " is wanted, but no pass writes ", missing);
     }
     for (const Buffer& buffer : graph.wanted_buffers()) {
-        check(buffer.id < graph.buffers().size(), kWrong, "buffer number ", buffer.id,
+        check(buffer.id < graph.buffers().size(), kInvalidGraph, "buffer number ", buffer.id,
               " is wanted, but the graph has ", graph.buffers().size());
         const Access a{.is_buffer = true, .id = buffer.id};
-        check(!graph.is_imported(buffer), kWrong, describe(graph, a),
+        check(!graph.is_imported(buffer), kInvalidGraph, describe(graph, a),
               " is wanted, but imported: read it where it comes from");
-        check(written.any(a, true), kWrong, describe(graph, a),
+        check(written.any(a, true), kInvalidGraph, describe(graph, a),
               " is wanted, but no pass writes it");
     }
 }
@@ -186,7 +184,7 @@ void validate(const Graph& graph, const Accesses& all, const Limits& limits) {
     check_names(graph);
     for (const ImageDesc& desc : graph.images()) check_image(desc, limits);
     for (const BufferDesc& desc : graph.buffers())
-        check(desc.bytes > 0, kWrong, "buffer '", desc.name, "' is empty: 0 bytes");
+        check(desc.bytes > 0, kInvalidGraph, "buffer '", desc.name, "' is empty: 0 bytes");
     for (std::size_t p = 0; p < graph.passes().size(); ++p)
         validate_pass(graph, graph.passes()[p], all.of(p), limits);
     const Ledger<char> written = check_order(graph, all);

@@ -4,6 +4,9 @@
 
 namespace catoptric::graph {
 
+/// How a graph fails that its caller declared wrongly.
+constexpr auto kInvalidGraph = Failure::internal;
+
 /// Refuses a graph that cannot mean anything (`Failure::internal`) or is over a limit
 /// (`Failure::exhausted`). Culled or not: every declared pass is looked at.
 void validate(const Graph& graph, const Accesses& all, const Limits& limits);

@@ -40,13 +40,13 @@ std::array<double, 2> principal_curvatures(const Facet& facet) {
 }
 
 /// The planes that bound what is in the picture: inwards, through the eye.
-std::array<dvec3, 5> inward_planes(const shared::View& view) {
+std::array<dvec3, 5> picture_planes(const shared::View& view) {
     const dvec3 forward(view.forward), right(view.right), down(view.down);
     return {forward, forward + right, forward - right, forward + down, forward - down};
 }
 
 bool is_in_picture(const Pixels& pixels, const Facet& facet) {
-    return std::ranges::none_of(inward_planes(pixels.view), [&](const dvec3& inward) {
+    return std::ranges::none_of(picture_planes(pixels.view), [&](const dvec3& inward) {
         return std::ranges::all_of(facet.position, [&](const dvec3& corner) {
             return dot(inward, corner - dvec3(pixels.view.eye)) <= 0;
         });
@@ -99,7 +99,7 @@ double face_need(double footprint) { return kRightAngle / footprint; }
 
 double sphere_need(const Pixels& pixels, const vec3& centre, double radius) {
     const dvec3 seen = dvec3(centre) - dvec3(pixels.view.eye);
-    for (const dvec3& inward : inward_planes(pixels.view))
+    for (const dvec3& inward : picture_planes(pixels.view))
         if (dot(inward, seen) <= -radius * glm::length(inward)) return 0;
     const double distance = glm::length(seen);
     if (distance <= radius) return face_need(pixels.angle(0));

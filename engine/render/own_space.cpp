@@ -13,8 +13,6 @@ namespace {
 /// A float turns a ray into a space by a matrix that stretches no more than this.
 constexpr double kWorstStretch = 64;
 
-double largest(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
-
 /// The power of two that makes `size` about 1.
 double unit_of(double size) { return std::exp2(-std::ceil(std::log2(size))); }
 
@@ -37,7 +35,7 @@ std::vector<bool> shared_meshes(const scene::Scene& scene) {
         if (wanted <= kMostCopied)
             copied = wanted;
         else
-            shared[i] = largest(mesh_bounds(mesh).extent()) > 0;
+            shared[i] = largest_component(mesh_bounds(mesh).extent()) > 0;
     }
     return shared;
 }
@@ -64,7 +62,7 @@ bool is_small(const scene::Scene& now, const scene::Object& object, const Space&
 
 MeshSpace space_of_mesh(const scene::Mesh& mesh) {
     const Bounds<double> box = mesh_bounds(mesh);
-    return {box.centre(), unit_of(largest(box.extent())), {}};
+    return {box.centre(), unit_of(largest_component(box.extent())), {}};
 }
 
 OwnSpace own_space_of(const MeshSpace& mesh, const dmat4& world_from_object, const Space& space) {
@@ -79,7 +77,7 @@ OwnSpace own_space_of(const MeshSpace& mesh, const dmat4& world_from_object, con
 
 OwnSpace own_space_of(const scene::Scene& now, const scene::Object& object, const Space& space) {
     const Bounds<double> box = scene::bounds(now, object);
-    const double unit = unit_of(largest(box.extent())); // own units in one of the world
+    const double unit = unit_of(largest_component(box.extent())); // own units in one of the world
     OwnSpace own;
     own.scene_from_own = dmat3(space.scale / unit);
     own.centre = space.place(object.sphere ? object.sphere->centre : box.centre());

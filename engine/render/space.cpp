@@ -12,8 +12,6 @@ namespace catoptric::render {
 
 namespace {
 
-double largest(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
-
 bool is_inside(const Bounds<double>& box, const Bounds<double>& core) {
     return all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
 }
@@ -37,8 +35,8 @@ dvec3 origin_of(const scene::Scene& scene, const Bounds<double>& core) {
 
 bool is_small(const Bounds<double>& box, const dvec3& origin) {
     if (box.empty()) return false;
-    const double size = largest(box.extent()),
-                 distance = largest(glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
+    const double size = largest_component(box.extent()),
+                 distance = largest_component(glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
     return size > 0 && size < kSmallPart * distance;
 }
 
@@ -47,7 +45,7 @@ Space space_of(const scene::Scene& scene) {
     if (core.empty()) return {};
     Space space;
     space.origin_world = origin_of(scene, core);
-    if (const double extent = largest(core.extent()); extent > 0)
+    if (const double extent = largest_component(core.extent()); extent > 0)
         space.scale = std::exp2(-std::ceil(std::log2(extent)));
     space.core = {space.point(core.lo), space.point(core.hi)};
     return space;

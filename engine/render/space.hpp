@@ -2,6 +2,8 @@
 
 #include "scene/scene.hpp"
 
+#include <algorithm>
+
 namespace catoptric::render {
 
 /// Scene units: world positions minus an origin, times a power of two that makes the largest extent
@@ -36,5 +38,7 @@ Space space_of(const scene::Scene& scene);
 /// Throws `exhausted` naming the object where a corner of `box` (scene units) is farther away than
 /// scene::kFarthestReach.
 void check_reach(const Bounds<float>& box, const std::string& object);
+
+inline double largest_component(const dvec3& v) { return std::max({v.x, v.y, v.z}); }
 
 } // namespace catoptric::render

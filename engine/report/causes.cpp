@@ -25,13 +25,13 @@ const CauseColour kColours[] = {{"storage format", "sky blue", bytes(86, 180, 23
                                 {"rest", "light grey", bytes(190, 190, 190)}};
 
 /// One kind of line of the table: what each cell says of a cause, in parts of the row's error.
-struct Line {
+struct CauseLine {
     const char* name;
     double (*part)(const Cause& cause, double squared_error);
     bool adds_up;
 };
 
-constexpr Line kLines[] = {
+constexpr CauseLine kLines[] = {
     {"all", [](const Cause& cause, double) { return cause.share; }, true},
     {"first order", [](const Cause& cause, double) { return cause.share_first_order; }, true},
     {"mirror in mirror", [](const Cause& cause, double) { return cause.share_mirror_in_mirror; },
@@ -39,12 +39,12 @@ constexpr Line kLines[] = {
     {"bound", [](const Cause& cause, double whole) { return cause.alone / whole; }, false}};
 
 /// In %; no minus before nothing.
-std::string percent(double part) {
+std::string percent_number(double part) {
     const std::string text = fixed(100 * part, 1);
     return text == "-0.0" ? "0.0" : text;
 }
 
-std::vector<std::string> cells_of(const Line& line, const Causes& causes) {
+std::vector<std::string> cells_of(const CauseLine& line, const Causes& causes) {
     std::vector<std::string> cells{line.name};
     double sum = 0;
     for (const CauseColour& colour : cause_colours()) {
@@ -52,9 +52,9 @@ std::vector<std::string> cells_of(const Line& line, const Causes& causes) {
         const bool is_there = cause != causes.list.end();
         const double part = is_there ? line.part(*cause, causes.squared_error) : NAN;
         if (is_there) sum += part;
-        cells.push_back(percent(part));
+        cells.push_back(percent_number(part));
     }
-    cells.push_back(line.adds_up ? percent(sum) : std::string());
+    cells.push_back(line.adds_up ? percent_number(sum) : std::string());
     cells.emplace_back();
     return cells;
 }
@@ -103,11 +103,11 @@ Table cause_table(const Comparison& comparison) {
     table.columns.push_back({"At light edges"});
     for (const Row& row : comparison.rows) {
         if (!row.causes) continue;
-        for (const Line& line : kLines) {
+        for (const CauseLine& line : kLines) {
             std::vector<std::string> cells = cells_of(line, *row.causes);
             cells.insert(cells.begin(), &line == kLines ? row.label : std::string());
             if (&line == kLines)
-                cells.back() = percent(row.light_edges ? row.light_edges->share : NAN);
+                cells.back() = percent_number(row.light_edges ? row.light_edges->share : NAN);
             table.rows.push_back(std::move(cells));
         }
     }

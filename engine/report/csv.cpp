@@ -45,7 +45,7 @@ struct Field {
 };
 
 /// The fields of a row.
-class Line {
+class CsvLine {
 public:
     void add(std::string name, std::string text) {
         fields.push_back({std::move(name), std::move(text), in_table});
@@ -61,10 +61,10 @@ public:
     bool in_table = true; ///< of the fields that are added next
 };
 
-/// Sets Line::in_table until the end of a block; fields that are left out around it stay out.
+/// Sets CsvLine::in_table until the end of a block; fields that are left out around it stay out.
 class InTable {
 public:
-    InTable(Line& line, bool shown) : line_(line), before_(line.in_table) {
+    InTable(CsvLine& line, bool shown) : line_(line), before_(line.in_table) {
         line.in_table = before_ && shown;
     }
     ~InTable() { line_.in_table = before_; }
@@ -72,7 +72,7 @@ public:
     InTable& operator=(const InTable&) = delete;
 
 private:
-    Line& line_;
+    CsvLine& line_;
     bool before_;
 };
 
@@ -85,7 +85,7 @@ std::string list_text(const std::vector<double>& list) {
 
 /// A value's fields: what has parts has a column for each.
 struct Adds {
-    Line& line;
+    CsvLine& line;
     const std::string& name;
 
     void operator()(std::monostate) const { line.add(name, std::string()); }
@@ -122,7 +122,7 @@ struct Adds {
     }
 };
 
-void Line::add(const std::string& name, const measure::Value& value) {
+void CsvLine::add(const std::string& name, const measure::Value& value) {
     std::visit(Adds{*this, name}, value);
 }
 
@@ -134,7 +134,7 @@ bool is_in_rows_table(const measure::Quantity& quantity) {
 }
 
 /// `is_main`: the mask is the one of which the table shows all figures of differences.
-void add(Line& line, const std::string& mask, const measure::Difference& error, bool is_main) {
+void add(CsvLine& line, const std::string& mask, const measure::Difference& error, bool is_main) {
     for (const measure::Quantity& quantity : measure::difference_quantities()) {
         const InTable shown(line,
                             is_in_rows_table(quantity) && (is_main || quantity.each_mask_in_table));
@@ -143,7 +143,7 @@ void add(Line& line, const std::string& mask, const measure::Difference& error, 
 }
 
 /// `mirrors` columns of single mirrors, whatever the row has.
-void add_errors(Line& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
+void add_errors(CsvLine& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
     for (const measure::RowMask& mask : measure::masks())
         if (measure::has_columns(mask, comparison))
             add(line, std::string(mask.name), row.*mask.error, mask.title.empty());
@@ -154,7 +154,7 @@ void add_errors(Line& line, const Comparison& comparison, const Row& row, std::s
             false);
 }
 
-void add_figures(Line& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
+void add_figures(CsvLine& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
     bool has_errors = false;
     for (const measure::Quantity& quantity : measure::quantities()) {
         if (quantity.mask != "each") {
@@ -169,7 +169,7 @@ void add_figures(Line& line, const Comparison& comparison, const Row& row, std::
 }
 
 /// Errors over the mirrors, over the drawn views; no columns where none were drawn.
-void add_views(Line& line, const Comparison& comparison, const Row& row) {
+void add_views(CsvLine& line, const Comparison& comparison, const Row& row) {
     if (comparison.views.empty()) return;
     for (const measure::Quantity& quantity : measure::difference_quantities()) {
         if (!measure::is_number(quantity)) continue;
@@ -187,14 +187,14 @@ void add_views(Line& line, const Comparison& comparison, const Row& row) {
     line.add("worst_view_time", worst ? worst->time : NAN);
 }
 
-void add_point(Line& line, const std::string& name, const dvec3& point) {
+void add_point(CsvLine& line, const std::string& name, const dvec3& point) {
     line.add(name + "_x", point.x);
     line.add(name + "_y", point.y);
     line.add(name + "_z", point.z);
 }
 
 /// Adds the fields that tell this run's rows from those of others.
-void add_identity(Line& line, const Comparison& comparison, const Row& row) {
+void add_identity(CsvLine& line, const Comparison& comparison, const Row& row) {
     line.add("scene", comparison.scene.name);
     line.add("device", comparison.device.name);
     line.add("driver", comparison.device.driver);
@@ -230,8 +230,8 @@ void add_identity(Line& line, const Comparison& comparison, const Row& row) {
     line.add("commit", comparison.commit);
 }
 
-Line line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) {
-    Line line;
+CsvLine line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) {
+    CsvLine line;
     line.add("technique", row.technique);
     line.add("label", row.label);
     line.add("settings", settings_text(row));
@@ -254,7 +254,7 @@ Line line_of(const Comparison& comparison, const Row& row, std::size_t mirrors) 
 class Columns {
 public:
     explicit Columns(CsvColumns which) : which_(which) {}
-    void add(const Line& line) {
+    void add(const CsvLine& line) {
         std::size_t at = 0;
         for (const Field& field : line.fields) {
             if (which_ == CsvColumns::table && !field.in_table) continue;
@@ -270,7 +270,7 @@ public:
         for (const std::string& name : names_) cells.push_back(csv_field(name));
         return joined(cells, ",") + "\r\n";
     }
-    std::string text_of(const Line& line) const {
+    std::string text_of(const CsvLine& line) const {
         std::unordered_map<std::string, std::string> fields;
         for (const Field& field : line.fields) fields.emplace(field.name, field.text);
         std::vector<std::string> cells;
@@ -294,7 +294,7 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns
     for (const Comparison* comparison : comparisons)
         for (const Row& row : comparison->rows)
             mirrors = std::max(mirrors, row.error_per_mirror.size());
-    std::vector<Line> lines;
+    std::vector<CsvLine> lines;
     Columns columns(which);
     for (const Comparison* comparison : comparisons) {
         columns.add(line_of(*comparison, Row{}, mirrors)); // every column without parts
@@ -303,9 +303,9 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns
         lines.emplace_back(); // one that says nothing else
         lines.back().add("incomplete", incomplete_text(*comparison));
     }
-    for (const Line& line : lines) columns.add(line);
+    for (const CsvLine& line : lines) columns.add(line);
     std::string csv = columns.header();
-    for (const Line& line : lines) csv += columns.text_of(line);
+    for (const CsvLine& line : lines) csv += columns.text_of(line);
     return csv;
 }
 

@@ -59,7 +59,7 @@ std::string to_html(const Table& table, const std::string& look,
            "</p></section>\n";
 }
 
-std::string list_of(const std::vector<std::string>& sentences) {
+std::string html_list(const std::vector<std::string>& sentences) {
     std::string html = "<ul>";
     for (const std::string& sentence : sentences) html += "<li>" + html_escaped(sentence) + "</li>";
     return html + "</ul>";
@@ -196,7 +196,7 @@ std::string over_views(const Comparison& comparison, const EncodedPictures& enco
     const Table table = views_table(comparison);
     if (table.rows.empty()) return "";
     std::string html = to_html(table, "views") + "<section><h2>Apart and ties</h2>" +
-                       list_of(views_in_words(comparison)) +
+                       html_list(views_in_words(comparison)) +
                        "</section><section><h2>Worst views</h2><p>Each row at its view of the "
                        "largest FLIP, beside the reference.</p>";
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
@@ -221,7 +221,7 @@ std::string front(const Comparison& comparison) {
             "</div><figcaption>Lower left is better. Filled: on the Pareto front (dashed). "
             "Squares: ray "
             "traced. Bars: 95 % intervals of times; which rows tie, the places in the tables say. The lane below is error 0.</figcaption></figure>";
-    return html + list_of(front_in_words(comparison)) + "</section>\n";
+    return html + html_list(front_in_words(comparison)) + "</section>\n";
 }
 
 std::string circumstances(const Comparison& comparison) {
@@ -261,14 +261,14 @@ std::string html_section(const Comparison& comparison, const EncodedPictures& en
                        html_escaped(comparison.scene.name) + "</h1><p class=\"lede\">" +
                        html_escaped(verdict_in_words(comparison)) + "</p>";
     const std::vector<std::string> notes = cautions(comparison);
-    if (!notes.empty()) html += "<aside class=\"caution\">" + list_of(notes) + "</aside>";
+    if (!notes.empty()) html += "<aside class=\"caution\">" + html_list(notes) + "</aside>";
     const bool is_page = section_of(comparison).empty(); // which has one <main>
     html += headlines(comparison) + "</header>\n" + (is_page ? "<main>" : "<div class=\"main\">") +
             front(comparison) +
             (comparison.scene.is_seed ? to_html(seed_table(comparison), "seed") : "");
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty())
-        html += "<section><h2>" + findings_title(comparison) + "</h2>" + list_of(sentences) +
+        html += "<section><h2>" + findings_title(comparison) + "</h2>" + html_list(sentences) +
                 "</section>\n";
     html += "<section><h2>Set-up, once</h2><p>" + html_escaped(setup_text(comparison.setup)) +
             "</p></section>\n" + to_html(rows_table(comparison), "all", &comparison) +

@@ -15,18 +15,18 @@ using svg::grid_line, svg::kLine, svg::Scale, svg::text;
 
 namespace {
 
-constexpr double kWidth = 500, kHeight = 300;
-constexpr double kLeft = 66, kRight = 340, kTop = 12, kLane = 226, kBottom = 250; // lane: 0
-constexpr double kZero = (kLane + kBottom) / 2;
+constexpr double kChartWidth = 500, kChartHeight = 300;
+constexpr double kChartLeft = 66, kChartRight = 340, kChartTop = 12, kChartLane = 226, kChartBottom = 250; // lane: 0
+constexpr double kChartZero = (kChartLane + kChartBottom) / 2;
 constexpr std::size_t kMostTicks = 8;
 
 double x_place(const LinePlot& plot, double x) {
     const auto along = [&](double value) { return plot.log_x ? std::log10(value) : value; };
     const double first = along(plot.x.front()), last = along(plot.x.back());
-    return last > first ? kLeft + (along(x) - first) / (last - first) * (kRight - kLeft) : kLeft;
+    return last > first ? kChartLeft + (along(x) - first) / (last - first) * (kChartRight - kChartLeft) : kChartLeft;
 }
 
-double y_place(const Scale& scale, double y) { return y > 0 ? scale(y) : kZero; }
+double y_place(const Scale& scale, double y) { return y > 0 ? scale(y) : kChartZero; }
 
 std::vector<double> y_ticks(const Scale& scale) {
     std::vector<double> values = svg::ticks(scale);
@@ -40,18 +40,18 @@ std::vector<double> y_ticks(const Scale& scale) {
 
 std::string axes(const LinePlot& plot, const Scale& y) {
     std::string drawn = fmt::format(R"(<rect class="lane" x="{}" y="{}" width="{}" height="{}"/>)",
-                                    kLeft, kLane, kRight - kLeft, kBottom - kLane);
+                                    kChartLeft, kChartLane, kChartRight - kChartLeft, kChartBottom - kChartLane);
     for (const double value : plot.x_ticks) {
         const double x = x_place(plot, value);
-        drawn += grid_line(x, kTop, x, kBottom) +
-                 text(x, kBottom + 16, "middle", fmt::format("{:g}", value));
+        drawn += grid_line(x, kChartTop, x, kChartBottom) +
+                 text(x, kChartBottom + 16, "middle", fmt::format("{:g}", value));
     }
     for (const double value : y_ticks(y))
-        drawn += grid_line(kLeft, y(value), kRight, y(value)) +
-                 text(kLeft - 6, y(value) + 4, "end", fmt::format("{:g}", value));
-    drawn += text(kLeft - 6, kZero + 4, "end", "0");
-    drawn += text((kLeft + kRight) / 2, kBottom + 38, "middle", html_escaped(plot.x_name));
-    drawn += fmt::format("<g transform=\"translate(12 {}) rotate(-90)\">", (kTop + kLane) / 2);
+        drawn += grid_line(kChartLeft, y(value), kChartRight, y(value)) +
+                 text(kChartLeft - 6, y(value) + 4, "end", fmt::format("{:g}", value));
+    drawn += text(kChartLeft - 6, kChartZero + 4, "end", "0");
+    drawn += text((kChartLeft + kChartRight) / 2, kChartBottom + 38, "middle", html_escaped(plot.x_name));
+    drawn += fmt::format("<g transform=\"translate(12 {}) rotate(-90)\">", (kChartTop + kChartLane) / 2);
     return drawn + text(0, 0, "middle", html_escaped(plot.y_name)) + "</g>";
 }
 
@@ -73,10 +73,10 @@ std::string names(const LinePlot& plot, const Scale& y) {
             places.emplace_back(y_place(y, line.y.back()), line.name);
     std::ranges::stable_sort(places, std::greater(), &std::pair<double, std::string>::first);
     std::string drawn;
-    double free = kBottom + kLine;
+    double free = kChartBottom + kLine;
     for (const auto& [place, name] : places) {
         free = std::min(place, free - kLine);
-        drawn += text(kRight + 6, free + 4, "start", html_escaped(name));
+        drawn += text(kChartRight + 6, free + 4, "start", html_escaped(name));
     }
     return drawn;
 }
@@ -92,9 +92,9 @@ std::string line_plot(const LinePlot& plot) {
             if (std::isfinite(y) && y > 0) positive.push_back(y);
         }
     if (!any) return "";
-    const Scale y = svg::log_scale(positive, kLane - 6, kTop);
+    const Scale y = svg::log_scale(positive, kChartLane - 6, kChartTop);
     std::string drawn = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)",
-                                    kWidth, kHeight, html_escaped(plot.says));
+                                    kChartWidth, kChartHeight, html_escaped(plot.says));
     drawn += axes(plot, y);
     for (const PlotLine& line : plot.lines) drawn += path_of(plot, line, y);
     return drawn + names(plot, y) + "</svg>";

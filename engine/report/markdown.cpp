@@ -41,7 +41,7 @@ std::string line_of(const std::vector<std::string>& cells, const std::vector<std
     return line + "\n";
 }
 
-std::string list_of(const std::vector<std::string>& sentences) {
+std::string markdown_list(const std::vector<std::string>& sentences) {
     std::string text;
     for (const std::string& sentence : sentences) text += "- " + escaped(sentence) + "\n";
     return text + "\n";
@@ -50,7 +50,7 @@ std::string list_of(const std::vector<std::string>& sentences) {
 /// Nothing without drawn views.
 std::string over_views(const Comparison& comparison) {
     const std::string table = to_markdown(views_table(comparison));
-    return table.empty() ? "" : table + list_of(views_in_words(comparison));
+    return table.empty() ? "" : table + markdown_list(views_in_words(comparison));
 }
 
 } // namespace
@@ -93,10 +93,10 @@ std::string to_markdown(const Comparison& comparison) {
             to_markdown(lookup_table(comparison)) + to_markdown(cause_table(comparison)) +
             to_markdown(lag_table(comparison)) + to_markdown(settling_table(comparison)) +
             to_markdown(gaps_table(comparison.scene));
-    text += "## The Pareto front: time against FLIP\n\n" + list_of(front_in_words(comparison));
+    text += "## The Pareto front: time against FLIP\n\n" + markdown_list(front_in_words(comparison));
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty())
-        text += "## " + findings_title(comparison) + "\n\n" + list_of(sentences);
+        text += "## " + findings_title(comparison) + "\n\n" + markdown_list(sentences);
     return text;
 }
 

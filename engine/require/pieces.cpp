@@ -11,7 +11,7 @@ namespace catoptric::require {
 
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// The least s in [-1, 1] with aside <= s * ahead for all places, 1 where there is none.
 class Slope {
@@ -22,14 +22,14 @@ public:
         else if (ahead < 0)
             most_ = std::min(most_, aside / ahead);
         else if (aside > 0)
-            most_ = -kNever;
+            most_ = -kUnbounded;
     }
     double value() const { return least_ <= most_ ? std::clamp(least_, -1., 1.) : 1; }
     /// Nothing of the hull is ahead and on this side of the face's edge, -1.
     bool is_outside() const { return least_ <= most_ && least_ < -1; }
 
 private:
-    double least_ = -kNever, most_ = kNever;
+    double least_ = -kUnbounded, most_ = kUnbounded;
 };
 
 auto order(const Piece& piece) {

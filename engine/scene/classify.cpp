@@ -28,8 +28,8 @@ struct Spot {
     float metallic = 0, roughness = 1;
 };
 
-/// Sums of what spots are.
-struct Sums {
+/// Sums over the spots of a surface, weighted by area.
+struct AreaSums {
     double all = 0, mirror = 0, smooth_dielectric = 0, rough_metal = 0, rough_dielectric = 0;
     dvec3 mirror_f0{0};
     float smoothest = 1;
@@ -111,10 +111,10 @@ std::vector<double> areas_so_far(const Mesh& mesh, const dmat3& linear) {
 }
 
 /// Places in equal steps of area, so that each triangle has its part.
-Sums sampled(const Scene& scene, const Object& object) {
+AreaSums sampled(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
     const Mesh& mesh = scene.meshes[object.mesh];
-    Sums sums;
+    AreaSums sums;
     if (!varies(scene, material, mesh)) {
         sums.add(scene, material,
                  {vec4(material.albedo, material.alpha), material.metallic, material.roughness});

@@ -21,7 +21,7 @@ void add_wall(Scene& scene, const std::string& name, std::size_t material, dvec3
     scene.meshes.push_back(quad(name, a, b, c, d));
 }
 
-void add_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec3 centre,
+void add_unit_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec3 centre,
               double radius) {
     dmat4 world_from_object(radius);
     world_from_object[3] = dvec4(centre, 1);
@@ -55,10 +55,10 @@ Scene cornell_mirrors() {
     add_walls(scene);
     const std::size_t unit_ball = scene.meshes.size();
     scene.meshes.push_back(ball("ball", 5));
-    add_ball(scene, "ball1", unit_ball, {445, 73, 320}, 72);
-    add_ball(scene, "ball2", unit_ball, {90, 100, 110}, 72);
-    add_ball(scene, "ball3", unit_ball, {190, 113, 410}, 110);
-    add_ball(scene, "ball4", unit_ball, {500, 80, 210}, 36);
+    add_unit_ball(scene, "ball1", unit_ball, {445, 73, 320}, 72);
+    add_unit_ball(scene, "ball2", unit_ball, {90, 100, 110}, 72);
+    add_unit_ball(scene, "ball3", unit_ball, {190, 113, 410}, 110);
+    add_unit_ball(scene, "ball4", unit_ball, {500, 80, 210}, 36);
     scene.objects.back().motion = Harmonic{.amplitude = {0, 50, 0}, .period = 4};
     scene.cameras.push_back({.name = "contract",
                              .eye = {278, 273, -800},

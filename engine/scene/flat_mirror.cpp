@@ -56,7 +56,7 @@ std::vector<dvec3> hull(std::vector<dvec3> points, const dvec3& normal) {
     return corners;
 }
 
-constexpr std::size_t kMostPlanes = 64, kMostTriangles = 65536;
+constexpr std::size_t kMostPlanes = 64, kMostFlatTriangles = 65536;
 constexpr double kSamePlane = 1e-4; // radian; and of the extent
 
 /// A mesh's triangles in the world.
@@ -182,7 +182,7 @@ FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
         return found;
     }
     if (count > 0) found.bent = {{0, count}};
-    if (count > kMostTriangles) return found;
+    if (count > kMostFlatTriangles) return found;
     const Triangles triangles(mesh, world_from_object);
     Bounds<double> box;
     for (const dvec3& place : triangles.places) box.add(place);

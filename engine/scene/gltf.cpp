@@ -51,7 +51,7 @@ std::optional<Sphere> world_sphere(const Sphere& sphere, const Mesh& mesh,
 }
 
 /// Makes objects of nodes; a mesh that several nodes share stays one.
-struct Builder {
+struct GltfBuilder {
     gltf::Context context;
     Scene scene;
     std::vector<dmat4> at_rest;                 ///< world from each node
@@ -77,11 +77,11 @@ struct Builder {
     void check_unshown();
 };
 
-std::string Builder::node_place(std::size_t node) const {
+std::string GltfBuilder::node_place(std::size_t node) const {
     return context.document.file + ": " + context.document.label(node);
 }
 
-Mesh Builder::repaired(const Key& key) {
+Mesh GltfBuilder::repaired(const Key& key) {
     std::vector<dmat4> joints;
     if (key.skin >= 0) joints = joints_of(key.skin, at_rest, context);
     Mesh mesh = mesh_of(key.mesh, parts[key.mesh][key.part], key.weights, context,
@@ -95,14 +95,14 @@ Mesh Builder::repaired(const Key& key) {
     return mesh;
 }
 
-std::size_t Builder::mesh_for(const Key& key) {
+std::size_t GltfBuilder::mesh_for(const Key& key) {
     const auto [entry, is_new] = meshes.try_emplace(key, scene.meshes.size());
     if (is_new) scene.meshes.push_back(repaired(key));
     return entry->second;
 }
 
 /// The node's name, or its mesh's; with the material where the mesh has several.
-std::string Builder::object_name(std::size_t node, std::size_t mesh, std::size_t part) {
+std::string GltfBuilder::object_name(std::size_t node, std::size_t mesh, std::size_t part) {
     const tinygltf::Model& model = context.document.model;
     const std::string& name = model.nodes[node].name;
     const std::string& own = name.empty() ? model.meshes[mesh].name : name;
@@ -113,7 +113,7 @@ std::string Builder::object_name(std::size_t node, std::size_t mesh, std::size_t
     return is_one ? own : own + "/" + material;
 }
 
-void Builder::add_object(std::size_t node, const gltf::Placed& placed, std::size_t part) {
+void GltfBuilder::add_object(std::size_t node, const gltf::Placed& placed, std::size_t part) {
     const std::string place = node_place(node);
     const gltf::Marks& marks = context.document.marks[node];
     const auto its_mesh = std::size_t(context.document.model.nodes[node].mesh);
@@ -140,7 +140,7 @@ void Builder::add_object(std::size_t node, const gltf::Placed& placed, std::size
 }
 
 /// A glTF camera looks along -z with +y up.
-void Builder::add_camera(std::size_t node, const gltf::Placed& placed) {
+void GltfBuilder::add_camera(std::size_t node, const gltf::Placed& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     const std::string place = node_place(node);
     Camera camera = cameras[std::size_t(from.camera)];
@@ -165,7 +165,7 @@ void Builder::add_camera(std::size_t node, const gltf::Placed& placed) {
     scene.cameras.push_back(std::move(camera));
 }
 
-void Builder::add_light(std::size_t node, const gltf::Placed& placed) {
+void GltfBuilder::add_light(std::size_t node, const gltf::Placed& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     Punctual light = context.document.lights.lights[*context.document.lights.of_node[node]];
     if (!from.name.empty()) light.name = from.name;
@@ -178,7 +178,7 @@ void Builder::add_light(std::size_t node, const gltf::Placed& placed) {
     scene.punctual.push_back(std::move(light));
 }
 
-void Builder::add_node(std::size_t node, const gltf::Placed& placed) {
+void GltfBuilder::add_node(std::size_t node, const gltf::Placed& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     const std::size_t count = from.mesh < 0 ? 0 : parts[std::size_t(from.mesh)].size();
     for (std::size_t part = 0; part < count; ++part) add_object(node, placed, part);
@@ -192,7 +192,7 @@ void Builder::add_node(std::size_t node, const gltf::Placed& placed) {
 }
 
 /// What no node shows is read all the same: a file is right or it is not.
-void Builder::check_unshown() {
+void GltfBuilder::check_unshown() {
     std::vector<bool> is_shown(parts.size(), false);
     for (const auto& [key, mesh] : meshes) is_shown[key.mesh] = true;
     for (std::size_t mesh = 0; mesh < is_shown.size(); ++mesh)
@@ -217,7 +217,7 @@ Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
     std::vector<Gap> gaps;
     const gltf::Document document = gltf::read(file, files, account, notes, gaps);
     gltf::check_forest(document);
-    Builder builder{.context = {.document = document,
+    GltfBuilder builder{.context = {.document = document,
                                 .options = options,
                                 .account = account,
                                 .notes = notes,

@@ -80,9 +80,9 @@ Turns turns_of(const tinygltf::AnimationSampler& sampler, const std::string& pla
 }
 
 /// The tracks of one animation, each sampler read once for each kind of value.
-class Reader {
+class AnimationReader {
 public:
-    Reader(const tinygltf::Animation& from, std::string place, Context& context)
+    AnimationReader(const tinygltf::Animation& from, std::string place, Context& context)
         : from_(from), place_(std::move(place)), context_(context), keys_(from.samplers.size()),
           turns_(from.samplers.size()) {}
 
@@ -153,7 +153,7 @@ Animation read_animation(Context& context) {
     const std::optional<std::size_t> shown = chosen(context);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const std::string label = label_of("animations", i, all[i].name);
-        Reader reader(all[i], document.file + ": " + label, context);
+        AnimationReader reader(all[i], document.file + ": " + label, context);
         std::vector<Tracks> elsewhere(i == shown ? 0 : document.model.nodes.size());
         // those that are not shown are read all the same: a file is right or it is not
         for (const tinygltf::AnimationChannel& channel : all[i].channels)

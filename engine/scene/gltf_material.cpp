@@ -22,7 +22,7 @@ constexpr Unread kUnread[] = {{"KHR_materials_clearcoat", "clearcoatFactor", "cl
                               {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"}};
 constexpr std::string_view kTransmission = "KHR_materials_transmission";
 constexpr std::string_view kVolume = "KHR_materials_volume"; // says nothing without transmission
-constexpr std::string_view kRead[] = {kEmissiveStrength,
+constexpr std::string_view kMaterialExtensions[] = {kEmissiveStrength,
                                       kTransmission,
                                       "KHR_materials_ior",
                                       "KHR_materials_specular",
@@ -40,10 +40,10 @@ float fraction(const Item& item, std::string_view key, double otherwise) {
 }
 
 /// One material on its way.
-class Reader {
+class MaterialReader {
 public:
     /// `has_colours`: vertices that show it have colours of their own.
-    Reader(const Item& from, std::size_t index, bool has_colours, const Source& source,
+    MaterialReader(const Item& from, std::size_t index, bool has_colours, const Source& source,
            Textures& textures)
         : from_(from), index_(index), has_colours_(has_colours), source_(source),
           textures_(textures), extensions_(from.object("extensions")) {}
@@ -82,7 +82,7 @@ private:
     Material material_;
 };
 
-void Reader::base_colour(const Item& item, std::string_view factor, std::string_view map) {
+void MaterialReader::base_colour(const Item& item, std::string_view factor, std::string_view map) {
     const std::vector<double> base = item.numbers(factor, 4);
     const auto at = [&](std::size_t i) {
         return base.empty() ? 1.0f : static_cast<float>(std::clamp(base[i], 0.0, 1.0));
@@ -91,7 +91,7 @@ void Reader::base_colour(const Item& item, std::string_view factor, std::string_
     material_.albedo_texture = texture(item, map, true);
 }
 
-void Reader::metal(const Item& pbr) {
+void MaterialReader::metal(const Item& pbr) {
     base_colour(pbr, "baseColorFactor", "baseColorTexture");
     material_.metallic = fraction(pbr, "metallicFactor", 1);
     material_.roughness = fraction(pbr, "roughnessFactor", 1);
@@ -99,7 +99,7 @@ void Reader::metal(const Item& pbr) {
 }
 
 /// KHR_materials_pbrSpecularGlossiness, its factors.
-void Reader::glossy(const Item& glossiness) {
+void MaterialReader::glossy(const Item& glossiness) {
     base_colour(glossiness, "diffuseFactor", "diffuseTexture");
     material_.metallic = 0;
     material_.roughness = 1 - fraction(glossiness, "glossinessFactor", 1);
@@ -108,7 +108,7 @@ void Reader::glossy(const Item& glossiness) {
     if (glossiness.has("specularGlossinessTexture")) gap("material-extension");
 }
 
-void Reader::dielectric() {
+void MaterialReader::dielectric() {
     const std::optional<Item> ior = extension("KHR_materials_ior"),
                               specular = extension("KHR_materials_specular");
     const double n = ior ? ior->number("ior", 1.5) : 1.5;
@@ -125,7 +125,7 @@ void Reader::dielectric() {
         gap("material-extension");
 }
 
-void Reader::emission() {
+void MaterialReader::emission() {
     const std::optional<Item> strength = extension(kEmissiveStrength);
     material_.emission = vec3((strength ? strength->number("emissiveStrength", 1) : 1) *
                               vector_of(from_, "emissiveFactor", 0));
@@ -135,7 +135,7 @@ void Reader::emission() {
         material_.emission_texture = texture(from_, "emissiveTexture", true);
 }
 
-void Reader::alpha() {
+void MaterialReader::alpha() {
     const std::string mode = from_.text("alphaMode", "OPAQUE");
     const double cutoff = from_.number("alphaCutoff", .5);
     from_.require(cutoff >= 0, "alphaCutoff: wanted at least 0, found ", cutoff);
@@ -147,14 +147,14 @@ void Reader::alpha() {
 }
 
 /// Returns whether no place of the surface has a dielectric part.
-bool Reader::is_metal_everywhere() const {
+bool MaterialReader::is_metal_everywhere() const {
     if (material_.metallic < 1 || !material_.roughness_texture) return material_.metallic == 1;
     return std::ranges::all_of(material_.roughness_texture->image->texels,
                                [](std::uint32_t texel) { return (texel >> 16 & 0xff) == 0xff; });
 }
 
 /// Light goes through the dielectric part alone: a metal stays a metal.
-void Reader::transmission() {
+void MaterialReader::transmission() {
     const std::optional<Item> glass = extension(kTransmission);
     if (!glass || glass->number("transmissionFactor", 0) == 0 || is_metal_everywhere()) return;
     gap("glass-as-diffuse"), gap("glass-shadow");
@@ -163,7 +163,7 @@ void Reader::transmission() {
             source_.notes.add("extension " + in_quotes(name) + ", not read", from_.label());
 }
 
-void Reader::left_out() {
+void MaterialReader::left_out() {
     for (const auto& [key, note, id] :
          {std::array<std::string_view, 3>{"normalTexture",
                                           "materials with a normalTexture, drawn without it",
@@ -175,7 +175,7 @@ void Reader::left_out() {
     if (from_.has("technique")) gap("material-extension");
     if (!extensions_) return;
     for (const auto& [name, value] : extensions_->json().items()) {
-        bool is_known = std::ranges::find(kRead, name) != std::end(kRead);
+        bool is_known = std::ranges::find(kMaterialExtensions, name) != std::end(kMaterialExtensions);
         for (const auto& [extension, factor, id] : kUnread) {
             if (name != extension) continue;
             is_known = true;
@@ -186,7 +186,7 @@ void Reader::left_out() {
 }
 
 /// As a scene made in code would say it: nothing but what is reflected and what is diffuse.
-void Reader::be_mirror(const vec3& reflectance, const vec3& diffuse) {
+void MaterialReader::be_mirror(const vec3& reflectance, const vec3& diffuse) {
     material_.mirror = true, material_.reflectance = reflectance, material_.albedo = diffuse;
     material_.metallic = 0, material_.roughness = 1;
 }
@@ -194,7 +194,7 @@ void Reader::be_mirror(const vec3& reflectance, const vec3& diffuse) {
 /// What glTF has no word for, from `extras`: {"catoptric": {"reflectance": [r, g, b],
 /// "diffuse": [r, g, b], "fixed_normals": true}}: a mirror at any angle, over what is diffuse; a
 /// surface of two sides with one normal.
-void Reader::marks() {
+void MaterialReader::marks() {
     const Json* extras = from_.find("extras"); // of any kind; ours is an object
     const std::optional<Item> ours = extras && extras->is_object()
                                          ? from_.object("extras")->object("catoptric")
@@ -207,7 +207,7 @@ void Reader::marks() {
     if (ours && ours->flag("fixed_normals", false)) material_.two_sided = false;
 }
 
-Material Reader::read() {
+Material MaterialReader::read() {
     material_.name = from_.name();
     const std::optional<Item> glossiness = extension("KHR_materials_pbrSpecularGlossiness"),
                               pbr = from_.object("pbrMetallicRoughness");
@@ -257,7 +257,7 @@ std::vector<Material> read_materials(const Source& source) {
     const std::vector<bool> coloured = coloured_materials(source.root);
     source.root.each("materials", [&](const Item& item) {
         const std::size_t index = materials.size();
-        materials.push_back(Reader(item, index, coloured[index], source, textures).read());
+        materials.push_back(MaterialReader(item, index, coloured[index], source, textures).read());
     });
     return materials;
 }

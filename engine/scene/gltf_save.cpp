@@ -2,6 +2,7 @@
 #include "core/file.hpp"
 #include "scene/gltf_writer.hpp"
 #include "scene/load.hpp"
+#include "scene/pose.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
@@ -89,11 +90,6 @@ void add_below(Writer& writer, const Follows* follows, tinygltf::Node node) {
         writer.model.scenes[0].nodes.push_back(index);
     else
         writer.model.nodes[std::size_t(parent)].children.push_back(index);
-}
-
-const Follows* followed(const Motion& motion) {
-    const auto* follows = std::get_if<Follows>(&motion);
-    return follows && follows->rig ? follows : nullptr;
 }
 
 /// A node that moves holds its translation apart; where the rest is more than a scale, that goes

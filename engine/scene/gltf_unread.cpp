@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kLongestName = 1024; // of an attribute, which messages say in full
 /// Extensions that are read, or say only how other things are written.
-constexpr std::string_view kRead[] = {
+constexpr std::string_view kReadExtensions[] = {
     kEmissiveStrength, "KHR_lights_punctual", "KHR_materials_ior", "KHR_materials_specular",
     "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform",
     "KHR_mesh_quantization", "EXT_texture_webp",
@@ -17,7 +17,7 @@ constexpr std::string_view kRead[] = {
     "KHR_materials_transmission", "KHR_materials_volume"};
 
 bool is_read(std::string_view extension) {
-    return std::ranges::find(kRead, extension) != std::end(kRead);
+    return std::ranges::find(kReadExtensions, extension) != std::end(kReadExtensions);
 }
 
 /// What glTF allows by the beginning of an attribute's name.

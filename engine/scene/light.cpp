@@ -31,7 +31,7 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-struct Sums {
+struct LightSums {
     dvec3 positions{0}, normals{0};
     double position_count = 0, normal_count = 0, area = 0;
     dmat3 facets{0}; ///< outer products of the facets' unit normals, times their areas
@@ -45,7 +45,7 @@ struct Sums {
 
 /// The mean of float unit normals that cancel in truth is not zero but within their rounding,
 /// 2^-24 for each component; 16 times that is still far below any real mean.
-bool vanishes(const Sums& sums) {
+bool vanishes(const LightSums& sums) {
     const double rounding = 16 * std::ldexp(1.0, -24);
     return !(glm::length(sums.normals) > rounding * sums.normal_count);
 }
@@ -82,7 +82,7 @@ double mean_length(const dvec3& cosines) {
 /// The mean |cosine| of facets to a direction d is near the root of the mean square, which is a
 /// quadratic form of d. That is exact for a board, and a constant times the truth for a tube and a
 /// ball; the constant follows from the mean over all directions, a half of any surface.
-void set_both_sides(PointLight& light, const Sums& sums) {
+void set_both_sides(PointLight& light, const LightSums& sums) {
     dmat3 squares = sums.facets / sums.area;
     light.axes = dmat3(1);
     diagonalise(squares, light.axes);
@@ -98,7 +98,7 @@ void set_both_sides(PointLight& light, const Sums& sums) {
     light.cosines = cosines * (.5 / mean_length(cosines));
 }
 
-PointLight light_of(const Sums& sums, const Material& material) {
+PointLight light_of(const LightSums& sums, const Material& material) {
     PointLight light{.position = sums.positions / sums.position_count,
                      .area = sums.area,
                      .is_lamp = true,
@@ -123,7 +123,7 @@ double area_of(const std::vector<dvec3>& world, const uvec3& t) {
 /// The sums of each connected component, in the order of their first vertices; and which of them
 /// each triangle with an area belongs to.
 struct Components {
-    std::vector<Sums> sums;
+    std::vector<LightSums> sums;
     std::vector<std::optional<std::size_t>> of_triangles;
 };
 
@@ -152,7 +152,7 @@ Components components_of(const Mesh& mesh, const dmat4& world_from_object) {
     const dmat3 normal_to_world = normal_matrix(world_from_object);
     std::map<std::size_t, std::size_t> index_of_root;
     Components components;
-    std::vector<Sums>& sums = components.sums;
+    std::vector<LightSums>& sums = components.sums;
     std::vector<bool> counted(world.size(), false);
     for (std::size_t i = 0; i < world.size(); ++i) {
         if (!used[i]) continue;
@@ -211,7 +211,7 @@ std::vector<PointLight> lights(const Scene& scene) {
         const Material& material = scene.materials[object.material];
         if (scene::light_of(material) == vec3(0)) continue;
         const Mesh& mesh = scene.meshes[object.mesh];
-        for (const Sums& sums : components_of(mesh, object.world_from_object).sums)
+        for (const LightSums& sums : components_of(mesh, object.world_from_object).sums)
             all.push_back(light_of(sums, material));
     }
     for (const Punctual& punctual : scene.punctual) all.push_back(light_of(punctual));

@@ -11,7 +11,7 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr double kFlat = 1e-4;  // of the extent
+constexpr double kFlatTolerance = 1e-4;  // of the extent
 constexpr double kRound = 1e-3; // of the radius: vertices
 constexpr double kMostly = .95; // of all that bends
 constexpr double kFacets = .1;  // the same: facets
@@ -62,7 +62,7 @@ bool is_flat(const Soup& soup) {
     const double height = glm::dot(normal, soup.places[soup.triangles.front()[0]]);
     return std::ranges::all_of(soup.triangles, [&](const Corners& t) {
         const bool in_plane = std::ranges::all_of(t, [&](std::size_t i) {
-            return std::abs(glm::dot(normal, soup.places[i]) - height) <= kFlat * soup.extent;
+            return std::abs(glm::dot(normal, soup.places[i]) - height) <= kFlatTolerance * soup.extent;
         });
         return in_plane && glm::dot(normal, soup.cross_of(t)) > 0;
     });

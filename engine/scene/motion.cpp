@@ -120,11 +120,6 @@ dvec3 offset_of(const Motion& motion, double seconds) {
     return dvec3(0);
 }
 
-const Follows* followed(const Motion& motion) {
-    const auto* follows = std::get_if<Follows>(&motion);
-    return follows && follows->rig ? follows : nullptr;
-}
-
 /// Keeps its distance to the target, however the node is scaled.
 Camera carried(const Camera& camera, const dmat4& now_from_rest) {
     Camera result = camera;
@@ -137,6 +132,11 @@ Camera carried(const Camera& camera, const dmat4& now_from_rest) {
 }
 
 } // namespace
+
+const Follows* followed(const Motion& motion) {
+    const auto* follows = std::get_if<Follows>(&motion);
+    return follows && follows->rig ? follows : nullptr;
+}
 
 Keys in_the_world(const Keyframes& motion) {
     Keys keys = motion.keys ? *motion.keys : Keys();

@@ -73,7 +73,7 @@ Mesh mesh_of(const obj::Text& text, const std::vector<tinyobj::index_t>& corners
     return mesh;
 }
 
-struct Builder {
+struct ObjBuilder {
     const std::string& file;
     const obj::Text& text;
     obj::Context& context;
@@ -92,7 +92,7 @@ struct Builder {
 };
 
 /// In order of first use.
-std::vector<Builder::Part> Builder::parts_of(const tinyobj::mesh_t& mesh) {
+std::vector<ObjBuilder::Part> ObjBuilder::parts_of(const tinyobj::mesh_t& mesh) {
     std::vector<Part> parts;
     std::unordered_map<int, std::size_t> part_of;
     for (std::size_t i = 0; i < mesh.material_ids.size(); ++i) {
@@ -106,7 +106,7 @@ std::vector<Builder::Part> Builder::parts_of(const tinyobj::mesh_t& mesh) {
 }
 
 /// What has no material gets the first that is called "default", or a grey one.
-std::size_t Builder::material_index(int material) {
+std::size_t ObjBuilder::material_index(int material) {
     if (material >= 0) return std::size_t(material);
     if (without_material) return *without_material;
     const auto found = std::ranges::find(scene.materials, "default", &Material::name);
@@ -124,7 +124,7 @@ void apply_remarks(const obj::Remarks& remarks, const std::string& group, Object
     object.seen_by_camera = !remarks.hidden.contains(group);
 }
 
-void Builder::add_object(const std::string& shape, Part part, bool is_only) {
+void ObjBuilder::add_object(const std::string& shape, Part part, bool is_only) {
     Account& account = context.account;
     account.objects.add(1, file, ": object ", in_quotes(shape));
     Object object{
@@ -144,7 +144,7 @@ void Builder::add_object(const std::string& shape, Part part, bool is_only) {
     scene.objects.push_back(std::move(object));
 }
 
-void Builder::add_shape(const tinyobj::shape_t& shape) {
+void ObjBuilder::add_shape(const tinyobj::shape_t& shape) {
     std::vector<Part> parts = parts_of(shape.mesh);
     for (Part& part : parts)
         add_object(text.names[std::stoul(shape.name)], std::move(part), parts.size() == 1);
@@ -193,7 +193,7 @@ Scene load_obj(const std::filesystem::path& path, const LoadOptions& options) {
     obj::Text text = obj::read_text(file, context);
     check_names(text);
     const Parsed parsed(text, file);
-    Builder builder{.file = file, .text = text, .context = context};
+    ObjBuilder builder{.file = file, .text = text, .context = context};
     builder.scene = {.name = path.stem().string(),
                      .materials = materials_of(text.library, context),
                      .cameras = text.remarks.cameras,

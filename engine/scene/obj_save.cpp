@@ -11,10 +11,10 @@ namespace catoptric::scene {
 
 namespace {
 
-std::string text_of(const vec3& v) {
+std::string vector_text(const vec3& v) {
     return number_text(v.x) + " " + number_text(v.y) + " " + number_text(v.z);
 }
-std::string text_of(const dvec3& v) {
+std::string vector_text(const dvec3& v) {
     return number_text(v.x) + " " + number_text(v.y) + " " + number_text(v.z);
 }
 
@@ -43,7 +43,7 @@ std::string motion_text(const std::monostate&) { return {}; }
 std::string motion_text(const Follows&) { return {}; }
 
 std::string motion_text(const Harmonic& motion) {
-    return "harmonic " + text_of(motion.amplitude) + " " + number_text(motion.period);
+    return "harmonic " + vector_text(motion.amplitude) + " " + number_text(motion.period);
 }
 
 std::string motion_text(const Keyframes& frames) {
@@ -54,9 +54,9 @@ std::string motion_text(const Keyframes& frames) {
     text += std::to_string(keys.times.size());
     for (std::size_t i = 0; i < keys.times.size(); ++i) {
         text += " " + number_text(keys.times[i]);
-        if (is_cubic) text += " " + text_of(keys.in_tangents[i]);
-        text += " " + text_of(keys.values[i]);
-        if (is_cubic) text += " " + text_of(keys.out_tangents[i]);
+        if (is_cubic) text += " " + vector_text(keys.in_tangents[i]);
+        text += " " + vector_text(keys.values[i]);
+        if (is_cubic) text += " " + vector_text(keys.out_tangents[i]);
     }
     return text;
 }
@@ -67,25 +67,25 @@ std::string remarks(const Object& object, const std::string& name) {
                                           object.motion);
     if (!motion.empty()) text += "# catoptric motion " + name + " " + motion + "\n";
     if (object.sphere)
-        text += "# catoptric sphere " + name + " " + text_of(object.sphere->centre) + " " +
+        text += "# catoptric sphere " + name + " " + vector_text(object.sphere->centre) + " " +
                 number_text(object.sphere->radius) + "\n";
     if (!object.seen_by_camera) text += "# catoptric hidden " + name + "\n";
     return text;
 }
 
 std::string camera_text(const Camera& camera, const std::string& name) {
-    return "# catoptric camera " + name + " " + text_of(camera.eye) + " " + text_of(camera.target) +
-           " " + text_of(camera.up) + " " + number_text(camera.vertical_fov_degrees) + "\n";
+    return "# catoptric camera " + name + " " + vector_text(camera.eye) + " " + vector_text(camera.target) +
+           " " + vector_text(camera.up) + " " + number_text(camera.vertical_fov_degrees) + "\n";
 }
 
 /// World-space vertices and faces; `first` counts the vertices written so far.
 std::string geometry(const Mesh& mesh, const dmat4& world_from_object, std::size_t& first) {
     std::string text;
     for (const dvec3& position : mesh.positions)
-        text += "v " + text_of(transform_point(world_from_object, position)) + "\n";
+        text += "v " + vector_text(transform_point(world_from_object, position)) + "\n";
     const dmat3 normal_to_world = normal_matrix(world_from_object);
     for (const vec3& normal : mesh.normals)
-        text += "vn " + text_of(vec3(normalized_or_zero(normal_to_world * dvec3(normal)))) + "\n";
+        text += "vn " + vector_text(vec3(normalized_or_zero(normal_to_world * dvec3(normal)))) + "\n";
     for (const uvec3& triangle : mesh.triangles) {
         text += "f";
         for (int corner = 0; corner < 3; ++corner) {
@@ -103,9 +103,9 @@ std::string materials_text(const std::vector<Material>& materials,
     std::string text = "# written by catoptric\n";
     for (std::size_t i = 0; i < materials.size(); ++i) {
         const Material& material = materials[i];
-        text += "\nnewmtl " + names[i] + "\nKd " + text_of(material.albedo) + "\n";
-        if (material.mirror) text += "Ks " + text_of(material.reflectance) + "\n";
-        if (material.emission != vec3(0)) text += "Ke " + text_of(material.emission) + "\n";
+        text += "\nnewmtl " + names[i] + "\nKd " + vector_text(material.albedo) + "\n";
+        if (material.mirror) text += "Ks " + vector_text(material.reflectance) + "\n";
+        if (material.emission != vec3(0)) text += "Ke " + vector_text(material.emission) + "\n";
         text += material.mirror ? "illum 3\n" : "illum 1\n";
         const bool is_lamp = material.emission != vec3(0);
         if (is_lamp && material.two_sided) text += "# catoptric two_sided\n";

@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Goes over the file twice: faces and uses may come before what they name.
-class Reader {
+class ObjReader {
 public:
-    Reader(const std::string& file, Context& context) : file_(file), context_(context) {}
+    ObjReader(const std::string& file, Context& context) : file_(file), context_(context) {}
 
     /// Everything but faces, groups and uses of materials.
     void definition(const Line& line);
@@ -49,7 +49,7 @@ private:
     std::vector<Corner> polygon_, triangles_;           ///< of one face
 };
 
-void Reader::library_file(const Line& line, const std::string& name) {
+void ObjReader::library_file(const Line& line, const std::string& name) {
     const std::string place = line.where() + ": mtllib";
     const fs::path real = context_.files.find(name, place);
     if (real.empty()) {
@@ -60,7 +60,7 @@ void Reader::library_file(const Line& line, const std::string& name) {
 }
 
 /// One name with spaces, or several names.
-void Reader::library(const Line& line) {
+void ObjReader::library(const Line& line) {
     const std::vector<std::string_view> names = words(line);
     check(!names.empty(), Failure::bad_data, line.where(),
           ": mtllib wants a file name, found none");
@@ -72,12 +72,12 @@ void Reader::library(const Line& line) {
 }
 
 /// Of materials with the same name the first is meant.
-void Reader::name_materials() {
+void ObjReader::name_materials() {
     for (std::size_t i = 0; i < text_.library.drafts.size(); ++i)
         material_of_.try_emplace(text_.library.drafts[i].name, i);
 }
 
-void Reader::use_material(const Line& line) {
+void ObjReader::use_material(const Line& line) {
     const std::string name(line.rest);
     const auto found = material_of_.find(name);
     if (found == material_of_.end()) {
@@ -95,7 +95,7 @@ void Reader::use_material(const Line& line) {
 }
 
 /// `o` has one name, all of the line; `g` has several, of which one is made.
-void Reader::group(const Line& line) {
+void ObjReader::group(const Line& line) {
     std::string name(line.rest);
     if (line.keyword == "g") {
         name.clear();
@@ -128,7 +128,7 @@ std::uint32_t index_of(const Line& line, std::string_view digits, std::size_t so
 }
 
 /// "v", "v/vt", "v//vn" or "v/vt/vn".
-Corner Reader::corner(const Line& line, std::string_view word) const {
+Corner ObjReader::corner(const Line& line, std::string_view word) const {
     const std::size_t slash = word.find('/'), last = word.rfind('/');
     Corner corner{
         index_of(line, word.substr(0, slash), positions_, text_.positions.size(), "positions"),
@@ -143,7 +143,7 @@ Corner Reader::corner(const Line& line, std::string_view word) const {
     return corner;
 }
 
-void Reader::face(const Line& line) {
+void ObjReader::face(const Line& line) {
     const std::size_t count = count_words(line.rest);
     if (count < 3) {
         context_.notes.add("faces of one or two corners, left out", line.where());
@@ -166,7 +166,7 @@ void Reader::face(const Line& line) {
 }
 
 /// x y z, then nothing, w, r g b, or w r g b.
-void Reader::position(const Line& line) {
+void ObjReader::position(const Line& line) {
     context_.account.positions.add(1, *line.file, ":", line.number);
     text_.positions.push_back(vector_of(line));
     const std::size_t count = count_words(line.rest);
@@ -177,7 +177,7 @@ void Reader::position(const Line& line) {
     text_.colours.back() = vec3(glm::clamp(dvec3(rgb[0], rgb[1], rgb[2]), 0.0, 1.0));
 }
 
-void Reader::texture_coordinates(const Line& line) {
+void ObjReader::texture_coordinates(const Line& line) {
     context_.account.attributes.add(1, *line.file, ":", line.number);
     std::string_view rest = line.rest;
     const double u = number_of(line, take_word(rest));
@@ -185,7 +185,7 @@ void Reader::texture_coordinates(const Line& line) {
     text_.uv.emplace_back(u, has_v ? number_of(line, take_word(rest)) : 0);
 }
 
-void Reader::definition(const Line& line) {
+void ObjReader::definition(const Line& line) {
     if (line.keyword == "v") {
         position(line);
     } else if (line.keyword == "vt") {
@@ -205,7 +205,7 @@ void Reader::definition(const Line& line) {
     }
 }
 
-void Reader::use(const Line& line) {
+void ObjReader::use(const Line& line) {
     if (line.keyword == "v") ++positions_;
     if (line.keyword == "vn") ++normals_;
     if (line.keyword == "vt") ++uvs_;
@@ -214,7 +214,7 @@ void Reader::use(const Line& line) {
     if (line.keyword == "usemtl") use_material(line);
 }
 
-Text Reader::finish() {
+Text ObjReader::finish() {
     unread_.tell(file_, context_.notes);
     if (!has_faces_) text_.names.pop_back();
     return std::move(text_);
@@ -223,7 +223,7 @@ Text Reader::finish() {
 } // namespace
 
 Text read_text(const std::string& file, Context& context) {
-    Reader reader(file, context);
+    ObjReader reader(file, context);
     const std::string bytes = context.files.read_scene();
     check(!bytes.starts_with("\xff\xfe") && !bytes.starts_with("\xfe\xff"), Failure::bad_data, file,
           ": wanted text in UTF-8, found UTF-16");

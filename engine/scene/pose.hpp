@@ -22,6 +22,9 @@ private:
     std::optional<Scene> moved_;
 };
 
+/// Returns the node of a rig that the motion follows, or null where it follows none.
+const Follows* followed(const Motion& motion);
+
 /// Throws `usage` for a time that is not a finite number of seconds.
 void check_time(double seconds);
 

@@ -167,7 +167,7 @@ std::string techniques_json(const std::vector<app::TechniqueInfo>& techniques) {
     Json rows = Json::array();
     for (const app::TechniqueInfo& technique : techniques) {
         Json knobs = Json::array();
-        for (const app::Knob& knob : technique.knobs) {
+        for (const app::KnobInfo& knob : technique.knobs) {
             Json row{{"name", knob.name}, {"help", knob.help}, {"default", knob.value}};
             if (knob.choices.empty())
                 row["low"] = knob.low, row["high"] = knob.high,

@@ -24,7 +24,7 @@ constexpr const char* kExamples = R"(Examples:
 
 const std::vector<std::string> kKinds{"techniques", "scenes", "devices", "metrics"};
 
-std::string knob_text(const app::Knob& knob) {
+std::string knob_text(const app::KnobInfo& knob) {
     const std::string range = knob.choices.empty()
                                   ? fmt::format("{:.0f} to {:.0f}{}", knob.low, knob.high,
                                                 knob.special.empty() ? "" : " or " + knob.special)
@@ -51,7 +51,7 @@ std::string techniques_text(const std::vector<app::TechniqueInfo>& techniques) {
 /// One technique with its knobs.
 std::string technique_text(const app::TechniqueInfo& technique) {
     std::string text = technique_line(technique.name, technique.summary);
-    for (const app::Knob& knob : technique.knobs) text += knob_text(knob);
+    for (const app::KnobInfo& knob : technique.knobs) text += knob_text(knob);
     return text;
 }
 

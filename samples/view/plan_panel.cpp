@@ -11,7 +11,7 @@ namespace catoptric::view {
 
 namespace {
 
-void draw_choice(Drawing& drawing, const app::Knob& knob) {
+void draw_choice(Drawing& drawing, const app::KnobInfo& knob) {
     const std::string value = value_of(drawing, knob);
     if (!ImGui::BeginCombo(knob.name.c_str(), value.c_str())) return;
     for (const std::string& choice : knob.choices)
@@ -20,7 +20,7 @@ void draw_choice(Drawing& drawing, const app::Knob& knob) {
 }
 
 /// A number, and beside it what halves, doubles or replaces it by its word.
-void draw_number(Drawing& drawing, const app::Knob& knob) {
+void draw_number(Drawing& drawing, const app::KnobInfo& knob) {
     constexpr int kFew = 64;
     const std::string text = value_of(drawing, knob);
     const bool is_special = !knob.special.empty() && text == knob.special;
@@ -55,7 +55,7 @@ void draw_number(Drawing& drawing, const app::Knob& knob) {
 void draw_knobs(Drawing& drawing) {
     const app::TechniqueInfo* technique = find(drawing.technique);
     if (!technique) return;
-    for (const app::Knob& knob : technique->knobs) {
+    for (const app::KnobInfo& knob : technique->knobs) {
         ImGui::PushID(knob.name.c_str());
         if (knob.choices.empty())
             draw_number(drawing, knob);

@@ -81,14 +81,14 @@ PlanState resolved(const PlanState& plan, const std::vector<PlanEntry>& entries)
     return made;
 }
 
-void set(Drawing& drawing, const app::Knob& knob, const std::string& value) {
+void set(Drawing& drawing, const app::KnobInfo& knob, const std::string& value) {
     if (value == knob.value)
         drawing.knobs.erase(knob.name);
     else
         drawing.knobs[knob.name] = value;
 }
 
-std::string value_of(const Drawing& drawing, const app::Knob& knob) {
+std::string value_of(const Drawing& drawing, const app::KnobInfo& knob) {
     const auto found = drawing.knobs.find(knob.name);
     return found == drawing.knobs.end() ? knob.value : found->second;
 }
@@ -97,7 +97,7 @@ PlanState with(PlanState plan, const std::string& knob, const std::string& value
     const auto change = [&](Drawing& drawing) {
         const app::TechniqueInfo* technique = find(drawing.technique);
         if (!technique) return;
-        const auto known = std::ranges::find(technique->knobs, knob, &app::Knob::name);
+        const auto known = std::ranges::find(technique->knobs, knob, &app::KnobInfo::name);
         if (known != technique->knobs.end()) set(drawing, *known, value);
     };
     change(plan.rest);

@@ -36,9 +36,9 @@ PlanState plan_of(const std::string& text);
 /// The same plan, mirror by mirror, so that it can be edited. `entries`: how it was drawn.
 PlanState resolved(const PlanState& plan, const std::vector<PlanEntry>& entries);
 /// Sets a knob; its default is not kept.
-void set(Drawing& drawing, const app::Knob& knob, const std::string& value);
+void set(Drawing& drawing, const app::KnobInfo& knob, const std::string& value);
 /// The value of a knob.
-std::string value_of(const Drawing& drawing, const app::Knob& knob);
+std::string value_of(const Drawing& drawing, const app::KnobInfo& knob);
 /// The same plan with a knob set wherever the technique has it.
 PlanState with(PlanState plan, const std::string& knob, const std::string& value);
 /// A file that --plan reads.

@@ -72,7 +72,7 @@ void expect_adds_up(const Split& found) {
 std::vector<app::TechniqueInfo> that_capture() {
     std::vector<app::TechniqueInfo> list = app::techniques();
     std::erase_if(list, [](const app::TechniqueInfo& technique) {
-        return std::ranges::find(technique.knobs, "face", &app::Knob::name) ==
+        return std::ranges::find(technique.knobs, "face", &app::KnobInfo::name) ==
                technique.knobs.end();
     });
     return list;

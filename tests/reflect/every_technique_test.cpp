@@ -70,7 +70,7 @@ TEST_P(EveryTechnique, TwoMirrorsInAFurnaceNeverGrowDarker) {
     };
     expect_falling("frame", [&](int i) { return dark_share(furnace, small(), i + 1); });
     for (const std::string knob : {"bounces", "depth"})
-        if (std::ranges::find(GetParam().knobs, knob, &app::Knob::name) != GetParam().knobs.end())
+        if (std::ranges::find(GetParam().knobs, knob, &app::KnobInfo::name) != GetParam().knobs.end())
             expect_falling(knob, [&](int i) {
                 return dark_share(furnace, small({{knob, std::to_string(i)}}), 1);
             });
@@ -78,7 +78,7 @@ TEST_P(EveryTechnique, TwoMirrorsInAFurnaceNeverGrowDarker) {
 
 TEST_P(EveryTechnique, RendersTheSceneAsOftenAsItsRowSays) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {1, 0}, {1, 1}, {2, 3}, {3, 1}})
-        for (const app::Knob& knob : GetParam().knobs) {
+        for (const app::KnobInfo& knob : GetParam().knobs) {
             // Each choice, and a number between the ends: whatever a row's count may depend on.
             std::vector<std::string> values = knob.choices;
             if (values.empty() &&
@@ -110,7 +110,7 @@ TEST_P(EveryTechnique, RendersTheSceneAsOftenAsItsRowSays) {
 }
 
 /// The ends of a knob, where they would not take too much memory or time.
-std::vector<std::string> extremes(const app::Knob& knob) {
+std::vector<std::string> extremes(const app::KnobInfo& knob) {
     if (!knob.choices.empty()) return knob.choices;
     double high = knob.high;
     if (knob.name == "face" || knob.name == "shadow_map") high = 64; // 16384 wants gigabytes
@@ -126,7 +126,7 @@ std::vector<std::string> extremes(const app::Knob& knob) {
 
 TEST_P(EveryTechnique, MakesOnlyNumbersAtTheEndsOfEachKnob) {
     const scene::Scene room = test::room(2, 1);
-    for (const app::Knob& knob : GetParam().knobs)
+    for (const app::KnobInfo& knob : GetParam().knobs)
         for (const std::string& value : extremes(knob)) {
             if (value == "float" && !test::has_float_colour()) continue;
             std::vector<std::pair<std::string, std::string>> settings{{knob.name, value}};

@@ -60,7 +60,7 @@ inline std::string with(const app::TechniqueInfo& technique,
     std::string text = technique.name;
     char separator = ':';
     for (const auto& [knob, value] : settings) {
-        if (std::ranges::find(technique.knobs, knob, &app::Knob::name) == technique.knobs.end())
+        if (std::ranges::find(technique.knobs, knob, &app::KnobInfo::name) == technique.knobs.end())
             continue;
         text += separator + knob + "=" + value;
         separator = ',';

@@ -124,11 +124,11 @@ TEST_F(ViewPicture, DrawsEveryTechniqueAndTurnsItsKnobs) {
     for (const app::TechniqueInfo& technique : app::techniques()) {
         PlanState plan;
         plan.rest.technique = technique.name;
-        for (const app::Knob& knob : technique.knobs)
+        for (const app::KnobInfo& knob : technique.knobs)
             if (knob.name == "face" || knob.name == "shadow_map") set(plan.rest, knob, "16");
         plans.push_back(plan);
         std::size_t turned = 0;
-        for (const app::Knob& knob : technique.knobs) {
+        for (const app::KnobInfo& knob : technique.knobs) {
             if (turned == 3) break;
             if (plan.rest.knobs.contains(knob.name)) continue;
             const std::string value = knob.choices.empty() ? std::to_string(static_cast<int>(

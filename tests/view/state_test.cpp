@@ -21,8 +21,8 @@ using namespace catoptric;
 using namespace catoptric::view;
 using testing::ElementsAre;
 
-const app::Knob& knob(const std::string& technique, const std::string& name) {
-    return *std::ranges::find(find(technique)->knobs, name, &app::Knob::name);
+const app::KnobInfo& knob(const std::string& technique, const std::string& name) {
+    return *std::ranges::find(find(technique)->knobs, name, &app::KnobInfo::name);
 }
 
 TEST(ViewPlan, IsWhatTheCommandLineSaid) {
