@@ -15,14 +15,14 @@ endif()
 set(headers
     compare.hpp embed.hpp error.hpp picture.hpp report.hpp scene.hpp session.hpp technique.hpp
     core/error.hpp core/export.hpp core/math.hpp core/mirror_id.hpp core/plan_entry.hpp core/setting.hpp
-    scene/budget.hpp scene/build.hpp scene/edit.hpp scene/environment.hpp scene/gap.hpp scene/load.hpp
+    scene/budget.hpp scene/build.hpp scene/edit.hpp scene/environment.hpp scene/unsupported_feature.hpp scene/load.hpp
     scene/material.hpp scene/motion.hpp scene/said_by.hpp scene/scene.hpp scene/shapes.hpp scene/texture.hpp
     require/model.hpp
     measure/causes.hpp measure/comparison.hpp measure/difference.hpp measure/flip.hpp measure/interval.hpp
     measure/lag.hpp measure/light_edges.hpp measure/lookup.hpp measure/picture.hpp measure/picture_file.hpp
     measure/statistics.hpp
     report/comparison.hpp report/write.hpp
-    app/compare.hpp app/engine.hpp app/run.hpp app/session.hpp app/slices.hpp app/technique.hpp app/watcher.hpp
+    app/compare.hpp app/engine.hpp app/run.hpp app/session.hpp app/capture_budget.hpp app/technique.hpp app/watcher.hpp
     embed/embed.hpp)
 foreach(header IN LISTS headers)
     get_filename_component(folder ${header} DIRECTORY)

@@ -27,7 +27,7 @@ struct Surface {
     vec3 emission;    // Ke, radiance
     vec3 reflectance; // of a mirror
     uint mirror;      // 0: not a mirror; otherwise its number, from 1
-    uint detail;      // index of its Detail
+    uint detail;      // index of its MaterialParameters
     vec3 centre;      // of the exact sphere the mesh stands for
     float radius;     // 0: no exact sphere
 };
@@ -43,12 +43,12 @@ struct TextureUse {
 const uint kTextureNearest = 16u, kTextureSrgb = 32u, kTextureSecondUv = 64u;
 
 // What a surface is beyond Surface. Objects that agree in all of it share one.
-struct Detail {
+struct MaterialParameters {
     uint flags;             // kDetail...
     uint first_attribute;   // added to the number of a vertex as it is drawn: its attribute
     float metallic;
     float roughness;
-    float sharp_below;      // or at that roughness it is sharp
+    float max_specular_roughness;      // or at that roughness it is sharp
     float alpha;
     float alpha_cutoff;     // 0: nothing is cut out
     vec3 f0;                // of the part that is no metal, towards the normal
@@ -57,12 +57,12 @@ struct Detail {
     TextureUse emission;
     TextureUse rough;       // roughness in green, metallic in blue
 };
-const uint kDetailVaries = 1u;     // more than one colour, or sharp
-const uint kDetailAttributes = 2u; // its vertices have attributes
-const uint kDetailConstant = 4u;   // reflects Surface::reflectance at any angle
-const uint kDetailUnlit = 8u;
-const uint kDetailTurns = 16u;     // its normal turns to who looks
-const uint kDetailFacets = 32u;    // its normals leave those of its facets: light counts from above them
+const uint kMaterialVaries = 1u;     // more than one colour, or sharp
+const uint kMaterialAttributes = 2u; // its vertices have attributes
+const uint kMaterialConstant = 4u;   // reflects Surface::reflectance at any angle
+const uint kMaterialUnlit = 8u;
+const uint kMaterialTurns = 16u;     // its normal turns to who looks
+const uint kMaterialFacets = 32u;    // its normals leave those of its facets: light counts from above them
 
 // What a vertex has beside position and normal.
 struct Attribute {
@@ -151,7 +151,7 @@ struct Frame {
 // its state for each draw that changes them.
 struct Draw {
     uint first_view; // the view of layer 0
-    uint mended;     // causes of error to take away: kMend..., in builds that can (lib/mend.glsl)
+    uint ablated;     // causes of error to take away: kMend..., in builds that can (lib/ablate.glsl)
 };
 // gl_InstanceIndex of such a draw: index of the object << kLayerBits | layer.
 const uint kLayerBits = 3u;
@@ -164,13 +164,13 @@ struct Placement {
 };
 
 // Causes of error that a rendering can be without (engine/app/causes.cpp).
-const uint kMendDistance = 1u;   // captured distance -> exact
-const uint kMendDirection = 2u;  // looked-up direction -> that of what the ray really meets
-const uint kMendHidden = 4u;     // what the capture's centre does not see -> its true colour
-const uint kMendTexels = 8u;     // texels -> the captured surface at the very point
-const uint kMendMirrors = 16u;   // a mirror's picture in a capture -> what that mirror really shows here
-const uint kMendOwn = 32u;       // the mirror's own reflection in itself, which its capture leaves out
-const uint kMendShadows = 64u;   // shadow map -> shadow ray
+const uint kAblateDistance = 1u;   // captured distance -> exact
+const uint kAblateDirection = 2u;  // looked-up direction -> that of what the ray really meets
+const uint kAblateHidden = 4u;     // what the capture's centre does not see -> its true colour
+const uint kAblateTexels = 8u;     // texels -> the captured surface at the very point
+const uint kAblateMirrors = 16u;   // a mirror's picture in a capture -> what that mirror really shows here
+const uint kAblateOwn = 32u;       // the mirror's own reflection in itself, which its capture leaves out
+const uint kAblateShadows = 64u;   // shadow map -> shadow ray
 
 // Push constants of one dispatch of the ray tracer.
 struct Trace {
@@ -217,14 +217,14 @@ struct Overlaying {
 };
 
 // Texels of four floats of each in the lists that shaders/lib/bindings.glsl reads.
-const uint kSurfaceTexels = 4u, kProbeTexels = 5u, kDetailQuads = 10u; // the last of whole numbers
+const uint kSurfaceTexels = 4u, kProbeTexels = 5u, kMaterialQuads = 10u; // the last of whole numbers
 
 #ifdef __cplusplus
 static_assert(sizeof(Vertex) == 24);
 static_assert(sizeof(Surface) == 60);
 static_assert(sizeof(Light) == 92);
 static_assert(sizeof(TextureUse) == 36);
-static_assert(sizeof(Detail) == 16 * kDetailQuads);
+static_assert(sizeof(MaterialParameters) == 16 * kMaterialQuads);
 static_assert(sizeof(Attribute) == 32);
 static_assert(sizeof(Probe) == 68);
 static_assert(sizeof(CaptureTable) == 8256); // every device has uniform buffers of 16 KiB

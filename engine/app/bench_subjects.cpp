@@ -32,7 +32,7 @@ public:
             if (const auto rays = frames_->frame().read().rays)
                 rays_ = static_cast<double>(rays->primary + rays->mirror + rays->shadow);
         is_read_ = true;
-        frames_->set_aside();
+        frames_->suspend();
     }
 
 private:

@@ -1,8 +1,8 @@
 #include "app/candidates.hpp"
 
 #include "scene/classify.hpp"
+#include "scene/scene_overrides.hpp"
 #include "scene/transform.hpp"
-#include "scene/wishes.hpp"
 
 #include <algorithm>
 #include <map>

@@ -24,20 +24,20 @@ struct Player {
     std::uint32_t mends; ///< sum of shared::kMend...
 };
 
-constexpr Player kPlayers[] = {{"direction", shared::kMendDistance | shared::kMendDirection},
-                               {"hidden target", shared::kMendHidden},
-                               {"texels", shared::kMendTexels},
-                               {"mirror in mirror", shared::kMendMirrors | shared::kMendOwn},
-                               {"shadow map", shared::kMendShadows}};
+constexpr Player kPlayers[] = {{"direction", shared::kAblateDistance | shared::kAblateDirection},
+                               {"hidden target", shared::kAblateHidden},
+                               {"texels", shared::kAblateTexels},
+                               {"mirror in mirror", shared::kAblateMirrors | shared::kAblateOwn},
+                               {"shadow map", shared::kAblateShadows}};
 constexpr std::size_t kPlayerCount = std::size(kPlayers);
 constexpr std::uint32_t kEveryPlayer = (1U << kPlayerCount) - 1;
 
 /// What a coalition mends; bit i: player i.
-std::uint32_t mended_by(std::uint32_t coalition) {
-    std::uint32_t mended = 0;
+std::uint32_t ablated_by(std::uint32_t coalition) {
+    std::uint32_t ablated = 0;
     for (std::size_t i = 0; i < kPlayerCount; ++i)
-        if ((coalition >> i & 1U) != 0) mended |= kPlayers[i].mends;
-    return mended;
+        if ((coalition >> i & 1U) != 0) ablated |= kPlayers[i].mends;
+    return ablated;
 }
 
 /// The frames that pictures are taken beside: they have what these have left.
@@ -156,16 +156,16 @@ std::vector<measure::PixelCause> parts_of(const Histories& histories, const Erro
 } // namespace
 
 void last_pictures(Session& session, const Request& request,
-                   const std::vector<std::uint32_t>& mended, const VisitPicture& visit,
+                   const std::vector<std::uint32_t>& ablated, const VisitPicture& visit,
                    const Watcher& watcher) {
     Frames frames(session, request);
     for (int k = 1; k < request.total(); ++k) frames.next(), watcher.check_stopped();
     FrameSpec aside = request;
     aside.time = request.instant(request.total());
     aside.timing = Timing::pipelined;
-    aside.is_aside = true;
-    for (std::size_t entry = 0; entry < mended.size(); ++entry) {
-        aside.mended = mended[entry];
+    aside.keeps_history = true;
+    for (std::size_t entry = 0; entry < ablated.size(); ++entry) {
+        aside.ablated = ablated[entry];
         visit(entry, session.frame(aside).hdr());
         watcher.check_stopped();
     }
@@ -193,8 +193,8 @@ report::Causes CauseFinder::find(const std::string& technique) const {
     const Histories histories = histories_of(base_, technique);
     Errors found{measure::Shapley(kPlayerCount, pixels_.size()), {}, measure::Mask(hits_.size())};
     for (const auto& [history, coalitions] : wanted_of(histories)) {
-        std::vector<std::uint32_t> mended;
-        std::ranges::transform(coalitions, std::back_inserter(mended), mended_by);
+        std::vector<std::uint32_t> ablated;
+        std::ranges::transform(coalitions, std::back_inserter(ablated), ablated_by);
         const auto judge = [&](std::size_t entry, const measure::Picture& picture) {
             const std::uint32_t coalition = coalitions[entry];
             Values errors;
@@ -209,7 +209,7 @@ report::Causes CauseFinder::find(const std::string& technique) const {
             if (std::popcount(coalition) <= 1 || coalition == kEveryPlayer)
                 found.kept[{history, coalition}] = std::move(errors);
         };
-        last_pictures(session_, request_for(base_, history), mended, judge, watcher_);
+        last_pictures(session_, request_for(base_, history), ablated, judge, watcher_);
     }
     return measure::sum_up(hits_, found.off, found.kept.at({histories.row, 0}),
                            parts_of(histories, found, disagree_));

@@ -15,7 +15,7 @@ using VisitPicture = std::function<void(std::size_t entry, const measure::Pictur
 /// before it: one for each entry of `mended`, a sum of causes of error to take away
 /// (shared::kMend...; 0: the frame itself). The session shows the request's scene.
 void last_pictures(Session& session, const Request& request,
-                   const std::vector<std::uint32_t>& mended, const VisitPicture& visit,
+                   const std::vector<std::uint32_t>& ablated, const VisitPicture& visit,
                    const Watcher& watcher = {});
 
 /// Splits the error of rows that look into captures by cause, against the default reference.

@@ -6,10 +6,10 @@
 #include "app/lag.hpp"
 #include "app/plan_file.hpp"
 #include "app/processor.hpp"
+#include "app/reference_cache.hpp"
 #include "app/row_judge.hpp"
 #include "app/row_run.hpp"
 #include "app/scene_facts.hpp"
-#include "app/truths.hpp"
 #include "app/views.hpp"
 #include "core/error.hpp"
 #include "measure/interval.hpp"
@@ -236,7 +236,7 @@ private:
         RowRun& run = *runs_[lane];
         run.measure(frames_of_round(request_.base.frames, comparison_.rounds, round));
         const std::vector<Part> parts = first || last ? run.parts() : std::vector<Part>();
-        run.set_aside();
+        run.suspend();
         for (std::size_t i = 0; i < texts.size(); ++i) {
             const std::size_t index = lane + i;
             if (first) add(texts[i], parts[i]);
@@ -290,7 +290,7 @@ private:
     CompareRequest request_;
     Compiled compiled_before_; ///< by the engine, for others
     Session session_;          ///< of all rows
-    Truths truths_;
+    ReferenceCache truths_;
     RowJudge judge_;
     std::vector<Modelling> models_;             ///< of rows
     std::vector<std::unique_ptr<RowRun>> runs_; ///< of rows, or of all together

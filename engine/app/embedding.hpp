@@ -24,7 +24,7 @@ struct Embedding {
                         const std::function<void(FrameGraph&)>& finish) {
         return session.submit(spec, [&](FrameGraph& frame) {
             finish(frame);
-            return graph::Outside{};
+            return graph::ExternalSync{};
         });
     }
 };

@@ -68,7 +68,7 @@ const std::string& Engine::warning() const { return impl_->pipelines.cache().war
 Compiled Engine::compiled() const { return {impl_->pipelines.made(), impl_->pipelines.ms()}; }
 CacheUse Engine::cache_use() const {
     const gpu::PipelineCache& cache = impl_->pipelines.cache();
-    if (!cache.is_kept()) return CacheUse::none;
+    if (!cache.is_persistent()) return CacheUse::none;
     return cache.loaded_bytes() > 0 ? CacheUse::used : CacheUse::made;
 }
 bool Engine::usable() const { return !impl_->device.abandoned(); }

@@ -3,7 +3,7 @@
 #include "app/scene_facts.hpp"
 #include "core/luminance.hpp"
 #include "measure/statistics.hpp"
-#include "scene/wishes.hpp"
+#include "scene/scene_overrides.hpp"
 
 #include <algorithm>
 #include <cmath>

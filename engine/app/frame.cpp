@@ -34,7 +34,7 @@ bool Frame::remembers(std::size_t part) const {
     return app::remembers(impl_->frame, impl_->plan(), impl_->part(part));
 }
 
-const std::optional<Slices>& Frame::slices(std::size_t part) const {
+const std::optional<CaptureBudget>& Frame::slices(std::size_t part) const {
     return impl_->part(part).slices;
 }
 

@@ -78,10 +78,11 @@ void add_counters(const std::vector<std::byte>& bytes, Part& part) {
 }
 
 /// What became of captures that are kept under a limit.
-std::optional<Slices> slices_of(const reflect::Outputs& outputs, const reflect::Keeping& keeping) {
+std::optional<CaptureBudget> slices_of(const reflect::Outputs& outputs,
+                                       const reflect::CaptureHistory& keeping) {
     if (!outputs.kept || keeping.most == 0) return std::nullopt;
-    const render::KeptCaptures& kept = *outputs.kept;
-    Slices slices;
+    const render::CaptureCache& kept = *outputs.kept;
+    CaptureBudget slices;
     for (std::size_t i = 0; i < kept.options.size(); ++i) {
         slices.mirrors += kept.options[i].face > 0 && keeping.model.mirrors[i].is_captured;
         slices.drawn += kept.changes[i] != render::Change::none;
@@ -95,7 +96,7 @@ std::optional<Slices> slices_of(const reflect::Outputs& outputs, const reflect::
 /// Of what is kept and the frame does not need.
 std::uint64_t idle_bytes(const graph::Runner& runner, const graph::Graph& graph) {
     std::uint64_t bytes = 0;
-    for (const auto& [name, kept] : runner.history().kept) {
+    for (const auto& [name, kept] : runner.history().persistent) {
         const bool is_used = std::ranges::find(graph.images(), name, &graph::ImageDesc::name) !=
                              graph.images().end();
         if (!is_used) bytes += graph::plain_sizer().image(kept.desc).bytes;
@@ -130,30 +131,30 @@ std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& technique
 
 FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plans,
                    const std::vector<std::string>& mirrors, const render::GpuScene& scene,
-                   graph::History history, const std::vector<reflect::Keeping>& keeping) {
+                   graph::History history, const std::vector<reflect::CaptureHistory>& keeping) {
     FrameGraph frame{graph::Graph(std::move(history)), {}};
     scene.begin_frame();
     for (const reflect::Plan& plan : plans) {
-        const reflect::Keeping& kept = keeping[frame.parts.size()];
+        const reflect::CaptureHistory& kept = keeping[frame.parts.size()];
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
-        const render::FrameInputs inputs{scene,     spec.size,   prefix,
-                                         spec.seed, spec.mended, spec.with_lookup};
+        const render::FrameInputs inputs{scene,     spec.size,    prefix,
+                                         spec.seed, spec.ablated, spec.with_lookup};
         const reflect::Assignment assignment = reflect::fitted(
             reflect::assign(plan, mirrors), scene.flat_mirrors(), scene.flat_tolerance());
         reflect::Outputs outputs = reflect::add_frame(frame.graph, inputs, assignment, kept);
         const graph::Image display = render::add_compose(frame.graph, inputs, outputs.hdr,
                                                          spec.exposure);
-        frame.graph.want(outputs.hdr);
-        frame.graph.want(display);
-        for (const graph::Buffer counters : outputs.counters) frame.graph.want(counters);
-        if (outputs.lookup) frame.graph.want(*outputs.lookup);
+        frame.graph.mark_output(outputs.hdr);
+        frame.graph.mark_output(display);
+        for (const graph::Buffer counters : outputs.counters) frame.graph.mark_output(counters);
+        if (outputs.lookup) frame.graph.mark_output(*outputs.lookup);
         if (outputs.captures && (spec.with_lookup || spec.with_captures)) {
             for (const render::Cubes& cubes : outputs.captures->arrays) {
-                frame.graph.want(cubes.colour);
-                if (spec.with_captures && cubes.distance) frame.graph.want(*cubes.distance);
+                frame.graph.mark_output(cubes.colour);
+                if (spec.with_captures && cubes.distance) frame.graph.mark_output(*cubes.distance);
             }
         }
-        const std::optional<Slices> slices = slices_of(outputs, kept);
+        const std::optional<CaptureBudget> slices = slices_of(outputs, kept);
         frame.parts.push_back({plan, assignment, prefix, std::move(outputs), display, slices});
     }
     return frame;

@@ -18,7 +18,7 @@ struct Declared {
     std::string prefix;
     reflect::Outputs outputs;
     graph::Image display;
-    std::optional<Slices> slices; ///< see Frame::slices
+    std::optional<CaptureBudget> slices; ///< see Frame::slices
 };
 
 struct FrameGraph {
@@ -35,7 +35,7 @@ std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& technique
 /// them.
 FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plans,
                    const std::vector<std::string>& mirrors, const render::GpuScene& scene,
-                   graph::History history, const std::vector<reflect::Keeping>& keeping);
+                   graph::History history, const std::vector<reflect::CaptureHistory>& keeping);
 
 /// Whether captures are kept, or a pass of the part reads what the frame before left.
 bool remembers(const FrameGraph& frame, const graph::Plan& plan, const Declared& part);

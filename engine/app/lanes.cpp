@@ -26,7 +26,7 @@ int count_lanes(gpu::Device& device) {
             commands.bind("Lanes", lanes);
             commands.dispatch(1, 1);
         });
-    graph.want(lanes);
+    graph.mark_output(lanes);
     runner.run(graph, graph::Timing::isolated);
     std::uint32_t count = 0;
     std::memcpy(&count, runner.read(lanes).data(), sizeof count);

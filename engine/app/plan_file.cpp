@@ -26,14 +26,15 @@ std::string value_text(const PlanJson& value) {
 
 const PlanJson& rules_of(const PlanJson& document, const std::string& file) {
     const PlanJson& list = document.is_object() && document.contains("plan") ? document["plan"]
-                                                                         : document;
+                                                                             : document;
     check(list.is_array() && !list.empty(), Failure::bad_data, file,
           ": wanted a list of rules, or an object with one as 'plan', found ", value_text(list));
     return list;
 }
 
 /// A member that must be text, or where `numbers` a whole number.
-std::string text_of(const PlanJson& rule, const char* member, const std::string& place, bool numbers) {
+std::string text_of(const PlanJson& rule, const char* member, const std::string& place,
+                    bool numbers) {
     const PlanJson value = rule.value(member, PlanJson());
     if (numbers && value.is_number_unsigned()) return std::to_string(value.get<std::uint64_t>());
     check(value.is_string() && !value.get_ref<const std::string&>().empty(), Failure::bad_data,
@@ -43,7 +44,8 @@ std::string text_of(const PlanJson& rule, const char* member, const std::string&
 }
 
 reflect::Rule rule_of(const PlanJson& rule, const std::string& place) {
-    check(rule.is_object(), Failure::bad_data, place, ": wanted an object, found ", value_text(rule));
+    check(rule.is_object(), Failure::bad_data, place, ": wanted an object, found ",
+          value_text(rule));
     for (const auto& [key, value] : rule.items())
         check(key == "mirror" || key == "technique" || key == "settings" || key == "name" ||
                   key == "why",

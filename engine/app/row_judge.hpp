@@ -2,7 +2,7 @@
 
 #include "app/causes.hpp"
 #include "app/oracle.hpp"
-#include "app/truths.hpp"
+#include "app/reference_cache.hpp"
 #include "report/comparison.hpp"
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace catoptric::app {
 class RowJudge {
 public:
     /// All must outlive this; `base` shows the session's scene, `truths` are of both.
-    RowJudge(Session& session, Truths& truths, const Request& base, const Watcher& watcher)
+    RowJudge(Session& session, ReferenceCache& truths, const Request& base, const Watcher& watcher)
         : session_(session), truths_(truths), base_(base), watcher_(watcher) {}
 
     /// Fills the row's picture and all that is said of it, from its frame `number`, which `part`
@@ -32,7 +32,7 @@ private:
     const Oracle& oracle_of(int number);
 
     Session& session_;
-    Truths& truths_;
+    ReferenceCache& truths_;
     const Request& base_;
     const Watcher& watcher_;
     std::optional<Oracle> oracle_;

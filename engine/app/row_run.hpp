@@ -29,7 +29,7 @@ public:
     /// Of the last frame, until `set_aside`.
     std::vector<Part> parts() const { return frames_.result().parts; }
     /// The session is free for others until the next `measure`.
-    void set_aside() { frames_.set_aside(); }
+    void suspend() { frames_.suspend(); }
 
     /// Of the last frame, from 1.
     int number() const { return frames_.number(); }

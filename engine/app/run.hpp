@@ -48,7 +48,7 @@ public:
     CATOPTRIC_API bool next();
     /// Other frames may follow in the session until the next call of `next`, which goes on as if
     /// there had been none. What is not read of the last frame by then is lost.
-    void set_aside() { aside_.emplace(session_.set_aside()); }
+    void suspend() { aside_.emplace(session_.suspend()); }
     int number() const { return number_; } ///< of the frame that was rendered last, from 1
     /// Frames that there will be, where they do not settle.
     CATOPTRIC_API int most_frames() const;

@@ -56,16 +56,17 @@ double share_of(const std::vector<int>& seen, const scene::Scene& scene,
            static_cast<double>(std::max<std::size_t>(1, seen.size()));
 }
 
-std::vector<measure::GapFacts> gap_facts(const scene::Scene& scene, const std::vector<int>& seen) {
-    std::vector<measure::GapFacts> facts;
-    for (const scene::Gap& gap : scene.gaps) {
+std::vector<measure::UnsupportedFeatureFacts> unsupported_facts(const scene::Scene& scene,
+                                                                const std::vector<int>& seen) {
+    std::vector<measure::UnsupportedFeatureFacts> facts;
+    for (const scene::UnsupportedFeature& gap : scene.unsupported) {
         facts.push_back({gap.id, gap.count, gap.first, {}});
         if (!gap.materials.empty()) facts.back().pixel_share = share_of(seen, scene, gap.materials);
     }
     // No share (-1) comes last; equals stay in the order in which they came.
-    std::ranges::stable_sort(facts, std::greater<>(), [](const measure::GapFacts& gap) {
-        return gap.pixel_share.value_or(-1);
-    });
+    std::ranges::stable_sort(
+        facts, std::greater<>(),
+        [](const measure::UnsupportedFeatureFacts& gap) { return gap.pixel_share.value_or(-1); });
     return facts;
 }
 
@@ -110,13 +111,14 @@ measure::SceneFacts scene_facts(const Request& request, const std::vector<int>& 
                               facts_of(request.camera)};
     facts.lights = light_facts(scene);
     facts.environment = environment_facts(scene);
-    facts.gaps = gap_facts(scene, seen);
+    facts.unsupported = unsupported_facts(scene, seen);
     return facts;
 }
 
 measure::SceneFacts scene_facts(const Request& request) {
     const bool has_shares = std::ranges::any_of(
-        request.scene.gaps, [](const scene::Gap& gap) { return !gap.materials.empty(); });
+        request.scene.unsupported,
+        [](const scene::UnsupportedFeature& gap) { return !gap.materials.empty(); });
     return scene_facts(request, has_shares ? objects_seen(request, small_size(request.size))
                                            : std::vector<int>());
 }

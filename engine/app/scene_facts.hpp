@@ -18,7 +18,8 @@ double share_of(const std::vector<int>& seen, const scene::Scene& scene,
 
 /// Returns every gap of the scene with its share of the picture that `seen` (objects_seen) is of,
 /// the largest share first, those without one last.
-std::vector<measure::GapFacts> gap_facts(const scene::Scene& scene, const std::vector<int>& seen);
+std::vector<measure::UnsupportedFeatureFacts> unsupported_facts(const scene::Scene& scene,
+                                                                const std::vector<int>& seen);
 
 /// Every light as the shading formula sees it.
 std::vector<measure::LightFacts> light_facts(const scene::Scene& scene);

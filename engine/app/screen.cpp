@@ -102,9 +102,9 @@ Frame Session::show(const FrameSpec& spec, Screen& screen, const Showing& showin
         false; // where the frame is refused, its image is only given back by making all anew
     Frame frame = submit(spec, [&](FrameGraph& graph) {
         image = onto.acquire();
-        if (!image) return graph::Outside{};
+        if (!image) return graph::ExternalSync{};
         onto.add(graph, spec, showing, index);
-        return graph::Outside{onto.swapchain.acquired(), onto.swapchain.rendered(*image)};
+        return graph::ExternalSync{onto.swapchain.acquired(), onto.swapchain.rendered(*image)};
     });
     slot.runner = &runner, slot.ticket = frame.impl_->ticket;
     onto.fits = image && onto.present();

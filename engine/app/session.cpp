@@ -1,9 +1,9 @@
 #include "app/session_impl.hpp"
 
 #include "app/plan_file.hpp"
-#include "app/suggested.hpp"
+#include "app/resolve_auto.hpp"
+#include "core/content_hash.hpp"
 #include "core/error.hpp"
-#include "core/stamp.hpp"
 #include "core/stopwatch.hpp"
 #include "graph/dump.hpp"
 #include "scene/pose.hpp"
@@ -21,7 +21,7 @@ double milliseconds_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-Standing standing_of(const FrameSpec& spec) {
+SceneKey scene_key_of(const FrameSpec& spec) {
     return {spec.time, scene::camera_at(spec.camera, spec.time), spec.size, spec.ambient};
 }
 
@@ -40,8 +40,9 @@ void check_spec(const FrameSpec& spec) {
 /// The light that each surface gets anyway is no part of a scene, but of what is kept.
 void add_ambient(require::Model& model, double ambient) {
     for (require::MirrorNeeds& mirror : model.mirrors)
-        for (auto* const stamps : {&mirror.stamps, &mirror.settings})
-            for (std::uint64_t& stamp : *stamps) stamp = Stamp().add(stamp).add(ambient).value();
+        for (auto* const content_hashes : {&mirror.content_hashes, &mirror.settings})
+            for (std::uint64_t& content_hash : *content_hashes)
+                content_hash = ContentHash().add(content_hash).add(ambient).value();
 }
 
 std::string name_of(Modelling modelling) {
@@ -49,15 +50,15 @@ std::string name_of(Modelling modelling) {
 }
 
 struct Sequence::Impl {
-    graph::Leavings leavings;
+    graph::RetainedImages leavings;
     std::vector<reflect::Plan> remembered;
     Modelling remembered_model = Modelling::everything;
-    std::vector<std::shared_ptr<render::KeptCaptures>> kept;
-    std::vector<Pace> paces;
+    std::vector<std::shared_ptr<render::CaptureCache>> kept;
+    std::vector<CaptureCost> paces;
     std::vector<double> face_needs;
-    std::optional<Standing> standing; ///< from which its next frame moves on
-    std::uint64_t units = 0;          ///< in which distances were captured
-    std::uint64_t edits = 0;          ///< that the scene had seen
+    std::optional<SceneKey> scene_key; ///< from which its next frame moves on
+    std::uint64_t units = 0;           ///< in which distances were captured
+    std::uint64_t edits = 0;           ///< that the scene had seen
     std::vector<std::string> texts;
     std::vector<reflect::Plan> plans; ///< of `texts`, as they were suggested at its first frame
 };
@@ -72,15 +73,15 @@ void Session::Impl::wait_for_readers(std::size_t of) {
         runner.wait(graph::Ticket{read_by[of]});
 }
 
-double Session::Impl::stand(const Standing& wanted) {
-    if (standing == wanted && resident->knows_face_needs()) return 0;
+double Session::Impl::update_scene(const SceneKey& wanted) {
+    if (scene_key == wanted && resident->knows_face_needs()) return 0;
     // Another copy than frames on their way read.
     const std::size_t next = (copy + 1) % read_by.size();
     wait_for_readers(next);
     copy = next;
     const Clock::time_point start = Clock::now();
-    if (standing && standing->size != wanted.size) resident->forget_face_needs();
-    standing.reset(); // should the update end half-way
+    if (scene_key && scene_key->size != wanted.size) resident->forget_face_needs();
+    scene_key.reset(); // should the update end half-way
     models.clear();
     if (scene::is_animated(scene)) {
         if (!moved) moved = scene;
@@ -90,7 +91,7 @@ double Session::Impl::stand(const Standing& wanted) {
     }
     resident->update(now(), wanted.camera, wanted.size, wanted.ambient,
                      static_cast<std::uint32_t>(copy));
-    standing = wanted;
+    scene_key = wanted;
     ++counts.updates;
     return milliseconds_since(start);
 }
@@ -98,7 +99,7 @@ double Session::Impl::stand(const Standing& wanted) {
 const std::vector<reflect::Plan>& Session::Impl::plans_of(const FrameSpec& spec) {
     if (plans.empty() || texts != spec.techniques) {
         plans = parse_plans(spec.techniques);
-        for (reflect::Plan& plan : plans) plan = suggested(std::move(plan), scene, spec);
+        for (reflect::Plan& plan : plans) plan = resolve_auto(std::move(plan), scene, spec);
         texts = spec.techniques;
         models.clear();
     }
@@ -106,17 +107,17 @@ const std::vector<reflect::Plan>& Session::Impl::plans_of(const FrameSpec& spec)
 }
 
 const std::shared_ptr<const require::Model>& Session::Impl::model_of(Modelling modelling,
-                                                                     bool is_mended) {
-    std::shared_ptr<const require::Model>& model = models[{modelling, is_mended}];
+                                                                     bool is_ablated) {
+    std::shared_ptr<const require::Model>& model = models[{modelling, is_ablated}];
     if (model) return model;
-    require::Question question{now(), standing->camera, standing->size};
+    require::Question question{now(), scene_key->camera, scene_key->size};
     reflect::demand(question, plans);
     question.whole_cubes = question.whole_cubes ||
-                           is_mended; // what is exact looks where a search never would
+                           is_ablated; // what is exact looks where a search never would
     if (modelling == Modelling::required && !requirements) requirements.emplace(scene);
     require::Model made = modelling == Modelling::everything ? require::everything(question)
                                                              : requirements->of(question);
-    add_ambient(made, standing->ambient);
+    add_ambient(made, scene_key->ambient);
     model = std::make_shared<const require::Model>(std::move(made));
     return model;
 }
@@ -141,16 +142,16 @@ Setup Session::setup() const {
 }
 
 Frame Session::frame(const FrameSpec& spec) {
-    return submit(spec, [](FrameGraph&) { return graph::Outside{}; });
+    return submit(spec, [](FrameGraph&) { return graph::ExternalSync{}; });
 }
 
 Frame Session::submit(const FrameSpec& spec,
-                      const std::function<graph::Outside(FrameGraph&)>& finish) {
+                      const std::function<graph::ExternalSync(FrameGraph&)>& finish) {
     Impl& self = *impl_;
     check_spec(spec);
     const std::vector<reflect::Plan>& plans = self.plans_of(spec);
     const bool follows = same(self.remembered, plans) && self.remembered_model == spec.model;
-    if (!spec.is_aside && !follows) {
+    if (!spec.keeps_history && !follows) {
         self.runner.forget();
         self.kept.clear();
         self.paces.clear(), self.timed.reset();
@@ -161,9 +162,10 @@ Frame Session::submit(const FrameSpec& spec,
         const Stopwatch watch(waited_ms);
         self.catch_up(spec);
     }
-    const double update_ms = self.stand(standing_of(spec));
+    const double update_ms = self.update_scene(scene_key_of(spec));
     const Clock::time_point start = Clock::now();
-    const std::shared_ptr<const require::Model> model = self.model_of(spec.model, spec.mended != 0);
+    const std::shared_ptr<const require::Model> model = self.model_of(spec.model,
+                                                                      spec.ablated != 0);
     FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, self.runner.history(),
                                self.keeping(spec, *model, follows));
     const double declare_ms = milliseconds_since(start);
@@ -171,15 +173,15 @@ Frame Session::submit(const FrameSpec& spec,
     const Clock::time_point trees = Clock::now();
     self.resident->prepare();
     const double hierarchy_ms = milliseconds_since(trees);
-    const graph::Outside outside = finish(frame);
+    const graph::ExternalSync outside = finish(frame);
     const graph::Ticket ticket = self.runner.submit(
         frame.graph,
         spec.timing == Timing::isolated ? graph::Timing::isolated : graph::Timing::pipelined,
-        spec.is_aside, outside);
+        spec.keeps_history, outside);
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
-    if (!spec.is_aside) self.keep(frame, ticket);
-    if (!spec.is_aside && spec.budget_ms > 0) self.time(frame, ticket);
+    if (!spec.keeps_history) self.keep(frame, ticket);
+    if (!spec.keeps_history && spec.budget_ms > 0) self.time(frame, ticket);
     ++self.counts.frames;
     return Frame(std::make_shared<Frame::Impl>(Frame::Impl{impl_,
                                                            ticket,
@@ -210,7 +212,7 @@ void Session::change(const scene::Edit& edit) {
     self.scene = std::move(edited);
     self.moved.reset();
     self.mirrors = mirror_names(self.scene);
-    self.standing.reset();
+    self.scene_key.reset();
     ++self.edits;
     self.texts.clear(); // another plan may be suggested
 }
@@ -220,16 +222,16 @@ void Session::forget() {
     impl_->kept.clear();
     impl_->texts.clear(); // another plan may be suggested
     impl_->resident->forget_face_needs();
-    impl_->standing.reset();
+    impl_->scene_key.reset();
 }
 
-Sequence Session::set_aside() {
+Sequence Session::suspend() {
     Impl& self = *impl_;
     self.measure();
     auto sequence = std::make_unique<Sequence::Impl>(Sequence::Impl{
-        self.runner.set_aside(), std::exchange(self.remembered, {}), self.remembered_model,
+        self.runner.suspend(), std::exchange(self.remembered, {}), self.remembered_model,
         std::exchange(self.kept, {}), std::exchange(self.paces, {}), self.resident->face_needs(),
-        self.standing, self.units, self.edits, std::exchange(self.texts, {}),
+        self.scene_key, self.units, self.edits, std::exchange(self.texts, {}),
         std::exchange(self.plans, {})});
     self.models.clear();
     self.resident->forget_face_needs();
@@ -253,16 +255,18 @@ void Session::resume(Sequence sequence) {
         self.plans = std::move(sequence.impl_->plans);
         self.models.clear();
     }
-    if (sequence.impl_->standing) self.stand(*sequence.impl_->standing);
+    if (sequence.impl_->scene_key) self.update_scene(*sequence.impl_->scene_key);
 }
 
 std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
     Impl& self = *impl_;
     check_spec(spec);
     const std::vector<reflect::Plan>& plans = self.plans_of(spec);
-    self.stand(standing_of(spec));
-    const std::shared_ptr<const require::Model> model = self.model_of(spec.model, spec.mended != 0);
-    std::vector<reflect::Keeping> keeping(plans.size(), {*model, nullptr, &self.comparisons});
+    self.update_scene(scene_key_of(spec));
+    const std::shared_ptr<const require::Model> model = self.model_of(spec.model,
+                                                                      spec.ablated != 0);
+    std::vector<reflect::CaptureHistory> keeping(plans.size(),
+                                                 {*model, nullptr, &self.comparisons});
     FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, {}, keeping);
     // Where captures are kept, the second frame compares; what follows that if nothing has changed?
     for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
@@ -300,7 +304,7 @@ FrameTimes Session::clear_cubes() {
                 .layers(6)
                 .record([](graph::Commands&) {});
         }
-        graph.want(cubes);
+        graph.mark_output(cubes);
     }
     ++impl_->counts.frames;
     impl_->last = impl_->runner.submit(graph, graph::Timing::isolated);

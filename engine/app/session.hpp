@@ -7,8 +7,8 @@
 #include "../require/model.hpp"
 #include "../scene/edit.hpp"
 #include "../scene/scene.hpp"
+#include "capture_budget.hpp"
 #include "engine.hpp"
-#include "slices.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@ namespace catoptric::render {
 struct Captured;
 } // namespace catoptric::render
 namespace catoptric::graph {
-struct Outside;
+struct ExternalSync;
 } // namespace catoptric::graph
 
 namespace catoptric::app {
@@ -57,7 +57,7 @@ struct FrameSpec {
     /// With Modelling::required, of each technique: mirrors whose captures a frame draws again at
     /// most; 0: all. The others show what they showed, and each is drawn in one of the next
     /// ceil(captured mirrors / most_captures) frames. What comes into view is drawn beside them. A
-    /// frame `is_aside` draws all. A frame waits for the one before.
+    /// frame `keeps_history` draws all. A frame waits for the one before.
     std::uint32_t most_captures = 0;
     /// The same by milliseconds of the device that captures may take; 0: no limit. The first frame
     /// draws all, later ones as many as fit by what the session measured, at least one: pictures
@@ -65,10 +65,10 @@ struct FrameSpec {
     double budget_ms = 0;
     /// Causes of error that mirrors are drawn without: a sum of shared::kMend...
     /// (shaders/shared.h).
-    std::uint32_t mended = 0;
+    std::uint32_t ablated = 0;
     bool with_lookup = false;   ///< also say where mirrors looked (Part::lookup); costs time
     bool with_captures = false; ///< captures can be read back (Frame::captures)
-    bool is_aside =
+    bool keeps_history =
         false; ///< beside the sequence: the next frame has the history that this one had
 };
 
@@ -125,8 +125,8 @@ struct Part {
     std::vector<PlanEntry> plan;    ///< of each mirror
     std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
     Modelling model = Modelling::everything;
-    std::vector<require::LeftOut> left_out; ///< by the model, of its picture
-    std::optional<Slices> slices;           ///< where captures are kept, and only some drawn
+    std::vector<require::CulledWork> left_out; ///< by the model, of its picture
+    std::optional<CaptureBudget> slices;       ///< where captures are kept, and only some drawn
     int scene_passes = 0;
     int scene_draws = 0;            ///< scene passes times the layers that each renders
     bool remembers = false;         ///< it shows what the frame before left
@@ -160,7 +160,7 @@ public:
     /// What was rendered, and what was left out.
     CATOPTRIC_API const require::Model& model() const;
     /// Where the technique keeps captures, and FrameSpec limits how many are drawn.
-    CATOPTRIC_API const std::optional<Slices>& slices(std::size_t part = 0) const;
+    CATOPTRIC_API const std::optional<CaptureBudget>& slices(std::size_t part = 0) const;
     /// Mirrors, of all techniques, whose captures are put off: the picture is not what it would be
     /// without a limit.
     CATOPTRIC_API std::uint32_t waiting() const;
@@ -247,7 +247,7 @@ public:
     /// A cut: the next frame begins without history.
     CATOPTRIC_API void forget();
     /// A cut, after which `resume` can go on from here. Waits for what is in flight.
-    CATOPTRIC_API Sequence set_aside();
+    CATOPTRIC_API Sequence suspend();
     /// The next frame follows the last one of a sequence that was set aside; the one so far is
     /// forgotten. Where the scene's units changed in between (see change) it begins without
     /// history.
@@ -266,7 +266,8 @@ private:
     friend class Frame;
     friend struct Embedding;
     /// `finish`: adds to the frame what is not a technique's, before it is submitted.
-    Frame submit(const FrameSpec& spec, const std::function<graph::Outside(FrameGraph&)>& finish);
+    Frame submit(const FrameSpec& spec,
+                 const std::function<graph::ExternalSync(FrameGraph&)>& finish);
     struct Impl;
     std::shared_ptr<Impl> impl_;
 };

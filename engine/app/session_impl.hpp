@@ -1,8 +1,8 @@
 #pragma once
 
+#include "app/capture_cost.hpp"
 #include "app/engine_impl.hpp"
 #include "app/frame_graph.hpp"
-#include "app/pace.hpp"
 #include "app/plan_file.hpp"
 #include "app/session.hpp"
 #include "core/error.hpp"
@@ -18,12 +18,12 @@
 namespace catoptric::app {
 
 /// What the device's copy of a scene was made for.
-struct Standing {
+struct SceneKey {
     double time = 0;
     scene::Camera camera;
     uvec2 size{0, 0};
     double ambient = 0;
-    bool operator==(const Standing&) const = default;
+    bool operator==(const SceneKey&) const = default;
 };
 
 struct Session::Impl {
@@ -39,17 +39,17 @@ struct Session::Impl {
     /// Returns the scene at the instant of `standing`. A scene that is not animated is not copied.
     const scene::Scene& now() const { return moved ? *moved : scene; }
     /// Writes what is wanted and the device does not have yet; milliseconds of work.
-    double stand(const Standing& wanted);
+    double update_scene(const SceneKey& wanted);
     /// Until no frame is in flight that reads this copy of what is written.
     void wait_for_readers(std::size_t of);
     /// The techniques' texts read, only once for as long as they stay: what is suggested (`auto`)
     /// is so for the frame that asks for them first, after a cut and after an edit.
     const std::vector<reflect::Plan>& plans_of(const FrameSpec& spec);
     /// Of the scene as it stands.
-    const std::shared_ptr<const require::Model>& model_of(Modelling modelling, bool is_mended);
+    const std::shared_ptr<const require::Model>& model_of(Modelling modelling, bool is_ablated);
     /// What the next frame of these techniques goes on from.
-    std::vector<reflect::Keeping> keeping(const FrameSpec& spec, const require::Model& model,
-                                          bool follows);
+    std::vector<reflect::CaptureHistory> keeping(const FrameSpec& spec, const require::Model& model,
+                                                 bool follows);
     /// Waits for what the frame needs to know of those before.
     void catch_up(const FrameSpec& spec);
     /// Mirrors whose captures the frame draws again at most; 0: all.
@@ -68,14 +68,14 @@ struct Session::Impl {
     render::Comparisons comparisons;
     graph::Runner runner;
     std::vector<std::string> mirrors; ///< their names
-    std::optional<Standing> standing;
+    std::optional<SceneKey> scene_key;
     std::optional<scene::Scene> moved; ///< `scene` as it stands there, where it is animated
     std::vector<std::string> texts;
     std::vector<reflect::Plan> plans;      ///< of `texts`
     std::vector<reflect::Plan> remembered; ///< whose history the runner has
     Modelling remembered_model = Modelling::everything;
-    std::vector<std::shared_ptr<render::KeptCaptures>> kept; ///< likewise, by technique
-    std::vector<Pace> paces;                                 ///< by technique
+    std::vector<std::shared_ptr<render::CaptureCache>> kept; ///< likewise, by technique
+    std::vector<CaptureCost> paces;                          ///< by technique
     /// A frame under a budget that was not looked at yet, and of each technique how its passes'
     /// names begin and how many mirrors it drew.
     struct Timed {

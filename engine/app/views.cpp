@@ -1,8 +1,8 @@
 #include "app/views.hpp"
 
 #include "app/compare_row.hpp"
+#include "app/reference_cache.hpp"
 #include "app/seeded_camera.hpp"
-#include "app/truths.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -105,7 +105,7 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
     for (std::size_t i = 0; i < count; ++i) {
         const std::string label = "view " + std::to_string(i + 1) + " of " + std::to_string(count);
         Request at_view = request_at(request.base, comparison.views[i]);
-        Truths truths(session, at_view, request.reference, request.watcher);
+        ReferenceCache truths(session, at_view, request.reference, request.watcher);
         request.watcher.row(label + ": reference", i * pictures, count * pictures);
         const std::vector<std::uint32_t> hits = truths.hits();
         for (std::size_t k = 0; k < texts.size(); ++k) {

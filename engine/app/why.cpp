@@ -4,7 +4,7 @@
 #include "app/scene_facts.hpp"
 #include "core/text.hpp"
 #include "report/text.hpp"
-#include "require/left_out.hpp"
+#include "require/culled_work.hpp"
 #include "require/suggest.hpp"
 
 #include <nlohmann/json.hpp>
@@ -24,13 +24,14 @@ struct Required {
 };
 
 /// What reflects in the picture, though no technique but ray tracing draws what it reflects.
-std::optional<measure::GapFacts> not_drawn(const Request& request) {
+std::optional<measure::UnsupportedFeatureFacts> not_drawn(const Request& request) {
     constexpr std::string_view kId = "smooth-dielectric";
-    const auto gap = std::ranges::find(request.scene.gaps, kId, &scene::Gap::id);
-    if (gap == request.scene.gaps.end()) return std::nullopt;
+    const auto gap = std::ranges::find(request.scene.unsupported, kId,
+                                       &scene::UnsupportedFeature::id);
+    if (gap == request.scene.unsupported.end()) return std::nullopt;
     const std::vector<int> seen = objects_seen(request, small_size(request.size));
-    return measure::GapFacts{gap->id, gap->count, gap->first,
-                             share_of(seen, request.scene, gap->materials)};
+    return measure::UnsupportedFeatureFacts{gap->id, gap->count, gap->first,
+                                            share_of(seen, request.scene, gap->materials)};
 }
 
 Required required(const Request& request) {
@@ -63,7 +64,7 @@ constexpr const char* kRemedy =
 
 } // namespace
 
-std::string why_text(const Request& request, const std::optional<Slices>& slices) {
+std::string why_text(const Request& request, const std::optional<CaptureBudget>& slices) {
     const auto [now, model, suggestion] = required(request);
     const std::vector<std::string> names = mirror_names(now);
     std::string text = require::to_text(model, now);
@@ -81,13 +82,14 @@ std::string why_text(const Request& request, const std::optional<Slices>& slices
     return text + require::to_text(suggestion.candidates);
 }
 
-std::string why_json(const Request& request, const std::optional<Slices>& slices) {
+std::string why_json(const Request& request, const std::optional<CaptureBudget>& slices) {
     const Required required = app::required(request);
     const std::vector<std::string> names = mirror_names(required.now);
-    OrderedJson document{{"schema", "catoptric/why/1"}, {"mirrors", OrderedJson::array()},
-                  {"lights", OrderedJson::array()},     {"left_out", OrderedJson::array()},
-                  {"not_drawn", OrderedJson::array()},  {"suggested", required.suggestion.plan},
-                  {"candidates", OrderedJson::array()}};
+    OrderedJson document{
+        {"schema", "catoptric/why/1"},       {"mirrors", OrderedJson::array()},
+        {"lights", OrderedJson::array()},    {"left_out", OrderedJson::array()},
+        {"not_drawn", OrderedJson::array()}, {"suggested", required.suggestion.plan},
+        {"candidates", OrderedJson::array()}};
     for (const require::Candidate& candidate : required.suggestion.candidates)
         document["candidates"].push_back(
             {{"name", candidate.name}, {"cost", candidate.cost}, {"flip", candidate.error}});
@@ -95,7 +97,7 @@ std::string why_json(const Request& request, const std::optional<Slices>& slices
         document["mirrors"].push_back(mirror_of(required, names[i], i));
     for (std::size_t i = 0; i < required.model.lights.size(); ++i)
         document["lights"].push_back({{"light", i + 1}, {"map", required.model.lights[i].has_map}});
-    for (const require::LeftOut& thing : required.model.left_out)
+    for (const require::CulledWork& thing : required.model.left_out)
         document["left_out"].push_back({{"what", thing.what},
                                         {"why", thing.why},
                                         {"saves", thing.saves},
@@ -106,15 +108,15 @@ std::string why_json(const Request& request, const std::optional<Slices>& slices
                                          {"first", gap->first},
                                          {"pixel_share", *gap->pixel_share}});
     document["captures"] = slices ? OrderedJson{{"mirrors", slices->mirrors},
-                                         {"most", slices->most},
-                                         {"oldest_frames", slices->round() - 1},
-                                         {"round_frames", slices->round()},
-                                         {"said", to_text(*slices)}}
+                                                {"most", slices->most},
+                                                {"oldest_frames", slices->round() - 1},
+                                                {"round_frames", slices->round()},
+                                                {"said", to_text(*slices)}}
                                   : OrderedJson();
     return document.dump(2, ' ', true, OrderedJson::error_handler_t::replace) + "\n";
 }
 
-std::optional<Slices> measured_slices(Engine& engine, const Request& request) {
+std::optional<CaptureBudget> measured_slices(Engine& engine, const Request& request) {
     constexpr int kCuts = 5; // the first ones compile what they use
     Session session(engine, request.scene);
     FrameSpec spec = request;

@@ -1,7 +1,7 @@
 #include "bvh/bvh.hpp"
 
 #include "bvh/copies.hpp"
-#include "bvh/crown.hpp"
+#include "bvh/top_level_tree.hpp"
 #include "core/error.hpp"
 #include "core/large_pages.hpp"
 #include "core/parallel.hpp"
@@ -65,7 +65,7 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, Copies
     // Of references that nobody wrote nothing is read.
     const auto memory = std::make_unique_for_overwrite<Reference[]>(2 * triangles.size());
     const References references(memory.get(), 2 * triangles.size());
-    wish_large_pages(references.data(), references.size_bytes());
+    advise_large_pages(references.data(), references.size_bytes());
     Workspace work{triangles,
                    {references.first(triangles.size()), references.last(triangles.size())},
                    nullptr,
@@ -75,7 +75,7 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, Copies
     Bvh bvh;
     bvh.dropped = triangles.size() - root.count;
     bvh.triangles.reserve(3 * root.count);
-    wish_large_pages(bvh.triangles.data(), bvh.triangles.capacity() * sizeof(vec4));
+    advise_large_pages(bvh.triangles.data(), bvh.triangles.capacity() * sizeof(vec4));
     bvh.triangles.resize(3 * root.count);
     work.triangles = bvh.triangles.data();
     bvh.nodes.resize(4, vec4(0));

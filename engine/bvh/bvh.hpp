@@ -20,13 +20,14 @@ inline constexpr std::uint32_t kShadowless = f32::kBvhShadowless; ///< shadow ra
 inline constexpr std::uint32_t kSphere = f32::kBvhSphere;         ///< stands for an exact sphere
 inline constexpr std::uint32_t kOneSided = f32::kBvhOneSided; ///< where skipped: met in front alone
 inline constexpr std::uint32_t kMasked = f32::kBvhMasked;     ///< parts of it may be cut out
-inline constexpr std::uint32_t kBall = f32::kBvhBall;         ///< no triangle: see `ball`
+inline constexpr std::uint32_t kBall = f32::kBvhBall;         ///< no triangle: see `sphere`
 inline constexpr std::uint32_t kMaxDepth = f32::kBvhMaxDepth;
 inline constexpr std::uint32_t kMaxLeaf = 4; ///< triangles in a leaf
 
-/// A sphere in a triangle's place, for walks that know balls (TRACE_BALLS of
+/// A sphere in a triangle's place, for walks that know spheres (TRACE_BALLS of
 /// shaders/lib/trace.glsl).
-inline Triangle ball(const vec3& centre, float radius, std::uint32_t object, std::uint32_t flags) {
+inline Triangle sphere(const vec3& centre, float radius, std::uint32_t object,
+                       std::uint32_t flags) {
     return {centre, vec3(radius, 0, 0), vec3(0), object, flags | kBall};
 }
 

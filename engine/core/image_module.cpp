@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFile = "catoptric-images.so";
 constexpr std::size_t kRoom = std::size_t{512} << 20; // all its libraries
 constexpr const char* kModuleNeeds = "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
-                                "libopenimageio2.4)";
+                                     "libopenimageio2.4)";
 
 /// The folder of the library or program that this function is part of.
 fs::path own_folder() {
@@ -44,7 +44,8 @@ fs::path module_file() {
     for (const fs::path& folder : folders)
         if (fs::exists(folder / kFile)) return folder / kFile;
     fail(Failure::internal, "pictures cannot be read or written: ", kFile, " is in none of ",
-         folders[0].string(), ", ", folders[1].string(), ", ", folders[2].string(), ". ", kModuleNeeds);
+         folders[0].string(), ", ", folders[1].string(), ", ", folders[2].string(), ". ",
+         kModuleNeeds);
 }
 
 const ImageCodecs* load() {

@@ -79,7 +79,8 @@ std::string png_bytes(const ImageShape& shape, std::span<const std::uint8_t> val
           " cannot be written as PNG: wanted 1 to 4 channels, found ", shape.channel_count, " and ",
           values.size(), " values");
     Destination destination;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &destination, give_up_writing, ignore_warning_of_writing);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &destination, give_up_writing,
+                                              ignore_warning_of_writing);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     const auto destroy = [&](png_structp) { png_destroy_write_struct(&png, &info); };
     const std::unique_ptr<png_struct, decltype(destroy)> owner(png, destroy);

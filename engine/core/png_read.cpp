@@ -96,7 +96,8 @@ void convert(const std::uint8_t* row, std::size_t count, bool is_wide, Value* va
 
 struct PngReader::Open {
     Open(const ByteSource& bytes, const std::string& its_name) : origin{bytes}, name(its_name) {
-        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &origin, give_up_reading, ignore_warning_of_reading);
+        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &origin, give_up_reading,
+                                     ignore_warning_of_reading);
         info = png ? png_create_info_struct(png) : nullptr;
         if (!info) {
             png_destroy_read_struct(&png, &info, nullptr);

@@ -23,7 +23,7 @@ public:
 
     VkPipelineCache handle() const { return cache_; }
     /// Whether there is a file to keep pipelines in, and what the driver was given from it.
-    bool is_kept() const { return !file_.empty(); }
+    bool is_persistent() const { return !file_.empty(); }
     std::size_t loaded_bytes() const { return known_.size(); }
     /// A sentence for the user; empty where all is well.
     const std::string& warning() const { return warning_; }

@@ -66,10 +66,10 @@ Access access_to_all(const Graph& graph, std::uint32_t image) {
     return {.id = image, .layer_count = desc.layers, .mip_count = desc.mips};
 }
 
-Ledger<char> wanted_parts(const Graph& graph) {
+Ledger<char> output_parts(const Graph& graph) {
     Ledger<char> wanted(graph, false);
-    for (const Image& image : graph.wanted_images()) wanted.set(access_to(image), true);
-    for (const Buffer& buffer : graph.wanted_buffers())
+    for (const Image& image : graph.output_images()) wanted.set(access_to(image), true);
+    for (const Buffer& buffer : graph.output_buffers())
         wanted.set({.is_buffer = true, .id = buffer.id}, true);
     return wanted;
 }

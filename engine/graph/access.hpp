@@ -124,6 +124,6 @@ Access access_to(const Image& image);
 /// All of an image.
 Access access_to_all(const Graph& graph, std::uint32_t image);
 /// True for every layer and buffer that the graph wants.
-Ledger<char> wanted_parts(const Graph& graph);
+Ledger<char> output_parts(const Graph& graph);
 
 } // namespace catoptric::graph

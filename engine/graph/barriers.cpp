@@ -100,7 +100,7 @@ State arrived(Use use) {
 
 /// How an image is at the start of a frame.
 State at_start(const Graph& graph, std::uint32_t image) {
-    if (graph.lifetime(image) == Lifetime::kept) return arrived(Use::sampled);
+    if (graph.lifetime(image) == Lifetime::persistent) return arrived(Use::sampled);
     if (graph.lifetime(image) == Lifetime::imported && graph.arrives(image))
         return arrived(*graph.arrives(image));
     return {};
@@ -196,8 +196,8 @@ private:
     MemoryUsers users_;
 };
 
-void order_wanted(const Access& whole, const Ledger<char>& wanted, Tracker& tracker,
-                  std::vector<Barrier>& barriers) {
+void order_outputs(const Access& whole, const Ledger<char>& wanted, Tracker& tracker,
+                   std::vector<Barrier>& barriers) {
     const auto leave = [&](std::uint32_t first, std::uint32_t end, bool is_wanted) {
         if (!is_wanted) return;
         for_each_rectangle(first, end, wanted.layers_of(whole),
@@ -213,14 +213,15 @@ void order_wanted(const Access& whole, const Ledger<char>& wanted, Tracker& trac
 }
 
 void order_end(const Graph& graph, Tracker& tracker, Plan& plan) {
-    const Ledger<char> wanted = wanted_parts(graph);
+    const Ledger<char> wanted = output_parts(graph);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const Access whole = access_to_all(graph, i);
-        const bool stays = graph.lifetime(i) == Lifetime::kept; // also where no pass touches it
+        const bool stays = graph.lifetime(i) ==
+                           Lifetime::persistent; // also where no pass touches it
         switch (plan.images[i].used || stays ? graph.lifetime(i) : Lifetime::frame) {
-        case Lifetime::frame: order_wanted(whole, wanted, tracker, plan.last); break;
+        case Lifetime::frame: order_outputs(whole, wanted, tracker, plan.last); break;
         case Lifetime::previous: tracker.leave(whole, Use::sampled, true, plan.last); break;
-        case Lifetime::kept: tracker.leave(whole, Use::sampled, false, plan.last); break;
+        case Lifetime::persistent: tracker.leave(whole, Use::sampled, false, plan.last); break;
         case Lifetime::imported:
             tracker.leave(whole, graph.leaves(i), graph.arrives(i) != graph.leaves(i), plan.last);
             break;
@@ -231,7 +232,7 @@ void order_end(const Graph& graph, Tracker& tracker, Plan& plan) {
         if (plan.buffers[b].used && graph.is_imported({b}))
             tracker.leave(whole, Use::copy_from, false, plan.last);
         else
-            order_wanted(whole, wanted, tracker, plan.last);
+            order_outputs(whole, wanted, tracker, plan.last);
     }
 }
 

@@ -12,17 +12,17 @@ namespace catoptric::graph {
 constexpr std::uint32_t kMostInFlight = 3;
 
 /// An image that outlives the frame.
-struct Kept {
+struct PersistentImage {
     Lifetime lifetime = Lifetime::previous;
     std::vector<Physical> copies; ///< with `previous` this frame's and the last one's; else one
     gpu::UniqueMemory memory;
     std::uint64_t bytes = 0; ///< of it
     std::size_t last = 0;    ///< index of the copy that holds the last frame
     bool valid = false;      ///< there was one
-    Stamps stamps;           ///< of a kept one
+    ContentHashes stamps;    ///< of a kept one
 
     Physical& copy(bool previous) {
-        return lifetime == Lifetime::kept ? copies[0] : copies[previous ? last : 1 - last];
+        return lifetime == Lifetime::persistent ? copies[0] : copies[previous ? last : 1 - last];
     }
 };
 
@@ -42,13 +42,13 @@ struct Compiled {
 
     Resources shared;                         ///< what lives within a frame
     std::array<Resources, kMostInFlight> own; ///< what is wanted of a frame, one for each slot
-    std::vector<Kept*> kept;                  ///< by image; of the frame that was submitted last
+    std::vector<PersistentImage*> kept;       ///< by image; of the frame that was submitted last
 
     /// Whether the image has memory of its own, through frames. A kept one may be read after a
     /// frame whose passes do not touch it.
-    bool is_kept(std::uint32_t image) const {
+    bool is_persistent(std::uint32_t image) const {
         const Lifetime lifetime = outline.lifetime(image);
-        return lifetime == Lifetime::kept ||
+        return lifetime == Lifetime::persistent ||
                (lifetime == Lifetime::previous && plan.images[image].used);
     }
     /// Whether its memory is the runner's.
@@ -60,7 +60,7 @@ struct Compiled {
     }
     /// Where a frame of the slot has the image.
     Physical& physical(Image image, std::size_t slot) {
-        if (Kept* const k = kept[image.id]) return k->copy(image.previous);
+        if (PersistentImage* const k = kept[image.id]) return k->copy(image.previous);
         return (plan.images[image.id].alone ? own[slot] : shared).images[image.id];
     }
     VkBuffer buffer(Buffer buffer, std::size_t slot) const {

@@ -8,9 +8,9 @@ namespace {
 
 /// What must be whole at the end of the frame.
 Ledger<char> live_at_end(const Graph& graph) {
-    Ledger<char> live = wanted_parts(graph);
+    Ledger<char> live = output_parts(graph);
     for (std::uint32_t i = 0; i < graph.images().size(); ++i)
-        if (graph.lifetime(i) == Lifetime::kept || graph.lifetime(i) == Lifetime::imported)
+        if (graph.lifetime(i) == Lifetime::persistent || graph.lifetime(i) == Lifetime::imported)
             live.set(access_to_all(graph, i), true);
     for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
         if (graph.is_imported({b})) live.set({.is_buffer = true, .id = b}, true);

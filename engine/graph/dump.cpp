@@ -145,7 +145,7 @@ Json image_json(const ImageDesc& desc, Lifetime lifetime, const Placement& place
               {"layers", desc.layers},
               {"cube", desc.cube}};
     if (desc.mips > 1) json["mips"] = desc.mips;
-    if (lifetime == Lifetime::kept) json["kept"] = true;
+    if (lifetime == Lifetime::persistent) json["kept"] = true;
     if (lifetime == Lifetime::imported) json["imported"] = true;
     add_placement(json, placement);
     return json;
@@ -203,7 +203,7 @@ std::string to_text(const Graph& graph, const Plan& plan) {
             << "x" << desc.height << ", " << counted(desc.layers, "layer", "s")
             << (desc.cube ? " (cube)" : "");
         if (desc.mips > 1) out << ", " << counted(desc.mips, "mip", "s");
-        if (graph.lifetime(i) == Lifetime::kept) out << ", kept";
+        if (graph.lifetime(i) == Lifetime::persistent) out << ", kept";
         if (graph.lifetime(i) == Lifetime::imported) out << ", imported";
         write_placement(out, sharers, plan.images[i]);
     }

@@ -13,7 +13,8 @@ template <typename Visit>
 void for_each_placement(const Compiled& shape, bool alone, const Visit& visit) {
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
         const Placement& placement = shape.plan.images[i];
-        if (shape.is_owned(i) && placement.alone == alone && !shape.is_kept(i)) visit(placement);
+        if (shape.is_owned(i) && placement.alone == alone && !shape.is_persistent(i))
+            visit(placement);
     }
     for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b)
         if (shape.is_owned(Buffer{b}) && shape.plan.buffers[b].alone == alone)
@@ -78,7 +79,7 @@ void FrameMemory::make(Compiled& shape, Resources& resources, const Arena& arena
         const Placement& p = shape.plan.images[i];
         const ImageDesc& desc = shape.outline.images()[i];
         resources.images.emplace_back();
-        if (!shape.is_owned(i) || p.alone != alone || shape.is_kept(i)) continue;
+        if (!shape.is_owned(i) || p.alone != alone || shape.is_persistent(i)) continue;
         resources.images.back() = make_physical(device_, desc);
         gpu::check_vk(vkBindImageMemory(device_.handle(), resources.images.back().image,
                                         arena.heaps[p.heap], offset_of(p)),

@@ -90,12 +90,13 @@ Buffer Graph::buffer(BufferDesc desc) {
     return {static_cast<std::uint32_t>(buffers_.size() - 1)};
 }
 
-Image Graph::kept(ImageDesc desc) {
-    const auto found = history_.kept.find(desc.name);
-    Stamps held(desc.layers * desc.mips);
-    if (found != history_.kept.end() && found->second.desc == desc) held = found->second.stamps;
+Image Graph::persistent(ImageDesc desc) {
+    const auto found = history_.persistent.find(desc.name);
+    ContentHashes held(desc.layers * desc.mips);
+    if (found != history_.persistent.end() && found->second.desc == desc)
+        held = found->second.stamps;
     const Image handle = image(std::move(desc));
-    lives_.back().lifetime = Lifetime::kept;
+    lives_.back().lifetime = Lifetime::persistent;
     lives_.back().held = std::move(held);
     return handle;
 }
@@ -106,24 +107,25 @@ const ImageDesc& Graph::described(Image image, const char* asked) const {
     return images_[image.id];
 }
 
-bool Graph::holds(Image part, std::uint64_t stamp) const {
+bool Graph::holds_content(Image part, std::uint64_t content_hash) const {
     const ImageDesc& desc = described(part, "holds()");
-    check(lifetime(part.id) == Lifetime::kept, Failure::internal, "holds() of image '", desc.name,
-          "', which is not kept");
+    check(lifetime(part.id) == Lifetime::persistent, Failure::internal, "holds() of image '",
+          desc.name, "', which is not kept");
     bool all = true;
     for_each_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
-        held(part.id).each(first, end,
-                           [&](std::uint32_t, std::uint32_t,
-                               const std::optional<std::uint64_t>& s) { all = all && s == stamp; });
+        held(part.id).each(
+            first, end, [&](std::uint32_t, std::uint32_t, const std::optional<std::uint64_t>& s) {
+                all = all && s == content_hash;
+            });
     });
     return all;
 }
 
-void Graph::made_from(Image part, std::uint64_t stamp) {
+void Graph::set_content_hash(Image part, std::uint64_t content_hash) {
     const ImageDesc& desc = described(part, "made_from()");
-    check(lifetime(part.id) == Lifetime::kept, Failure::internal, "made_from() of image '",
+    check(lifetime(part.id) == Lifetime::persistent, Failure::internal, "made_from() of image '",
           desc.name, "', which is not kept");
-    stamped_.push_back({part, stamp});
+    stamped_.push_back({part, content_hash});
 }
 
 Image Graph::import(ImageDesc desc, Physical* outside, std::optional<Use> arrives, Use leaves) {
@@ -132,7 +134,7 @@ Image Graph::import(ImageDesc desc, Physical* outside, std::optional<Use> arrive
                      .arrives = arrives,
                      .leaves = leaves,
                      .outside = outside,
-                     .held = Stamps()};
+                     .held = ContentHashes()};
     return handle;
 }
 
@@ -155,7 +157,7 @@ Image Graph::previous(Image image) {
     Lifetime& lifetime = lives_[image.id].lifetime;
     check(lifetime == Lifetime::frame || lifetime == Lifetime::previous, Failure::internal,
           "previous() of image '", desc.name, "', which is ",
-          lifetime == Lifetime::kept ? "kept" : "imported", " and has one copy");
+          lifetime == Lifetime::persistent ? "kept" : "imported", " and has one copy");
     lifetime = Lifetime::previous;
     image.previous = true;
     return image;
@@ -165,19 +167,20 @@ bool Graph::has_history(Image image) const {
     return history_.previous.contains(described(image, "has_history()").name);
 }
 
-void Graph::want(Image image) { wanted_images_.push_back(image); }
-void Graph::want(Buffer buffer) { wanted_buffers_.push_back(buffer); }
+void Graph::mark_output(Image image) { wanted_images_.push_back(image); }
+void Graph::mark_output(Buffer buffer) { wanted_buffers_.push_back(buffer); }
 
 History Graph::left() const {
     History left = history_;
     for (std::uint32_t i = 0; i < images_.size(); ++i) {
         if (lives_[i].lifetime == Lifetime::previous) left.previous.insert(images_[i].name);
-        if (lives_[i].lifetime == Lifetime::kept)
-            left.kept.insert_or_assign(images_[i].name, History::Kept{images_[i], lives_[i].held});
+        if (lives_[i].lifetime == Lifetime::persistent)
+            left.persistent.insert_or_assign(images_[i].name,
+                                             History::PersistentImage{images_[i], lives_[i].held});
     }
-    for (const auto& [part, stamp] : stamped_)
+    for (const auto& [part, content_hash] : stamped_)
         for_each_range(part, images_[part.id].layers, [&](std::uint32_t first, std::uint32_t end) {
-            left.kept.at(images_[part.id].name).stamps.set(first, end, stamp);
+            left.persistent.at(images_[part.id].name).stamps.set(first, end, content_hash);
         });
     return left;
 }

@@ -68,10 +68,10 @@ struct BufferDesc {
 
 /// How long contents live.
 enum class Lifetime {
-    frame,    ///< between the passes of a frame
-    previous, ///< and in the next frame, which reads them beside its own
-    kept,     ///< until a pass writes them again
-    imported, ///< as long as somebody else says
+    frame,      ///< between the passes of a frame
+    previous,   ///< and in the next frame, which reads them beside its own
+    persistent, ///< until a pass writes them again
+    imported,   ///< as long as somebody else says
 };
 
 /// Names an image of one graph, or some of its layers and mips, or its contents of the frame
@@ -158,22 +158,22 @@ private:
 
 /// For each layer of each mip (layer l of mip m has number m * layers + l) what it was made from;
 /// nothing: it was never written.
-using Stamps = Runs<std::optional<std::uint64_t>>;
+using ContentHashes = Runs<std::optional<std::uint64_t>>;
 
 /// What a runner has of the frames before.
 struct History {
-    struct Kept {
+    struct PersistentImage {
         ImageDesc desc;
-        Stamps stamps;
+        ContentHashes stamps;
     };
-    std::set<std::string> previous;   ///< images whose contents of the last frame exist
-    std::map<std::string, Kept> kept; ///< by name
+    std::set<std::string> previous; ///< images whose contents of the last frame exist
+    std::map<std::string, PersistentImage> persistent; ///< by name
 };
 
 /// What this frame writes into a part of a kept image is made from what the number stands for.
-struct Stamped {
+struct ContentRecord {
     Image part;
-    std::uint64_t stamp = 0;
+    std::uint64_t content_hash = 0;
 };
 
 class Graph {
@@ -188,13 +188,13 @@ public:
     /// An image whose contents stay, under its name, until a pass writes them again; also through
     /// frames that do not declare it. Its memory is taken for as long as the runner lives. Another
     /// description under the same name starts anew.
-    Image kept(ImageDesc desc);
+    Image persistent(ImageDesc desc);
     /// Whether all of the part of a kept image holds what was made from `stamp`, so that no pass
     /// needs to write it. What `stamp` stands for is the caller's: a hash of scene and settings.
-    bool holds(Image part, std::uint64_t stamp) const;
+    bool holds_content(Image part, std::uint64_t content_hash) const;
     /// Says what passes of this frame make the part of a kept image from. Every layer that is
     /// written must be said to be made from something.
-    void made_from(Image part, std::uint64_t stamp);
+    void set_content_hash(Image part, std::uint64_t content_hash);
     /// An image of somebody else's, used like any other; what is written to it is wanted. It comes
     /// in the layout of the use `arrives` (nothing: its contents do not matter) and is left in that
     /// of `leaves`. `outside`, which may differ from frame to frame, must be as `desc` says and
@@ -210,15 +210,15 @@ public:
     /// False on the first frame, when `previous` would show black.
     bool has_history(Image image) const;
     /// The result of the frame: passes that no wanted image depends on are left out.
-    void want(Image image);
-    void want(Buffer buffer);
+    void mark_output(Image image);
+    void mark_output(Buffer buffer);
 
     const std::vector<ImageDesc>& images() const { return images_; }
     const std::vector<BufferDesc>& buffers() const { return buffers_; }
     const std::deque<Pass>& passes() const { return passes_; }
-    const std::vector<Image>& wanted_images() const { return wanted_images_; }
-    const std::vector<Buffer>& wanted_buffers() const { return wanted_buffers_; }
-    const std::vector<Stamped>& stamps() const { return stamped_; }
+    const std::vector<Image>& output_images() const { return wanted_images_; }
+    const std::vector<Buffer>& output_buffers() const { return wanted_buffers_; }
+    const std::vector<ContentRecord>& stamps() const { return stamped_; }
     Lifetime lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
     bool is_imported(Buffer buffer) const { return imported_buffers_[buffer.id]; }
     /// Of an imported image.
@@ -227,7 +227,7 @@ public:
     Physical* outside(std::uint32_t image) const { return lives_[image].outside; }
     const gpu::Buffer* outside(Buffer buffer) const { return outside_buffers_[buffer.id]; }
     /// Of a kept image: what it holds at the start of the frame.
-    const Stamps& held(std::uint32_t image) const { return lives_[image].held; }
+    const ContentHashes& held(std::uint32_t image) const { return lives_[image].held; }
     /// What there is for the next frame once this one has run.
     History left() const;
     /// The declarations alone, to compare other graphs with.
@@ -239,7 +239,7 @@ private:
         std::optional<Use> arrives;
         Use leaves = Use::sampled;
         Physical* outside = nullptr;
-        Stamps held;
+        ContentHashes held;
     };
     const ImageDesc& described(Image image, const char* asked) const;
 
@@ -252,7 +252,7 @@ private:
     std::deque<Pass> passes_; // builders hold references
     std::vector<Image> wanted_images_;
     std::vector<Buffer> wanted_buffers_;
-    std::vector<Stamped> stamped_;
+    std::vector<ContentRecord> stamped_;
 };
 
 } // namespace catoptric::graph

@@ -102,8 +102,8 @@ void find_lifetimes(const Graph& graph, const Accesses& all, Plan& plan) {
         plan.images[i].alone = plan.images[i].used && graph.lifetime(i) != Lifetime::frame;
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
         plan.buffers[b].alone = plan.buffers[b].used && graph.is_imported({b});
-    for (const Image& image : graph.wanted_images()) plan.images[image.id].alone = true;
-    for (const Buffer& buffer : graph.wanted_buffers()) plan.buffers[buffer.id].alone = true;
+    for (const Image& image : graph.output_images()) plan.images[image.id].alone = true;
+    for (const Buffer& buffer : graph.output_buffers()) plan.buffers[buffer.id].alone = true;
 }
 
 void place(const Graph& graph, const Sizer& sizer, Plan& plan) {

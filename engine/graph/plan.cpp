@@ -26,7 +26,7 @@ void cull(const Graph& graph, const Accesses& all, Plan& plan) {
 }
 
 bool has_own_memory(Lifetime lifetime) {
-    return lifetime == Lifetime::previous || lifetime == Lifetime::kept;
+    return lifetime == Lifetime::previous || lifetime == Lifetime::persistent;
 }
 
 /// Bytes of the largest allocation: images that outlive the frame have one each, all else of a heap

@@ -47,7 +47,7 @@ std::vector<std::byte> Runner::read(Ticket ticket, Image image) {
     const Slot& slot = slot_of(ticket);
     Compiled& shape = *slot.shape;
     const ImageDesc& desc = shape.outline.images()[image.id];
-    const bool kept = shape.is_kept(image.id);
+    const bool kept = shape.is_persistent(image.id);
     check(!kept || ticket.frame == frame_, Failure::internal, "image '", desc.name, "' of frame ",
           ticket.frame, " is read after frame ", frame_,
           " was submitted, which may have changed it");
@@ -87,7 +87,7 @@ std::vector<std::byte> Runner::read_history() {
     if (frame_ == 0) return history;
     const Compiled& shape = *slot_of({frame_}).shape;
     for (std::uint32_t id = 0; id < shape.outline.images().size(); ++id) {
-        if (!shape.is_kept(id) || shape.outline.lifetime(id) != Lifetime::previous) continue;
+        if (!shape.is_persistent(id) || shape.outline.lifetime(id) != Lifetime::previous) continue;
         const ImageDesc& desc = shape.outline.images()[id];
         const std::vector<std::byte> image = read(
             Image{.id = id, .layer_count = desc.layers, .mip_count = desc.mips});

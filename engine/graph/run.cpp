@@ -79,24 +79,24 @@ Runner::~Runner() {
 }
 
 /// No frame is under way any more, and none that has ended refers to what was kept.
-void Runner::let_go_of_kept() {
+void Runner::release_persistent() {
     finish_all();
     for (Slot& slot : slots_)
         if (slot.shape) slot.shape->kept.assign(slot.shape->kept.size(), nullptr);
 }
 
 void Runner::forget() {
-    let_go_of_kept();
+    release_persistent();
     kept_.forget();
 }
 
-Leavings Runner::set_aside() {
-    let_go_of_kept();
+RetainedImages Runner::suspend() {
+    release_persistent();
     return kept_.take();
 }
 
-void Runner::resume(Leavings leavings) {
-    let_go_of_kept();
+void Runner::resume(RetainedImages leavings) {
+    release_persistent();
     kept_.put(std::move(leavings));
 }
 
@@ -127,7 +127,7 @@ Compiled& Runner::compile(const Graph& graph) {
     return *shapes_.front();
 }
 
-Ticket Runner::submit(const Graph& graph, Timing timing, bool stays, const Outside& outside) {
+Ticket Runner::submit(const Graph& graph, Timing timing, bool stays, const ExternalSync& outside) {
     device_.check_usable();
     const double waited_before = wait_ms_;
     Compiled& shape = compile(graph);
@@ -157,7 +157,7 @@ Ticket Runner::submit(const Graph& graph, Timing timing, bool stays, const Outsi
     return {frame_};
 }
 
-void Runner::submit(Slot& slot, const Compiled& shape, const Outside& outside) {
+void Runner::submit(Slot& slot, const Compiled& shape, const ExternalSync& outside) {
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot.commands;
     const auto at = [](VkSemaphore semaphore, std::uint64_t value) {

@@ -3,7 +3,7 @@
 #include "gpu/buffer.hpp"
 #include "gpu/pipeline.hpp"
 #include "graph/frame_memory.hpp"
-#include "graph/kept_images.hpp"
+#include "graph/persistent_images.hpp"
 #include "graph/record.hpp"
 
 namespace catoptric::graph {
@@ -14,7 +14,7 @@ struct Ticket {
 };
 
 /// Somebody else's semaphores: the frame begins after the one and ends with the other; null: none.
-struct Outside {
+struct ExternalSync {
     VkSemaphore wait = VK_NULL_HANDLE;
     VkSemaphore signal = VK_NULL_HANDLE;
 };
@@ -39,10 +39,10 @@ public:
     void forget();
     /// All that was kept of earlier frames, taken away: the next frame is as the first. Waits for
     /// what is in flight.
-    Leavings set_aside();
+    RetainedImages suspend();
     /// The next frame goes on from what was set aside; what is kept now is dropped. Waits for what
     /// is in flight.
-    void resume(Leavings leavings);
+    void resume(RetainedImages leavings);
     Limits limits() const;
     /// The plan of the graph's shape: found among those of the last 8 shapes, or made. Valid until
     /// 8 others were asked for. Throws what graph::plan throws.
@@ -56,7 +56,7 @@ public:
     /// `stays`: a frame beside the sequence; the next one has the history that this one had.
     /// Throws `exhausted`; `device_lost` where it had to wait or the device refused the frame.
     Ticket submit(const Graph& graph, Timing timing, bool stays = false,
-                  const Outside& outside = {});
+                  const ExternalSync& outside = {});
     /// Waits until the frame has ended; at once when that was done before. Throws `device_lost`
     /// (naming the frame's passes), and `internal` when its place was taken by a later frame.
     const FrameTimes& wait(Ticket ticket);
@@ -82,16 +82,16 @@ private:
     Compiled& compile(const Graph& graph);
     Slot& slot_of(Ticket ticket);
     std::size_t index_of(std::uint64_t frame) const { return (frame - 1) % slots_.size(); }
-    void submit(Slot& slot, const Compiled& shape, const Outside& outside);
+    void submit(Slot& slot, const Compiled& shape, const ExternalSync& outside);
     void finish(Slot& slot);
     void finish_all();
-    void let_go_of_kept();
+    void release_persistent();
 
     gpu::Device& device_;
     Recorder recorder_;
     gpu::UniqueSemaphore timeline_;
     FrameMemory memory_;
-    KeptImages kept_;
+    PersistentImages kept_;
     std::vector<std::shared_ptr<Compiled>> shapes_; ///< the one that was asked for last comes first
     std::vector<Slot> slots_;
     std::uint64_t frame_ = 0; ///< of the last submit

@@ -57,8 +57,8 @@ void add(Hash& hash, const Pass& pass) {
 /// Where a kept image holds something.
 std::vector<std::uint32_t> held_ranges(const Graph& graph, std::uint32_t image) {
     std::vector<std::uint32_t> ranges;
-    graph.held(image).each([&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
-        if (!stamp) return;
+    graph.held(image).each([&](std::uint32_t first, std::uint32_t end, const auto& content_hash) {
+        if (!content_hash) return;
         const bool continues = !ranges.empty() && ranges.back() == first;
         if (continues) ranges.pop_back();
         if (!continues) ranges.push_back(first);
@@ -73,7 +73,7 @@ void add_lifetime(Hash& hash, const Graph& graph, std::uint32_t image) {
         const std::optional<Use> arrives = graph.arrives(image);
         hash.add(arrives ? 1 + number(*arrives) : 0, number(graph.leaves(image)));
     }
-    if (graph.lifetime(image) == Lifetime::kept)
+    if (graph.lifetime(image) == Lifetime::persistent)
         for (const std::uint32_t end : held_ranges(graph, image)) hash.add(end);
 }
 
@@ -82,7 +82,7 @@ bool same_lifetime(const Graph& a, const Graph& b, std::uint32_t image) {
     if (lifetime != b.lifetime(image)) return false;
     if (lifetime == Lifetime::imported)
         return a.arrives(image) == b.arrives(image) && a.leaves(image) == b.leaves(image);
-    return lifetime != Lifetime::kept || held_ranges(a, image) == held_ranges(b, image);
+    return lifetime != Lifetime::persistent || held_ranges(a, image) == held_ranges(b, image);
 }
 
 bool same(const ImageUse& a, const ImageUse& b) {
@@ -110,23 +110,24 @@ std::uint64_t shape_hash(const Graph& graph) {
         hash.add(graph.buffers()[b].name);
         hash.add(graph.buffers()[b].bytes << 1 | graph.is_imported({b}));
     }
-    for (const Stamped& stamped : graph.stamps()) add(hash, stamped.part);
+    for (const ContentRecord& stamped : graph.stamps()) add(hash, stamped.part);
     for (const Pass& pass : graph.passes()) add(hash, pass);
-    for (const Image& image : graph.wanted_images()) add(hash, image);
-    for (const Buffer& buffer : graph.wanted_buffers()) hash.add(buffer.id);
+    for (const Image& image : graph.output_images()) add(hash, image);
+    for (const Buffer& buffer : graph.output_buffers()) hash.add(buffer.id);
     return hash.value();
 }
 
 bool has_shape(const Graph& graph, const Graph& known) {
     if (graph.images() != known.images() || graph.buffers() != known.buffers() ||
-        graph.wanted_images() != known.wanted_images() ||
-        graph.wanted_buffers() != known.wanted_buffers())
+        graph.output_images() != known.output_images() ||
+        graph.output_buffers() != known.output_buffers())
         return false;
     for (std::uint32_t i = 0; i < graph.images().size(); ++i)
         if (!same_lifetime(graph, known, i)) return false;
     for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
         if (graph.is_imported({b}) != known.is_imported({b})) return false;
-    if (!std::ranges::equal(graph.stamps(), known.stamps(), {}, &Stamped::part, &Stamped::part))
+    if (!std::ranges::equal(graph.stamps(), known.stamps(), {}, &ContentRecord::part,
+                            &ContentRecord::part))
         return false;
     return std::ranges::equal(graph.passes(), known.passes(),
                               [](const Pass& a, const Pass& b) { return same(a, b); });

@@ -44,8 +44,8 @@ void check_names(const Graph& graph) {
 void check_image(const ImageDesc& desc, const Limits& limits) {
     check(desc.width > 0 && desc.height > 0 && desc.layers > 0, kInvalidGraph, "image '", desc.name,
           "' is empty: ", desc.width, "x", desc.height, ", ", desc.layers, " layers");
-    check(!desc.cube || desc.layers % 6 == 0, kInvalidGraph, "image '", desc.name, "' is a cube, but its ",
-          desc.layers, " layers are not a multiple of 6");
+    check(!desc.cube || desc.layers % 6 == 0, kInvalidGraph, "image '", desc.name,
+          "' is a cube, but its ", desc.layers, " layers are not a multiple of 6");
     check(!desc.cube || desc.width == desc.height, kInvalidGraph, "image '", desc.name,
           "' is a cube, but not square: ", desc.width, "x", desc.height);
     const std::uint32_t size = std::max(desc.width, desc.height);
@@ -76,7 +76,7 @@ Ledger<char> there_at_start(const Graph& graph) {
     for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
         const Access all = access_to_all(graph, i);
         if (graph.lifetime(i) == Lifetime::imported && graph.arrives(i)) there.set(all, true);
-        if (graph.lifetime(i) != Lifetime::kept) continue;
+        if (graph.lifetime(i) != Lifetime::persistent) continue;
         graph.held(i).each([&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
             if (stamp) there.of(all).set(first, end, true);
         });
@@ -100,7 +100,7 @@ Ledger<char> check_order(const Graph& graph, const Accesses& all) {
     return written;
 }
 
-void check_stamped(const Graph& graph, const Stamped& stamped) {
+void check_stamped(const Graph& graph, const ContentRecord& stamped) {
     const Access part = access_to(stamped.part);
     const ImageDesc& desc = graph.images()[part.id];
     if (part.layer_count == 0 || part.end_layer() > desc.layers || part.mip_count == 0 ||
@@ -114,20 +114,20 @@ void check_stamped(const Graph& graph, const Stamped& stamped) {
 /// What is written to kept images is what is said to be made from something.
 void check_stamps(const Graph& graph, const Accesses& all) {
     Ledger<char> stamped(graph, false), written(graph, false);
-    for (const Stamped& s : graph.stamps()) {
+    for (const ContentRecord& s : graph.stamps()) {
         check_stamped(graph, s);
         stamped.set(access_to(s.part), true);
     }
     for (std::size_t p = 0; p < graph.passes().size(); ++p)
         for (const Access& a : all.of(p)) {
-            if (!a.write || a.is_buffer || graph.lifetime(a.id) != Lifetime::kept) continue;
+            if (!a.write || a.is_buffer || graph.lifetime(a.id) != Lifetime::persistent) continue;
             if (stamped.any(a, false))
-                fail(kInvalidGraph, "pass '", graph.passes()[p].name, "' writes ", describe(graph, a),
-                     ", which is kept, but nobody says what ", missing_layers(graph, stamped, a),
-                     " are made from");
+                fail(kInvalidGraph, "pass '", graph.passes()[p].name, "' writes ",
+                     describe(graph, a), ", which is kept, but nobody says what ",
+                     missing_layers(graph, stamped, a), " are made from");
             written.set(a, true);
         }
-    for (const Stamped& s : graph.stamps())
+    for (const ContentRecord& s : graph.stamps())
         if (const Access a = access_to(s.part); written.any(a, false))
             fail(kInvalidGraph, describe(graph, a),
                  " is said to be made from something, but no pass writes ",
@@ -150,13 +150,14 @@ void check_previous(const Graph& graph, const Accesses& all, const Ledger<char>&
                 refuse_previous(graph, graph.passes()[p], a, written);
 }
 
-void check_wanted(const Graph& graph, const Ledger<char>& written) {
-    for (const Image& image : graph.wanted_images()) {
+void check_outputs(const Graph& graph, const Ledger<char>& written) {
+    for (const Image& image : graph.output_images()) {
         check(image.id < graph.images().size(), kInvalidGraph, "image number ", image.id,
               " is wanted, but the graph has ", graph.images().size());
         const Access a = access_to(image);
         const std::string what = describe(graph, a);
-        check(!image.previous, kInvalidGraph, what, " is wanted: only this frame's contents can be");
+        check(!image.previous, kInvalidGraph, what,
+              " is wanted: only this frame's contents can be");
         const ImageDesc& desc = graph.images()[image.id];
         check(a.layer_count > 0 && a.end_layer() <= desc.layers, kInvalidGraph, what,
               " is wanted, but the image has layers [0,", desc.layers, ")");
@@ -167,7 +168,7 @@ void check_wanted(const Graph& graph, const Ledger<char>& written) {
         const std::string missing = missing_layers(graph, written, a);
         check(missing.empty(), kInvalidGraph, what, " is wanted, but no pass writes ", missing);
     }
-    for (const Buffer& buffer : graph.wanted_buffers()) {
+    for (const Buffer& buffer : graph.output_buffers()) {
         check(buffer.id < graph.buffers().size(), kInvalidGraph, "buffer number ", buffer.id,
               " is wanted, but the graph has ", graph.buffers().size());
         const Access a{.is_buffer = true, .id = buffer.id};
@@ -189,9 +190,9 @@ void validate(const Graph& graph, const Accesses& all, const Limits& limits) {
         validate_pass(graph, graph.passes()[p], all.of(p), limits);
     const Ledger<char> written = check_order(graph, all);
     check_previous(graph, all, written);
-    check_wanted(graph, written);
+    check_outputs(graph, written);
     for (std::uint32_t i = 0; i < graph.images().size(); ++i)
-        if (graph.lifetime(i) == Lifetime::kept) return check_stamps(graph, all);
+        if (graph.lifetime(i) == Lifetime::persistent) return check_stamps(graph, all);
 }
 
 } // namespace catoptric::graph

@@ -33,22 +33,22 @@ bool may_write(Use use, bool is_buffer) {
 
 void check_handle(const Graph& graph, const Pass& pass, const Access& a) {
     const std::size_t count = a.is_buffer ? graph.buffers().size() : graph.images().size();
-    check(a.id < count, kInvalidGraph, "pass '", pass.name, "' names ", a.is_buffer ? "buffer" : "image",
-          " number ", a.id, ", but the graph has ", count);
+    check(a.id < count, kInvalidGraph, "pass '", pass.name, "' names ",
+          a.is_buffer ? "buffer" : "image", " number ", a.id, ", but the graph has ", count);
     if (a.is_buffer) return;
     const auto& [layers, mips] = std::pair(graph.images()[a.id].layers, graph.images()[a.id].mips);
     if (a.layer_count == 0)
-        fail(kInvalidGraph, "pass '", pass.name, "' names no layer of ", quoted_name(graph, a), " as ",
-             name_of(a.use));
+        fail(kInvalidGraph, "pass '", pass.name, "' names no layer of ", quoted_name(graph, a),
+             " as ", name_of(a.use));
     if (a.end_layer() > layers)
-        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe(graph, a), " as ", name_of(a.use),
-             ", but the image has layers [0,", layers, ")");
+        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe(graph, a), " as ",
+             name_of(a.use), ", but the image has layers [0,", layers, ")");
     if (a.mip_count == 0 || a.end_mip() > mips)
-        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe(graph, a), " as ", name_of(a.use),
-             ", but the image has mips [0,", mips, ")");
+        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe(graph, a), " as ",
+             name_of(a.use), ", but the image has mips [0,", mips, ")");
     if (a.mip_count > 1 && a.use != Use::sampled)
-        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe(graph, a), " as ", name_of(a.use),
-             ": one mip at a time");
+        fail(kInvalidGraph, "pass '", pass.name, "' uses ", describe(graph, a), " as ",
+             name_of(a.use), ": one mip at a time");
 }
 
 void check_attachment(const Graph& graph, const Pass& pass, const Access& a) {
@@ -62,21 +62,21 @@ void check_attachment(const Graph& graph, const Pass& pass, const Access& a) {
 /// Text is made only of what is refused: most passes are right.
 void check_use(const Graph& graph, const Pass& pass, const Access& a) {
     if (a.write && a.previous)
-        fail(kInvalidGraph, "pass '", pass.name, "' writes ", describe(graph, a), " as ", name_of(a.use),
-             ": last frame's contents are only read");
+        fail(kInvalidGraph, "pass '", pass.name, "' writes ", describe(graph, a), " as ",
+             name_of(a.use), ": last frame's contents are only read");
     if (!(a.write ? may_write(a.use, a.is_buffer) : may_read(a.use, a.is_buffer)))
-        fail(kInvalidGraph, "pass '", pass.name, "' ", a.write ? "writes " : "reads ", describe(graph, a),
-             " as ", name_of(a.use), ", which is not a way to ", a.write ? "write " : "read ",
-             a.is_buffer ? "a buffer" : "an image");
+        fail(kInvalidGraph, "pass '", pass.name, "' ", a.write ? "writes " : "reads ",
+             describe(graph, a), " as ", name_of(a.use), ", which is not a way to ",
+             a.write ? "write " : "read ", a.is_buffer ? "a buffer" : "an image");
     if (a.clears && !is_attachment(a.use))
-        fail(kInvalidGraph, "pass '", pass.name, "' clears ", describe(graph, a), " as ", name_of(a.use),
-             ", but only attachments are cleared");
+        fail(kInvalidGraph, "pass '", pass.name, "' clears ", describe(graph, a), " as ",
+             name_of(a.use), ", but only attachments are cleared");
     if (a.clears && a.needs && !pass.area)
-        fail(kInvalidGraph, "pass '", pass.name, "' updates ", describe(graph, a), " as ", name_of(a.use),
-             ", but has no area to do it in");
+        fail(kInvalidGraph, "pass '", pass.name, "' updates ", describe(graph, a), " as ",
+             name_of(a.use), ", but has no area to do it in");
     if (pass.is_raster() && (a.use == Use::copy_from || a.use == Use::copy_to))
-        fail(kInvalidGraph, "pass '", pass.name, "' has attachments and uses ", describe(graph, a), " as ",
-             name_of(a.use), ": copies need a pass of their own");
+        fail(kInvalidGraph, "pass '", pass.name, "' has attachments and uses ", describe(graph, a),
+             " as ", name_of(a.use), ": copies need a pass of their own");
     if (!a.is_buffer && is_attachment(a.use)) check_attachment(graph, pass, a);
 }
 
@@ -89,9 +89,9 @@ void check_sizes(const Graph& graph, const Pass& pass, const Access& a, const Ac
     const auto [width, height] = size(x, a);
     const auto [width2, height2] = size(y, b);
     if (width == width2 && height == height2) return;
-    fail(kInvalidGraph, "pass '", pass.name, "' attaches ", describe(graph, a), " as ", name_of(a.use),
-         " (", width, "x", height, ") and ", describe(graph, b), " as ", name_of(b.use), " (",
-         width2, "x", height2, "): attachments have one size");
+    fail(kInvalidGraph, "pass '", pass.name, "' attaches ", describe(graph, a), " as ",
+         name_of(a.use), " (", width, "x", height, ") and ", describe(graph, b), " as ",
+         name_of(b.use), " (", width2, "x", height2, "): attachments have one size");
 }
 
 void check_attachments(const Graph& graph, const Pass& pass, std::span<const Access> all) {
@@ -104,8 +104,8 @@ void check_attachments(const Graph& graph, const Pass& pass, std::span<const Acc
                  " layer(s), but attaches ", describe(graph, a), " as ", name_of(a.use),
                  ", which are ", a.layer_count);
         if (a.use == Use::depth && depth)
-            fail(kInvalidGraph, "pass '", pass.name, "' attaches both ", describe(graph, *depth), " and ",
-                 describe(graph, a), " as depth");
+            fail(kInvalidGraph, "pass '", pass.name, "' attaches both ", describe(graph, *depth),
+                 " and ", describe(graph, a), " as depth");
         if (a.use == Use::depth) depth = &a;
         if (!first) first = &a;
         check_sizes(graph, pass, *first, a);
@@ -126,8 +126,9 @@ void check_pair(const Graph& graph, const Pass& pass, const Access& a, const Acc
                                      base + static_cast<std::uint32_t>(end));
     };
     if (a.write && b.write)
-        fail(kInvalidGraph, "pass '", pass.name, "' writes ", describe(graph, a), " as ", name_of(a.use),
-             " and ", describe(graph, b), " as ", name_of(b.use), ": written twice", where());
+        fail(kInvalidGraph, "pass '", pass.name, "' writes ", describe(graph, a), " as ",
+             name_of(a.use), " and ", describe(graph, b), " as ", name_of(b.use), ": written twice",
+             where());
     const Access& read = a.write ? b : a;
     const Access& other = a.write ? a : b;
     if (other.write)
@@ -135,8 +136,8 @@ void check_pair(const Graph& graph, const Pass& pass, const Access& a, const Acc
              name_of(read.use), " while it writes ", describe(graph, other), " as ",
              name_of(other.use), where());
     if (!a.is_buffer && a.use != b.use)
-        fail(kInvalidGraph, "pass '", pass.name, "' reads ", describe(graph, a), " as ", name_of(a.use),
-             " and ", describe(graph, b), " as ", name_of(b.use),
+        fail(kInvalidGraph, "pass '", pass.name, "' reads ", describe(graph, a), " as ",
+             name_of(a.use), " and ", describe(graph, b), " as ", name_of(b.use),
              ": one image cannot be in two layouts at once", where());
 }
 

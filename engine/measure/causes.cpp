@@ -1,7 +1,7 @@
 // Figures of a row's error by cause.
 #include "measure/causes.hpp"
 
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 
 #include <cmath>
 

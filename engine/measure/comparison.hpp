@@ -39,7 +39,7 @@ struct CameraFacts {
 };
 
 /// What the scene says that is not shown so, or what was added to it.
-struct GapFacts {
+struct UnsupportedFeatureFacts {
     std::string id;
     std::uint64_t count = 0;
     std::string first;                 ///< where
@@ -71,7 +71,7 @@ struct SceneFacts {
     CameraFacts camera;
     std::vector<LightFacts> lights = {};
     std::optional<EnvironmentFacts> environment = {};
-    std::vector<GapFacts> gaps = {};
+    std::vector<UnsupportedFeatureFacts> unsupported = {};
 };
 
 /// What the rows needed once, milliseconds of the host each; no row's times hold it.
@@ -132,7 +132,7 @@ struct WorstView {
 };
 
 /// What a row did not render, since its picture does not need it.
-struct LeftOut {
+struct CulledWork {
     std::string what, why, saves;
     double error = 0; ///< the most that a displayed pixel can differ for it, of 1
 };
@@ -144,7 +144,7 @@ struct Row : Errors {
     std::vector<Setting> settings;    ///< all knobs
     std::vector<PlanEntry> plan;      ///< of each mirror
     std::string model = "everything"; ///< or "required"
-    std::vector<LeftOut> left_out;
+    std::vector<CulledWork> left_out;
     int scene_passes =
         0; ///< counted in the executed plan; a cube counts once, as in the seed report
     int scene_draws = 0; ///< the same with every cube face counted

@@ -3,8 +3,8 @@
 #include "core/error.hpp"
 #include "measure/difference_sum.hpp"
 #include "measure/lines.hpp"
+#include "measure/metric.hpp"
 #include "measure/pixel_error.hpp"
-#include "measure/quantity.hpp"
 #include "measure/statistics.hpp"
 #include "measure/wide.hpp"
 

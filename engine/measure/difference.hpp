@@ -33,7 +33,7 @@ struct Difference {
     double off = kNone; ///< share of the judged pixels that are off (kOff), 0..1
     double longest_line =
         kNone;                  ///< of these pixels, in pixels: `longest_line` of measure/lines.hpp
-    std::vector<double> others; ///< figures that others compute (Quantity::OfPictures)
+    std::vector<double> others; ///< figures that others compute (Metric::OfPictures)
 };
 
 /// `flip_map` is `flip` of the two whole pictures as displayed: computed once, averaged over each

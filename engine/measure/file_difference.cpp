@@ -4,8 +4,8 @@
 #include "measure/difference_sum.hpp"
 #include "measure/display.hpp"
 #include "measure/flip.hpp"
+#include "measure/metric.hpp"
 #include "measure/picture_file.hpp"
-#include "measure/quantity.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Figures of the frames that a row rendered: what they cost and what they were made of.
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // What the processor does for a frame, which no time stamp of the device sees.
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 
 namespace catoptric::measure {
 

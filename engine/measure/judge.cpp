@@ -1,6 +1,6 @@
 #include "measure/judge.hpp"
 
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 #include "measure/rows.hpp"
 #include "measure/views.hpp"
 
@@ -110,12 +110,12 @@ const Row* closest_row(const Comparison& comparison) {
     return closest;
 }
 
-Standing standing(const Comparison& comparison) {
-    Standing result;
+Ranking ranking_of(const Comparison& comparison) {
+    Ranking result;
     for (const std::size_t index : comparison.pareto)
         if (index < comparison.rows.size()) result.front.push_back(&comparison.rows[index]);
     for (const Row* winner : result.front) {
-        Standing::Win win{winner, {}};
+        Ranking::Win win{winner, {}};
         for (const Row& row : comparison.rows)
             if (!on_front(comparison, row) && winner_over(result.front, row) == winner)
                 win.losers.push_back(&row);

@@ -51,7 +51,7 @@ std::vector<const Row*> fastest_rows(const Comparison& comparison);
 const Row* closest_row(const Comparison& comparison);
 
 /// Who beats whom.
-struct Standing {
+struct Ranking {
     struct Win {
         const Row* winner; ///< on the front
         std::vector<const Row*> losers;
@@ -62,7 +62,7 @@ struct Standing {
     std::vector<const Row*> not_judged;
     std::vector<const Row*> black; ///< judged, but no candidates: their mirrors are black
 };
-Standing standing(const Comparison& comparison);
+Ranking ranking_of(const Comparison& comparison);
 
 /// Whether tracing rays beats everything else.
 struct TracingVerdict {

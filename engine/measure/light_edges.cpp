@@ -1,6 +1,6 @@
 #include "measure/light_edges.hpp"
 
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "measure/lines.hpp"
 
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "measure/lookup.hpp"
 
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 #include "measure/statistics.hpp"
 
 #include <algorithm>

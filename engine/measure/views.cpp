@@ -14,15 +14,15 @@ constexpr std::string_view kOrdering[] = {"flip", "off", "mae"};
 
 const RowMask& mirrors_mask() { return masks().front(); }
 
-const Quantity& figure_of(std::string_view name) {
-    const std::vector<Quantity>& figures = difference_quantities();
-    const auto found = std::ranges::find(figures, name, &Quantity::name);
+const Metric& figure_of(std::string_view name) {
+    const std::vector<Metric>& figures = difference_metrics();
+    const auto found = std::ranges::find(figures, name, &Metric::name);
     check(found != figures.end() && is_number(*found), Failure::internal, "'", name,
           "': wanted a figure of a difference that is a number");
     return *found;
 }
 
-double number_of(const Quantity& figure, const Difference& error) {
+double number_of(const Metric& figure, const Difference& error) {
     const Value value = value_of(figure, error);
     const auto* number = std::get_if<double>(&value);
     return number != nullptr ? *number : Difference::kNone;
@@ -57,11 +57,11 @@ Order order_by(std::string_view name, const std::vector<const Row*>& rows) {
 
 } // namespace
 
-bool is_number(const Quantity& figure) {
+bool is_number(const Metric& figure) {
     return figure.mask == "each" && std::holds_alternative<double>(value_of(figure, Difference{}));
 }
 
-OverViews over_views(const Row& row, const RowMask& mask, const Quantity& figure) {
+OverViews over_views(const Row& row, const RowMask& mask, const Metric& figure) {
     OverViews over;
     for (const Errors& errors : row.views)
         over.values.push_back(number_of(figure, errors.*mask.error));
@@ -73,7 +73,7 @@ OverViews over_views(const Row& row, const RowMask& mask, const Quantity& figure
 }
 
 Interval difference_over_views(const Row& a, const Row& b, std::string_view figure) {
-    const Quantity& quantity = figure_of(figure);
+    const Metric& quantity = figure_of(figure);
     std::vector<double> of_a, of_b;
     for (std::size_t i = 0; i < std::min(a.views.size(), b.views.size()); ++i) {
         const double in_a = number_of(quantity, a.views[i].error),
@@ -88,7 +88,7 @@ Interval difference_over_views(const Row& a, const Row& b, std::string_view figu
 bool is_less(const Row& a, const Row& b, std::string_view figure) {
     if (!a.views.empty() || !b.views.empty())
         return difference_over_views(a, b, figure).high < 0; // not where it is not known
-    const Quantity& quantity = figure_of(figure);
+    const Metric& quantity = figure_of(figure);
     return number_of(quantity, a.error) < number_of(quantity, b.error);
 }
 

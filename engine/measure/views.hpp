@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 
 #include <string_view>
 
@@ -15,9 +15,9 @@ struct OverViews {
 };
 
 /// `figure`: one of a difference that is a number.
-OverViews over_views(const Row& row, const RowMask& mask, const Quantity& figure);
+OverViews over_views(const Row& row, const RowMask& mask, const Metric& figure);
 /// Whether a figure of differences is one number, so that it has a median.
-bool is_number(const Quantity& figure);
+bool is_number(const Metric& figure);
 
 /// 95 % interval of the median of what `a`'s figure over the mirrors ("flip", "off", "mae") is
 /// more than `b`'s, view by view; views that say nothing of one of them are left out of both.
@@ -34,7 +34,7 @@ bool apart(const Row& a, const Row& b, std::string_view figure);
 /// Rows in order of a figure over the mirrors that is better the less it is, and those that tie.
 struct Order {
     using Pairs = std::vector<std::pair<const Row*, const Row*>>; ///< as they stand in `rows`
-    const Quantity* figure;
+    const Metric* figure;
     /// Without the reference and failed rows: first what is less than more others than are less
     /// than it, view by view; of equals the one with the lesser median.
     std::vector<const Row*> rows;

@@ -1,5 +1,5 @@
 // How long the host stood still for the device, which is nobody's work.
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 
 namespace catoptric::measure {
 

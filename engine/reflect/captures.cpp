@@ -39,9 +39,9 @@ bool visits_others(const Settings& settings) {
            (settings.has("captures") && settings.choice("captures") == "all");
 }
 
-render::MirrorLook look_into(const Surroundings& around, std::string fragment,
-                             const Settings& settings) {
-    render::MirrorLook look;
+render::MirrorShader shading_with_captures(const MirrorInputs& around, std::string fragment,
+                                           const Settings& settings) {
+    render::MirrorShader look;
     look.fragment = std::move(fragment);
     const auto set = [&](const char* constant, int value) {
         look.constants.emplace_back(constant, static_cast<std::uint32_t>(value));
@@ -61,9 +61,9 @@ render::MirrorLook look_into(const Surroundings& around, std::string fragment,
     return look;
 }
 
-render::MirrorLook look_of_search(const Technique& technique, const Surroundings& around,
-                                  const Settings& settings) {
-    render::MirrorLook look = look_into(around, technique.search, settings);
+render::MirrorShader shading_of_search(const Technique& technique, const MirrorInputs& around,
+                                       const Settings& settings) {
+    render::MirrorShader look = shading_with_captures(around, technique.search, settings);
     for (const Knob& knob : technique.knobs) {
         if (std::ranges::find(kSearchKnobs, knob.name, &Knob::name) != kSearchKnobs.end()) continue;
         const double value = settings.number(knob.name);

@@ -109,12 +109,12 @@ bool visits_others(const Settings& settings);
 
 /// A mirror that looks into the captures with the fragment shader; hops are set where there is a
 /// `continue`.
-render::MirrorLook look_into(const Surroundings& around, std::string fragment,
-                             const Settings& settings);
+render::MirrorShader shading_with_captures(const MirrorInputs& around, std::string fragment,
+                                           const Settings& settings);
 
 /// The look of a Technique::search: the knobs that are its own are the shader's constants.
-render::MirrorLook look_of_search(const Technique& technique, const Surroundings& around,
-                                  const Settings& settings);
+render::MirrorShader shading_of_search(const Technique& technique, const MirrorInputs& around,
+                                       const Settings& settings);
 
 /// R = N + 2 with one light.
 inline int feedback_passes(int mirrors, int lights, const Settings& settings) {

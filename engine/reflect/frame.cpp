@@ -82,11 +82,12 @@ std::vector<render::CaptureOptions> options_of_mirrors(const render::FrameInputs
 }
 
 /// How captures show the other mirrors: by last frame's captures of these.
-render::Looks looks_in_captures(const render::Feeding& feeding, const Assignment& assignment) {
+render::Looks looks_in_captures(const render::CaptureUpdate& feeding,
+                                const Assignment& assignment) {
     render::Looks looks;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const Technique& technique = *assignment.choices[assignment.of_mirror[i]].technique;
-        render::MirrorLook look; // black
+        render::MirrorShader look; // black
         const bool is_kept = feeding.kept != nullptr;
         if (feeding.last && feeding.last->places[i].exists() &&
             (feeding.was_there[i] || !is_kept)) {
@@ -95,7 +96,7 @@ render::Looks looks_in_captures(const render::Feeding& feeding, const Assignment
             look.blank = !feeding.was_there[i];
         }
         const auto found = std::ranges::find(looks.looks, look.fragment,
-                                             &render::MirrorLook::fragment);
+                                             &render::MirrorShader::fragment);
         looks.of_mirror.push_back(static_cast<std::uint32_t>(found - looks.looks.begin()));
         if (found == looks.looks.end()) looks.looks.push_back(std::move(look));
     }
@@ -108,9 +109,9 @@ bool has_mirrored_views(const Choice& choice) {
 
 /// The captures of part two of the report and its followers, fed by those of the frame before.
 /// Nothing where no technique looks into any.
-render::Feeding add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
-                             const Assignment& assignment, const Keeping& keeping, Maps& maps,
-                             const render::Lighting& view_lighting) {
+render::CaptureUpdate add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
+                                   const Assignment& assignment, const CaptureHistory& keeping,
+                                   Maps& maps, const render::Lighting& view_lighting) {
     // Views in mirrors show by captures what is nothing but traced.
     const bool has_views = assignment.choices.size() > 1 &&
                            std::ranges::any_of(assignment.choices, has_mirrored_views);
@@ -122,12 +123,11 @@ render::Feeding add_feedback(graph::Graph& graph, const render::FrameInputs& inp
         return {};
     std::vector<render::CaptureOptions> options = options_of_mirrors(inputs, assignment, maps,
                                                                      view_lighting);
-    const render::Feeding feeding = keeping.model.is_everything
-                                        ? render::feed_all(graph, inputs, "capture",
-                                                           std::move(options))
-                                        : render::feed_required(
-                                              graph, inputs, "capture", options, keeping.model,
-                                              {keeping.before, keeping.comparisons, keeping.most});
+    const render::CaptureUpdate feeding =
+        keeping.model.is_everything
+            ? render::update_all_captures(graph, inputs, "capture", std::move(options))
+            : render::update_required_captures(graph, inputs, "capture", options, keeping.model,
+                                               {keeping.before, keeping.comparisons, keeping.most});
     render::add_captures(graph, inputs, *feeding.captures, looks_in_captures(feeding, assignment),
                          feeding.work);
     render::add_comparison(graph, inputs, feeding);
@@ -146,7 +146,7 @@ std::vector<std::uint32_t> mirrors_of(std::size_t choice, const Assignment& assi
 render::Looks looks_in_mirrors(const Outputs& outputs, const Assignment& assignment,
                                render::Looks looks) {
     for (std::size_t i = 0; i < looks.looks.size(); ++i) {
-        render::MirrorLook& look = looks.looks[i];
+        render::MirrorShader& look = looks.looks[i];
         std::erase_if(look.constants,
                       [](const auto& constant) { return constant.first == "tracer"; });
         const Technique& technique = *assignment.choices[i].technique;
@@ -163,7 +163,7 @@ render::Looks looks_in_mirrors(const Outputs& outputs, const Assignment& assignm
 } // namespace
 
 Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
-                  const Assignment& assignment, const Keeping& keeping) {
+                  const Assignment& assignment, const CaptureHistory& keeping) {
     const std::vector<Choice>& choices = assignment.choices;
     const bool is_mixed = choices.size() > 1;
     Maps maps(graph, inputs, keeping.model);
@@ -172,8 +172,8 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
         return choices.front().technique->picture(graph, inputs, choices.front().settings,
                                                   lighting);
     Outputs outputs;
-    const render::Feeding feeding = add_feedback(graph, inputs, assignment, keeping, maps,
-                                                 lighting);
+    const render::CaptureUpdate feeding = add_feedback(graph, inputs, assignment, keeping, maps,
+                                                       lighting);
     outputs.captures = feeding.captures;
     outputs.kept = feeding.kept;
     render::Looks looks{{}, assignment.of_mirror};
@@ -183,10 +183,11 @@ Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
         if (is_mixed) own.prefix += choices[i].file_name() + "/";
         const Settings& settings = choices[i].settings;
         const Technique& technique = *choices[i].technique;
-        const Surroundings around{outputs.captures, maps.of(map_edge(settings)),
+        const MirrorInputs around{outputs.captures, maps.of(map_edge(settings)),
                                   mirrors_of(i, assignment)};
-        Look look = technique.search ? Look{look_of_search(technique, around, settings), {}}
-                                     : technique.look(graph, own, settings, around);
+        MirrorShading look = technique.search
+                                 ? MirrorShading{shading_of_search(technique, around, settings), {}}
+                                 : technique.look(graph, own, settings, around);
         if (look.tracer) {
             tracers.push_back(*look.tracer);
             look.mirror.constants.emplace_back("tracer",

@@ -1,16 +1,16 @@
 #pragma once
 
 #include "reflect/plan.hpp"
-#include "render/kept.hpp"
+#include "render/capture_cache.hpp"
 
 namespace catoptric::reflect {
 
 /// What a frame may leave out, and what it goes on from.
-struct Keeping {
+struct CaptureHistory {
     const require::Model& model;
     /// Outputs::kept of the frame before; null: there was none.
-    std::shared_ptr<render::KeptCaptures> before;
-    render::Comparisons* comparisons = nullptr; ///< see render::Sequel
+    std::shared_ptr<render::CaptureCache> before;
+    render::Comparisons* comparisons = nullptr; ///< see render::PreviousCaptures
     std::uint32_t most = 0;                     ///< likewise
 };
 /// Nothing is left out.
@@ -22,6 +22,7 @@ inline const require::Model kEverything;
 /// frame's, every mirror has one, so that the others can show it. No pass is declared for what the
 /// model leaves out.
 Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
-                  const Assignment& assignment, const Keeping& keeping = {.model = kEverything});
+                  const Assignment& assignment,
+                  const CaptureHistory& keeping = {.model = kEverything});
 
 } // namespace catoptric::reflect

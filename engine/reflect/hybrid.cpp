@@ -17,9 +17,9 @@ constexpr auto kKnobs = search_knobs(
 
 /// It searches with what, of the searches, has the fewest wrong answers that call themselves right
 /// (`march` misses what is thinner than its step).
-Look look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-          const Surroundings& around) {
-    Look look = look_through_pyramid(graph, inputs, settings, around);
+MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+                   const MirrorInputs& around) {
+    MirrorShading look = shading_with_pyramid(graph, inputs, settings, around);
     if (settings.choice("force") == "unknown")
         look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();

@@ -19,9 +19,9 @@ render::CaptureOptions capture(const render::FrameInputs& inputs, const Settings
     return options;
 }
 
-Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-          const Surroundings& around) {
-    Look look{look_into(around, "reflect/layered.frag", settings), {}};
+MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
+                   const MirrorInputs& around) {
+    MirrorShading look{shading_with_captures(around, "reflect/layered.frag", settings), {}};
     look.mirror.constants.emplace_back("steps",
                                        static_cast<std::uint32_t>(settings.integer("steps")));
     // Captures that lack a layer are those of mirrors that nobody looks into with this shader.

@@ -20,11 +20,11 @@ constexpr Knob kKnobs[] = {{.name = "bounces",
                            kCapture};
 
 /// Of the last bounce only the captures of the mirrors that look into them.
-Look look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-          const Surroundings& around) {
+MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+                   const MirrorInputs& around) {
     render::CaptureOptions options = capture_options(inputs, settings);
     options.lighting = around.lighting;
-    render::MirrorLook look; // black
+    render::MirrorShader look; // black
     const int bounces = settings.integer("bounces");
     for (int bounce = 1; bounce <= bounces; ++bounce) {
         render::CaptureOptions of_others = options;
@@ -33,9 +33,9 @@ Look look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings
         for (const std::uint32_t mirror : around.mirrors) of_mirrors[mirror] = options;
         const auto captures = std::make_shared<const render::Captures>(render::declare_captures(
             graph, inputs, "bounce" + std::to_string(bounce), std::move(of_mirrors)));
-        render::add_captures(graph, inputs, *captures, render::same_look(inputs.scene, look));
-        look = look_into({captures, around.lighting, around.mirrors}, "reflect/naive.frag",
-                         settings);
+        render::add_captures(graph, inputs, *captures, render::same_shader(inputs.scene, look));
+        look = shading_with_captures({captures, around.lighting, around.mirrors},
+                                     "reflect/naive.frag", settings);
     }
     return {std::move(look), {}};
 }

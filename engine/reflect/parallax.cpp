@@ -34,8 +34,8 @@ constexpr Technique kParallax{
     .capture = capture_options,
     .in_captures = kFragment,
     .look = [](graph::Graph&, const render::FrameInputs&, const Settings& settings,
-               const Surroundings& around) {
-        Look look{look_into(around, kFragment, settings), {}};
+               const MirrorInputs& around) {
+        MirrorShading look{shading_with_captures(around, kFragment, settings), {}};
         if (settings.choice("without") == "void_test")
             look.mirror.constants.emplace_back("tests_void", 0u);
         return look;

@@ -46,7 +46,7 @@ constexpr Technique kPlanar{
     .scene_passes = [](int, int lights,
                        const Settings& settings) { return shadow_passes(lights, settings) + 1; },
     .look = [](graph::Graph&, const render::FrameInputs&, const Settings&,
-               const Surroundings&) { return Look{}; },
+               const MirrorInputs&) { return MirrorShading{}; },
     .mirrored_bounces = [](const Settings& settings) { return settings.integer("bounces"); },
     .unfit = unfit};
 const Registered kRow{kPlanar};

@@ -49,9 +49,9 @@ graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs
     return proxies;
 }
 
-Look look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-          const Surroundings& around) {
-    Look look{look_into(around, "reflect/proxy.frag", settings), {}};
+MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
+                   const MirrorInputs& around) {
+    MirrorShading look{shading_with_captures(around, "reflect/proxy.frag", settings), {}};
     look.mirror.buffers.emplace_back("Proxies", add_proxies(graph, inputs, around.captures));
     look.mirror.constants.emplace_back("shape",
                                        static_cast<std::uint32_t>(settings.integer("shape")));

@@ -2,7 +2,7 @@
 // in one step wherever these bounds allow it: exact to the texel, where a march takes its chances.
 #include "reflect/pyramid.hpp"
 
-#include "core/stamp.hpp"
+#include "core/content_hash.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -30,9 +30,9 @@ struct Run {
 
 /// What the bounds of a mirror's cube are made from: cells at the edge of a face read its
 /// neighbours.
-std::uint64_t stamp_of(const render::Captures& captures, std::size_t mirror) {
+std::uint64_t content_hash_of(const render::Captures& captures, std::size_t mirror) {
     const render::CaptureOptions& options = captures.options[mirror];
-    return Stamp()
+    return ContentHash()
         .add(captures.drawings[mirror])
         .add(options.distance.value_or(options.colour))
         .add(options.stored_unit)
@@ -53,9 +53,9 @@ std::vector<Run> to_be_made(graph::Graph& graph, const render::Captures& capture
         if (place.array != array) continue;
         const std::uint32_t first = 6 * place.cube;
         if (!captures.drawings.empty()) {
-            const std::uint64_t stamp = stamp_of(captures, mirror);
-            if (graph.holds(bounds.layers(first, 6), stamp)) continue;
-            graph.made_from(bounds.layers(first, 6), stamp);
+            const std::uint64_t content_hash = content_hash_of(captures, mirror);
+            if (graph.holds_content(bounds.layers(first, 6), content_hash)) continue;
+            graph.set_content_hash(bounds.layers(first, 6), content_hash);
         }
         if (runs.empty() || end != first)
             runs.push_back({distances.layers(first, 0), bounds.layers(first, 0), cubes.face});
@@ -81,7 +81,7 @@ std::vector<graph::Image> add_pyramid(graph::Graph& graph, const render::FrameIn
                               Format::r32ui, 1u << top, level_edge(cubes.face, 1),
                               cubes.colour.layer_count};
         pyramids.push_back(captures.drawings.empty() ? graph.image(std::move(desc))
-                                                     : graph.kept(std::move(desc)));
+                                                     : graph.persistent(std::move(desc)));
         std::ranges::copy(to_be_made(graph, captures, array, pyramids.back()),
                           std::back_inserter(runs));
     }
@@ -110,9 +110,9 @@ std::vector<graph::Image> add_pyramid(graph::Graph& graph, const render::FrameIn
 
 } // namespace
 
-Look look_through_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                          const Settings& settings, const Surroundings& around) {
-    Look look{look_into(around, "reflect/pyramid.frag", settings), {}};
+MirrorShading shading_with_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
+                                   const Settings& settings, const MirrorInputs& around) {
+    MirrorShading look{shading_with_captures(around, "reflect/pyramid.frag", settings), {}};
     look.mirror.images.emplace_back("bounds", add_pyramid(graph, inputs, *around.captures));
     return look;
 }
@@ -131,7 +131,7 @@ constexpr Technique kPyramid{
     .scene_passes = feedback_passes,
     .capture = capture_options,
     .in_captures = "reflect/parallax.frag",
-    .look = look_through_pyramid};
+    .look = shading_with_pyramid};
 const Registered kRow{kPyramid};
 
 } // namespace

@@ -5,7 +5,7 @@
 /// The search of `pyramid`, for other rows that begin with it.
 namespace catoptric::reflect {
 
-Look look_through_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
-                          const Settings& settings, const Surroundings& around);
+MirrorShading shading_with_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
+                                   const Settings& settings, const MirrorInputs& around);
 
 } // namespace catoptric::reflect

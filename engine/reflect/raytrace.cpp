@@ -61,9 +61,9 @@ Outputs picture(graph::Graph& graph, const render::FrameInputs& inputs, const Se
     return {traced.hdr, true, {traced.counters}, {}, {}};
 }
 
-Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-          const Surroundings& around) {
-    Look look;
+MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
+                   const MirrorInputs& around) {
+    MirrorShading look;
     look.mirror.fragment = "reflect/traced.frag";
     look.tracer = tracer_of(settings, around.lighting);
     return look;

@@ -13,12 +13,12 @@ constexpr auto kKnobs = search_knobs(
                     .high = 8,
                     .value = 2}});
 
-Look look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
-          const Surroundings& around) {
+MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
+                   const MirrorInputs& around) {
     const int steps = settings.integer("steps");
     if (steps == 0) // parallax has no other knobs
-        return {look_into(around, "reflect/parallax.frag", Settings({})), {}};
-    Look look{look_into(around, "reflect/secant.frag", settings), {}};
+        return {shading_with_captures(around, "reflect/parallax.frag", Settings({})), {}};
+    MirrorShading look{shading_with_captures(around, "reflect/secant.frag", settings), {}};
     look.mirror.constants.emplace_back("steps", static_cast<std::uint32_t>(steps));
     return look;
 }

@@ -2,7 +2,7 @@
 
 #include "core/knob.hpp"
 #include "reflect/tracer.hpp"
-#include "render/kept.hpp"
+#include "render/capture_cache.hpp"
 #include "scene/flat_mirror.hpp"
 
 #include <memory>
@@ -23,19 +23,19 @@ struct Outputs {
     std::optional<graph::Image> lookup; ///< rgba32f: where mirrors looked, if the inputs ask for it
     std::shared_ptr<const render::Captures> captures; ///< that the view looks into; may be none
     std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
-    std::shared_ptr<render::KeptCaptures> kept; ///< for the next frame, where captures are kept
+    std::shared_ptr<render::CaptureCache> kept; ///< for the next frame, where captures are kept
 };
 
 /// What the mirrors that share a technique and its settings may look into.
-struct Surroundings {
+struct MirrorInputs {
     std::shared_ptr<const render::Captures> captures; ///< of all mirrors; none was asked for: null
     render::Lighting lighting;                        ///< as the settings ask for it
     std::vector<std::uint32_t> mirrors;               ///< those that share it, from 0
 };
 
 /// How mirrors are drawn in the view.
-struct Look {
-    render::MirrorLook mirror;
+struct MirrorShading {
+    render::MirrorShader mirror;
     std::optional<Tracer> tracer; ///< for pixels that the mirror's shader leaves to it
 };
 
@@ -55,11 +55,11 @@ struct Technique {
     const char* in_captures = nullptr; ///< path of a fragment shader
     bool reads_whole_cubes = false;    ///< whatever directions its mirrors ask for
     /// Path of a fragment shader that looks into the captures and needs nothing else: `look` is
-    /// null then (reflect/captures.hpp, look_of_search).
+    /// null then (reflect/captures.hpp, shading_of_search).
     const char* search = nullptr;
     /// How its mirrors are drawn; declares what passes that takes.
-    Look (*look)(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
-                 const Surroundings& around) = nullptr;
+    MirrorShading (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
+                          const Settings& settings, const MirrorInputs& around) = nullptr;
     /// Its mirrors show what a view of their own sees (reflect/mirrored.hpp): mirrors one behind
     /// the other in it.
     int (*mirrored_bounces)(const Settings& settings) = nullptr;

@@ -71,7 +71,7 @@ Cubes declare_cubes(graph::Graph& graph, const std::string& name, const CaptureO
         graph::ImageDesc desc{
             name + what, format, options.face, options.face, static_cast<std::uint32_t>(6 * cubes),
             true};
-        return stay ? graph.kept(std::move(desc)) : graph.image(std::move(desc));
+        return stay ? graph.persistent(std::move(desc)) : graph.image(std::move(desc));
     };
     check(options.distance || !(options.surfaces || options.second_layer), Failure::internal,
           "captures '", name, "' want surfaces or a second layer, which need the distance");

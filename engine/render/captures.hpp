@@ -72,8 +72,8 @@ struct Captures {
 /// device's limit of layers asks for. Where that makes more than kMostArrays, the edges that cost
 /// least are enlarged to the next larger one, which `notes` says. `options`: of each mirror, one of
 /// which at least has a capture. With a `set` the arrays stay until they are written again
-/// (graph::Lifetime::kept), and it tells them from others of the same name. Throws `exhausted`
-/// where so many arrays do not hold them. O(mirrors).
+/// (graph::Lifetime::persistent), and it tells them from others of the same name. Throws
+/// `exhausted` where so many arrays do not hold them. O(mirrors).
 Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
                           std::vector<CaptureOptions> options, const std::string& set = "");
 

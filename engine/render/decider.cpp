@@ -1,6 +1,6 @@
 #include "render/decider.hpp"
 
-#include "core/stamp.hpp"
+#include "core/content_hash.hpp"
 #include "render/face_area.hpp"
 #include "render/views.hpp"
 
@@ -15,11 +15,11 @@ constexpr std::uint64_t kCleared = 1; // the drawing of a face that holds nothin
 } // namespace
 
 Decider::Decider(const GpuScene& scene, const require::Model& model,
-                 const std::vector<CaptureOptions>& layout, const KeptCaptures* before,
+                 const std::vector<CaptureOptions>& layout, const CaptureCache* before,
                  bool compares)
     : scene_(scene), model_(model), layout_(layout), before_(before), compares_(compares) {
     if (before) changed_ = changed(*before);
-    Stamp lit;
+    ContentHash lit;
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
         lit.add_all(std::span(scene.backdrops(light)));
         for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
@@ -37,7 +37,7 @@ std::uint32_t Decider::waited(std::uint32_t mirror) const {
     return was_there(mirror) ? before_->waited[mirror] : 0;
 }
 
-void Decider::decide(std::uint32_t mirror, CaptureWork& work, KeptCaptures& kept) const {
+void Decider::decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const {
     Change change = Change::none;
     std::vector<std::uint32_t>& saw = kept.saw[mirror];
     for (std::uint32_t face = 0; face < 6; ++face) {
@@ -57,11 +57,12 @@ void Decider::decide(std::uint32_t mirror, CaptureWork& work, KeptCaptures& kept
 bool Decider::can_wait(std::uint32_t mirror, const CaptureWork& work) const {
     if (!was_there(mirror)) return false;
     for (std::uint32_t face = 0; face < 6; ++face)
-        if (work.is_drawn(mirror, face) && before_->faces[mirror][face].stamp == 0) return false;
+        if (work.is_drawn(mirror, face) && before_->faces[mirror][face].content_hash == 0)
+            return false;
     return true;
 }
 
-void Decider::put_off(std::uint32_t mirror, CaptureWork& work, KeptCaptures& kept) const {
+void Decider::put_off(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const {
     for (std::uint32_t face = 0; face < 6; ++face) {
         if (!work.is_drawn(mirror, face)) continue;
         kept.faces[mirror][face] = before_->faces[mirror][face];
@@ -83,33 +84,34 @@ std::vector<std::uint32_t> Decider::seen_by(std::uint32_t mirror, std::uint32_t 
 }
 
 FaceWork Decider::decide(std::uint32_t mirror, std::uint32_t face,
-                         const std::vector<std::uint32_t>& seen, KeptFace& now) const {
+                         const std::vector<std::uint32_t>& seen, CachedFace& now) const {
     const require::MirrorNeeds& needs = model_.mirrors[mirror];
-    Stamp shown = Stamp(shadow_views_).add(scene_.views()[scene_.capture_view(mirror) + face]);
+    ContentHash shown =
+        ContentHash(shadow_views_).add(scene_.views()[scene_.capture_view(mirror) + face]);
     for (const std::uint32_t other : seen) shown.add(other);
-    const std::uint64_t stamp = Stamp(shown).add(needs.stamps[face]).value();
-    now = was_there(mirror) ? before_->faces[mirror][face] : KeptFace();
-    const bool shows_same = now.drawing > 0 && now.stamp == stamp;
+    const std::uint64_t content_hash = ContentHash(shown).add(needs.content_hashes[face]).value();
+    now = was_there(mirror) ? before_->faces[mirror][face] : CachedFace();
+    const bool shows_same = now.drawing > 0 && now.content_hash == content_hash;
     const auto has_changed = [&](std::uint32_t other) { return changed_[other] != 0; };
     if (shows_same && !now.is_behind && std::ranges::none_of(seen, has_changed))
         return FaceWork::keep;
     if (!needs.is_captured || !(needs.faces >> face & 1)) {
-        now.stamp = 0, now.is_behind = false; // should somebody look again
+        now.content_hash = 0, now.is_behind = false; // should somebody look again
         if (now.drawing > 0) return FaceWork::keep;
         now.drawing = kCleared;
         return FaceWork::clear;
     }
-    now = {stamp, drawing(stamp, seen), false, Stamp(shown).add(needs.settings[face]).value(),
-           needs.pieces};
+    now = {content_hash, drawing(content_hash, seen), false,
+           ContentHash(shown).add(needs.settings[face]).value(), needs.pieces};
     return shows_same && compares_ ? FaceWork::compare : FaceWork::draw;
 }
 
 require::FacePart Decider::changing(std::uint32_t mirror, std::uint32_t face,
                                     const std::vector<std::uint32_t>& seen,
-                                    const KeptFace& now) const {
+                                    const CachedFace& now) const {
     if (!was_there(mirror)) return {};
-    const KeptFace& before = before_->faces[mirror][face];
-    if (before.stamp == 0 || before.is_behind || before.settings != now.settings ||
+    const CachedFace& before = before_->faces[mirror][face];
+    if (before.content_hash == 0 || before.is_behind || before.settings != now.settings ||
         !before.pieces || !now.pieces)
         return {};
     require::FacePart part = require::differing(before.pieces->faces[face],
@@ -122,9 +124,10 @@ require::FacePart Decider::changing(std::uint32_t mirror, std::uint32_t face,
     return part.empty() ? require::FacePart() : part;
 }
 
-std::uint64_t Decider::drawing(std::uint64_t stamp, const std::vector<std::uint32_t>& seen) const {
-    Stamp number;
-    number.add(stamp);
+std::uint64_t Decider::drawing(std::uint64_t content_hash,
+                               const std::vector<std::uint32_t>& seen) const {
+    ContentHash number;
+    number.add(content_hash);
     for (const std::uint32_t other : seen)
         for (std::uint32_t face = 0; face < 6; ++face)
             number.add(was_there(other) ? before_->faces[other][face].drawing : 0);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/kept.hpp"
+#include "render/capture_cache.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@ public:
     /// `layout`: of the frame's captures; `before`: of the frame before, null: there was none. Both
     /// and the others must outlive this. `compares`: what may have changed is compared.
     Decider(const GpuScene& scene, const require::Model& model,
-            const std::vector<CaptureOptions>& layout, const KeptCaptures* before, bool compares);
+            const std::vector<CaptureOptions>& layout, const CaptureCache* before, bool compares);
 
     /// Whether the frame before has a capture of the mirror as this one wants it.
     bool was_there(std::uint32_t mirror) const;
@@ -21,28 +21,28 @@ public:
     std::uint32_t waited(std::uint32_t mirror) const;
 
     /// What is drawn of the mirror, compared and kept; six faces of `work`, and `kept` of it.
-    void decide(std::uint32_t mirror, CaptureWork& work, KeptCaptures& kept) const;
+    void decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
     /// Whether what is to be drawn can stay as it was: it shows what was there once, and was kept
     /// up since then.
     bool can_wait(std::uint32_t mirror, const CaptureWork& work) const;
     /// After `decide`: what was to be drawn stays as it was.
-    void put_off(std::uint32_t mirror, CaptureWork& work, KeptCaptures& kept) const;
+    void put_off(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
 
 private:
     /// The other mirrors that the face shows by their captures.
     std::vector<std::uint32_t> seen_by(std::uint32_t mirror, std::uint32_t face) const;
     FaceWork decide(std::uint32_t mirror, std::uint32_t face,
-                    const std::vector<std::uint32_t>& seen, KeptFace& now) const;
+                    const std::vector<std::uint32_t>& seen, CachedFace& now) const;
     /// Of a face that is drawn: all that may be another than it was.
     require::FacePart changing(std::uint32_t mirror, std::uint32_t face,
-                               const std::vector<std::uint32_t>& seen, const KeptFace& now) const;
+                               const std::vector<std::uint32_t>& seen, const CachedFace& now) const;
     /// By what it is made from, to the captures that it shows.
-    std::uint64_t drawing(std::uint64_t stamp, const std::vector<std::uint32_t>& seen) const;
+    std::uint64_t drawing(std::uint64_t content_hash, const std::vector<std::uint32_t>& seen) const;
 
     const GpuScene& scene_;
     const require::Model& model_;
     const std::vector<CaptureOptions>& layout_;
-    const KeptCaptures* before_;
+    const CaptureCache* before_;
     bool compares_;
     std::vector<char> changed_;
     std::uint64_t shadow_views_ = 0; ///< of all lights

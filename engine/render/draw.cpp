@@ -82,21 +82,21 @@ void add_places(const Captures& captures, gpu::Constants& constants) {
 }
 
 /// The build of the fragment shader that the look asks for.
-std::string build_of(const MirrorLook& look, bool peeled, bool shadow_map, bool lit) {
+std::string build_of(const MirrorShader& look, bool peeled, bool shadow_map, bool lit) {
     std::string build = look.captures && look.captures->table ? "arrays" : "";
     const auto add = [&](const char* more) {
         build += (build.empty() ? "" : "_") + std::string(more);
     };
-    const bool mended = !peeled && look.mended;
-    if (mended) add("mend");
-    if (lit && !mended) add("lit");
-    if ((lit || mended) && !shadow_map) add("unshadowed");
+    const bool ablated = !peeled && look.ablated;
+    if (ablated) add("ablate");
+    if (lit && !ablated) add("lit");
+    if ((lit || ablated) && !shadow_map) add("unshadowed");
     if (peeled) add("peel");
     return look.fragment + (build.empty() ? "" : "#" + build);
 }
 
 void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& drawing,
-                  const MirrorLook& look, const std::string& black, const Wanted& wanted,
+                  const MirrorShader& look, const std::string& black, const Wanted& wanted,
                   Triangles triangles = nullptr) {
     gpu::RasterState state{"", black, drawing.store};
     if (!look.fragment.empty() && !look.blank) {
@@ -109,7 +109,7 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& draw
         for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
     }
     const auto& draw = drawing.peeled ? draw_objects : draw_fronts;
-    draw(commands, scene, state, drawing.first_view, drawing.layers, look.mended, wanted,
+    draw(commands, scene, state, drawing.first_view, drawing.layers, look.ablated, wanted,
          triangles);
 }
 
@@ -125,19 +125,19 @@ bool hides_its_back(const GpuScene& scene, const shared::View& view, std::size_t
 } // namespace
 
 void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState state,
-                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
+                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
                   const Wanted& wanted, Triangles triangles) {
     state.features = scene.features(first_view);
     const char* const build = scene.views()[first_view].clip == vec4(0) ? "" : "#clipped";
     for (const bool own : {false, true}) {
-        if (own && !scene.has_own_spaces()) break;
+        if (own && !scene.has_object_spaces()) break;
         state.vertex = (own ? "placed.vert" : "scene.vert") + std::string(build);
         bool in_use = false; // a pipeline that draws nothing is not made
         for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
             if (scene.ranges()[i].own.has_value() != own || !wanted(i)) continue;
             if (!std::exchange(in_use, true)) {
                 commands.use(state);
-                commands.push(shared::Draw{first_view, mended});
+                commands.push(shared::Draw{first_view, ablated});
             }
             draw_object(commands, scene, i, first_view, layers, triangles);
         }
@@ -145,16 +145,16 @@ void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState st
 }
 
 void draw_fronts(Commands& commands, const GpuScene& scene, gpu::RasterState state,
-                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
+                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
                  const Wanted& wanted, Triangles triangles) {
     const shared::View& view = scene.views()[first_view];
     const auto is_front = [&](std::size_t i) { return hides_its_back(scene, view, i); };
     draw_objects(
-        commands, scene, state, first_view, layers, mended,
+        commands, scene, state, first_view, layers, ablated,
         [&](std::size_t i) { return wanted(i) && !is_front(i); }, triangles);
     state.hidden = turns_away(view);
     draw_objects(
-        commands, scene, std::move(state), first_view, layers, mended,
+        commands, scene, std::move(state), first_view, layers, ablated,
         [&](std::size_t i) { return wanted(i) && is_front(i); }, triangles);
 }
 
@@ -164,7 +164,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
     std::string diffuse = lighting.shadow_map ? "diffuse.frag" : "diffuse.frag#unshadowed",
                 black = "mirror_black.frag";
     scene.bind(commands);
-    if (std::ranges::any_of(looks->looks, &MirrorLook::mended)) scene.bind_tracing(commands);
+    if (std::ranges::any_of(looks->looks, &MirrorShader::ablated)) scene.bind_tracing(commands);
     if (lighting.shadow_map) commands.bind("shadow_map", *lighting.shadow_map, Filter::compare);
     if (scene.has_details()) black += lighting.shadow_map ? "#lit" : "#lit_unshadowed";
     if (peeled) {
@@ -189,7 +189,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
                 return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) &&
                        !is_black(i);
             });
-        for (const PartLook& part : looks->parts)
+        for (const PartShader& part : looks->parts)
             draw_mirrors(
                 commands, scene, drawing, looks->looks[part.look], black,
                 [&](std::size_t i) {
@@ -198,7 +198,7 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
                 &part.triangles);
     };
     // Among many mirrors little else is seen from one of them, so what they hide is not shaded.
-    const bool mirrors_first = scene.is_crowd() && first_view != GpuScene::kCameraView;
+    const bool mirrors_first = scene.uses_mirror_bvh() && first_view != GpuScene::kCameraView;
     if (mirrors_first) draw_all_mirrors();
     draw_diffuse(false, gpu::Winding::none);
     if (std::ranges::any_of(scene.ranges(), &DrawRange::one_sided))

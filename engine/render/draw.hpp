@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/looks.hpp"
+#include "render/mirror_shaders.hpp"
 
 #include <functional>
 
@@ -16,13 +16,13 @@ using Triangles = const std::vector<scene::TriangleRun>*;
 /// The objects that are asked for, with this fragment shader and state, into the layers whose views
 /// they may meet: views from `first_view` on. Those in spaces of their own come last.
 void draw_objects(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
-                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
+                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
                   const Wanted& wanted, Triangles triangles = nullptr);
 
 /// The same without triangles that face away of what hides its own back. Not for what is looked at
 /// behind a first layer.
 void draw_fronts(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
-                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t mended,
+                 std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
                  const Wanted& wanted, Triangles triangles = nullptr);
 
 /// What a picture of the scene is made with.

@@ -11,9 +11,9 @@ namespace catoptric::render {
 struct FrameInputs {
     const GpuScene& scene;
     uvec2 size{512, 512};
-    std::string prefix;       ///< of the names of passes and images
-    std::uint64_t seed = 1;   ///< of stratified samples
-    std::uint32_t mended = 0; ///< causes of error to take away in the view: shared::kMend...
+    std::string prefix;        ///< of the names of passes and images
+    std::uint64_t seed = 1;    ///< of stratified samples
+    std::uint32_t ablated = 0; ///< causes of error to take away in the view: shared::kMend...
     bool with_lookup = false; ///< also say where mirrors looked: for measuring, costs an attachment
 };
 

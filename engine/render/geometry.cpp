@@ -46,7 +46,7 @@ bool move_own(Geometry& geometry, const scene::Scene& now, const Space& space, s
     const scene::Object& object = now.objects[index];
     const scene::Mesh& mesh = now.meshes[object.mesh];
     DrawRange& range = geometry.ranges[index];
-    range.own = own_space_of(now, object, space);
+    range.own = object_space_of(now, object, space);
     // The turned mesh relative to the space's middle.
     const dvec3 middle = space_of_mesh(mesh).middle;
     const dmat3 own_from_scene = glm::inverse(range.own->scene_from_own),
@@ -86,8 +86,10 @@ void move_flat(Geometry& geometry, const scene::Scene& now, const Space& space, 
 }
 
 /// Whether what is seen of the surface is more than one colour and its light.
-bool varies(const scene::Mesh& mesh, const scene::Material& material, float sharp_below) {
-    const bool is_sharp = material.roughness <= sharp_below || material.roughness_texture;
+bool varies(const scene::Mesh& mesh, const scene::Material& material,
+            float max_specular_roughness) {
+    const bool is_sharp = material.roughness <= max_specular_roughness ||
+                          material.roughness_texture;
     const bool throws_back = material.albedo != vec3(0) && material.reflectance != vec3(1);
     return !mesh.colours.empty() || material.albedo_texture || material.emission_texture ||
            material.unlit || scene::is_masked(material) ||
@@ -227,7 +229,7 @@ bool move_object(Geometry& geometry, const scene::Scene& now, const Space& space
     bool changed = !range.shares;
     if (range.shares) {
         const MeshSpace& mesh = geometry.mesh_spaces.at(object.mesh);
-        range.own = own_space_of(mesh, object.world_from_object, space);
+        range.own = object_space_of(mesh, object.world_from_object, space);
         range.bounds = scene_bounds(*range.own, mesh.box);
     } else if (range.own) {
         changed = move_own(geometry, now, space, index);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/own_space.hpp"
+#include "render/object_space.hpp"
 #include "shared.h"
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct DrawRange {
     bool flipped = false;      ///< mirrored or flattened on its way from that space
     /// Of its mesh, in Geometry::attributes; none: its vertices have none.
     std::optional<std::uint32_t> first_attribute;
-    std::optional<OwnSpace> own; ///< none: vertices are in scene units
+    std::optional<ObjectSpace> own; ///< none: vertices are in scene units
     /// Object whose vertices and indices these are, the first that has the mesh; itself where it
     /// shares none.
     std::uint32_t storage = 0;

@@ -1,6 +1,6 @@
 #include "render/gpu_scene.hpp"
 
-#include "bvh/two_level.hpp"
+#include "bvh/tlas.hpp"
 #include "core/stopwatch.hpp"
 #include "render/enclosure.hpp"
 #include "render/face_needs.hpp"
@@ -179,7 +179,7 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
 void GpuScene::fill_placements() {
     std::vector<shared::Placement> placements(has_own_spaces_ ? geometry_.ranges.size() : 1);
     for (std::size_t i = 0; i < placements.size(); ++i) {
-        const std::optional<OwnSpace>& own = geometry_.ranges[i].own;
+        const std::optional<ObjectSpace>& own = geometry_.ranges[i].own;
         if (!own) continue;
         const dmat3& axes = own->scene_from_own;
         placements[i] = {vec3(axes[0]), vec3(axes[1]), vec3(axes[2]), vec3(own->centre),
@@ -232,7 +232,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
             scene_views_.push_back(view);
         }
     probe_buffer_.set(texels_of(probes_));
-    if (is_crowd()) mirror_tree_.set(mirror_tree(probes_));
+    if (uses_mirror_bvh()) mirror_tree_.set(mirror_tree(probes_));
 }
 
 void GpuScene::fill_frame(double ambient) {
@@ -267,11 +267,14 @@ void GpuScene::bind(graph::Commands& commands) const {
 }
 
 gpu::Constants GpuScene::features(std::uint32_t view) const {
-    return {
-        {"own_spaces", has_own_spaces() ? 1u : 0u},  {"details", details_.any() ? 1u : 0u},
-        {"masks", details_.masks() ? 1u : 0u},       {"light_kinds", has_light_kinds_ ? 1u : 0u},
-        {"one_light", light_count() == 1 ? 1u : 0u}, {"environment_kind", sky_.kind()},
-        {"orthographic", views_[view].parallel},     {"mirror_tree", is_crowd() ? 1u : 0u}};
+    return {{"own_spaces", has_object_spaces() ? 1u : 0u},
+            {"details", details_.any() ? 1u : 0u},
+            {"masks", details_.masks() ? 1u : 0u},
+            {"light_kinds", has_light_kinds_ ? 1u : 0u},
+            {"one_light", light_count() == 1 ? 1u : 0u},
+            {"environment_kind", sky_.kind()},
+            {"orthographic", views_[view].parallel},
+            {"mirror_tree", uses_mirror_bvh() ? 1u : 0u}};
 }
 
 gpu::Constants GpuScene::tracing_features(Spheres spheres) const {

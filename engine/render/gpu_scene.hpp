@@ -3,7 +3,7 @@
 #include "graph/commands.hpp"
 #include "render/backdrop.hpp"
 #include "render/changes.hpp"
-#include "render/details.hpp"
+#include "render/material_parameters.hpp"
 #include "render/mirror_tree.hpp"
 #include "render/mirrored.hpp"
 #include "render/nearest.hpp"
@@ -34,7 +34,7 @@ public:
 
     std::uint32_t mirror_count() const { return static_cast<std::uint32_t>(probes_.size()); }
     /// So many that looking through all of them one by one costs more than what sorts them.
-    bool is_crowd() const { return probes_.size() > kFewMirrors; }
+    bool uses_mirror_bvh() const { return probes_.size() > kFewMirrors; }
     /// Whether some mirror is no exact sphere.
     bool has_other_mirrors() const;
     std::uint32_t light_count() const { return static_cast<std::uint32_t>(lights_.size()); }
@@ -76,7 +76,7 @@ public:
     /// Cubes that the device keeps in one array.
     std::uint32_t most_cubes() const { return device_.limits().maxImageArrayLayers / 6; }
     /// Whether some object has (DrawRange::own).
-    bool has_own_spaces() const { return has_own_spaces_; }
+    bool has_object_spaces() const { return has_own_spaces_; }
     /// What shaders that show this view are to be built for; what the scene has not got costs
     /// nothing.
     gpu::Constants features(std::uint32_t view = kCameraView) const;
@@ -175,7 +175,7 @@ private:
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
     mutable Resident view_buffer_;
     Resident frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_, mirror_tree_;
-    Details details_;
+    MaterialParameterLists details_;
     Sky sky_;
     std::unique_ptr<Tracing> tracing_;
     mutable std::array<bool, 2> wants_tracing_{}; ///< by Spheres

@@ -2,7 +2,7 @@
 
 #include "bvh/bvh.hpp"
 #include "core/error.hpp"
-#include "render/own_space.hpp"
+#include "render/object_space.hpp"
 #include "shared.h"
 
 #include <limits>

@@ -130,7 +130,7 @@ void Nearest::look_at(const Geometry& geometry, std::size_t object, const vec3& 
 void Nearest::look_at_own(const Geometry& geometry, std::size_t object, const dvec3& point,
                           float& squared) {
     constexpr double kRoundings = 1e-5; // more than those of the way there and back
-    const OwnSpace& own = *geometry.ranges[object].own;
+    const ObjectSpace& own = *geometry.ranges[object].own;
     // No farther than what is known already.
     const double known = std::sqrt(double{squared}) / own.least * (1 + kRoundings);
     float own_squared = static_cast<float>(known * known);

@@ -16,12 +16,12 @@ using graph::Tag;
 using graph::Use;
 
 /// The same looks with causes of error taken away.
-Looks mended(Looks looks, const FrameInputs& inputs, const Lighting& lighting) {
-    if (!inputs.mended) return looks;
+Looks ablated(Looks looks, const FrameInputs& inputs, const Lighting& lighting) {
+    if (!inputs.ablated) return looks;
     inputs.scene.want_tracing();
-    for (MirrorLook& look : looks.looks) {
+    for (MirrorShader& look : looks.looks) {
         if (!look.captures) continue;
-        look.mended = inputs.mended;
+        look.ablated = inputs.ablated;
         for (const auto& [name, value] : {std::pair{"picture_width", inputs.size.x},
                                           {"picture_height", inputs.size.y},
                                           {"max_depth", kReferenceDepth},
@@ -53,7 +53,7 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
         .first_view = GpuScene::kCameraView,
         .layers = 1,
         .lighting = lighting,
-        .looks = std::make_shared<const Looks>(mended(std::move(looks), inputs, lighting)),
+        .looks = std::make_shared<const Looks>(ablated(std::move(looks), inputs, lighting)),
         .store = {},
         .peeled = {}};
     if (is_traced) drawing.store.emplace_back("distance_scale", 0.0f);

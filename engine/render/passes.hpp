@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/kept.hpp"
-#include "render/looks.hpp"
+#include "render/capture_cache.hpp"
+#include "render/mirror_shaders.hpp"
 
 #include <memory>
 #include <optional>

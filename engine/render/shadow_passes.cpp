@@ -1,5 +1,5 @@
 // Shadow maps: all of them, or what is to be drawn anew.
-#include "core/stamp.hpp"
+#include "core/content_hash.hpp"
 #include "render/draw.hpp"
 #include "render/pass_faces.hpp"
 #include "render/passes.hpp"
@@ -17,19 +17,19 @@ using graph::Tag;
 using graph::Use;
 
 /// Of what a face of a light's shadow map may show, and of the view that it is drawn with.
-std::uint64_t shadow_stamp(const GpuScene& scene, const require::Model& model, std::uint32_t light,
-                           std::uint32_t face) {
+std::uint64_t shadow_content_hash(const GpuScene& scene, const require::Model& model,
+                                  std::uint32_t light, std::uint32_t face) {
     const require::LightNeeds& needs = model.lights[light];
-    Stamp stamp;
-    stamp.add(needs.has_map);
-    if (!needs.has_map || face >= scene.drawn_shadow_faces(light)) return stamp.value();
+    ContentHash content_hash;
+    content_hash.add(needs.has_map);
+    if (!needs.has_map || face >= scene.drawn_shadow_faces(light)) return content_hash.value();
     const shared::View& view = scene.views()[scene.shadow_view(light) + face];
-    stamp.add(needs.stamp).add(view);
-    stamp.add_all(std::span(scene.backdrops(light)));
+    content_hash.add(needs.content_hash).add(view);
+    content_hash.add_all(std::span(scene.backdrops(light)));
     for (const require::Caster& caster : model.casters)
         if (may_meet(view, scene.ranges()[caster.object]))
-            stamp.add(caster.object).add(caster.stamp);
-    return stamp.value();
+            content_hash.add(caster.object).add(caster.content_hash);
+    return content_hash.value();
 }
 
 /// Neighbouring faces of a light's shadow map; without a map nothing is nearer than what is lit.
@@ -62,7 +62,7 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
     const std::uint32_t faces = scene.shadow_faces();
     const graph::ImageDesc desc{inputs.prefix + "shadow_map" + suffix, Format::d32f, edge, edge,
                                 faces * scene.light_count()};
-    const Image map = model.is_everything ? graph.image(desc) : graph.kept(desc);
+    const Image map = model.is_everything ? graph.image(desc) : graph.persistent(desc);
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
         const bool has_map = model.is_everything || model.lights[light].has_map;
         const std::string name = scene.light_count() == 1 ? "shadow"
@@ -70,17 +70,17 @@ std::optional<Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs, 
         const auto part = [&](std::uint32_t first, std::uint32_t count) {
             return map.layers(faces * light + first, count);
         };
-        std::array<std::uint64_t, 6> stamps{};
+        std::array<std::uint64_t, 6> content_hashes{};
         for (std::uint32_t face = 0; face < faces && !model.is_everything; ++face)
-            stamps[face] = shadow_stamp(scene, model, light, face);
+            content_hashes[face] = shadow_content_hash(scene, model, light, face);
         const auto is_drawn = [&](std::uint32_t face) {
-            return face < faces &&
-                   (model.is_everything || !graph.holds(part(face, 1), stamps[face]));
+            return face < faces && (model.is_everything ||
+                                    !graph.holds_content(part(face, 1), content_hashes[face]));
         };
         for_each_run(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
             const Faces run{light, first, end - first};
             for (std::uint32_t face = first; face < end && !model.is_everything; ++face)
-                graph.made_from(part(face, 1), stamps[face]);
+                graph.set_content_hash(part(face, 1), content_hashes[face]);
             const std::string text = run.count == faces ? name : name_of(name, run);
             add_shadow_faces(graph, scene, light, run, has_map, inputs.prefix + text + suffix,
                              part(first, run.count));

@@ -36,7 +36,8 @@ dvec3 origin_of(const scene::Scene& scene, const Bounds<double>& core) {
 bool is_small(const Bounds<double>& box, const dvec3& origin) {
     if (box.empty()) return false;
     const double size = largest_component(box.extent()),
-                 distance = largest_component(glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
+                 distance = largest_component(
+                     glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
     return size > 0 && size < kSmallPart * distance;
 }
 

@@ -55,8 +55,9 @@ bool is_own_storage(const Geometry& geometry, std::size_t object) {
 
 /// The same list with a ball in place of the triangles of each thing in scene units that stands for
 /// an exact sphere: where the first was. The others are no triangles.
-std::vector<bvh::Triangle> with_balls(std::span<const bvh::Triangle> flat, const Geometry& geometry,
-                                      std::span<const shared::Surface> surfaces) {
+std::vector<bvh::Triangle> with_spheres(std::span<const bvh::Triangle> flat,
+                                        const Geometry& geometry,
+                                        std::span<const shared::Surface> surfaces) {
     std::vector<bvh::Triangle> triangles(flat.begin(), flat.end());
     const bvh::Triangle nothing{.a = vec3(std::numeric_limits<float>::quiet_NaN())};
     for (std::uint32_t i = 0; i < geometry.ranges.size(); ++i) {
@@ -64,8 +65,8 @@ std::vector<bvh::Triangle> with_balls(std::span<const bvh::Triangle> flat, const
         if (!range.exact_sphere || range.own || range.index_count == 0) continue;
         const auto own = std::span(triangles).subspan(range.first_index / 3, range.index_count / 3);
         std::ranges::fill(own, nothing);
-        own.front() = bvh::ball(surfaces[i].centre, surfaces[i].radius, i,
-                                flags_of(range) & (bvh::kHidden | bvh::kShadowless));
+        own.front() = bvh::sphere(surfaces[i].centre, surfaces[i].radius, i,
+                                  flags_of(range) & (bvh::kHidden | bvh::kShadowless));
     }
     return triangles;
 }
@@ -232,7 +233,7 @@ void Tracing::prepare(gpu::Device& device, const Geometry& geometry,
             bring_up_to_date(hierarchy, geometry, std::span(triangles_).first(count));
         else
             bring_up_to_date(hierarchy, geometry,
-                             with_balls(std::span(triangles_).first(count), geometry, surfaces));
+                             with_spheres(std::span(triangles_).first(count), geometry, surfaces));
     }
     const double build_ms = watch.ms();
     for (Resident* buffer : {&hierarchy.nodes, &hierarchy.triangles, &normals_buffer_})

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bvh/two_level.hpp"
+#include "bvh/tlas.hpp"
 #include "graph/commands.hpp"
 #include "render/geometry.hpp"
 #include "render/resident.hpp"

@@ -1,6 +1,6 @@
 #include "render/views.hpp"
 
-#include "bvh/two_level.hpp"
+#include "bvh/tlas.hpp"
 #include "core/error.hpp"
 #include "core/shader_math.hpp"
 #include "scene/core.hpp"

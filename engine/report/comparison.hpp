@@ -12,7 +12,6 @@ using measure::Causes;
 using measure::Comparison;
 using measure::DeviceFacts;
 using measure::EnvironmentFacts;
-using measure::GapFacts;
 using measure::HostParts;
 using measure::Lag;
 using measure::LagAtSpeed;
@@ -24,5 +23,6 @@ using measure::Row;
 using measure::SceneFacts;
 using measure::Settling;
 using measure::SetupFacts;
+using measure::UnsupportedFeatureFacts;
 
 } // namespace catoptric::report

@@ -2,7 +2,7 @@
 #include "core/mirror_id.hpp"
 #include "core/text.hpp"
 #include "measure/judge.hpp"
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 #include "measure/views.hpp"
 #include "report/report.hpp"
 #include "report/text.hpp"
@@ -127,7 +127,7 @@ void CsvLine::add(const std::string& name, const measure::Value& value) {
 }
 
 /// Whether the report's table of rows has a column of this figure.
-bool is_in_rows_table(const measure::Quantity& quantity) {
+bool is_in_rows_table(const measure::Metric& quantity) {
     return std::ranges::any_of(quantity.columns, [](const measure::Column& column) {
         return column.table == measure::InTable::rows;
     });
@@ -135,7 +135,7 @@ bool is_in_rows_table(const measure::Quantity& quantity) {
 
 /// `is_main`: the mask is the one of which the table shows all figures of differences.
 void add(CsvLine& line, const std::string& mask, const measure::Difference& error, bool is_main) {
-    for (const measure::Quantity& quantity : measure::difference_quantities()) {
+    for (const measure::Metric& quantity : measure::difference_metrics()) {
         const InTable shown(line,
                             is_in_rows_table(quantity) && (is_main || quantity.each_mask_in_table));
         line.add(mask + "_" + std::string(quantity.name), measure::value_of(quantity, error));
@@ -156,7 +156,7 @@ void add_errors(CsvLine& line, const Comparison& comparison, const Row& row, std
 
 void add_figures(CsvLine& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
     bool has_errors = false;
-    for (const measure::Quantity& quantity : measure::quantities()) {
+    for (const measure::Metric& quantity : measure::metrics()) {
         if (quantity.mask != "each") {
             std::string name(quantity.name);
             std::ranges::replace(name, '/', '_');
@@ -171,7 +171,7 @@ void add_figures(CsvLine& line, const Comparison& comparison, const Row& row, st
 /// Errors over the mirrors, over the drawn views; no columns where none were drawn.
 void add_views(CsvLine& line, const Comparison& comparison, const Row& row) {
     if (comparison.views.empty()) return;
-    for (const measure::Quantity& quantity : measure::difference_quantities()) {
+    for (const measure::Metric& quantity : measure::difference_metrics()) {
         if (!measure::is_number(quantity)) continue;
         const measure::OverViews over = measure::over_views(row, measure::masks().front(),
                                                             quantity);

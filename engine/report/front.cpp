@@ -57,7 +57,7 @@ std::string verdict_in_words(const Comparison& comparison) {
 }
 
 std::vector<std::string> front_in_words(const Comparison& comparison) {
-    const measure::Standing standing = measure::standing(comparison);
+    const measure::Ranking standing = measure::ranking_of(comparison);
     if (standing.front.empty()) return {"No row could be judged, so there is no front."};
     std::vector<std::string> words{
         "On the front, by median time: " + figures_of(standing.front) +

@@ -97,20 +97,22 @@ std::string figure(const measure::Picture& size, const std::string& png, const s
                        html_escaped(caption));
 }
 
-std::string number(const char* name, const std::string& value) {
+std::string number_attribute(const char* name, const std::string& value) {
     return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value);
 }
 
 std::string numbers(const Row& row) {
-    return "<dl class=\"numbers\">" + number("ms", ms_text(row.time_ms().median)) +
-           number("FPS", fps_text(row.time_ms().median)) +
-           number("FLIP", error_text(row.error.flip)) +
-           number("off, %", fixed(100 * row.error.off, 2)) +
-           number("MAE", error_text(row.error.mae)) + number("rmse", error_text(row.error.rmse)) +
-           number("FLIP, 1st order", error_text(row.error_first_order.flip)) +
-           number("PSNR dB", row.error.psnr ? fixed(*row.error.psnr, 1) : std::string(kNothing)) +
-           number("Scene passes", std::to_string(row.scene_passes)) +
-           number("MiB", mebibytes(row.memory_bytes)) + "</dl>";
+    return "<dl class=\"numbers\">" + number_attribute("ms", ms_text(row.time_ms().median)) +
+           number_attribute("FPS", fps_text(row.time_ms().median)) +
+           number_attribute("FLIP", error_text(row.error.flip)) +
+           number_attribute("off, %", fixed(100 * row.error.off, 2)) +
+           number_attribute("MAE", error_text(row.error.mae)) +
+           number_attribute("rmse", error_text(row.error.rmse)) +
+           number_attribute("FLIP, 1st order", error_text(row.error_first_order.flip)) +
+           number_attribute("PSNR dB",
+                            row.error.psnr ? fixed(*row.error.psnr, 1) : std::string(kNothing)) +
+           number_attribute("Scene passes", std::to_string(row.scene_passes)) +
+           number_attribute("MiB", mebibytes(row.memory_bytes)) + "</dl>";
 }
 
 std::string details(const Row& row) {
@@ -278,7 +280,7 @@ std::string html_section(const Comparison& comparison, const EncodedPictures& en
             to_html(lookup_table(comparison), "lookups", &comparison) +
             to_html(cause_table(comparison), "causes") + lag_plots(comparison) +
             to_html(lag_table(comparison), "lag") + to_html(settling_table(comparison), "lag") +
-            pictures(comparison, encoded) + to_html(gaps_table(comparison.scene), "gaps") +
+            pictures(comparison, encoded) + to_html(unsupported_table(comparison.scene), "gaps") +
             circumstances(comparison);
     return html + (is_page ? "</main>\n" : "</div>\n");
 }

@@ -88,7 +88,7 @@ struct Writes {
 
 /// The figures, without saying of which pixels.
 void add(Json& json, const measure::Difference& error) {
-    for (const measure::Quantity& quantity : measure::difference_quantities())
+    for (const measure::Metric& quantity : measure::difference_metrics())
         json[std::string(quantity.name)] = value_json(measure::value_of(quantity, error));
 }
 
@@ -108,7 +108,7 @@ void add_errors(Json& json, const Row& row) {
 }
 
 /// A figure of an object of figures, which is null as long as none of them says anything.
-void add_to_object(Json& json, const measure::Quantity& quantity, const measure::Value& value) {
+void add_to_object(Json& json, const measure::Metric& quantity, const measure::Value& value) {
     const std::size_t slash = quantity.name.find('/');
     Json& object = json[std::string(quantity.name.substr(0, slash))];
     if (object.is_null() && measure::is_nothing(value)) return;
@@ -116,7 +116,7 @@ void add_to_object(Json& json, const measure::Quantity& quantity, const measure:
     object[std::string(quantity.name.substr(slash + 1))] = value_json(value);
 }
 
-void add_figure(Json& json, const measure::Quantity& quantity, const Row& row) {
+void add_figure(Json& json, const measure::Metric& quantity, const Row& row) {
     const measure::Value value = measure::value_of(quantity, row);
     const bool* mark = std::get_if<bool>(&value);
     if (quantity.only_where_true && mark != nullptr && !*mark) return;
@@ -128,7 +128,7 @@ void add_figure(Json& json, const measure::Quantity& quantity, const Row& row) {
 
 /// Every figure of the table, those of differences where their first stands.
 void add_figures(Json& json, const Row& row) {
-    for (const measure::Quantity& quantity : measure::quantities()) {
+    for (const measure::Metric& quantity : measure::metrics()) {
         if (quantity.mask != "each")
             add_figure(json, quantity, row);
         else if (!json.contains("error"))
@@ -162,7 +162,7 @@ Json plan_json(const std::vector<PlanEntry>& plan) {
 
 namespace {
 
-Json to_json(const std::vector<measure::LeftOut>& list) {
+Json to_json(const std::vector<measure::CulledWork>& list) {
     Json json = Json::array();
     for (const auto& [what, why, saves, error] : list)
         json.push_back({{"what", what}, {"why", why}, {"saves", saves}, {"error", number(error)}});
@@ -214,7 +214,7 @@ void add_circumstances(Json& json, const Comparison& comparison) {
 
 Json times_json(const Row& row) {
     Json json = Json::object();
-    for (const measure::Quantity& quantity : measure::quantities())
+    for (const measure::Metric& quantity : measure::metrics())
         if (quantity.unit == "ms") add_figure(json, quantity, row);
     return json;
 }

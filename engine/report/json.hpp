@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/plan_entry.hpp"
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 #include "report/comparison.hpp"
 
 #include <nlohmann/json.hpp>
@@ -39,7 +39,7 @@ Json camera_json(const measure::CameraFacts& camera);
 /// Lists, and null for no environment.
 Json lights_json(const std::vector<LightFacts>& lights);
 Json environment_json(const std::optional<EnvironmentFacts>& environment);
-Json gaps_json(const std::vector<GapFacts>& gaps);
+Json unsupported_json(const std::vector<UnsupportedFeatureFacts>& unsupported);
 /// The field "scene".
 Json scene_json(const SceneFacts& scene);
 

@@ -36,9 +36,9 @@ Json environment_json(const std::optional<EnvironmentFacts>& environment) {
             {"rotation_degrees", number(environment->rotation_degrees)}};
 }
 
-Json gaps_json(const std::vector<GapFacts>& gaps) {
+Json unsupported_json(const std::vector<UnsupportedFeatureFacts>& unsupported) {
     Json list = Json::array();
-    for (const GapFacts& gap : gaps)
+    for (const UnsupportedFeatureFacts& gap : unsupported)
         list.push_back(
             {{"id", gap.id},
              {"count", gap.count},
@@ -55,7 +55,7 @@ Json scene_json(const SceneFacts& scene) {
             {"camera", camera_json(scene.camera)},
             {"lights", lights_json(scene.lights)},
             {"environment", environment_json(scene.environment)},
-            {"gaps", gaps_json(scene.gaps)}};
+            {"gaps", unsupported_json(scene.unsupported)}};
 }
 
 } // namespace catoptric::report

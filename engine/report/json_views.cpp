@@ -16,7 +16,7 @@ Json interval_json(const measure::Interval& interval) {
 /// Every figure that is a number, over one mask.
 Json figures_json(const Row& row, const measure::RowMask& mask) {
     Json figures = Json::object();
-    for (const measure::Quantity& quantity : measure::difference_quantities()) {
+    for (const measure::Metric& quantity : measure::difference_metrics()) {
         if (!measure::is_number(quantity)) continue;
         const measure::OverViews over = measure::over_views(row, mask, quantity);
         figures[std::string(quantity.name)] = {{"median", number(over.median)},

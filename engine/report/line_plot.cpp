@@ -16,14 +16,17 @@ using svg::grid_line, svg::kLine, svg::Scale, svg::text;
 namespace {
 
 constexpr double kChartWidth = 500, kChartHeight = 300;
-constexpr double kChartLeft = 66, kChartRight = 340, kChartTop = 12, kChartLane = 226, kChartBottom = 250; // lane: 0
+constexpr double kChartLeft = 66, kChartRight = 340, kChartTop = 12, kChartLane = 226,
+                 kChartBottom = 250; // lane: 0
 constexpr double kChartZero = (kChartLane + kChartBottom) / 2;
 constexpr std::size_t kMostTicks = 8;
 
 double x_place(const LinePlot& plot, double x) {
     const auto along = [&](double value) { return plot.log_x ? std::log10(value) : value; };
     const double first = along(plot.x.front()), last = along(plot.x.back());
-    return last > first ? kChartLeft + (along(x) - first) / (last - first) * (kChartRight - kChartLeft) : kChartLeft;
+    return last > first
+               ? kChartLeft + (along(x) - first) / (last - first) * (kChartRight - kChartLeft)
+               : kChartLeft;
 }
 
 double y_place(const Scale& scale, double y) { return y > 0 ? scale(y) : kChartZero; }
@@ -40,7 +43,8 @@ std::vector<double> y_ticks(const Scale& scale) {
 
 std::string axes(const LinePlot& plot, const Scale& y) {
     std::string drawn = fmt::format(R"(<rect class="lane" x="{}" y="{}" width="{}" height="{}"/>)",
-                                    kChartLeft, kChartLane, kChartRight - kChartLeft, kChartBottom - kChartLane);
+                                    kChartLeft, kChartLane, kChartRight - kChartLeft,
+                                    kChartBottom - kChartLane);
     for (const double value : plot.x_ticks) {
         const double x = x_place(plot, value);
         drawn += grid_line(x, kChartTop, x, kChartBottom) +
@@ -50,8 +54,10 @@ std::string axes(const LinePlot& plot, const Scale& y) {
         drawn += grid_line(kChartLeft, y(value), kChartRight, y(value)) +
                  text(kChartLeft - 6, y(value) + 4, "end", fmt::format("{:g}", value));
     drawn += text(kChartLeft - 6, kChartZero + 4, "end", "0");
-    drawn += text((kChartLeft + kChartRight) / 2, kChartBottom + 38, "middle", html_escaped(plot.x_name));
-    drawn += fmt::format("<g transform=\"translate(12 {}) rotate(-90)\">", (kChartTop + kChartLane) / 2);
+    drawn += text((kChartLeft + kChartRight) / 2, kChartBottom + 38, "middle",
+                  html_escaped(plot.x_name));
+    drawn += fmt::format("<g transform=\"translate(12 {}) rotate(-90)\">",
+                         (kChartTop + kChartLane) / 2);
     return drawn + text(0, 0, "middle", html_escaped(plot.y_name)) + "</g>";
 }
 

@@ -92,8 +92,9 @@ std::string to_markdown(const Comparison& comparison) {
             over_views(comparison) + to_markdown(mirror_table(comparison)) +
             to_markdown(lookup_table(comparison)) + to_markdown(cause_table(comparison)) +
             to_markdown(lag_table(comparison)) + to_markdown(settling_table(comparison)) +
-            to_markdown(gaps_table(comparison.scene));
-    text += "## The Pareto front: time against FLIP\n\n" + markdown_list(front_in_words(comparison));
+            to_markdown(unsupported_table(comparison.scene));
+    text += "## The Pareto front: time against FLIP\n\n" +
+            markdown_list(front_in_words(comparison));
     const std::vector<std::string> sentences = findings(comparison);
     if (!sentences.empty())
         text += "## " + findings_title(comparison) + "\n\n" + markdown_list(sentences);

@@ -3,7 +3,7 @@
 #include "core/mirror_id.hpp"
 #include "measure/findings.hpp"
 #include "measure/judge.hpp"
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 #include "measure/row_notes.hpp"
 #include "measure/rows.hpp"
 #include "measure/seed_report.hpp"
@@ -118,7 +118,7 @@ std::string cell(const measure::Column& column, const measure::Value& value, int
 
 /// A column of the table of quantities; of a difference, over one mask.
 struct FigureColumn {
-    const measure::Quantity* quantity;
+    const measure::Metric* quantity;
     measure::Column column;
     const measure::RowMask* mask = nullptr;
 
@@ -139,9 +139,9 @@ struct FigureColumn {
 std::vector<FigureColumn> figure_columns(measure::InTable table, const Comparison& comparison) {
     std::vector<FigureColumn> columns;
     int last = 0; // of differences
-    for (const measure::Quantity& quantity : measure::difference_quantities())
+    for (const measure::Metric& quantity : measure::difference_metrics())
         if (quantity.order < measure::kAfterDifferences) last = quantity.order;
-    for (const measure::Quantity& quantity : measure::quantities())
+    for (const measure::Metric& quantity : measure::metrics())
         for (const measure::Column& column : quantity.columns) {
             if (column.table != table) continue;
             if (quantity.mask != "each") {

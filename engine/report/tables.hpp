@@ -35,7 +35,7 @@ Table mirror_table(const Comparison& comparison);
 /// Where mirrors looked, for rows that search; no rows when none does.
 Table lookup_table(const Comparison& comparison);
 /// What of the scene is not shown as its file says; no rows where all is.
-Table gaps_table(const SceneFacts& scene);
+Table unsupported_table(const SceneFacts& scene);
 /// What is done instead; empty for an id that is not known.
 std::string gap_in_words(const std::string& id);
 /// Error by cause, four lines a row; no rows when nothing was split.

@@ -10,14 +10,14 @@ namespace catoptric::report {
 namespace {
 
 struct Figure {
-    const measure::Quantity* quantity;
+    const measure::Metric* quantity;
     const measure::Column* column;
 };
 
 /// Figures of differences that the table of rows shows, too.
 std::vector<Figure> figures() {
     std::vector<Figure> list;
-    for (const measure::Quantity& quantity : measure::difference_quantities())
+    for (const measure::Metric& quantity : measure::difference_metrics())
         for (const measure::Column& column : quantity.columns)
             if (measure::is_number(quantity)) list.push_back({&quantity, &column});
     return list;
@@ -42,7 +42,7 @@ std::string cell(const Row& row, const Figure& figure) {
 }
 
 /// Of its column, without the unit.
-std::string_view title_of(const measure::Quantity& quantity) {
+std::string_view title_of(const measure::Metric& quantity) {
     const std::string_view title = quantity.columns.front().title;
     return title.substr(0, title.find(','));
 }

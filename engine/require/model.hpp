@@ -44,7 +44,7 @@ struct MirrorNeeds {
     std::uint32_t edge = 0; ///< texels along an edge that are enough; 0: as many as the row asks
     /// Of what each face shows but for mirrors, and how it is lit: while the number and the views
     /// of face and shadow maps stay, so do the bytes.
-    std::array<std::uint64_t, 6> stamps{};
+    std::array<std::uint64_t, 6> content_hashes{};
     /// Of the same but for what `pieces` has.
     std::array<std::uint64_t, 6> settings{};
     std::shared_ptr<const Pieces> pieces; ///< null: they are not told apart
@@ -53,19 +53,19 @@ struct MirrorNeeds {
 };
 
 struct LightNeeds {
-    bool has_map = true;     ///< something that is seen may lie in a shadow of its
-    std::uint64_t stamp = 0; ///< of the light and of all that has never moved
+    bool has_map = true;            ///< something that is seen may lie in a shadow of its
+    std::uint64_t content_hash = 0; ///< of the light and of all that has never moved
 };
 
 /// A thing that moves and casts shadows. A face of a shadow map stays while LightNeeds::stamp, the
 /// face's view and the stamps of those that it may show do.
 struct Caster {
     std::uint32_t object = 0;
-    std::uint64_t stamp = 0; ///< of its shape and where it is
+    std::uint64_t content_hash = 0; ///< of its shape and where it is
 };
 
 /// A thing that is not done, for the user to read.
-struct LeftOut {
+struct CulledWork {
     std::string what;
     std::string why;
     std::string saves;
@@ -77,7 +77,7 @@ struct Model {
     std::vector<MirrorNeeds> mirrors; ///< entry n-1 of mirror n
     std::vector<LightNeeds> lights;   ///< as scene::lights has them
     std::vector<Caster> casters;
-    std::vector<LeftOut> left_out;
+    std::vector<CulledWork> left_out;
 };
 
 /// Nothing is left out and nothing kept.
@@ -86,8 +86,8 @@ CATOPTRIC_API Model everything(const Question& question);
 /// moves. O(vertices): for many pictures of one scene take Requirements.
 CATOPTRIC_API Model required(const Question& question);
 
-/// The same for picture after picture of one scene, whose meshes stay. Stamps are told apart by
-/// what moves, and equal ones stand for equal bytes within one object of this class.
+/// The same for picture after picture of one scene, whose meshes stay. ContentHashes are told apart
+/// by what moves, and equal ones stand for equal bytes within one object of this class.
 class Requirements {
 public:
     /// The scene at rest, motions with it. O(vertices), texels of images.

@@ -34,7 +34,7 @@ private:
 
 auto order(const Piece& piece) {
     const FacePart& part = piece.part;
-    return std::tuple(piece.stamp, part.low.x, part.low.y, part.high.x, part.high.y);
+    return std::tuple(piece.content_hash, part.low.x, part.low.y, part.high.x, part.high.y);
 }
 
 } // namespace

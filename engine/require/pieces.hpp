@@ -36,7 +36,7 @@ FacePart part_with(int face, const Bounds<double>& a, const Bounds<double>& b);
 
 /// A mover, or one's shadow on something, where a face may show it.
 struct Piece {
-    std::uint64_t stamp = 0; ///< equal, and so is what it looks like
+    std::uint64_t content_hash = 0; ///< equal, and so is what it looks like
     FacePart part;
 };
 

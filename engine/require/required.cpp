@@ -1,8 +1,8 @@
-#include "require/left_out.hpp"
+#include "require/content_hashes.hpp"
+#include "require/culled_work.hpp"
 #include "require/reach.hpp"
-#include "require/stamps.hpp"
 
-#include "core/stamp.hpp"
+#include "core/content_hash.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace catoptric::require {
 struct Requirements::Impl {
     World world;
     Sight sight;
-    Stamps stamps;
+    ContentHashes content_hashes;
     Findings findings;
     Model model;
     std::vector<std::size_t> waiting;     ///< mirrors that are seen and not asked yet what they see
@@ -59,12 +59,13 @@ void Requirements::Impl::find_captured(std::size_t mirror, bool asks_all) {
     if (!needs.is_captured) {
         listed[mirror] = false;
         needs.sees.clear();
-        needs.stamps = needs.settings = {};
+        needs.content_hashes = needs.settings = {};
         needs.pieces = nullptr;
         return;
     }
-    const Stamps::Faces6& faces = stamps.of_faces(world, mirror);
-    needs.stamps = faces.stamps, needs.settings = faces.settings, needs.pieces = faces.pieces;
+    const ContentHashes::Faces6& faces = content_hashes.of_faces(world, mirror);
+    needs.content_hashes = faces.content_hashes, needs.settings = faces.settings,
+    needs.pieces = faces.pieces;
     if (listed[mirror] && !sight.has_changed(mirror)) return;
     listed[mirror] = true;
     needs.sees.clear();
@@ -73,7 +74,7 @@ void Requirements::Impl::find_captured(std::size_t mirror, bool asks_all) {
 }
 
 Faces Requirements::Impl::faces_of(const Picture& picture, std::size_t mirror) {
-    const Thing& thing = world.things()[world.mirrors()[mirror]];
+    const WorldObject& thing = world.things()[world.mirrors()[mirror]];
     const dvec3 flat = world.meshes()[thing.mesh].flat_normal;
     if (flat == dvec3(0) || !model.mirrors[mirror].is_captured) return kAllFaces;
     viewers.clear();
@@ -91,15 +92,16 @@ Faces Requirements::Impl::faces_of(const Picture& picture, std::size_t mirror) {
 /// everything where some capture is made.
 void Requirements::Impl::find_lights(const Picture& picture) {
     model.lights.resize(world.lights().size());
-    model.casters = stamps.casters(world);
+    model.casters = content_hashes.casters(world);
     const bool all_around = std::ranges::any_of(model.mirrors, &MirrorNeeds::is_captured);
     for (std::size_t i = 0; i < model.lights.size(); ++i) {
-        model.lights[i].stamp = Stamp(world.epoch()).add(i).value();
-        model.lights[i].has_map = std::ranges::any_of(world.things(), [&](const Thing& thing) {
-            return !thing.box.empty() &&
-                   may_light(world.lights()[i], thing.box, world.rounding()) &&
-                   (all_around || (thing.seen_by_camera && picture.may_hold(thing.box)));
-        });
+        model.lights[i].content_hash = ContentHash(world.epoch()).add(i).value();
+        model.lights[i].has_map = std::ranges::any_of(
+            world.things(), [&](const WorldObject& thing) {
+                return !thing.box.empty() &&
+                       may_light(world.lights()[i], thing.box, world.rounding()) &&
+                       (all_around || (thing.seen_by_camera && picture.may_hold(thing.box)));
+            });
     }
 }
 
@@ -113,7 +115,7 @@ const Model& Requirements::of(const Question& question) {
     const Picture picture(question.camera, question.size);
     impl.world.follow(question.now);
     impl.sight.follow(impl.world);
-    impl.stamps.follow(impl.world, question.shadow_edge);
+    impl.content_hashes.follow(impl.world, question.shadow_edge);
     impl.find_seen(picture, question.now);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
         impl.find_captured(i, question.asks_all);

@@ -72,9 +72,9 @@ Shade shade_of(const scene::PointLight& light, const Bounds<double>& caster,
 void find_landings(const World& world, std::uint32_t edge, std::vector<Landing>& landings) {
     landings.clear();
     Bounds<double> everything;
-    for (const Thing& thing : world.things()) everything.add(thing.box);
+    for (const WorldObject& thing : world.things()) everything.add(thing.box);
     for (const std::size_t mover : world.movers()) {
-        const Thing& caster = world.things()[mover];
+        const WorldObject& caster = world.things()[mover];
         if (!caster.casts_shadow || caster.box.empty()) continue;
         for (const scene::PointLight& light : world.lights()) {
             const auto [from, to] = shade_of(light, caster.box, everything);

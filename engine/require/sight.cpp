@@ -17,9 +17,9 @@ double margin_of(const World& world) { return 4 * world.rounding(); }
 std::optional<Unseen> hidden_from_camera(const World& world, const Picture& picture,
                                          std::size_t mirror) {
     const std::size_t object = world.mirrors()[mirror];
-    const Thing& thing = world.things()[object];
+    const WorldObject& thing = world.things()[object];
     if (thing.box.empty()) return Unseen{Unseen::Why::empty, 0};
-    if (!thing.seen_by_camera) return Unseen{Unseen::Why::passed_by, 0};
+    if (!thing.seen_by_camera) return Unseen{Unseen::Why::hidden_from_camera, 0};
     if (!picture.may_hold(thing.box)) return Unseen{Unseen::Why::outside, 0};
     const double margin = margin_of(world);
     for (const Wall& wall : world.walls()) {
@@ -37,7 +37,7 @@ bool is_tested(const scene::Mesh& mesh) { return mesh.triangles.size() <= kMostP
 
 bool is_surface_in(const Picture& picture, const World& world, std::size_t mirror,
                    const scene::Scene& now) {
-    const Thing& thing = world.things()[world.mirrors()[mirror]];
+    const WorldObject& thing = world.things()[world.mirrors()[mirror]];
     const double margin = margin_of(world);
     if (thing.sphere)
         return picture.may_hold_ball(thing.sphere->centre, thing.sphere->radius + margin);
@@ -85,7 +85,7 @@ Sight::Sides Sight::sides_of(const World& world, const Bounds<double>& box) cons
 }
 
 Sight::Place Sight::place_of(const World& world, std::size_t mirror) const {
-    const Thing& thing = world.things()[world.mirrors()[mirror]];
+    const WorldObject& thing = world.things()[world.mirrors()[mirror]];
     if (thing.box.empty()) return {};
     const dvec3 centre = thing.tight.centre();
     return {sides_of(world, thing.box), sides_of(world, {centre, centre})};

@@ -14,7 +14,7 @@ inline constexpr std::size_t kMostPairs = 1 << 14;
 
 /// Why the camera does not see a mirror.
 struct Unseen {
-    enum class Why { outside, passed_by, hidden, empty };
+    enum class Why { outside, hidden_from_camera, hidden, empty };
     Why why = Why::outside;
     std::size_t wall = 0; ///< object that hides it
 };

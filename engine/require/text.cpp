@@ -1,6 +1,6 @@
 // What a model says, for the user to read.
 #include "core/text.hpp"
-#include "require/left_out.hpp"
+#include "require/culled_work.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -85,7 +85,7 @@ std::string to_text(const Model& model, const scene::Scene& scene) {
     }
     text << kept_text(model);
     text << (model.left_out.empty() ? "nothing is left out\n" : "left out\n");
-    for (const LeftOut& thing : model.left_out)
+    for (const CulledWork& thing : model.left_out)
         text << "  " << thing.what << "\n    why: " << thing.why << "\n    saves: " << thing.saves
              << "\n    changes: " << error_text(thing.error) << "\n";
     return text.str();

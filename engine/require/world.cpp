@@ -1,7 +1,7 @@
 #include "require/world.hpp"
 
 #include "require/reach.hpp"
-#include "require/world_stamps.hpp"
+#include "require/world_content_hashes.hpp"
 #include "scene/transform.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ MeshFacts facts_of(const scene::Mesh& mesh) {
     for (const uvec3& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i)
             facts.radius = std::max(facts.radius, length(mesh.positions[triangle[i]] - middle));
-    facts.stamp = stamp_of(mesh);
+    facts.content_hash = content_hash_of(mesh);
     facts.quads = quads_of(mesh);
     facts.flat_normal = flat_normal(mesh);
     return facts;
@@ -79,13 +79,13 @@ World::World(const scene::Scene& rest) {
 void World::lay_out(const scene::Scene& now) {
     ++layouts_;
     materials_ = now.materials, environment_ = now.environment, punctual_ = now.punctual;
-    materials_stamp_ = stamp_of(now.materials);
-    environment_stamp_ = stamp_of(now.environment.get());
+    materials_stamp_ = content_hash_of(now.materials);
+    environment_stamp_ = content_hash_of(now.environment.get());
     things_.resize(now.objects.size());
     mirrors_ = scene::mirrors(now), movers_.clear(), still_ = {};
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const scene::Object& object = now.objects[i];
-        Thing& thing = things_[i];
+        WorldObject& thing = things_[i];
         thing.mesh = object.mesh, thing.material = object.material;
         thing.rest = object.world_from_object;
         thing.seen_by_camera = object.seen_by_camera;
@@ -114,7 +114,7 @@ bool World::fits(const scene::Scene& now) const {
         return false;
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const scene::Object& object = now.objects[i];
-        const Thing& thing = things_[i];
+        const WorldObject& thing = things_[i];
         if (object.mesh != thing.mesh || object.material != thing.material ||
             object.seen_by_camera != thing.seen_by_camera ||
             scene::is_mirror(now, object) != thing.is_mirror ||
@@ -127,7 +127,7 @@ bool World::fits(const scene::Scene& now) const {
 /// Puts an object where it is now.
 void World::move(const scene::Scene& now, std::size_t index) {
     const scene::Object& object = now.objects[index];
-    Thing& thing = things_[index];
+    WorldObject& thing = things_[index];
     thing.place = object.world_from_object, thing.sphere = object.sphere;
     const bool is_shifted = dmat3(thing.place) == dmat3(thing.rest);
     thing.tight = is_shifted
@@ -141,10 +141,13 @@ void World::move(const scene::Scene& now, std::size_t index) {
     const MeshFacts& mesh = meshes_[thing.mesh];
     if (!mesh.box.empty()) thing.middle = scene::transform_point(thing.place, mesh.box.centre());
     thing.radius = mesh.radius * stretch_at_most(dmat3(thing.place)) + 2 * room;
-    Stamp stamp;
-    stamp.add(index).add(meshes_[thing.mesh].stamp).add(thing.material).add(thing.place);
-    if (thing.sphere) stamp.add(thing.sphere->centre).add(thing.sphere->radius);
-    thing.stamp = stamp.value();
+    ContentHash content_hash;
+    content_hash.add(index)
+        .add(meshes_[thing.mesh].content_hash)
+        .add(thing.material)
+        .add(thing.place);
+    if (thing.sphere) content_hash.add(thing.sphere->centre).add(thing.sphere->radius);
+    thing.content_hash = content_hash.value();
 }
 
 void World::follow(const scene::Scene& now) {
@@ -153,14 +156,14 @@ void World::follow(const scene::Scene& now) {
         for (std::size_t i = 0; i < std::min(things_.size(), now.objects.size()); ++i)
             if (now.objects[i].world_from_object != things_[i].rest) things_[i].is_mover = true;
         lay_out(now);
-        for (Thing& thing : things_) thing.has_moved = thing.is_mover;
+        for (WorldObject& thing : things_) thing.has_moved = thing.is_mover;
         has_changed_ = true;
         return;
     }
     bool lights_moved = !std::ranges::equal(
         punctual_, now.punctual, [](const auto& a, const auto& b) { return same(a, b); });
     for (const std::size_t mover : movers_) {
-        Thing& thing = things_[mover];
+        WorldObject& thing = things_[mover];
         const scene::Object& object = now.objects[mover];
         thing.has_moved = object.world_from_object != thing.place ||
                           !same(object.sphere, thing.sphere);
@@ -184,7 +187,7 @@ void World::find_walls() {
     };
     const double extent = rounding_ / kRounding, least = kLeastWall * extent * extent;
     for (std::size_t i = 0; i < things_.size(); ++i) {
-        const Thing& thing = things_[i];
+        const WorldObject& thing = things_[i];
         const scene::Material& material = materials_[thing.material];
         if (thing.is_mover || !is_wall(material, thing.is_mirror)) continue;
         for (Quad quad : meshes_[thing.mesh].quads) {
@@ -200,11 +203,12 @@ void World::find_walls() {
 }
 
 void World::find_epoch() {
-    Stamp stamp;
-    stamp.add(materials_stamp_).add(environment_stamp_).add(things_.size());
-    for (const Thing& thing : things_) stamp.add(thing.is_mover ? 0 : thing.stamp);
-    for (const scene::PointLight& light : lights_) stamp.add(stamp_of(light));
-    epoch_ = stamp.value();
+    ContentHash content_hash;
+    content_hash.add(materials_stamp_).add(environment_stamp_).add(things_.size());
+    for (const WorldObject& thing : things_)
+        content_hash.add(thing.is_mover ? 0 : thing.content_hash);
+    for (const scene::PointLight& light : lights_) content_hash.add(content_hash_of(light));
+    epoch_ = content_hash.value();
 }
 
 } // namespace catoptric::require

@@ -23,24 +23,24 @@ inline constexpr double kLeastWall = 1e-3;
 struct MeshFacts {
     Bounds<double> box; ///< in the mesh's own space
     double radius = 0;  ///< of all that is drawn, around the middle of `box`
-    std::uint64_t stamp = 0;
+    std::uint64_t content_hash = 0;
     std::vector<Quad> quads;
     dvec3 flat_normal{0}; ///< of a flat one (require/reach.hpp)
 };
 
-struct Thing {
+struct WorldObject {
     std::size_t mesh = 0, material = 0;
     dmat4 rest{1}, place{1}; ///< world from object: when it was found, and now
     std::optional<scene::Sphere> sphere;
     bool seen_by_camera = true, is_mirror = false, casts_shadow = true;
-    bool is_mover = false;     ///< it has a motion, or was moved since
-    bool has_moved = false;    ///< since the instant before
-    Bounds<double> tight_rest; ///< of its vertices
-    Bounds<double> tight;      ///< now; of a turned mover that is no mirror a larger box
-    Bounds<double> box;        ///< `tight` with room for roundings; empty: it has no triangle
-    dvec3 middle{0};           ///< of a sphere that holds it
-    double radius = 0;         ///< of that, with room for roundings
-    std::uint64_t stamp = 0;   ///< of its mesh, place, sphere and material
+    bool is_mover = false;          ///< it has a motion, or was moved since
+    bool has_moved = false;         ///< since the instant before
+    Bounds<double> tight_rest;      ///< of its vertices
+    Bounds<double> tight;           ///< now; of a turned mover that is no mirror a larger box
+    Bounds<double> box;             ///< `tight` with room for roundings; empty: it has no triangle
+    dvec3 middle{0};                ///< of a sphere that holds it
+    double radius = 0;              ///< of that, with room for roundings
+    std::uint64_t content_hash = 0; ///< of its mesh, place, sphere and material
 };
 
 /// A scene as rules see it, instant by instant. What has never moved is told apart from what has:
@@ -55,7 +55,7 @@ public:
     /// number of things or another material, light or environment, is another `epoch`.
     void follow(const scene::Scene& now);
 
-    const std::vector<Thing>& things() const { return things_; }
+    const std::vector<WorldObject>& things() const { return things_; }
     const std::vector<std::size_t>& mirrors() const { return mirrors_; } ///< objects
     const std::vector<std::size_t>& movers() const { return movers_; }   ///< objects
     const std::vector<Wall>& walls() const { return walls_; }            ///< the largest first
@@ -79,7 +79,7 @@ private:
     std::vector<scene::Punctual> punctual_;
     std::shared_ptr<const scene::Environment> environment_;
     std::uint64_t materials_stamp_ = 0, environment_stamp_ = 0, epoch_ = 0, layouts_ = 0;
-    std::vector<Thing> things_;
+    std::vector<WorldObject> things_;
     std::vector<std::size_t> mirrors_, movers_;
     std::vector<Wall> walls_;
     std::vector<scene::PointLight> lights_;

@@ -1,5 +1,5 @@
 // Of many lights the strongest.
-#include "scene/wishes.hpp"
+#include "scene/scene_overrides.hpp"
 
 #include "core/luminance.hpp"
 #include "core/text.hpp"
@@ -119,7 +119,7 @@ void leave_out_lights(Scene& scene, std::size_t most) {
         if (!thing.kept.empty())
             place += ", " + std::to_string(thing.points - thing.kept.size()) + " of its " +
                      std::to_string(thing.points) + " parts";
-        add_gap(scene.gaps, "lights-left-out", place);
+        add_unsupported(scene.unsupported, "lights-left-out", place);
         if (!thing.kept.empty())
             split_off(scene, index, thing.kept);
         else if (is_object)

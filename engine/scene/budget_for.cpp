@@ -9,7 +9,7 @@
 
 namespace catoptric::scene {
 
-Budget budget_for(const std::filesystem::path& scene, const BudgetWish& wish,
+Budget budget_for(const std::filesystem::path& scene, const BudgetOverride& wish,
                   std::uint64_t free_bytes) {
     constexpr std::uint64_t kShareOfFiles = 8, kStoredBytes = 6;
     Budget budget;

@@ -145,10 +145,11 @@ bool is_similarity(const dmat3& m) {
     return true;
 }
 
-void add_material_gaps(Scene& scene, const char* id, const std::set<std::size_t>& materials) {
+void add_unsupported_materials(Scene& scene, const char* id,
+                               const std::set<std::size_t>& materials) {
     for (const std::size_t i : materials)
-        add_material_gap(scene.gaps, id, gltf::label_of("materials", i, scene.materials[i].name),
-                         i);
+        add_unsupported_material(scene.unsupported, id,
+                                 gltf::label_of("materials", i, scene.materials[i].name), i);
 }
 
 /// Whether some of the material throws back light of the surfaces around it in all directions.
@@ -180,7 +181,7 @@ Surface surface_of(const Scene& scene, const Object& object) {
 }
 
 void classify(Scene& scene, bool dielectric_mirrors) {
-    std::erase_if(scene.gaps, [](const Gap& gap) {
+    std::erase_if(scene.unsupported, [](const UnsupportedFeature& gap) {
         return gap.id == "smooth-dielectric" || gap.id == "rough-metal";
     });
     std::map<std::pair<std::size_t, std::size_t>, Surface> known; // by mesh and material
@@ -203,16 +204,16 @@ void classify(Scene& scene, bool dielectric_mirrors) {
         }
         if (surface.rough_metal > 0) rough_metals.insert(object.material);
     }
-    add_material_gaps(scene, "smooth-dielectric", dielectrics);
-    add_material_gaps(scene, "rough-metal", rough_metals);
+    add_unsupported_materials(scene, "smooth-dielectric", dielectrics);
+    add_unsupported_materials(scene, "rough-metal", rough_metals);
     find_spheres(scene);
 }
 
-void settle_gaps(Scene& scene) {
+void settle_unsupported(Scene& scene) {
     std::set<std::size_t> glossy, diffuse; // materials
-    for (const Gap& gap : scene.gaps)
+    for (const UnsupportedFeature& gap : scene.unsupported)
         if (gap.id == kSpecular) glossy.insert(gap.materials.begin(), gap.materials.end());
-    std::erase_if(scene.gaps, [](const Gap& gap) {
+    std::erase_if(scene.unsupported, [](const UnsupportedFeature& gap) {
         return gap.id == kSpecular || gap.id == kIndirect || gap.id == kUnshadowed;
     });
     std::set<std::size_t> without_lobe;
@@ -227,11 +228,11 @@ void settle_gaps(Scene& scene) {
             without_lobe.insert(object.material);
     }
     // Where shares of the picture are equal these stand first: they cost most.
-    const std::vector<Gap> others = std::exchange(scene.gaps, {});
-    if (is_lit(scene)) add_material_gaps(scene, kIndirect, diffuse);
-    add_material_gaps(scene, kSpecular, without_lobe);
-    if (scene.environment) add_material_gaps(scene, kUnshadowed, diffuse);
-    scene.gaps.insert(scene.gaps.end(), others.begin(), others.end());
+    const std::vector<UnsupportedFeature> others = std::exchange(scene.unsupported, {});
+    if (is_lit(scene)) add_unsupported_materials(scene, kIndirect, diffuse);
+    add_unsupported_materials(scene, kSpecular, without_lobe);
+    if (scene.environment) add_unsupported_materials(scene, kUnshadowed, diffuse);
+    scene.unsupported.insert(scene.unsupported.end(), others.begin(), others.end());
 }
 
 } // namespace catoptric::scene

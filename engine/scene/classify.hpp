@@ -40,6 +40,6 @@ void classify(Scene& scene, bool dielectric_mirrors = false);
 /// gives them a specular lobe, those that are rough, where the lobe is not drawn. Scenes built in
 /// code list none: their rough surfaces are Lambertian. Called once sharpness, lights and
 /// environment are settled.
-void settle_gaps(Scene& scene);
+void settle_unsupported(Scene& scene);
 
 } // namespace catoptric::scene

@@ -22,7 +22,7 @@ void add_wall(Scene& scene, const std::string& name, std::size_t material, dvec3
 }
 
 void add_unit_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec3 centre,
-              double radius) {
+                   double radius) {
     dmat4 world_from_object(radius);
     world_from_object[3] = dvec4(centre, 1);
     scene.objects.push_back({.name = name,

@@ -187,7 +187,7 @@ void GltfBuilder::add_node(std::size_t node, const gltf::Placed& placed) {
     if (from.skin >= 0 && from.mesh >= 0) {
         context.notes.add("nodes with a skin, posed by its joints at rest",
                           context.document.label(node));
-        add_gap(context.gaps, "skin", context.document.label(node));
+        add_unsupported(context.unsupported, "skin", context.document.label(node));
     }
 }
 
@@ -214,21 +214,21 @@ Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
     Account account(options.budget);
     Files files(path, options.root, account);
     Notes notes;
-    std::vector<Gap> gaps;
-    const gltf::Document document = gltf::read(file, files, account, notes, gaps);
+    std::vector<UnsupportedFeature> unsupported;
+    const gltf::Document document = gltf::read(file, files, account, notes, unsupported);
     gltf::check_forest(document);
     GltfBuilder builder{.context = {.document = document,
-                                .options = options,
-                                .account = account,
-                                .notes = notes,
-                                .gaps = gaps}};
+                                    .options = options,
+                                    .account = account,
+                                    .notes = notes,
+                                    .unsupported = unsupported}};
     builder.scene = {.name = path.stem().string(),
                      .materials = document.materials,
                      .exposure = document.exposure};
     for (std::size_t i = 0; i < document.materials.size(); ++i)
         if (has_lobe(document.materials[i]))
-            add_material_gap(gaps, "specular-left-out",
-                             gltf::label_of("materials", i, document.materials[i].name), i);
+            add_unsupported_material(unsupported, "specular-left-out",
+                                     gltf::label_of("materials", i, document.materials[i].name), i);
     builder.cameras = read_cameras(document);
     builder.parts = read_parts(builder.scene.materials, builder.context);
     builder.at_rest = rest_of(document);
@@ -241,7 +241,7 @@ Scene load_gltf(const std::filesystem::path& path, const LoadOptions& options) {
             notes.add("nodes outside the scene that is shown, left out", document.label(i));
     }
     builder.check_unshown();
-    finish(builder.scene, file, notes, std::move(gaps));
+    finish(builder.scene, file, notes, std::move(unsupported));
     builder.scene.files = files.found();
     return std::move(builder.scene);
 }

@@ -161,7 +161,7 @@ Animation read_animation(Context& context) {
         if (i == shown)
             animation.repeats = document.repeats[i];
         else
-            add_gap(context.gaps, "other-animations", label);
+            add_unsupported(context.unsupported, "other-animations", label);
     }
     return animation;
 }

@@ -1,7 +1,7 @@
 #include "scene/gltf_model.hpp"
 
 #include "core/text.hpp"
-#include "scene/wishes.hpp"
+#include "scene/scene_overrides.hpp"
 
 #include <cmath>
 #include <utility>
@@ -103,7 +103,7 @@ std::string Document::label(std::size_t node) const {
 }
 
 Document read(const std::string& file, Files& files, Account& account, Notes& notes,
-              std::vector<Gap>& gaps) {
+              std::vector<UnsupportedFeature>& unsupported) {
     Container container = read_container(file, files, account, notes);
     Document document{.file = file};
     {
@@ -116,7 +116,7 @@ Document read(const std::string& file, Files& files, Account& account, Notes& no
         document.weights = read_weights(root, "meshes");
         document.node_weights = read_weights(root, "nodes");
         document.is_quantised = uses(root, "KHR_mesh_quantization");
-        const Source source{root, container, files, account, notes, gaps};
+        const Source source{root, container, files, account, notes, unsupported};
         document.materials = read_materials(source);
         document.lights = read_lights(source);
         document.repeats = read_repeats(root);

@@ -23,12 +23,12 @@ constexpr Unread kUnread[] = {{"KHR_materials_clearcoat", "clearcoatFactor", "cl
 constexpr std::string_view kTransmission = "KHR_materials_transmission";
 constexpr std::string_view kVolume = "KHR_materials_volume"; // says nothing without transmission
 constexpr std::string_view kMaterialExtensions[] = {kEmissiveStrength,
-                                      kTransmission,
-                                      "KHR_materials_ior",
-                                      "KHR_materials_specular",
-                                      "KHR_materials_unlit",
-                                      "KHR_materials_pbrSpecularGlossiness",
-                                      kVolume};
+                                                    kTransmission,
+                                                    "KHR_materials_ior",
+                                                    "KHR_materials_specular",
+                                                    "KHR_materials_unlit",
+                                                    "KHR_materials_pbrSpecularGlossiness",
+                                                    kVolume};
 
 dvec3 vector_of(const Item& item, std::string_view key, double otherwise) {
     const std::vector<double> list = item.numbers(key, 3);
@@ -44,7 +44,7 @@ class MaterialReader {
 public:
     /// `has_colours`: vertices that show it have colours of their own.
     MaterialReader(const Item& from, std::size_t index, bool has_colours, const Source& source,
-           Textures& textures)
+                   Textures& textures)
         : from_(from), index_(index), has_colours_(has_colours), source_(source),
           textures_(textures), extensions_(from.object("extensions")) {}
 
@@ -59,7 +59,7 @@ private:
         return use ? textures_.of(*use, srgb) : std::nullopt;
     }
     void gap(std::string_view id) {
-        add_material_gap(source_.gaps, std::string(id), from_.label(), index_);
+        add_unsupported_material(source_.unsupported, std::string(id), from_.label(), index_);
     }
     void base_colour(const Item& item, std::string_view factor, std::string_view texture);
     void metal(const Item& pbr);
@@ -175,7 +175,8 @@ void MaterialReader::left_out() {
     if (from_.has("technique")) gap("material-extension");
     if (!extensions_) return;
     for (const auto& [name, value] : extensions_->json().items()) {
-        bool is_known = std::ranges::find(kMaterialExtensions, name) != std::end(kMaterialExtensions);
+        bool is_known = std::ranges::find(kMaterialExtensions, name) !=
+                        std::end(kMaterialExtensions);
         for (const auto& [extension, factor, id] : kUnread) {
             if (name != extension) continue;
             is_known = true;

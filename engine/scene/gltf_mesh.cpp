@@ -77,7 +77,7 @@ void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Primitive& pri
 bool is_drawn(const tinygltf::Primitive& primitive, const std::string& label, Context& context) {
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
         context.notes.add("primitives of points or lines, left out", label);
-        add_gap(context.gaps, "points-lines", label);
+        add_unsupported(context.unsupported, "points-lines", label);
         return false;
     }
     const bool has_place = primitive.attributes.contains("POSITION");
@@ -96,7 +96,7 @@ std::vector<Part> parts_of(std::size_t mesh, std::vector<Material>& materials, C
         check_primitive(primitives[i], document.file + ": " + label, context);
         if (!primitives[i].targets.empty()) {
             context.notes.add("primitives with morph targets, in their default shape", label);
-            add_gap(context.gaps, "morph", label);
+            add_unsupported(context.unsupported, "morph", label);
         }
         const bool has_none = primitives[i].material < 0;
         if (has_none && materials.size() == document.materials.size())

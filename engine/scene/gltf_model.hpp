@@ -46,7 +46,7 @@ struct Document {
 
 /// Reads a .gltf or .glb. Throws as `load_gltf`.
 Document read(const std::string& file, Files& files, Account& account, Notes& notes,
-              std::vector<Gap>& gaps);
+              std::vector<UnsupportedFeature>& unsupported);
 
 // ---- gltf_accessor.cpp
 
@@ -84,7 +84,7 @@ struct Context {
     const LoadOptions& options;
     Account& account;
     Notes& notes;
-    std::vector<Gap>& gaps;
+    std::vector<UnsupportedFeature>& unsupported;
     std::set<int> finite; ///< accessors known to be
 };
 

@@ -59,7 +59,7 @@ std::shared_ptr<const Image> Textures::missing(const Item& image, const std::str
                                                const Item& use) {
     source_.notes.add("images that are not there or of a kind that is not read, drawn without",
                       image.label() + why);
-    add_gap(source_.gaps, "missing-image", use.entry());
+    add_unsupported(source_.unsupported, "missing-image", use.entry());
     return nullptr;
 }
 
@@ -114,7 +114,7 @@ std::optional<Texture> Textures::of(const Item& use, bool srgb) {
         }
     if (set > 1) {
         source_.notes.add("textures of a third set of coordinates, drawn without", use.label());
-        add_gap(source_.gaps, "material-extension", use.entry());
+        add_unsupported(source_.unsupported, "material-extension", use.entry());
         return std::nullopt;
     }
     texture.uv_set = static_cast<std::uint32_t>(set);

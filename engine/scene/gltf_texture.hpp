@@ -20,7 +20,7 @@ struct Source {
     Files& files;
     Account& account;
     Notes& notes;
-    std::vector<Gap>& gaps;
+    std::vector<UnsupportedFeature>& unsupported;
 };
 
 /// The pictures and textures of a document whose members and views have been checked.

@@ -164,7 +164,7 @@ double freedom_of(const Rays& rays, const dvec3& place) {
 }
 
 /// A thousandth of the bounds' extent is exact enough to stand somewhere, and short to type.
-dvec3 short_to_type(const dvec3& point, double extent) {
+dvec3 rounded_to_thousandth(const dvec3& point, double extent) {
     const double unit = std::pow(10, 3 - std::floor(std::log10(extent)));
     return glm::round(point * unit) / unit;
 }
@@ -176,7 +176,7 @@ std::optional<Camera> inside_camera(const Scene& scene, const Camera& outside) {
     if (box.empty() || triangle_count(scene) > kMostTested) return std::nullopt;
     const Rays rays(scene);
     const double extent = length(box.extent());
-    const dvec3 centre = short_to_type(box.centre(), extent);
+    const dvec3 centre = rounded_to_thousandth(box.centre(), extent);
     if (!is_closed(rays, centre)) return std::nullopt;
     const std::vector<dvec3> places = places_of_interest(scene);
     if (!sees_backs(rays, outside) && !hides_what_is_of_interest(rays, places, outside.eye, centre))
@@ -186,7 +186,7 @@ std::optional<Camera> inside_camera(const Scene& scene, const Camera& outside) {
     constexpr double kAside = .35, kAbove = .15; // of the extents, from the centre
     for (int i = 0; i < 8; ++i) {
         const dvec3 side(i & 1 ? -kAside : kAside, i & 4 ? 0 : kAbove, i & 2 ? -kAside : kAside);
-        tried.eye = short_to_type(centre + side * box.extent(), extent);
+        tried.eye = rounded_to_thousandth(centre + side * box.extent(), extent);
         const double worth = freedom_of(rays, tried.eye) * (1 + share_seen(rays, places, tried));
         if (worth > best) best = worth, camera = tried;
     }

@@ -11,11 +11,11 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr double kFlatTolerance = 1e-4;  // of the extent
-constexpr double kRound = 1e-3; // of the radius: vertices
-constexpr double kMostly = .95; // of all that bends
-constexpr double kFacets = .1;  // the same: facets
-constexpr double kTurned = .01; // radian: normals
+constexpr double kFlatTolerance = 1e-4; // of the extent
+constexpr double kRound = 1e-3;         // of the radius: vertices
+constexpr double kMostly = .95;         // of all that bends
+constexpr double kFacets = .1;          // the same: facets
+constexpr double kTurned = .01;         // radian: normals
 
 /// An object's triangles in the world, about the centre of its bounds; places are numbered once.
 struct Soup {
@@ -62,7 +62,8 @@ bool is_flat(const Soup& soup) {
     const double height = glm::dot(normal, soup.places[soup.triangles.front()[0]]);
     return std::ranges::all_of(soup.triangles, [&](const Corners& t) {
         const bool in_plane = std::ranges::all_of(t, [&](std::size_t i) {
-            return std::abs(glm::dot(normal, soup.places[i]) - height) <= kFlatTolerance * soup.extent;
+            return std::abs(glm::dot(normal, soup.places[i]) - height) <=
+                   kFlatTolerance * soup.extent;
         });
         return in_plane && glm::dot(normal, soup.cross_of(t)) > 0;
     });

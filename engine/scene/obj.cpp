@@ -188,8 +188,8 @@ Scene load_obj(const std::filesystem::path& path, const LoadOptions& options) {
     Account account(options.budget);
     Files files(path, options.root, account);
     Notes notes;
-    std::vector<Gap> gaps;
-    obj::Context context{files, account, notes, gaps};
+    std::vector<UnsupportedFeature> unsupported;
+    obj::Context context{files, account, notes, unsupported};
     obj::Text text = obj::read_text(file, context);
     check_names(text);
     const Parsed parsed(text, file);
@@ -200,7 +200,7 @@ Scene load_obj(const std::filesystem::path& path, const LoadOptions& options) {
                      .exposure = text.remarks.exposure,
                      .files = files.found()};
     for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_shape(shape);
-    finish(builder.scene, file, notes, std::move(gaps));
+    finish(builder.scene, file, notes, std::move(unsupported));
     return std::move(builder.scene);
 }
 

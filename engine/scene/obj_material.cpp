@@ -90,9 +90,9 @@ void add_map(const Line& line, Context& context, Library& library) {
     else if (line.keyword == "map_d")
         draft.cut = std::move(map);
     else if (line.keyword != "map_Ka") // which no light here would show
-        add_material_gap(context.gaps,
-                         is_bump(line.keyword) ? "normal-texture" : "material-extension",
-                         line.where(), library.drafts.size() - 1);
+        add_unsupported_material(context.unsupported,
+                                 is_bump(line.keyword) ? "normal-texture" : "material-extension",
+                                 line.where(), library.drafts.size() - 1);
 }
 
 /// The members of a material that one number each is for.
@@ -162,7 +162,8 @@ public:
             context_.notes.add("images that are not there or of a kind that is not read, drawn "
                                "without",
                                map.place + ": " + in_quotes(map.file));
-            add_gap(context_.gaps, "missing-image", map.place + ": " + in_quotes(map.file));
+            add_unsupported(context_.unsupported, "missing-image",
+                            map.place + ": " + in_quotes(map.file));
             return std::nullopt;
         }
         const Texture::Wrap wrap = map.is_clamped ? Texture::Wrap::clamp : Texture::Wrap::repeat;
@@ -218,7 +219,9 @@ public:
     }
 
 private:
-    void gap(const char* id) { add_material_gap(context_.gaps, id, draft_.place, index_); }
+    void gap(const char* id) {
+        add_unsupported_material(context_.unsupported, id, draft_.place, index_);
+    }
 
     /// Whether it asks for a specular lobe: illum 0 and 1 have no highlight.
     bool has_lobe() const {

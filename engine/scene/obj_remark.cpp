@@ -1,7 +1,7 @@
 #include "core/text.hpp"
 #include "scene/obj_text.hpp"
+#include "scene/scene_overrides.hpp"
 #include "scene/transform.hpp"
-#include "scene/wishes.hpp"
 
 #include <cmath>
 #include <memory>

@@ -74,8 +74,9 @@ std::string remarks(const Object& object, const std::string& name) {
 }
 
 std::string camera_text(const Camera& camera, const std::string& name) {
-    return "# catoptric camera " + name + " " + vector_text(camera.eye) + " " + vector_text(camera.target) +
-           " " + vector_text(camera.up) + " " + number_text(camera.vertical_fov_degrees) + "\n";
+    return "# catoptric camera " + name + " " + vector_text(camera.eye) + " " +
+           vector_text(camera.target) + " " + vector_text(camera.up) + " " +
+           number_text(camera.vertical_fov_degrees) + "\n";
 }
 
 /// World-space vertices and faces; `first` counts the vertices written so far.
@@ -85,7 +86,8 @@ std::string geometry(const Mesh& mesh, const dmat4& world_from_object, std::size
         text += "v " + vector_text(transform_point(world_from_object, position)) + "\n";
     const dmat3 normal_to_world = normal_matrix(world_from_object);
     for (const vec3& normal : mesh.normals)
-        text += "vn " + vector_text(vec3(normalized_or_zero(normal_to_world * dvec3(normal)))) + "\n";
+        text += "vn " + vector_text(vec3(normalized_or_zero(normal_to_world * dvec3(normal)))) +
+                "\n";
     for (const uvec3& triangle : mesh.triangles) {
         text += "f";
         for (int corner = 0; corner < 3; ++corner) {

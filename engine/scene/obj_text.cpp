@@ -54,7 +54,8 @@ void ObjReader::library_file(const Line& line, const std::string& name) {
     const fs::path real = context_.files.find(name, place);
     if (real.empty()) {
         context_.notes.add("material libraries that are not there", place + ": " + in_quotes(name));
-        add_gap(context_.gaps, "missing-material", line.where() + ": " + in_quotes(name));
+        add_unsupported(context_.unsupported, "missing-material",
+                        line.where() + ": " + in_quotes(name));
     } else if (libraries_.insert(real.string()).second)
         read_materials(real, place, context_, text_.library);
 }
@@ -84,7 +85,8 @@ void ObjReader::use_material(const Line& line) {
         const bool has_any = !text_.library.drafts.empty(); // else the library has been named
         context_.notes.add("uses of materials that no library has, drawn grey",
                            line.where() + ": " + in_quotes(name), has_any ? 1 : 0);
-        add_gap(context_.gaps, "missing-material", line.where() + ": " + in_quotes(name));
+        add_unsupported(context_.unsupported, "missing-material",
+                        line.where() + ": " + in_quotes(name));
         if (material_) text_.statements += "usemtl none\n";
         material_.reset();
         return;
@@ -147,7 +149,7 @@ void ObjReader::face(const Line& line) {
     const std::size_t count = count_words(line.rest);
     if (count < 3) {
         context_.notes.add("faces of one or two corners, left out", line.where());
-        return add_gap(context_.gaps, "points-lines", line.where());
+        return add_unsupported(context_.unsupported, "points-lines", line.where());
     }
     context_.account.mesh_triangles.add(count - 2, *line.file, ":", line.number);
     polygon_.clear(), triangles_.clear();
@@ -200,7 +202,7 @@ void ObjReader::definition(const Line& line) {
     } else if (line.keyword != "f" && line.keyword != "o" && line.keyword != "g" &&
                line.keyword != "usemtl") {
         if (line.keyword == "p" || line.keyword == "l")
-            add_gap(context_.gaps, "points-lines", line.where());
+            add_unsupported(context_.unsupported, "points-lines", line.where());
         unread_.add(line);
     }
 }

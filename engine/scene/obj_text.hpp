@@ -95,7 +95,7 @@ struct Context {
     Files& files;
     Account& account;
     Notes& notes;
-    std::vector<Gap>& gaps;
+    std::vector<UnsupportedFeature>& unsupported;
 };
 
 /// Adds what one .mtl file says of materials.

@@ -125,7 +125,8 @@ bool is_radiance(const vec3& emission) {
     return is_finite(emission) && glm::all(glm::greaterThanEqual(emission, vec3(0)));
 }
 
-void finish(Scene& scene, const std::string& file, Notes& notes, std::vector<Gap> gaps) {
+void finish(Scene& scene, const std::string& file, Notes& notes,
+            std::vector<UnsupportedFeature> unsupported) {
     for (const Object& object : scene.objects)
         for (const dvec3& position : scene.meshes[object.mesh].positions)
             check(is_in_range(transform_point(object.world_from_object, position)),
@@ -138,11 +139,11 @@ void finish(Scene& scene, const std::string& file, Notes& notes, std::vector<Gap
     });
     for (const std::string& name : leave_out_unreachable(scene))
         notes.add("objects farther away than floats reach, left out", in_quotes(name));
-    const auto lines = std::ranges::find(gaps, "points-lines", &Gap::id);
+    const auto lines = std::ranges::find(unsupported, "points-lines", &UnsupportedFeature::id);
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none",
-          lines == gaps.end() ? "" : ", only points or lines, which are not drawn");
-    scene.gaps = std::move(gaps);
+          lines == unsupported.end() ? "" : ", only points or lines, which are not drawn");
+    scene.unsupported = std::move(unsupported);
     scene.warnings = notes.lines(file);
 }
 

@@ -25,6 +25,7 @@ bool is_radiance(const vec3& emission);
 /// Drops objects that have no triangle with an area; turns notes into the scene's warnings,
 /// gaps into its gaps. Throws `bad_data` naming `file` when no object is left, or when one reaches
 /// beyond what double precision holds.
-void finish(Scene& scene, const std::string& file, Notes& notes, std::vector<Gap> gaps = {});
+void finish(Scene& scene, const std::string& file, Notes& notes,
+            std::vector<UnsupportedFeature> unsupported = {});
 
 } // namespace catoptric::scene

@@ -3,9 +3,9 @@
 #include "../core/export.hpp"
 #include "../core/math.hpp"
 #include "environment.hpp"
-#include "gap.hpp"
 #include "material.hpp"
 #include "motion.hpp"
+#include "unsupported_feature.hpp"
 
 #include <array>
 #include <filesystem>
@@ -102,7 +102,7 @@ struct Scene {
     std::shared_ptr<const Environment> environment; ///< none: black
     float mirror_max_roughness = .1f;               ///< what is no rougher is sharp
     std::optional<double> exposure;                 ///< stops, where the file says
-    std::vector<Gap> gaps;
+    std::vector<UnsupportedFeature> unsupported;
     std::vector<std::string> warnings; ///< what the loader left out or repaired, for the user
     /// Real paths of the files that it was loaded from, the scene's own first, also of those that
     /// it names without their being read. Nothing else may be written there.

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 /// What a key takes and how it is written; the table is the format.
 struct Key {
     const char* name;
-    void (*read)(const gltf::Item& file, const gltf::Json& value, Wishes& wishes);
-    gltf::Json (*written)(const Wishes& wishes); ///< null: was not said
+    void (*read)(const gltf::Item& file, const gltf::Json& value, SceneOverrides& overrides);
+    gltf::Json (*written)(const SceneOverrides& overrides); ///< null: was not said
 };
 
 using gltf::Item;
@@ -62,7 +62,7 @@ Json json_of(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
 }
 
-Json mirror_json(const MirrorWish& wish) {
+Json mirror_json(const MirrorOverride& wish) {
     const vec3& r = wish.reflectance;
     const auto text = [](float share) { return Json(as_typed(share)).dump(); };
     return wish.pattern + "=" +
@@ -71,91 +71,93 @@ Json mirror_json(const MirrorWish& wish) {
 
 const std::array<Key, 12> kKeys{
     {{"mirrors",
-      [](const Item& file, const Json& value, Wishes& wishes) {
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
           for (const std::string& text : texts_of(file, value, "mirrors"))
-              wishes.mirrors.push_back(
-                  as_data(file, [&] { return read_mirror_wish("mirrors", text); }));
+              overrides.mirrors.push_back(
+                  as_data(file, [&] { return read_mirror_override("mirrors", text); }));
       },
-      [](const Wishes& wishes) {
+      [](const SceneOverrides& overrides) {
           Json list = Json::array();
-          for (const MirrorWish& wish : wishes.mirrors) list.push_back(mirror_json(wish));
+          for (const MirrorOverride& wish : overrides.mirrors) list.push_back(mirror_json(wish));
           return list.empty() ? Json() : list;
       }},
      {"lights",
-      [](const Item& file, const Json& value, Wishes& wishes) {
-          wishes.lights = texts_of(file, value, "lights");
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
+          overrides.lights = texts_of(file, value, "lights");
       },
-      [](const Wishes& wishes) { return wishes.lights.empty() ? Json() : Json(wishes.lights); }},
+      [](const SceneOverrides& overrides) {
+          return overrides.lights.empty() ? Json() : Json(overrides.lights);
+      }},
      {"mirror_max_roughness",
-      [](const Item& file, const Json& value, Wishes& wishes) {
-          wishes.mirror_max_roughness = number_of(file, value, "mirror_max_roughness", 0, 1);
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
+          overrides.mirror_max_roughness = number_of(file, value, "mirror_max_roughness", 0, 1);
       },
-      [](const Wishes& wishes) { return json_of(wishes.mirror_max_roughness); }},
+      [](const SceneOverrides& overrides) { return json_of(overrides.mirror_max_roughness); }},
      {"dielectric_mirrors",
-      [](const Item& file, const Json&, Wishes& wishes) {
-          wishes.dielectric_mirrors = file.flag("dielectric_mirrors", false);
+      [](const Item& file, const Json&, SceneOverrides& overrides) {
+          overrides.dielectric_mirrors = file.flag("dielectric_mirrors", false);
       },
-      [](const Wishes& wishes) { return json_of(wishes.dielectric_mirrors); }},
+      [](const SceneOverrides& overrides) { return json_of(overrides.dielectric_mirrors); }},
      {"environment",
-      [](const Item& file, const Json& value, Wishes& wishes) {
-          wishes.environment = text_of(file, value, "environment");
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
+          overrides.environment = text_of(file, value, "environment");
       },
-      [](const Wishes& wishes) { return json_of(wishes.environment); }},
+      [](const SceneOverrides& overrides) { return json_of(overrides.environment); }},
      {"environment_scale",
-      [](const Item& file, const Json& value, Wishes& wishes) {
-          wishes.environment_scale = number_of(file, value, "environment_scale", 0, kMostScale);
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
+          overrides.environment_scale = number_of(file, value, "environment_scale", 0, kMostScale);
       },
-      [](const Wishes& wishes) { return json_of(wishes.environment_scale); }},
+      [](const SceneOverrides& overrides) { return json_of(overrides.environment_scale); }},
      {"environment_rotate",
-      [](const Item& file, const Json& value, Wishes& wishes) {
-          wishes.environment_rotation = number_of(file, value, "environment_rotate", -kMostTurn,
-                                                  kMostTurn);
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
+          overrides.environment_rotation = number_of(file, value, "environment_rotate", -kMostTurn,
+                                                     kMostTurn);
       },
-      [](const Wishes& wishes) { return json_of(wishes.environment_rotation); }},
+      [](const SceneOverrides& overrides) { return json_of(overrides.environment_rotation); }},
      {"ambient",
-      [](const Item& file, const Json& value, Wishes& wishes) {
-          wishes.ambient = number_of(file, value, "ambient", 0, kMostScale);
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
+          overrides.ambient = number_of(file, value, "ambient", 0, kMostScale);
       },
-      [](const Wishes& wishes) { return json_of(wishes.ambient); }},
+      [](const SceneOverrides& overrides) { return json_of(overrides.ambient); }},
      {"exposure",
-      [](const Item& file, const Json& value, Wishes& wishes) {
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
           if (value == "auto")
-              wishes.exposure = ExposureWish{};
+              overrides.exposure = ExposureOverride{};
           else
-              wishes.exposure = ExposureWish{
+              overrides.exposure = ExposureOverride{
                   number_of(file, value, "exposure", -kMostStops, kMostStops)};
       },
-      [](const Wishes& wishes) {
-          if (!wishes.exposure) return Json();
-          return wishes.exposure->stops ? Json(*wishes.exposure->stops) : Json("auto");
+      [](const SceneOverrides& overrides) {
+          if (!overrides.exposure) return Json();
+          return overrides.exposure->stops ? Json(*overrides.exposure->stops) : Json("auto");
       }},
      {"camera",
-      [](const Item& file, const Json& value, Wishes& wishes) {
-          wishes.camera = text_of(file, value, "camera");
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
+          overrides.camera = text_of(file, value, "camera");
       },
-      [](const Wishes& wishes) { return json_of(wishes.camera); }},
+      [](const SceneOverrides& overrides) { return json_of(overrides.camera); }},
      {"up",
-      [](const Item& file, const Json& value, Wishes& wishes) {
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
           file.require(value == "y" || value == "z", "up: wanted \"y\" or \"z\", found ",
                        gltf::shown(value));
-          wishes.up = value == "z" ? Up::z : Up::y;
+          overrides.up = value == "z" ? Up::z : Up::y;
       },
-      [](const Wishes& wishes) {
-          return wishes.up ? Json(*wishes.up == Up::z ? "z" : "y") : Json();
+      [](const SceneOverrides& overrides) {
+          return overrides.up ? Json(*overrides.up == Up::z ? "z" : "y") : Json();
       }},
      {"animation",
-      [](const Item& file, const Json& value, Wishes& wishes) {
-          wishes.animation = text_of(file, value, "animation");
+      [](const Item& file, const Json& value, SceneOverrides& overrides) {
+          overrides.animation = text_of(file, value, "animation");
       },
-      [](const Wishes& wishes) { return json_of(wishes.animation); }}}};
+      [](const SceneOverrides& overrides) { return json_of(overrides.animation); }}}};
 
-Wishes read(const std::string& file, const std::string& text, Account& account) {
+SceneOverrides read(const std::string& file, const std::string& text, Account& account) {
     const Json document = gltf::parse_json(file, text, account);
     const Item item(document, file);
     item.require(document.is_object(), "wanted an object, found ", gltf::shown(document));
     std::vector<std::string> names;
     for (const Key& key : kKeys) names.emplace_back(key.name);
-    Wishes wishes;
+    SceneOverrides overrides;
     for (const auto& [name, value] : document.items()) {
         const auto key = std::ranges::find(kKeys, name, &Key::name);
         if (key == kKeys.end()) {
@@ -164,9 +166,9 @@ Wishes read(const std::string& file, const std::string& text, Account& account) 
             item.require(false, in_quotes(name), ": wanted one of ", list,
                          did_you_mean(name, names));
         }
-        key->read(item, value, wishes);
+        key->read(item, value, overrides);
     }
-    return wishes;
+    return overrides;
 }
 
 bool is_file_name(const std::string& environment) {
@@ -188,16 +190,16 @@ std::optional<SceneFile> read_scene_file(const fs::path& scene, const LoadOption
     if (found.path.filename().string().size() > Files::kLongestName) return std::nullopt;
     const fs::path real = files.find(found.path.filename().string(), place);
     if (real.empty()) return std::nullopt;
-    found.wishes = read(place, files.read(real, place), account);
-    if (std::optional<std::string>& picture = found.wishes.environment;
+    found.overrides = read(place, files.read(real, place), account);
+    if (std::optional<std::string>& picture = found.overrides.environment;
         picture && is_file_name(*picture))
         picture = files.get(*picture, place + ": environment").string();
     found.files = files.found();
     return found;
 }
 
-std::string scene_file_text(const Wishes& wishes, const fs::path& scene) {
-    Wishes relative = wishes;
+std::string scene_file_text(const SceneOverrides& overrides, const fs::path& scene) {
+    SceneOverrides relative = overrides;
     if (std::optional<std::string>& picture = relative.environment;
         picture && is_file_name(*picture)) {
         const fs::path folder = real_path(scene).parent_path();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/load.hpp"
-#include "scene/wishes.hpp"
+#include "scene/scene_overrides.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -19,7 +19,7 @@ std::filesystem::path scene_file_of(const std::filesystem::path& scene);
 
 struct SceneFile {
     std::filesystem::path path;
-    Wishes wishes;                            ///< a picture by its real path
+    SceneOverrides overrides;                 ///< a picture by its real path
     std::vector<std::filesystem::path> files; ///< real paths: its own, and of what it names
 };
 
@@ -29,6 +29,6 @@ std::optional<SceneFile> read_scene_file(const std::filesystem::path& scene,
 
 /// What `read_scene_file` reads as these wishes. Throws `usage` for a picture that does not lie
 /// below the scene's folder.
-std::string scene_file_text(const Wishes& wishes, const std::filesystem::path& scene);
+std::string scene_file_text(const SceneOverrides& overrides, const std::filesystem::path& scene);
 
 } // namespace catoptric::scene

@@ -1,5 +1,5 @@
 // Which way is up.
-#include "scene/wishes.hpp"
+#include "scene/scene_overrides.hpp"
 
 #include <map>
 #include <memory>

@@ -92,9 +92,9 @@ int frames_of(const Options& options) {
 }
 
 void load_again(const Common& common) {
-    app::load_wanted(common.scene, {.load = load_options(common),
-                                    .wishes = common.wishes,
-                                    .use_scene_file = common.use_scene_file});
+    app::resolve_scene(common.scene, {.load = load_options(common),
+                                      .overrides = common.overrides,
+                                      .use_scene_file = common.use_scene_file});
 }
 
 /// What there is to measure of one scene.

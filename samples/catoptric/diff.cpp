@@ -5,7 +5,7 @@
 #include "json.hpp"
 #include "measure/file_difference.hpp"
 #include "measure/flip.hpp"
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "verbs.hpp"
@@ -84,7 +84,7 @@ std::string value_text(const measure::Value& value) {
 
 std::string text_of(const DiffFacts& facts) {
     std::string text;
-    for (const measure::Quantity& quantity : measure::difference_quantities())
+    for (const measure::Metric& quantity : measure::difference_metrics())
         text += fmt::format("{:<12}  {}{}{}\n", quantity.name,
                             value_text(measure::value_of(quantity, facts.difference)),
                             quantity.unit.empty() ? "" : " ", quantity.unit);

@@ -47,7 +47,7 @@ app::PlanFormat format_of(const Options& options) {
 }
 
 void put_why(const app::Request& request, app::PlanFormat format,
-             const std::optional<app::Slices>& slices) {
+             const std::optional<app::CaptureBudget>& slices) {
     put(format == app::PlanFormat::json ? app::why_json(request, slices)
                                         : app::why_text(request, slices));
 }

@@ -106,7 +106,7 @@ std::optional<double> exposure_of(app::Request& request, const Options& options)
 }
 
 /// What was asked for, with what was added.
-void write_scene_file(const Options& options, const app::Wanted& wanted,
+void write_scene_file(const Options& options, const app::ResolvedScene& wanted,
                       const app::Request& request) {
     const scene::Scene& scene = request.scene;
     check(wanted.is_file, Failure::usage,
@@ -117,11 +117,11 @@ void write_scene_file(const Options& options, const app::Wanted& wanted,
     check(options.replaces ||
               !std::filesystem::exists(std::filesystem::symlink_status(path, error)),
           Failure::cannot_create, path.string(), ": is there already; --force replaces it");
-    scene::Wishes wishes = wanted.wishes;
-    if (!wishes.environment)
-        wishes.environment = scene.environment && scene.environment->studio ? "studio" : "none";
-    if (wanted.is_camera_seeded) wishes.camera = request.camera.name; // numbers
-    write_file(path, scene::scene_file_text(wishes, options.common.scene));
+    scene::SceneOverrides overrides = wanted.overrides;
+    if (!overrides.environment)
+        overrides.environment = scene.environment && scene.environment->studio ? "studio" : "none";
+    if (wanted.is_camera_seeded) overrides.camera = request.camera.name; // numbers
+    write_file(path, scene::scene_file_text(overrides, options.common.scene));
     note(options.common.manners, "written: " + path.string());
 }
 
@@ -164,7 +164,7 @@ void add_info(CommandLine& program) {
     verb.flag("--force", "--write may replace one", options->replaces);
     add_device(verb, options->common.device);
     add_view(verb, options->common);
-    add_wishes(verb, options->common);
+    add_scene_overrides(verb, options->common);
     add_manners(verb, options->common.manners);
     verb.does([options] { return run(*options); });
 }

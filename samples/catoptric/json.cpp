@@ -2,7 +2,7 @@
 
 #include "app/compare_row.hpp"
 #include "app/device_facts.hpp"
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 #include "report/json.hpp"
 
 #include <nlohmann/json.hpp>
@@ -48,7 +48,7 @@ Json left_out_json(const app::Part& part) {
 }
 
 /// How many captures a frame draws again, and how old what they show can be.
-Json slices_json(const std::optional<app::Slices>& slices, double budget_ms) {
+Json slices_json(const std::optional<app::CaptureBudget>& slices, double budget_ms) {
     if (!slices) return nullptr;
     return {{"budget_ms", budget_ms},
             {"mirrors", slices->mirrors},
@@ -86,7 +86,7 @@ std::string diff_json(const DiffFacts& facts) {
     document["size"] = {facts.size.x, facts.size.y};
     document["exposure"] = facts.exposure;
     document["flip_source"] = facts.flip_source;
-    for (const measure::Quantity& quantity : measure::difference_quantities())
+    for (const measure::Metric& quantity : measure::difference_metrics())
         document[std::string(quantity.name)] = report::value_json(
             measure::value_of(quantity, facts.difference));
     document["mean"] = {{"a", to_json(facts.a_mean.rgb)}, {"b", to_json(facts.b_mean.rgb)}};
@@ -191,7 +191,7 @@ std::string named_json(const std::string& kind, const std::vector<Named>& named)
 
 std::string metrics_json() {
     Json rows = Json::array();
-    for (const measure::Quantity& quantity : measure::quantities())
+    for (const measure::Metric& quantity : measure::metrics())
         rows.push_back({{"name", quantity.name},
                         {"summary", quantity.help},
                         {"unit", quantity.unit},

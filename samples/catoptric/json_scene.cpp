@@ -84,7 +84,7 @@ std::string scene_json(const SceneWords& words) {
     document["ambient"] = report::number(words.ambient);
     document["exposure"] = words.exposure ? report::number(*words.exposure) : Json();
     document["auto_exposure"] = words.auto_exposure;
-    document["gaps"] = report::gaps_json(facts.gaps);
+    document["gaps"] = report::unsupported_json(facts.unsupported);
     document["warnings"] = words.warnings;
     return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }

@@ -2,7 +2,7 @@
 #include "app/engine.hpp"
 #include "core/error.hpp"
 #include "json.hpp"
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 #include "options.hpp"
 #include "parse.hpp"
 #include "scene/load.hpp"
@@ -98,7 +98,7 @@ std::vector<Named> scenes() {
 }
 
 /// Unit, pixels and what is better, as far as there is something to say.
-std::string facts_of(const measure::Quantity& quantity) {
+std::string facts_of(const measure::Metric& quantity) {
     std::vector<std::string> facts;
     if (!quantity.unit.empty()) facts.emplace_back(quantity.unit);
     if (quantity.mask == "each")
@@ -113,7 +113,7 @@ std::string facts_of(const measure::Quantity& quantity) {
 
 std::string metrics_text() {
     std::string text;
-    for (const measure::Quantity& quantity : measure::quantities())
+    for (const measure::Metric& quantity : measure::metrics())
         text += fmt::format("{:<32} {}{}\n", quantity.name, quantity.help, facts_of(quantity));
     return text;
 }

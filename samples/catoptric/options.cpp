@@ -62,7 +62,7 @@ void add_choices(Verb& verb, Common& common) {
         });
 }
 
-scene::Camera choose_camera(const Common& common, app::Wanted& wanted) {
+scene::Camera choose_camera(const Common& common, app::ResolvedScene& wanted) {
     if (wanted.is_camera_seeded) {
         scene::Camera camera = app::seeded_camera(wanted.scene, common.time, common.seed);
         note(common.manners,
@@ -155,7 +155,7 @@ void add_common_without_scene(Verb& verb, Common& common) {
     add_view(verb, common);
     add_numbers(verb, common);
     add_choices(verb, common);
-    add_wishes(verb, common);
+    add_scene_overrides(verb, common);
     add_device(verb, common.device);
     add_validate(verb, common.device);
     add_manners(verb, common.manners);
@@ -190,9 +190,9 @@ Asked make_asked(const Common& common, const std::function<void(const scene::Sce
     double load_ms = 0;
     {
         const Stopwatch watch(load_ms);
-        asked.wanted = app::load_wanted(common.scene, {.load = load_options(common),
-                                                       .wishes = common.wishes,
-                                                       .use_scene_file = common.use_scene_file});
+        asked.wanted = app::resolve_scene(common.scene, {.load = load_options(common),
+                                                         .overrides = common.overrides,
+                                                         .use_scene_file = common.use_scene_file});
     }
     request.load_ms = load_ms;
     if (check) check(asked.wanted.scene);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/resolved_scene.hpp"
 #include "app/run.hpp"
-#include "app/wanted.hpp"
 #include "command_line.hpp"
 #include "output.hpp"
 #include "scene/budget_for.hpp"
@@ -28,15 +28,16 @@ inline constexpr const char* kNoProfile = "none";
 struct Common {
     Manners manners;
     std::string scene = "cornell-mirrors";
-    scene::BudgetWish budget; ///< of the scene
-    std::string root;         ///< files of the scene may lie below it too; empty: none
+    scene::BudgetOverride budget; ///< of the scene
+    std::string root;             ///< files of the scene may lie below it too; empty: none
     uvec2 size{512, 512};
     std::optional<int> frames; ///< 20 unless the user says otherwise
     std::optional<int> warmup; ///< 8
     double time = 0;
     bool animate = false;
     std::uint64_t seed = 1;
-    scene::Wishes wishes; ///< of the scene: mirrors, lights, environment, camera, exposure ...
+    scene::SceneOverrides
+        overrides; ///< of the scene: mirrors, lights, environment, camera, exposure ...
     bool use_scene_file = true;
     std::string reference = "raytrace:depth=16";
     DeviceAsked device;
@@ -57,7 +58,7 @@ void add_common(Verb& verb, Common& common);
 /// Every common option but SCENE, and `add_manners`.
 void add_common_without_scene(Verb& verb, Common& common);
 /// The options that say what the scene is, under a heading: --root to --no-scene-file.
-void add_wishes(Verb& verb, Common& common);
+void add_scene_overrides(Verb& verb, Common& common);
 /// --device and --device-profile; `device` must outlive the parsing.
 void add_device(Verb& verb, DeviceAsked& device);
 /// --validate.
@@ -92,7 +93,7 @@ app::Request make_request(const Common& common,
 /// The same with what it was made from.
 struct Asked {
     app::Request request;
-    app::Wanted wanted; ///< without its scene, which the request has
+    app::ResolvedScene wanted; ///< without its scene, which the request has
 };
 Asked make_asked(const Common& common, const std::function<void(const scene::Scene&)>& check = {});
 app::EngineOptions engine_options(const DeviceAsked& device);

@@ -124,13 +124,13 @@ std::string exposure_text(const SceneWords& words) {
     return fmt::format("{:.4g} stops{}", *words.exposure, how);
 }
 
-Cells gaps(const report::SceneFacts& facts) {
-    const report::Table table = report::gaps_table(facts);
+Cells unsupported(const report::SceneFacts& facts) {
+    const report::Table table = report::unsupported_table(facts);
     Cells cells{{"gap", "count", "pixels", "first", "instead"}};
     for (const std::vector<std::string>& row : table.rows) {
         cells.push_back(row);
         cells.back()[3] = printable(cells.back()[3]);
-        if (facts.gaps[cells.size() - 2].pixel_share) cells.back()[2] += " %";
+        if (facts.unsupported[cells.size() - 2].pixel_share) cells.back()[2] += " %";
     }
     return cells;
 }
@@ -164,7 +164,7 @@ std::string scene_text(const SceneWords& words) {
                     : "\nNo mirror; the smoothest surfaces become one with\n";
         for (const std::string& option : info.mirror_options) text += "  " + option + "\n";
     }
-    return text + table("Added, approximated, left out", gaps(facts));
+    return text + table("Added, approximated, left out", unsupported(facts));
 }
 
 } // namespace catoptric::cli

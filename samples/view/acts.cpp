@@ -130,7 +130,7 @@ void Loop::load(const std::string& file) {
     try {
         const cli::Common defaults;
         cli::Common& common = options_.common;
-        common.scene = file, common.wishes = {};
+        common.scene = file, common.overrides = {};
         common.root = defaults.root, common.seed = defaults.seed;
         common.use_scene_file = defaults.use_scene_file;
         options_.words = {file};

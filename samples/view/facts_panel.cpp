@@ -69,8 +69,8 @@ void draw_scene(const Seen& seen, Wants& wants) {
                 wants.camera = i;
         ImGui::TreePop();
     }
-    if (ImGui::TreeNode("gaps", "gaps (%zu)", scene.gaps.size())) {
-        for (const scene::Gap& gap : scene.gaps)
+    if (ImGui::TreeNode("gaps", "gaps (%zu)", scene.unsupported.size())) {
+        for (const scene::UnsupportedFeature& gap : scene.unsupported)
             ImGui::BulletText("%s: %zu, first %s", gap.id.c_str(), gap.count, gap.first.c_str());
         ImGui::TreePop();
     }

@@ -82,7 +82,7 @@ void draw_left_out(State& state, const Viewer& viewer) {
     ImGui::RadioButton("everything", &model, 0);
     state.model = model ? app::Modelling::required : app::Modelling::everything;
     if (viewer.slices()) ImGui::TextWrapped("%s", app::to_text(*viewer.slices()).c_str());
-    for (const require::LeftOut& left : viewer.left_out())
+    for (const require::CulledWork& left : viewer.left_out())
         ImGui::TextWrapped("%s: %s; saves %s", left.what.c_str(), left.why.c_str(),
                            left.saves.c_str());
     if (viewer.left_out().empty()) ImGui::TextDisabled("nothing is left out");

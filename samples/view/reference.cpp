@@ -11,7 +11,7 @@ app::Part traced(app::Session& session, app::FrameSpec spec, const std::string& 
                  std::uint64_t seed) {
     spec.techniques = {technique};
     spec.seed = seed;
-    spec.is_aside = true;
+    spec.keeps_history = true;
     return session.frame(spec).read();
 }
 

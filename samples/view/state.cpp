@@ -14,12 +14,12 @@ const char* name_of(Mode mode) {
 }
 
 const std::vector<Cause>& causes() {
-    static const std::vector<Cause> kList{{shared::kMendDistance, "captured distance"},
-                                          {shared::kMendDirection, "looked-up direction"},
-                                          {shared::kMendHidden, "hidden surfaces"},
-                                          {shared::kMendTexels, "texels"},
-                                          {shared::kMendMirrors, "mirrors in captures"},
-                                          {shared::kMendShadows, "shadow map"}};
+    static const std::vector<Cause> kList{{shared::kAblateDistance, "captured distance"},
+                                          {shared::kAblateDirection, "looked-up direction"},
+                                          {shared::kAblateHidden, "hidden surfaces"},
+                                          {shared::kAblateTexels, "texels"},
+                                          {shared::kAblateMirrors, "mirrors in captures"},
+                                          {shared::kAblateShadows, "shadow map"}};
     return kList;
 }
 

@@ -125,9 +125,9 @@ std::shared_ptr<const measure::Picture> Viewer::canvas(const State& state) {
         return made_;
     }
     app::FrameSpec aside = spec_;
-    aside.is_aside = true;
+    aside.keeps_history = true;
     const measure::Picture as_it_is = session_->frame(aside).read().display;
-    aside.mended = state.cause;
+    aside.ablated = state.cause;
     made_ = std::make_shared<measure::Picture>(difference_picture(
         as_it_is, session_->frame(aside).read().display, static_cast<float>(state.gain)));
     return made_;

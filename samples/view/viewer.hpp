@@ -29,9 +29,9 @@ public:
     const std::optional<measure::Difference>& error() const { return error_; }
     /// How each mirror was drawn in the last frame, and what was left out of it.
     std::vector<PlanEntry> entries() const;
-    const std::vector<require::LeftOut>& left_out() const { return left_out_; }
+    const std::vector<require::CulledWork>& left_out() const { return left_out_; }
     /// Of the first technique, where there is a budget.
-    const std::optional<app::Slices>& slices() const { return slices_; }
+    const std::optional<app::CaptureBudget>& slices() const { return slices_; }
 
     /// Renders a frame of `size` and shows it where the window can (`is_seen`). Throws `usage` for
     /// a plan that does not fit the scene, `device_lost` and `exhausted`.
@@ -66,8 +66,8 @@ private:
     Times times_;
     Reference reference_;
     std::optional<measure::Difference> error_;
-    std::vector<require::LeftOut> left_out_;
-    std::optional<app::Slices> slices_;
+    std::vector<require::CulledWork> left_out_;
+    std::optional<app::CaptureBudget> slices_;
     double budget_ms_ = 0;
     std::shared_ptr<const measure::Picture> made_; ///< for `made_mode_`
     Mode made_mode_ = Mode::plan;

@@ -24,7 +24,7 @@ DRAWN(9) vec4 down_ambient;
 DRAWN(10) vec4 forward_faces;        // and the shadow faces of a light
 DRAWN(11) vec4 emission_kind; // of the object; of the light
 DRAWN(12) vec3 light_share;          // reach, cos_outer, sharpness
-DRAWN(13) uvec3 drawn_numbers; // index of the object; number of the mirror that it is, from 1, or 0; of its Detail
+DRAWN(13) uvec3 drawn_numbers; // index of the object; number of the mirror that it is, from 1, or 0; of its MaterialParameters
 
 #ifdef VERTEX_STAGE
 

@@ -9,7 +9,7 @@
 #include "lib/lights.glsl"
 
 // As light_term, for lights of every kind.
-bool arrives(uint light, vec3 position, vec3 normal, out vec3 direction, out float distance, out float factor) {
+bool evaluate_light(uint light, vec3 position, vec3 normal, out vec3 direction, out float distance, out float factor) {
     if (is_directional(light)) return parallel_term(normal, light_at(light).forward, direction, distance, factor);
     bool of_two_sides = light_kinds != 0u && light_at(light).kind == kLightOfTwoSides;
     vec3 light_normal = of_two_sides ? vec3(0) : light_at(light).normal;
@@ -32,7 +32,7 @@ vec3 shade(Surface surface, vec3 position, vec3 normal, vec3 facet) {
     do { // asked at its end: see lib/trace.glsl
         vec3 direction;
         float distance, factor;
-        bool is_lit = light < count && arrives(light, position, normal, direction, distance, factor);
+        bool is_lit = light < count && evaluate_light(light, position, normal, direction, distance, factor);
         if (details != 0u && is_lit && facet != vec3(0)) {
             factor *= facet_share(direction, normal, facet);
             is_lit = factor > 0.0;

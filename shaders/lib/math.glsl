@@ -37,7 +37,7 @@ INLINE real largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 #include "lib/math/surface.glsl"
 #include "lib/math/ray.glsl"
 #include "lib/math/leaving.glsl"
-#include "lib/math/own_space.glsl"
+#include "lib/math/object_space.glsl"
 #include "lib/math/capture.glsl"
 #include "lib/math/bvh.glsl"
 

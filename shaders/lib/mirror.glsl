@@ -89,20 +89,20 @@ bool follow_captured(inout Path path, Lookup lookup) {
 #ifndef OWN_LOOKUP_COLOUR // the including shader's own, where captures hold more than one colour
 vec3 lookup_colour(uint mirror, Lookup lookup) { return found_colour(mirror, lookup); }
 // How far from the centre the last search, or whoever sets it, looks.
-float looked_at() { return 0.0; }
-void look_at(float distance) {}
+float last_hit_distance() { return 0.0; }
+void set_last_hit_distance(float distance) {}
 #endif
 
 // How far along the path a search in capture `mirror` ends.
 float end_of(uint mirror, Path path, Lookup lookup) {
-    float distance = looked_at() > 0.0 ? looked_at() : captured_distance(mirror, lookup.direction);
+    float distance = last_hit_distance() > 0.0 ? last_hit_distance() : captured_distance(mirror, lookup.direction);
     vec3 end = probe_at(mirror).centre + lookup.direction * distance;
     return lookup.state == kMiss ? kLargest : dot(end - path.at, path.direction);
 }
 
 // Where another capture knows how the ray ends, if one does. What a mirror shows there is for another eye.
-void ask_others(inout Path path, inout Lookup lookup) {
-    float distance = looked_at();
+void fall_back_to_other_captures(inout Path path, inout Lookup lookup) {
+    float distance = last_hit_distance();
     Ray ray = Ray(path.at, path.direction, 0u);
     // The first mirror that the ray meets, or may, is the same whoever is asked.
     uint first;
@@ -121,7 +121,7 @@ void ask_others(inout Path path, inout Lookup lookup) {
         lookup = other;
         return;
     } while (next < count);
-    look_at(distance);
+    set_last_hit_distance(distance);
 }
 
 // The path's end and where it is to be looked up.
@@ -139,7 +139,7 @@ Lookup follow(inout Path path) {
 #endif
     } while (goes_on);
 #ifdef CONTINUE
-    if (asks_others != 0u && lookup.state == kUnknown) ask_others(path, lookup);
+    if (asks_others != 0u && lookup.state == kUnknown) fall_back_to_other_captures(path, lookup);
 #endif
     return lookup;
 }
@@ -151,8 +151,8 @@ vec3 shown(vec3 colour, Lookup lookup) {
     return colour;
 }
 
-#ifdef MEND
-#include "lib/mend.glsl"
+#ifdef ABLATE
+#include "lib/ablate.glsl"
 #endif
 
 void main() {
@@ -166,8 +166,8 @@ void main() {
     Path path = Path(drawn_mirror() - 1u, surface_position(), mirror_direction(normalize(seen_along()), n, facet),
                      probe_at(drawn_mirror() - 1u).centre, surface.reflectance, 0u);
     Lookup lookup = follow(path);
-#ifdef MEND
-    vec3 colour = mended_radiance(path, lookup);
+#ifdef ABLATE
+    vec3 colour = ablated_radiance(path, lookup);
 #else
     vec3 colour = path.weight * lookup_colour(path.mirror, lookup);
 #ifdef LIT

@@ -90,8 +90,8 @@ vec3 found_colour(uint mirror, Lookup lookup) {
     return captured_colour(mirror, lookup.direction);
 }
 
-#ifdef MEND // see lib/mend.glsl
-bool mends(uint cause);
+#ifdef ABLATE // see lib/ablate.glsl
+bool ablates(uint cause);
 float exact_distance(uint mirror, vec3 direction);
 #endif
 
@@ -120,8 +120,8 @@ float nearest_stored_distance(uint mirror, vec3 direction) {
 // Distance from the capture's centre, bilinear. Where one of the four texels holds nothing
 // (+infinity), the sum is not finite and the nearest texel decides.
 float captured_distance(uint mirror, vec3 direction) {
-#ifdef MEND
-    if (mends(kMendDistance)) return exact_distance(mirror, direction);
+#ifdef ABLATE
+    if (ablates(kAblateDistance)) return exact_distance(mirror, direction);
 #endif
     float d = stored_distance(mirror, direction);
     if (tests_void != 0u && is_miss(d)) d = nearest_stored_distance(mirror, direction);

@@ -53,7 +53,7 @@ bool is_peeled() {
 
 // Before anything is written, after the derivatives.
 void leave_out_what_is_cut() {
-    if (masks != 0u && is_cut_out(drawn_detail(), Attribute(in_uv, in_colour))) discard;
+    if (masks != 0u && fails_alpha_test(drawn_detail(), Attribute(in_uv, in_colour))) discard;
 }
 
 // The object's surface here. `facet`: along its triangle's normal.

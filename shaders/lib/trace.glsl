@@ -64,8 +64,8 @@ struct Hit {
 };
 const uint kOnSphere = 0xffffffffu; // the exact sphere that a thing in its own space stands for
 
-// 1: some things have spaces of their own (engine/bvh/two_level.hpp).
-layout(constant_id = OWN_SPACES_CONSTANT) const uint own_spaces = 0u;
+// 1: some things have spaces of their own (engine/bvh/tlas.hpp).
+layout(constant_id = OWN_SPACES_CONSTANT) const uint object_spaces = 0u;
 // What the origin of the next ray lacks as a sum of two floats. A walk uses it up.
 vec3 trace_low = vec3(0);
 
@@ -115,7 +115,7 @@ void trace_triangle(uint place, Walked walked, uint skipped_flags, inout Hit bes
         hit = meets_sphere(a.xyz, b.x, ray, kLargest, t);
         weights = vec3(1, 0, 0);
     }
-    if (own_spaces != 0u && walked.record != 0u) {
+    if (object_spaces != 0u && walked.record != 0u) {
         triangle += walked.shift;
         object = walked.object;
         flags = walked.flags;
@@ -157,7 +157,7 @@ void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint s
 // The scene's own tree.
 Walked trace_outside(Ray ray) {
     vec3 lo = bvh_nodes_at(0u).xyz, hi = bvh_nodes_at(1u).xyz;
-    float times = own_spaces != 0u ? bvh_nodes_at(2u).x : 1.0;
+    float times = object_spaces != 0u ? bvh_nodes_at(2u).x : 1.0;
     BoxRay boxes = keeps(kBoxSlack) ? box_ray(ray, lo, hi, times) : plain_box_ray(ray);
     return Walked(ray, boxes, ray_shear(ray.direction), 0u, 0u, 0u, 0u);
 }
@@ -217,7 +217,7 @@ bool trace_walk(Ray ray, float t_max, uint skipped_flags, bool any, out Hit best
         uint count = bvh_count(child);
         uint i = 0u;
         bool enters = false;
-        if (own_spaces != 0u && count >= kBvhEnters) {
+        if (object_spaces != 0u && count >= kBvhEnters) {
             if (child == kBvhReturns) {
                 walked = trace_outside(ray);
             } else {

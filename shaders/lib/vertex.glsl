@@ -57,7 +57,7 @@ void main() {
 #endif
     out_from_eye = v;
     Attribute at = kNoAttribute;
-    if (details != 0u && (detail_at(surface.detail).flags & kDetailAttributes) != 0u)
+    if (details != 0u && (detail_at(surface.detail).flags & kMaterialAttributes) != 0u)
         at = attribute_at_vertex(uint(gl_VertexIndex) + detail_at(surface.detail).first_attribute);
     out_uv = at.uv;
     out_colour = at.colour;

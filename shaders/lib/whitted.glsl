@@ -27,10 +27,10 @@ Attribute attribute_at(uint corner, vec3 barycentric) {
     return Attribute(barycentric.x * a.uv + barycentric.y * b.uv + barycentric.z * c.uv,
                      barycentric.x * a.colour + barycentric.y * b.colour + barycentric.z * c.colour);
 }
-bool has_attributes(uint detail) { return (detail_at(detail).flags & kDetailAttributes) != 0u; }
+bool has_attributes(uint detail) { return (detail_at(detail).flags & kMaterialAttributes) != 0u; }
 bool is_there(uint triangle, uint object, vec3 barycentric) {
     uint detail = surface_of(object).detail;
-    return !is_cut_out(detail, has_attributes(detail) ? attribute_at(3u * triangle, barycentric) : kNoAttribute);
+    return !fails_alpha_test(detail, has_attributes(detail) ? attribute_at(3u * triangle, barycentric) : kNoAttribute);
 }
 #define TRACE_IS_THERE(triangle, object, barycentric) is_there(triangle, object, barycentric)
 layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
@@ -71,7 +71,7 @@ Point point; // what is being shaded
 
 // When spheres are exact, meshes that stand for one are passed by: in a space of their own the walk knows the sphere,
 // and in the scene's a ball is in their place.
-uint passed_by() { return exact_spheres != 0u ? kBvhSphere : 0u; }
+uint ray_mask() { return exact_spheres != 0u ? kBvhSphere : 0u; }
 
 // From the own space in which it was found.
 void put_into_scene(inout Point p, uint record) {
@@ -93,7 +93,7 @@ Point on_triangle(Hit hit) {
     p.position = triangle_point(a, b, c, w, p.error);
     p.facet = facet_normal(a, b, c);
     uint corner = 3u * hit.triangle;
-    if (own_spaces != 0u && hit.inside != 0u) corner -= 3u * number_shift(hit.inside);
+    if (object_spaces != 0u && hit.inside != 0u) corner -= 3u * number_shift(hit.inside);
     p.at = kNoAttribute;
     if (details != 0u && has_attributes(hit.object)) p.at = attribute_at(corner, w);
     p.inside = 0u;
@@ -101,7 +101,7 @@ Point on_triangle(Hit hit) {
     vec3 normal_a = NORMAL(corner), normal_b = NORMAL(corner + 1u), normal_c = NORMAL(corner + 2u);
     p.normal = normalize(w.x * normal_a + w.y * normal_b + w.z * normal_c);
     vec3 lit_a = a, lit_b = b, lit_c = c; // in the scene's units
-    if (own_spaces != 0u && hit.inside != 0u) {
+    if (object_spaces != 0u && hit.inside != 0u) {
         Place place = place_at(hit.inside);
         lit_a = arm_of(place, a), lit_b = arm_of(place, b), lit_c = arm_of(place, c);
         normal_a = scene_normal(place, normal_a), normal_b = scene_normal(place, normal_b), normal_c = scene_normal(place, normal_c);
@@ -111,14 +111,14 @@ Point on_triangle(Hit hit) {
     p.lift = smooth_lift(lit_a, lit_b, lit_c, normal_a, normal_b, normal_c, w);
 #ifdef DOUBLES
     dvec3 exact_a = dvec3(a), exact_b = dvec3(b), exact_c = dvec3(c);
-    if (own_spaces != 0u && hit.inside != 0u) {
+    if (object_spaces != 0u && hit.inside != 0u) {
         Place place = place_at(hit.inside);
         exact_a = exact_place(place, a), exact_b = exact_place(place, b), exact_c = exact_place(place, c);
     }
     dvec3 exact_w = exact_triangle_hit(exact_a, exact_b, exact_c, w);
     exact_normal = exact_w.x * dvec3(NORMAL(corner)) + exact_w.y * dvec3(NORMAL(corner + 1u)) +
                    exact_w.z * dvec3(NORMAL(corner + 2u));
-    if (own_spaces != 0u && hit.inside != 0u) exact_normal = exact_scene_normal(place_at(hit.inside), exact_normal);
+    if (object_spaces != 0u && hit.inside != 0u) exact_normal = exact_scene_normal(place_at(hit.inside), exact_normal);
     exact_normal = normalize(exact_normal);
     p.position = vec3(exact_point);
     p.normal = vec3(exact_normal);
@@ -170,8 +170,8 @@ Point on_own_sphere(Ray ray, vec3 low, Hit hit) {
 bool trace_ray(Ray ray, uint skipped, out Point p) {
     Hit hit;
     vec3 low = trace_low;
-    bool found = closest_hit(ray, kLargest, skipped | kBvhOneSided | passed_by(), hit);
-    if (found && own_spaces != 0u && hit.place == kOnSphere) p = on_own_sphere(ray, low, hit);
+    bool found = closest_hit(ray, kLargest, skipped | kBvhOneSided | ray_mask(), hit);
+    if (found && object_spaces != 0u && hit.place == kOnSphere) p = on_own_sphere(ray, low, hit);
     else if (found && exact_spheres != 0u && surface_of(hit.object).radius > 0.0) p = on_sphere(ray, hit.t, hit.object);
     else if (found) p = on_triangle(hit);
     return found;
@@ -191,7 +191,7 @@ Surface surface_at(inout Point p, vec3 direction) {
 
 // A ray that leaves the point along `direction`.
 vec3 leaving(Point p, vec3 direction) {
-    if (own_spaces != 0u && p.inside != 0u)
+    if (object_spaces != 0u && p.inside != 0u)
         return scene_point(place_at(p.inside), spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
     return keeps(kSpawnBound) ? spawn_origin(p.position, p.error, p.facet, direction) : plain_spawn_origin(p.position, p.facet, direction);
 }
@@ -199,7 +199,7 @@ vec3 leaving(Point p, vec3 direction) {
 // Where a shadow ray begins that goes below the facet, as the shading normal allows: on the surface that the normals
 // tell of. From the facet it would meet its neighbours, and each facet would show at a smooth body's terminator.
 vec3 leaving_lifted(Point p, vec3 normal) {
-    if (own_spaces != 0u && p.inside != 0u)
+    if (object_spaces != 0u && p.inside != 0u)
         return scene_point(place_at(p.inside), spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
     return spawn_origin(p.position + p.lift * normal, p.error, p.facet, normal);
 }
@@ -220,7 +220,7 @@ float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, floa
         ray.direction = direction;
         t = kLargest;
     }
-    return any_hit(ray, t, kBvhShadowless | passed_by()) ? 0.0 : 1.0;
+    return any_hit(ray, t, kBvhShadowless | ray_mask()) ? 0.0 : 1.0;
 }
 #include "lib/lighting.glsl"
 
@@ -229,7 +229,7 @@ View camera_view = views[0]; // read before lanes go different ways
 Ray camera_ray(vec2 place, uvec2 size) {
     View view = camera_view;
     vec2 ndc = place / vec2(size) * 2.0 - 1.0;
-    if (own_spaces != 0u) trace_low = view.eye_low;
+    if (object_spaces != 0u) trace_low = view.eye_low;
     if (orthographic != 0u)
         return Ray(view.eye + (ndc.x * view.right / dot(view.right, view.right) + ndc.y * view.down / dot(view.down, view.down)),
                    view.forward, 0u);

@@ -153,8 +153,8 @@ void choose(uint mirror, Taps taps, float distance, out vec4 second, out vec4 in
 
 float found_distance; // of the lookup; 0: nothing was found. Without initial value, on which -gVS of glslang 12 trips
 
-float looked_at() { return found_distance; }
-void look_at(float distance) { found_distance = distance; }
+float last_hit_distance() { return found_distance; }
+void set_last_hit_distance(float distance) { found_distance = distance; }
 
 vec3 lookup_colour(uint mirror, Lookup lookup) {
     if (!(found_distance > 0.0)) return environment(lookup.direction);

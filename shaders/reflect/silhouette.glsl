@@ -27,7 +27,7 @@ uint what_is_between(uint mirror, vec3 front, vec3 behind, float captured_front,
     // bilinear lookup mixes in.
     float apart = 1.25 * texel_angle(mirror);
     vec3 move = (behind - front) * (apart / angle);
-    // One lookup in a loop, which is unrolled unless it is one that traces (lib/mend.glsl).
+    // One lookup in a loop, which is unrolled unless it is one that traces (lib/ablate.glsl).
     const vec4 away = vec4(-1, -2, 2, 1);
     vec4 beside;
     for (int i = 0; i < 4; ++i)

@@ -44,7 +44,7 @@ void main() {
     for (int i = 0; i < 9; ++i) put(s.irradiance[i]);
     Frame f = frames[1];
     put(f.ambient), put(f.light_count), put(f.mirror_count), put(f.object_count), put(f.shadow_faces);
-    put(draws[1].first_view), put(draws[1].mended);
+    put(draws[1].first_view), put(draws[1].ablated);
     Placement p = placements[1];
     put(p.x), put(p.y), put(p.z), put(p.centre), put(p.centre_low);
     Trace t = traces[1];

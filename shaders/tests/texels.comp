@@ -20,8 +20,8 @@ void main() {
     put(s.albedo), put(s.emission), put(s.reflectance), put(s.mirror), put(s.detail), put(s.centre), put(s.radius);
     Probe p = probe_at(number);
     put(p.centre), put(p.sphere), put(p.radius), put(p.reflectance), put(p.lowest), put(p.highest), put(p.kind);
-    Detail d = detail_at(number);
-    put(d.flags), put(d.first_attribute), put(d.metallic), put(d.roughness), put(d.sharp_below), put(d.alpha);
+    MaterialParameters d = detail_at(number);
+    put(d.flags), put(d.first_attribute), put(d.metallic), put(d.roughness), put(d.max_specular_roughness), put(d.alpha);
     put(d.alpha_cutoff), put(d.f0), put(d.f90), put(d.albedo), put(d.emission), put(d.rough);
     Attribute a = attribute_at_vertex(number);
     put(a.uv), put(a.colour);

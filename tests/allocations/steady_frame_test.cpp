@@ -41,7 +41,7 @@ TEST_P(SteadyFrame, TakesTheSameOfTheHeapEachTime) {
         const std::size_t before = test::allocations();
         graph::Graph graph(runner.history());
         const render::FrameInputs inputs{gpu_scene, {32, 32}, ""};
-        graph.want(test::add_technique(graph, inputs, GetParam()).hdr);
+        graph.mark_output(test::add_technique(graph, inputs, GetParam()).hdr);
         const std::size_t declared = test::allocations();
         runner.submit(graph, graph::Timing::isolated);
         const std::size_t recorded = test::allocations();

@@ -1,6 +1,6 @@
 // What comes out when all is well.
 #include "cli/program.hpp"
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 
 namespace {
 
@@ -21,8 +21,8 @@ TEST_F(Cli, ListsParse) {
 /// `list metrics` is the table of quantities; `diff` gives each that two pictures have.
 TEST_F(Cli, ListsEveryQuantity) {
     std::vector<std::string> names, of_differences;
-    for (const auto& quantity : catoptric::measure::quantities()) names.emplace_back(quantity.name);
-    for (const auto& quantity : catoptric::measure::difference_quantities())
+    for (const auto& quantity : catoptric::measure::metrics()) names.emplace_back(quantity.name);
+    for (const auto& quantity : catoptric::measure::difference_metrics())
         of_differences.emplace_back(quantity.name);
     std::vector<std::string> found;
     const json metrics = json::parse(cli({"list", "metrics", "--json"}).out)["metrics"];

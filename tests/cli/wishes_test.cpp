@@ -11,9 +11,9 @@ using testing::Not;
 using testing::StartsWith;
 
 /// A floor and a board above it, without light, camera or mirror.
-class Wishes : public Cli {
+class SceneOverrides : public Cli {
 protected:
-    Wishes() {
+    SceneOverrides() {
         write("m.mtl", "newmtl wood\nKd .5 .4 .3\nnewmtl tin\nKd .8 .8 .8\n");
         write("x.obj", "mtllib m.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 0 -1\nv 1 0 -1\n"
                        "v 1 2 -1\nv -1 2 -1\no floor\nusemtl wood\nf 4 3 2 1\n"
@@ -26,14 +26,14 @@ protected:
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(ended.out);
     }
-    static std::vector<std::string> ids(const json& gaps) {
+    static std::vector<std::string> ids(const json& unsupported) {
         std::vector<std::string> ids;
-        for (const json& gap : gaps) ids.push_back(gap["id"]);
+        for (const json& gap : unsupported) ids.push_back(gap["id"]);
         return ids;
     }
 };
 
-TEST_F(Wishes, InfoSaysWhatASceneIs) {
+TEST_F(SceneOverrides, InfoSaysWhatASceneIs) {
     const json found = info();
     EXPECT_EQ(found["schema"], "catoptric/scene/1");
     EXPECT_EQ(found["scene"], "x");
@@ -62,7 +62,7 @@ TEST_F(Wishes, InfoSaysWhatASceneIs) {
     EXPECT_TRUE(found["gaps"][2]["pixel_share"].is_null());
 }
 
-TEST_F(Wishes, AMirrorByNameIsOneThatInfoKnows) {
+TEST_F(SceneOverrides, AMirrorByNameIsOneThatInfoKnows) {
     const json found = info({"--mirror", "the board=.5,.25,1", "--environment", "none"});
     ASSERT_EQ(found["mirrors"].size(), 1u);
     const json& mirror = found["mirrors"][0];
@@ -79,7 +79,7 @@ TEST_F(Wishes, AMirrorByNameIsOneThatInfoKnows) {
 }
 
 /// The same words without --json.
-TEST_F(Wishes, InfoAsText) {
+TEST_F(SceneOverrides, InfoAsText) {
     const test::Ended ended = cli({"info", "x.obj", "--size", "64x64", "--mirror", "tin"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, StartsWith("scene        x, hash "));
@@ -92,7 +92,7 @@ TEST_F(Wishes, InfoAsText) {
                 HasSubstr("  --mirror 'floor'\n  --mirror 'the board'"));
 }
 
-TEST_F(Wishes, SharesOfPixelsAreThoseOfTheCamera) {
+TEST_F(SceneOverrides, SharesOfPixelsAreThoseOfTheCamera) {
     write("m.mtl", "newmtl wood\nKd .5 .4 .3\nnewmtl tin\nKd .8 .8 .8\nillum 3\nKs 1 1 1\n");
     // Straight down, 4 units wide: the floor is 2 by 2.
     const json found = info({"--camera", "0,10,0:0,0,0:h=4", "--mirror", "floor"});
@@ -101,7 +101,7 @@ TEST_F(Wishes, SharesOfPixelsAreThoseOfTheCamera) {
 }
 
 /// `info` and `render` find it by the same camera: the one that is given.
-TEST_F(Wishes, AutomaticExposureIsOfTheGivenCamera) {
+TEST_F(SceneOverrides, AutomaticExposureIsOfTheGivenCamera) {
     const Words floor{"--camera", "0,.4,0:0,0,.1:40", "--environment", "studio", "--mirror", "tin"};
     const json by_info = info(floor);
     EXPECT_NE(by_info["exposure"], info({"--mirror", "tin"})["exposure"]);
@@ -116,7 +116,7 @@ TEST_F(Wishes, AutomaticExposureIsOfTheGivenCamera) {
     EXPECT_THAT(cli(text).out, HasSubstr(" stops (auto, by camera '0,.4,0:0,0,.1:40')"));
 }
 
-TEST_F(Wishes, WhatIsWrittenBesideIsRead) {
+TEST_F(SceneOverrides, WhatIsWrittenBesideIsRead) {
     const Words write_it{"info",     "x.obj",          "--write",    "--mirror", "tin=.5",
                          "--camera", "0,1,9:0,1,0:30", "--exposure", "1"};
     EXPECT_EQ(cli(write_it).exit_code, 0);
@@ -148,7 +148,7 @@ TEST_F(Wishes, WhatIsWrittenBesideIsRead) {
     EXPECT_EQ(cli(without).exit_code, 0);
 }
 
-TEST_F(Wishes, ACameraThatWasDrawnIsWrittenInNumbers) {
+TEST_F(SceneOverrides, ACameraThatWasDrawnIsWrittenInNumbers) {
     const Words words{"--mirror", "tin", "--camera", "seeded", "--seed", "5"};
     Words write_it{"info", "x.obj", "--write"};
     write_it.insert(write_it.end(), words.begin(), words.end());
@@ -160,14 +160,14 @@ TEST_F(Wishes, ACameraThatWasDrawnIsWrittenInNumbers) {
     EXPECT_EQ(info()["camera"], info(drawn)["camera"]);
 }
 
-TEST_F(Wishes, OutputsMayNotReplaceTheSceneFile) {
+TEST_F(SceneOverrides, OutputsMayNotReplaceTheSceneFile) {
     write("x.obj.catoptric.json", "{}");
     expect_refused(quick({"render", "x.obj", "--technique", "raytrace", "-o", "y.png", "--quiet",
                           "--mirror", "tin", "--trace", "x.obj.catoptric.json"}),
                    2, {"x.obj.catoptric.json", "which the scene is read from"});
 }
 
-TEST_F(Wishes, CompareSaysWhatItCompared) {
+TEST_F(SceneOverrides, CompareSaysWhatItCompared) {
     const test::Ended ended = cli(quick({"compare", "x.obj", "-o", "out", "--mirror", "tin",
                                          "--exposure", "-1", "--techniques", "reuse"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -187,7 +187,7 @@ TEST_F(Wishes, CompareSaysWhatItCompared) {
     }
 }
 
-TEST_F(Wishes, SeveralScenesAreOneReport) {
+TEST_F(SceneOverrides, SeveralScenesAreOneReport) {
     Words words = quick({"compare", "x.obj", "cornell-mirrors", "-o", "out", "--mirror", "*o*",
                          "--techniques", "reuse", "proxy"});
     const test::Ended ended = cli(words);
@@ -222,7 +222,7 @@ TEST_F(Wishes, SeveralScenesAreOneReport) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out/images/2-x/reuse.png"));
 }
 
-TEST_F(Wishes, SeveralScenesInOneDocument) {
+TEST_F(SceneOverrides, SeveralScenesInOneDocument) {
     const test::Ended ended = cli(quick({"compare", "cornell-mirrors", "cornell-mirrors-closed",
                                          "-o", "out", "--techniques", "proxy", "--json"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -14,7 +14,7 @@ graph::Graph frame() {
     graph.pass("clear it")
         .writes(image, graph::Use::colour, graph::Clear{})
         .record([](graph::Commands&) {});
-    graph.want(image);
+    graph.mark_output(image);
     return graph;
 }
 

@@ -93,7 +93,7 @@ TEST(CubeFace, ALookupAlongAWorldDirectionFindsIt) {
             commands.bind("Found", found);
             commands.dispatch(static_cast<std::uint32_t>((directions.size() + 63) / 64), 1);
         });
-    graph.want(found);
+    graph.mark_output(found);
     test::run(runner, graph);
     const std::vector<vec4> answers = test::read_as<vec4>(runner, found);
     std::size_t judged = 0, wrong = 0;

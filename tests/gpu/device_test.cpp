@@ -52,7 +52,7 @@ TEST(Device, MoreMemoryThanThereIsIsRefusedWithBothNumbers) {
         graph.pass("fill" + std::to_string(i))
             .writes(image, graph::Use::colour, graph::Clear{})
             .record([](graph::Commands&) {});
-        graph.want(image);
+        graph.mark_output(image);
     }
     test::expect_refused([&] { test::run(runner, graph); }, Failure::exhausted,
                          {std::to_string(count << 30), std::to_string(device.memory_budget())});

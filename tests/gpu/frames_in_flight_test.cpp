@@ -16,7 +16,7 @@ graph::Image add_frame(graph::Graph& graph, int frame) {
     test::add_step(graph, "first", graph.previous(kept), between, number);
     test::add_step(graph, "second", between, kept, 2 * number);
     test::add_step(graph, "third", between, out, 3 * number);
-    graph.want(out);
+    graph.mark_output(out);
     return out;
 }
 
@@ -63,11 +63,11 @@ TEST_P(InFlight, TimesAreThoseOfTheFrameThatIsAsked) {
         graph::Graph graph;
         const graph::Image image = test::add_image(graph, "image");
         test::add_start(graph, image, 1);
-        graph.want(image);
+        graph.mark_output(image);
         for (std::uint32_t i = 1; i < frame; ++i) { // one pass more each
             const graph::Image next = test::add_image(graph, "image" + std::to_string(i));
             test::add_step(graph, "step" + std::to_string(i), image, next, 1);
-            graph.want(next);
+            graph.mark_output(next);
         }
         tickets.push_back(runner.submit(graph, graph::Timing::isolated));
         EXPECT_EQ(tickets.back().frame, frame);
@@ -127,7 +127,7 @@ graph::Image add_shape(graph::Graph& graph, int kind) {
         test::add_step(graph, "step" + std::to_string(i), last, next, static_cast<float>(i));
         last = next;
     }
-    graph.want(last);
+    graph.mark_output(last);
     return last;
 }
 
@@ -167,7 +167,7 @@ TEST(Shapes, AreAllThatIsDeclaredButBodiesAndClears) {
         graph.pass(name)
             .writes(image, graph::Use::colour, graph::Clear{red, 0, 0, 1})
             .record([](graph::Commands&) {});
-        graph.want(image);
+        graph.mark_output(image);
         runner.compiled(graph);
         test::run(runner, graph);
         return test::read_as<float>(runner, image)[0];
@@ -187,7 +187,7 @@ TEST(Shapes, AWrongGraphOfAKnownShapeIsStillRefused) {
         graph::PassBuilder pass = graph.pass("clear").writes(image, graph::Use::colour,
                                                              graph::Clear{});
         if (!wrong) pass.record([](graph::Commands&) {});
-        graph.want(image);
+        graph.mark_output(image);
         if (wrong)
             expect_refused([&] { test::run(runner, graph); }, Failure::internal,
                            {"pass 'clear' has no body"});

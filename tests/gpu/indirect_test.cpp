@@ -29,7 +29,7 @@ std::vector<std::uint32_t> counts_of(std::uint32_t groups, bool declared = true)
             commands.push(kTurns);
             commands.dispatch_indirect(arguments, 4);
         });
-    graph.want(counts);
+    graph.mark_output(counts);
     test::run(runner, graph);
     return test::read_as<std::uint32_t>(runner, counts);
 }

@@ -22,8 +22,8 @@ std::vector<bvh::Triangle> drawn(test::Numbers& numbers) {
             continue;
         }
         const float radius = i % 10 == 1 ? 3.0f : .01f + .1f * std::abs(numbers.in_cube().x);
-        things.push_back(bvh::ball(i % 14 == 1 ? 50.0f * place : place, radius, i,
-                                   i % 6 == 1 ? bvh::kHidden : 0));
+        things.push_back(bvh::sphere(i % 14 == 1 ? 50.0f * place : place, radius, i,
+                                     i % 6 == 1 ? bvh::kHidden : 0));
     }
     return things;
 }

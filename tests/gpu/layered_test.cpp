@@ -61,7 +61,7 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
                 }
             });
     }
-    graph.want(colour);
+    graph.mark_output(colour);
     test::run(runner, graph);
     return runner.read(colour);
 }

@@ -65,7 +65,7 @@ const std::vector<Member> kMembers{MEMBER(Vertex, position),
                                    MEMBER(Frame, object_count),
                                    MEMBER(Frame, shadow_faces),
                                    MEMBER(Draw, first_view),
-                                   MEMBER(Draw, mended),
+                                   MEMBER(Draw, ablated),
                                    MEMBER(Placement, x),
                                    MEMBER(Placement, y),
                                    MEMBER(Placement, z),
@@ -114,7 +114,7 @@ TEST(Layout, EveryMemberOfEveryStructureArrives) {
             commands.use(gpu::ComputeState{"tests/layout.comp", {}});
             commands.dispatch(1, 1);
         });
-    graph.want(output);
+    graph.mark_output(output);
     test::run(runner, graph);
     const std::vector<std::uint32_t> found = test::read_as<std::uint32_t>(runner, output);
     ASSERT_EQ(found.size(), expected.size());

@@ -16,15 +16,15 @@ const graph::ImageDesc kDesc{"cubes", Format::r32f, kWidth, kHeight};
 /// Returns how many passes ran.
 std::size_t show(graph::Runner& runner, float stamp, std::vector<float>& shown) {
     graph::Graph graph(runner.history());
-    const graph::Image cubes = graph.kept(kDesc);
+    const graph::Image cubes = graph.persistent(kDesc);
     const auto number = static_cast<std::uint64_t>(stamp);
-    if (!graph.holds(cubes, number)) {
+    if (!graph.holds_content(cubes, number)) {
         add_start(graph, cubes, stamp);
-        graph.made_from(cubes, number);
+        graph.set_content_hash(cubes, number);
     }
     const graph::Image out = test::add_image(graph, "out");
     add_step(graph, "view", cubes, out, 1);
-    graph.want(out);
+    graph.mark_output(out);
     const std::size_t passes = test::run(runner, graph).passes.size();
     shown = test::read_as<float>(runner, out);
     return passes;
@@ -54,7 +54,7 @@ TEST(Kept, StaysThroughFramesThatDoNotNameIt) {
         graph::Graph other;
         const graph::Image image = test::add_image(other, "other" + std::to_string(frame));
         add_start(other, image, 9);
-        other.want(image);
+        other.mark_output(image);
         test::run(runner, other);
     }
     EXPECT_EQ(show(runner, 2, shown), 1u);
@@ -67,10 +67,10 @@ TEST(Kept, LayersAreMadeOneByOne) {
     desc.layers = 3;
     for (std::uint32_t frame = 0; frame < 5; ++frame) {
         graph::Graph graph(runner.history());
-        const graph::Image cubes = graph.kept(desc);
+        const graph::Image cubes = graph.persistent(desc);
         for (std::uint32_t layer = 0; layer < 3; ++layer) {
             const graph::Image part = cubes.layers(layer, 1);
-            EXPECT_EQ(graph.holds(part, layer), layer < frame);
+            EXPECT_EQ(graph.holds_content(part, layer), layer < frame);
             if (layer != frame) continue;
             graph.pass("fill").writes(part, Use::storage_write).record([=](graph::Commands& c) {
                 c.use(gpu::ComputeState{"tests/start.comp", {}});
@@ -78,11 +78,11 @@ TEST(Kept, LayersAreMadeOneByOne) {
                 c.push(static_cast<float>(layer + 1));
                 c.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
             });
-            graph.made_from(part, layer);
+            graph.set_content_hash(part, layer);
         }
-        EXPECT_EQ(graph.holds(cubes, 0), false);
+        EXPECT_EQ(graph.holds_content(cubes, 0), false);
         const std::uint32_t there = std::min(frame + 1, 3u);
-        graph.want(cubes.layers(0, there));
+        graph.mark_output(cubes.layers(0, there));
         test::run(runner, graph);
         std::vector<float> expected;
         for (std::uint32_t layer = 0; layer < there; ++layer) {
@@ -100,7 +100,7 @@ TEST(Kept, AnotherSizeStartsAnew) {
     graph::Graph graph(runner.history());
     graph::ImageDesc desc = kDesc;
     desc.width = 8;
-    EXPECT_FALSE(graph.holds(graph.kept(desc), 2));
+    EXPECT_FALSE(graph.holds_content(graph.persistent(desc), 2));
 }
 
 TEST(Imported, ImageIsReadAndLeftAsItIsSaid) {
@@ -119,7 +119,7 @@ TEST(Imported, ImageIsReadAndLeftAsItIsSaid) {
         const graph::Image out = test::add_image(graph, "out");
         if (first) add_start(graph, image, 4);
         add_step(graph, "view", image, out, 5);
-        graph.want(out);
+        graph.mark_output(out);
         const graph::Ticket ticket = runner.submit(graph, graph::Timing::pipelined);
         std::vector<std::byte> bytes = runner.read(ticket, out);
         std::vector<float> values(bytes.size() / sizeof(float));
@@ -181,7 +181,7 @@ TEST(Mips, EachIsWrittenFromTheOneBefore) {
         add_start(graph, image.mip(0), 2);
         for (std::uint32_t m = 1; m < desc.mips; ++m)
             add_step(graph, "mip" + std::to_string(m), image.mip(m - 1), image.mip(m), 3);
-        graph.want(image);
+        graph.mark_output(image);
         test::run(runner, graph);
         std::vector<float> expected, before;
         for (std::uint32_t m = 0; m < desc.mips; ++m) {
@@ -222,7 +222,7 @@ TEST(Mips, AreSampledTogether) {
                 commands.push(lod);
                 commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
             });
-        graph.want(out);
+        graph.mark_output(out);
         test::run(runner, graph);
         EXPECT_NEAR(test::read_as<float>(runner, out)[0], std::min(10 * lod, 40.0f), 0.1f) << lod;
     }
@@ -237,7 +237,7 @@ TEST(Unread, AttachmentsDoNotChangeThePicture) {
         .writes(colour, Use::colour, graph::Clear{1, 2, 3, 4})
         .writes(depth, Use::depth, graph::Clear{})
         .record([](graph::Commands&) {});
-    graph.want(colour);
+    graph.mark_output(colour);
     EXPECT_EQ(runner.compiled(graph).passes[0].unread, 2u);
     test::run(runner, graph);
     const std::vector<float> found = test::read_as<float>(runner, colour);
@@ -263,7 +263,7 @@ TEST(Unread, IsWrittenAgainInTheNextFrame) {
                     commands.dispatch((kWidth + 7) / 8, (kHeight + 7) / 8);
                 }
             });
-        graph.want(out);
+        graph.mark_output(out);
         runner.submit(graph, graph::Timing::pipelined);
     }
 }
@@ -283,15 +283,15 @@ TEST(Memory, IsFlatOverFramesOfManyShapes) {
                 .writes(image, Use::colour, graph::Clear{})
                 .record([](graph::Commands&) {});
         if (kind == 3) {
-            const graph::Image kept = graph.kept({"kept", Format::rgba16f, 64, 64});
-            if (!graph.holds(kept, 1)) {
+            const graph::Image kept = graph.persistent({"kept", Format::rgba16f, 64, 64});
+            if (!graph.holds_content(kept, 1)) {
                 graph.pass("keep")
                     .writes(kept, Use::colour, graph::Clear{})
                     .record([](graph::Commands&) {});
-                graph.made_from(kept, 1);
+                graph.set_content_hash(kept, 1);
             }
         }
-        graph.want(out);
+        graph.mark_output(out);
         runner.submit(graph, graph::Timing::pipelined);
         if (frame == 9) after_two_rounds = runner.memory_bytes();
         // What has a `previous` has the size of the frame at hand.

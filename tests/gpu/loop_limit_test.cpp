@@ -21,7 +21,7 @@ std::uint32_t turns_of(std::uint32_t wanted) {
             commands.push(wanted);
             commands.dispatch(4, 1);
         });
-    graph.want(counts);
+    graph.mark_output(counts);
     test::run(runner, graph);
     return test::read_as<std::uint32_t>(runner, counts).front();
 }

@@ -54,7 +54,7 @@ std::vector<Answer> answers(const std::vector<shared::Probe>& probes,
             commands.push(static_cast<std::uint32_t>(rays.size()));
             commands.dispatch(static_cast<std::uint32_t>((rays.size() + 63) / 64), 1);
         });
-    graph.want(out);
+    graph.mark_output(out);
     test::run(runner, graph);
     return test::read_as<Answer>(runner, out);
 }

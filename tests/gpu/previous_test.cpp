@@ -15,7 +15,7 @@ TEST(Previous, IsBlackOnceAndThenTheLastFrame) {
         const graph::Image image = add_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
         add_step(graph, "step", graph.previous(image), image, static_cast<float>(frame));
-        graph.want(image);
+        graph.mark_output(image);
         test::run(runner, graph);
         expected = stepped(expected, static_cast<float>(frame));
         EXPECT_EQ(test::read_as<float>(runner, image), expected) << "frame " << frame;
@@ -29,7 +29,7 @@ TEST(Previous, BelongsToItsRunner) {
         graph::Graph graph(runner.history());
         const graph::Image image = add_image(graph, "kept");
         add_step(graph, "step", graph.previous(image), image, 5);
-        graph.want(image);
+        graph.mark_output(image);
         test::run(runner, graph);
         EXPECT_EQ(test::read_as<float>(runner, image),
                   stepped(std::vector<float>(kWidth * kHeight, 0.0f), 5));
@@ -44,12 +44,12 @@ TEST(Previous, SurvivesAFrameOfAnotherShape) {
         if (frame == 2) { // one image more, declared first: every number changes
             const graph::Image other = add_image(graph, "other");
             add_start(graph, other, 1);
-            graph.want(other);
+            graph.mark_output(other);
         }
         const graph::Image image = add_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
         add_step(graph, "step", graph.previous(image), image, 2);
-        graph.want(image);
+        graph.mark_output(image);
         test::run(runner, graph);
         expected = stepped(expected, 2);
         EXPECT_EQ(test::read_as<float>(runner, image), expected) << "frame " << frame;
@@ -60,14 +60,14 @@ TEST(Previous, SurvivesAFrameOfAnotherShape) {
 graph::Image add_chain(graph::Graph& graph, int length, bool apart) {
     graph::Image last = add_image(graph, "image0");
     add_start(graph, last, 7);
-    if (apart) graph.want(last);
+    if (apart) graph.mark_output(last);
     for (int i = 1; i <= length; ++i) {
         const graph::Image next = add_image(graph, "image" + std::to_string(i));
         add_step(graph, "step" + std::to_string(i), last, next, static_cast<float>(i));
-        if (apart) graph.want(next);
+        if (apart) graph.mark_output(next);
         last = next;
     }
-    graph.want(last);
+    graph.mark_output(last);
     return last;
 }
 

@@ -118,7 +118,7 @@ void dispatch(const gpu::ComputeState& state,
             prepare(commands, buffer);
             commands.dispatch(1, 1);
         });
-    graph.want(buffer);
+    graph.mark_output(buffer);
     test::run(runner, graph);
 }
 
@@ -143,7 +143,7 @@ TEST(Binding, AnImageWhereABufferBelongsIsRefused) {
             commands.bind("Counts", image);
             commands.dispatch(1, 1);
         });
-    graph.want(image);
+    graph.mark_output(image);
     test::expect_refused([&] { test::run(runner, graph); }, Failure::internal,
                          {"pass 'mixed'", "'Counts'", "is a buffer, bound is an image"});
 }
@@ -156,7 +156,7 @@ TEST(Binding, AnUndeclaredResourceIsRefused) {
     graph.pass("sly")
         .writes(declared, graph::Use::storage_write)
         .record([=](graph::Commands& commands) { commands.bind("Counts", other); });
-    graph.want(declared);
+    graph.mark_output(declared);
     test::expect_refused([&] { test::run(runner, graph); }, Failure::internal,
                          {"pass 'sly'", "'other'", "does not declare it"});
 }

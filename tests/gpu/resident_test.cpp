@@ -21,7 +21,7 @@ std::vector<std::byte> picture(const render::GpuScene& scene, const std::string&
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
     const reflect::Outputs outputs = test::add_technique(graph, {scene, kSize, ""}, technique);
-    graph.want(outputs.hdr);
+    graph.mark_output(outputs.hdr);
     scene.prepare();
     test::run(runner, graph);
     return runner.read(outputs.hdr);

@@ -143,9 +143,9 @@ TEST(Session, ASequenceThatWasSetAsideGoesOn) {
             if (k > 1) session.resume(std::move(aside[i]));
             const measure::Picture found = session.frame(spec).hdr();
             if (k > 1)
-                aside[i] = session.set_aside();
+                aside[i] = session.suspend();
             else
-                aside.push_back(session.set_aside());
+                aside.push_back(session.suspend());
             alone.forget();
             measure::Picture wanted;
             for (int frame = 1; frame <= k; ++frame) wanted = alone.frame(spec).hdr();
@@ -163,7 +163,7 @@ TEST(Session, ASequenceOfOtherUnitsBeginsAnew) {
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::Session session(test::engine(), scene);
     session.frame(spec), session.frame(spec);
-    app::Sequence sequence = session.set_aside();
+    app::Sequence sequence = session.suspend();
     dmat4 far = scene.objects.back().world_from_object;
     far[3] += dvec4(20, 0, 0, 0); // so far that the scene's units are others
     session.change(scene::move(scene.objects.size() - 1, far));
@@ -176,13 +176,13 @@ TEST(Session, OtherTechniquesBeginWithoutHistoryAndAFrameAsideLeavesItAlone) {
     const scene::Scene scene = test::room(3, 1);
     const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
     app::FrameSpec aside = spec_of(scene, "raytrace");
-    aside.is_aside = true;
+    aside.keeps_history = true;
     app::Session session(test::engine(), scene), alone(test::engine(), scene);
     const measure::Picture first = alone.frame(spec).hdr(), second = alone.frame(spec).hdr();
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), first));
     session.frame(aside);
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), second));
-    aside.is_aside = false;
+    aside.keeps_history = false;
     session.frame(aside);
     EXPECT_TRUE(test::same_bytes(session.frame(spec).hdr(), first)) << "another began in between";
 }

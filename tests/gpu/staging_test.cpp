@@ -124,7 +124,7 @@ TEST(StagedScene, PictureEqualsTheMappedOne) {
         const render::FrameInputs inputs{gpu_scene, {48, 32}, ""};
         const render::Lighting lighting{render::add_shadow(graph, inputs, 64)};
         const graph::Image hdr = render::add_view(graph, inputs, lighting, {}).hdr;
-        graph.want(hdr);
+        graph.mark_output(hdr);
         test::run(runner, graph);
         return test::read_as<float>(runner, hdr);
     };

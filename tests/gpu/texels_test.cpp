@@ -30,7 +30,7 @@ TEST(Texels, HoldEveryMemberOfTheOneThatIsAskedFor) {
     std::uint32_t next = 0;
     std::vector<shared::Surface> surfaces;
     std::vector<shared::Probe> probes;
-    std::vector<shared::Detail> details;
+    std::vector<shared::MaterialParameters> details;
     std::vector<shared::Attribute> attributes;
     std::vector<std::uint32_t> texels;
     for (std::uint32_t i = 0; i < kAsked + 2; ++i) {
@@ -38,7 +38,7 @@ TEST(Texels, HoldEveryMemberOfTheOneThatIsAskedFor) {
         surfaces.back().mirror = 1000 + i, surfaces.back().detail = 2000 + i;
         probes.push_back(filled<shared::Probe>(next));
         probes.back().kind = i % 3;
-        details.push_back(filled<shared::Detail>(next));
+        details.push_back(filled<shared::MaterialParameters>(next));
         details.back().flags = 1 + i; // as a float too small for some devices
         attributes.push_back(filled<shared::Attribute>(next));
         texels.push_back(0x7fc00001u + i); // as a float no number
@@ -72,7 +72,7 @@ TEST(Texels, HoldEveryMemberOfTheOneThatIsAskedFor) {
             commands.push(kAsked);
             commands.dispatch(1, 1);
         });
-    graph.want(output);
+    graph.mark_output(output);
     test::run(runner, graph);
     EXPECT_EQ(test::read_as<std::uint32_t>(runner, output), expected);
 }

@@ -106,7 +106,7 @@ TEST(Timing, FourTimesTheWorkReadsAboutFourTimes) {
                     commands.dispatch(groups, 1);
                 });
         }
-        graph.want(counts);
+        graph.mark_output(counts);
         const graph::FrameTimes times = test::run(runner, graph);
         if (frame < 2) continue;
         for (const graph::PassTime& pass : times.passes) {

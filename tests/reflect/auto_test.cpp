@@ -60,11 +60,11 @@ TEST(Auto, StaysWhatItWasWhereItsSequenceIsSetAside) {
     app::Session session(test::engine(), hall);
     app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kSize};
     EXPECT_EQ(session.frame(spec).read().plan[0].technique, "hybrid");
-    app::Sequence sequence = session.set_aside();
+    app::Sequence sequence = session.suspend();
     app::FrameSpec other = spec;
     other.techniques = {"reuse:face=16"};
     session.frame(other);
-    session.set_aside();
+    session.suspend();
     session.resume(std::move(sequence));
     spec.camera.eye = {.9, .9, 1.2}, spec.camera.target = {.9, 1, 1.9}; // the ball is not in it
     spec.camera.vertical_fov_degrees = 10;

@@ -291,14 +291,14 @@ TEST(Environment, IsThereWithoutCausesOfError) {
     app::Session session(test::engine(), scene);
     app::FrameSpec spec = asked;
     session.frame(spec);
-    spec.mended = shared::kMendDistance | shared::kMendDirection | shared::kMendHidden |
-                  shared::kMendTexels | shared::kMendMirrors | shared::kMendOwn |
-                  shared::kMendShadows;
-    const measure::Picture mended = session.frame(spec).read_all().front().hdr;
+    spec.ablated = shared::kAblateDistance | shared::kAblateDirection | shared::kAblateHidden |
+                   shared::kAblateTexels | shared::kAblateMirrors | shared::kAblateOwn |
+                   shared::kAblateShadows;
+    const measure::Picture ablated = session.frame(spec).read_all().front().hdr;
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
         if (!measure::first_mirror(truth.hits[i])) continue;
-        ++all, off += test::apart(mended.pixels[i], truth.hdr.pixels[i]) > float(measure::kOff);
+        ++all, off += test::apart(ablated.pixels[i], truth.hdr.pixels[i]) > float(measure::kOff);
     }
     std::cout << "[ MEASURED ] off " << off << " of " << all << "\n";
     EXPECT_LE(double(off), .01 * double(all));

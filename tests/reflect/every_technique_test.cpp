@@ -70,7 +70,8 @@ TEST_P(EveryTechnique, TwoMirrorsInAFurnaceNeverGrowDarker) {
     };
     expect_falling("frame", [&](int i) { return dark_share(furnace, small(), i + 1); });
     for (const std::string knob : {"bounces", "depth"})
-        if (std::ranges::find(GetParam().knobs, knob, &app::KnobInfo::name) != GetParam().knobs.end())
+        if (std::ranges::find(GetParam().knobs, knob, &app::KnobInfo::name) !=
+            GetParam().knobs.end())
             expect_falling(knob, [&](int i) {
                 return dark_share(furnace, small({{knob, std::to_string(i)}}), 1);
             });

@@ -25,7 +25,7 @@ protected:
                                                                std::vector<std::string>(3, "ball"));
         outputs_ = reflect::add_frame(graph, {scene_, kSize, ""}, assignment,
                                       {model_, kept_, &comparisons_, most_});
-        graph.want(outputs_.hdr);
+        graph.mark_output(outputs_.hdr);
         runner_.run(graph, graph::Timing::isolated);
         kept_ = outputs_.kept;
         if (learns_) render::learn(kept_, [](std::uint64_t) { return true; });
@@ -55,7 +55,7 @@ protected:
         bench_.device, [this](std::uint64_t frame) { return runner_.has_ended({frame}); }};
     graph::Runner runner_{bench_.device, bench_.pipelines};
     require::Model model_;
-    std::shared_ptr<render::KeptCaptures> kept_;
+    std::shared_ptr<render::CaptureCache> kept_;
     std::uint32_t most_ = 0; ///< mirrors a frame; 0: all
     bool learns_ = true;
     reflect::Outputs outputs_;
@@ -66,12 +66,12 @@ TEST_F(KeptFrames, DrawTheFacesWhoseStampChanged) {
     settle();
     EXPECT_EQ(frame(), Names());
     const std::vector<std::byte> before = colours(0, 0, 2);
-    for (const std::size_t face : {2, 3, 5}) model_.mirrors[0].stamps[face] += 1;
+    for (const std::size_t face : {2, 3, 5}) model_.mirrors[0].content_hashes[face] += 1;
     EXPECT_EQ(frame(), (Names{"capture.keep", "capture/1.3-4", "capture/1.6-6"}));
     EXPECT_EQ(colours(0, 0, 2), before);
-    model_.mirrors[0].stamps[5] += 1;
+    model_.mirrors[0].content_hashes[5] += 1;
     EXPECT_EQ(frame(), (Names{"capture.keep", "capture/1.6-6"})) << "3 and 4 lie in one set yet";
-    model_.mirrors[0].stamps[5] += 1;
+    model_.mirrors[0].content_hashes[5] += 1;
     EXPECT_EQ(frame(), Names{"capture/1.6-6"});
     EXPECT_EQ(frame(), Names());
 }
@@ -80,11 +80,11 @@ TEST_F(KeptFrames, DrawTheFacesWhoseStampChanged) {
 TEST_F(KeptFrames, DrawThePartOfAFaceInWhichSomethingMoved) {
     const std::string technique = "parallax:face=32";
     for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
-    const auto tell = [&](std::uint64_t stamp, const require::FacePart& part) {
+    const auto tell = [&](std::uint64_t content_hash, const require::FacePart& part) {
         const auto pieces = std::make_shared<require::Pieces>();
-        pieces->faces[5] = {{stamp, part}};
+        pieces->faces[5] = {{content_hash, part}};
         model_.mirrors[0].pieces = pieces;
-        model_.mirrors[0].stamps[5] += 1;
+        model_.mirrors[0].content_hashes[5] += 1;
     };
     const auto drawn = [&](const Names& names, const uvec2& first, const uvec2& end) {
         const std::vector<std::byte> before = colours(0, 5, 1);
@@ -110,7 +110,7 @@ TEST_F(KeptFrames, DrawThePartOfAFaceInWhichSomethingMoved) {
     // Whoever was put off does not know where what he missed had been.
     most_ = 1;
     scene_.update(room_, room_.cameras.front(), kSize, 2);
-    model_.mirrors[1].stamps.fill(9), model_.mirrors[1].pieces = nullptr;
+    model_.mirrors[1].content_hashes.fill(9), model_.mirrors[1].pieces = nullptr;
     tell(4, {dvec2(.6, 0), dvec2(.7, .25)});
     frame(technique); // the first mirror, and a hand's width of it
     EXPECT_EQ(kept_->waited, (std::vector<std::uint32_t>{0, 1, 0}));
@@ -129,10 +129,10 @@ TEST_F(KeptFrames, MakeThePyramidOverACubeOfWhichAFaceIsDrawn) {
     settle(pyramid);
     EXPECT_EQ(frame(pyramid), Names());
     for (const std::size_t mirror : {0, 1, 2}) {
-        model_.mirrors[mirror].stamps[5] += 1;
+        model_.mirrors[mirror].content_hashes[5] += 1;
         const std::string drawn = "capture/" + std::to_string(mirror + 1) + ".6-6";
         EXPECT_EQ(frame(pyramid), (Names{"capture.keep", drawn, "pyramid"}));
-        model_.mirrors[mirror].stamps[5] += 1;
+        model_.mirrors[mirror].content_hashes[5] += 1;
         EXPECT_EQ(frame(pyramid), (Names{drawn, "pyramid"})) << "the other set has the rest";
         EXPECT_EQ(frame(pyramid), Names());
     }
@@ -186,7 +186,7 @@ TEST_F(KeptFrames, AddMirrorsThatAreCapturedLater) {
 TEST_F(KeptFrames, TakeTurnsWhereNotAllAreDrawn) {
     for (require::MirrorNeeds& mirror : model_.mirrors) mirror.sees.clear();
     const auto change = [&](std::initializer_list<std::size_t> mirrors) {
-        for (const std::size_t mirror : mirrors) model_.mirrors[mirror].stamps[5] += 1;
+        for (const std::size_t mirror : mirrors) model_.mirrors[mirror].content_hashes[5] += 1;
     };
     settle();
     frame(), most_ = 1;
@@ -216,7 +216,7 @@ TEST_F(KeptFrames, KnowWhyTheyWait) {
     model_.mirrors[1].sees = {0}, model_.mirrors[2].sees = {0};
     settle();
     most_ = 1;
-    model_.mirrors[0].stamps.fill(77);
+    model_.mirrors[0].content_hashes.fill(77);
     EXPECT_EQ(frame(), (Names{"capture.keep", "capture/1"}));
     // Once the first has changed, and does no more.
     const auto compared = [](const Names& names) {
@@ -227,10 +227,10 @@ TEST_F(KeptFrames, KnowWhyTheyWait) {
     EXPECT_TRUE(compared(frame())) << "the third";
     EXPECT_EQ(frame(), Names());
     model_.mirrors[1].is_captured = false;
-    model_.mirrors[1].stamps.fill(5);
+    model_.mirrors[1].content_hashes.fill(5);
     EXPECT_EQ(frame(), Names());
     model_.mirrors[1].is_captured = true;
-    model_.mirrors[0].stamps.fill(78), model_.mirrors[2].stamps.fill(78);
+    model_.mirrors[0].content_hashes.fill(78), model_.mirrors[2].content_hashes.fill(78);
     EXPECT_EQ(frame(), (Names{"capture.keep", "capture/1", "capture/2"}));
 }
 
@@ -246,7 +246,7 @@ TEST_F(KeptFrames, RefuseToChooseBeforeTheyKnow) {
 TEST_F(KeptFrames, DrawTheMapsOfLightsThatNeedOne) {
     model_.lights[1].has_map = false;
     settle();
-    model_.lights[0].stamp += 1;
+    model_.lights[0].content_hash += 1;
     EXPECT_EQ(frame("naive:bounces=0"), Names{"shadow/1"});
     model_.lights[1].has_map = true;
     EXPECT_EQ(frame("naive:bounces=0"), Names{"shadow/2"});

@@ -42,7 +42,7 @@ double flip(const app::Part& a, const app::Part& b) {
     return measure::flip_mean(measure::flip(a.display, b.display));
 }
 
-TEST(OwnSpace, ABallShowsWhatItShowsAtTheOrigin) {
+TEST(ObjectSpace, ABallShowsWhatItShowsAtTheOrigin) {
     const scene::Scene alone = far_balls(1, true), both = far_balls(2, true);
     for (const std::string technique :
          {"raytrace", "raytrace:sphere=exact", "raytrace:hit=f64", "raytrace:shadow=map",
@@ -56,7 +56,7 @@ TEST(OwnSpace, ABallShowsWhatItShowsAtTheOrigin) {
 
 /// One that is lit, not a mirror: shadow rays start on it, and in the raster world the map is
 /// asked. Alone it has a space of its own too, since only mirrors are worth an origin.
-TEST(OwnSpace, RaysAgreeWithDoubles) {
+TEST(ObjectSpace, RaysAgreeWithDoubles) {
     for (const bool mirrors : {true, false}) {
         const scene::Scene scene = far_balls(2, mirrors);
         const app::Request request = test::request(scene, {"raytrace:sphere=exact"}, kSize);
@@ -96,7 +96,7 @@ scene::Scene many(bool shared) {
     return scene;
 }
 
-TEST(OwnSpace, CopiesOfOneMeshShowWhatSingleMeshesShow) {
+TEST(ObjectSpace, CopiesOfOneMeshShowWhatSingleMeshesShow) {
     for (const std::string technique :
          {"raytrace", "raytrace:hit=f64", "raytrace:shadow=map", "pyramid", "hybrid"})
         EXPECT_LE(flip(test::render(many(true), technique, kSize),

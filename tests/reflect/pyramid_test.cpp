@@ -77,9 +77,9 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
                 commands.bind("Found", found[i]);
                 commands.dispatch(static_cast<std::uint32_t>((count + 63) / 64), 1);
             });
-        graph.want(found[i]);
+        graph.mark_output(found[i]);
     }
-    graph.want(pyramid);
+    graph.mark_output(pyramid);
     test::run(runner, graph);
     return {static_cast<std::uint32_t>(choice.settings.integer("face")),
             test::read_as<std::uint32_t>(runner, pyramid), test::read_as<vec4>(runner, found[0]),

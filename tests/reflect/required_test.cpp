@@ -49,7 +49,7 @@ public:
         const auto [wanted, found] = next();
         model_ = found.model();
         EXPECT_TRUE(same_pictures(wanted, found)) << "frame " << number_;
-        if (!spec.is_aside) {
+        if (!spec.keeps_history) {
             EXPECT_EQ(found.remembers(), wanted.remembers());
             const bool is_whole = needs_all_faces(found.model()); // else some faces hold nothing
             EXPECT_TRUE(!is_whole || found.state() == wanted.state()) << "frame " << number_;
@@ -321,13 +321,13 @@ TEST(RequiredFrames, GoOnFromWhereTheyWereSetAside) {
     Pair pair(test::room(3, 1), {"parallax:face=16"});
     for (int k = 0; k < 3; ++k) pair.frame();
     std::vector<app::Sequence> aside;
-    pair.both([&](app::Session& session) { aside.push_back(session.set_aside()); });
+    pair.both([&](app::Session& session) { aside.push_back(session.suspend()); });
     for (int k = 0; k < 2; ++k) pair.frame(); // others, of the same technique
     std::size_t i = 0;
     pair.both([&](app::Session& session) { session.resume(std::move(aside[i++])); });
     pair.settle();
     aside.clear(), i = 0;
-    pair.both([&](app::Session& session) { aside.push_back(session.set_aside()); });
+    pair.both([&](app::Session& session) { aside.push_back(session.suspend()); });
     pair.frame();
     pair.both([&](app::Session& session) { session.resume(std::move(aside[i++])); });
     EXPECT_EQ(pair.frame(), kSettled);
@@ -337,7 +337,7 @@ TEST(RequiredFrames, AsideLeaveTheSequenceAlone) {
     Pair pair(test::room(3, 1), {"parallax:face=16"});
     const app::FrameSpec still = pair.spec;
     const auto aside = [&](const char* technique, double ambient) {
-        pair.spec.is_aside = true;
+        pair.spec.keeps_history = true;
         pair.spec.techniques = {technique};
         pair.spec.ambient = ambient;
         pair.frame();

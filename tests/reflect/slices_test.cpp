@@ -42,7 +42,7 @@ app::FrameSpec limited(const scene::Scene& scene, std::uint32_t most,
 /// What a frame says of itself is what its passes do.
 void expect_told(const app::Frame& frame, std::uint32_t most) {
     ASSERT_TRUE(frame.slices());
-    const app::Slices& slices = *frame.slices();
+    const app::CaptureBudget& slices = *frame.slices();
     EXPECT_EQ(drawn(frame.times()).size(), slices.drawn);
     EXPECT_EQ(slices.most, std::min(most, slices.mirrors));
     EXPECT_LT(slices.longest, slices.round());
@@ -77,7 +77,7 @@ scene::Scene cells() {
 }
 
 // The cells emit the number of the frame, so a ball's pixel says of which frame its capture is.
-TEST(Slices, ShowNothingOlderThanARound) {
+TEST(CaptureBudget, ShowNothingOlderThanARound) {
     for (const std::uint32_t most : {1u, 2u, 3u}) {
         app::Session session(test::engine(), cells());
         const app::FrameSpec spec = limited(session.scene(), most, "parallax:face=32,shadow=none");
@@ -105,7 +105,7 @@ TEST(Slices, ShowNothingOlderThanARound) {
 }
 
 // A bounce takes a round in place of a frame.
-TEST(Slices, EndAsEverythingDoes) {
+TEST(CaptureBudget, EndAsEverythingDoes) {
     for (const std::uint32_t most : {1u, 2u}) {
         const scene::Scene scene = coarse_room();
         app::Session all(test::engine(), scene), few(test::engine(), scene);
@@ -145,7 +145,7 @@ TEST(Slices, EndAsEverythingDoes) {
 }
 
 // Cameras, edits and movements at random in a drawn hall, sooner than mirrors have had their turn.
-TEST(Slices, EndAsEverythingDoesWhateverHappened) {
+TEST(CaptureBudget, EndAsEverythingDoesWhateverHappened) {
     for (const std::uint64_t seed : {3, 11}) {
         const scene::Scene hall = test::drawn_hall(seed, 4);
         app::Session all(test::engine(), hall), few(test::engine(), hall);
@@ -177,7 +177,7 @@ TEST(Slices, EndAsEverythingDoesWhateverHappened) {
 }
 
 // Something moves in every frame.
-TEST(Slices, DrawEachMirrorInARound) {
+TEST(CaptureBudget, DrawEachMirrorInARound) {
     const scene::Scene scene = test::with_coarse_balls(scene::cornell_mirrors());
     app::Session session(test::engine(), scene);
     app::FrameSpec spec = limited(scene, 1);
@@ -193,7 +193,7 @@ TEST(Slices, DrawEachMirrorInARound) {
     }
 }
 
-TEST(Slices, OfAllMirrorsAreNone) {
+TEST(CaptureBudget, OfAllMirrorsAreNone) {
     const scene::Scene scene = test::with_coarse_balls(scene::cornell_mirrors());
     app::Session one(test::engine(), scene), other(test::engine(), scene);
     for (int k = 0; k < 6; ++k) {
@@ -207,7 +207,7 @@ TEST(Slices, OfAllMirrorsAreNone) {
 }
 
 // Whatever the device: hardly any time is one mirror a frame, much of it all.
-TEST(Slices, FollowMilliseconds) {
+TEST(CaptureBudget, FollowMilliseconds) {
     const scene::Scene scene = coarse_room();
     app::Session little(test::engine(), scene), much(test::engine(), scene);
     app::FrameSpec spec = limited(scene, 0);
@@ -218,10 +218,10 @@ TEST(Slices, FollowMilliseconds) {
         expect_told(frame, k == 1 ? 3 : 1);
         EXPECT_EQ(frame.slices()->drawn, k == 1 ? 3u : 1u);
         app::FrameSpec aside = spec;
-        aside.is_aside = true;
+        aside.keeps_history = true;
         EXPECT_FALSE(little.frame(aside).slices()) << "beside the sequence all are drawn";
         if (k == 3) { // measured on both sides of what comes between
-            app::Sequence sequence = little.set_aside();
+            app::Sequence sequence = little.suspend();
             EXPECT_EQ(little.frame(spec).slices()->drawn, 3u) << "the first of its own";
             little.resume(std::move(sequence));
         }
@@ -230,7 +230,7 @@ TEST(Slices, FollowMilliseconds) {
     }
 }
 
-TEST(Slices, AreTheSameWithSeveralInFlight) {
+TEST(CaptureBudget, AreTheSameWithSeveralInFlight) {
     const scene::Scene scene = coarse_room();
     app::Session one(test::engine(), scene), more(test::engine(), scene, 3);
     for (int k = 0; k < 8; ++k) {
@@ -247,7 +247,7 @@ TEST(Slices, AreTheSameWithSeveralInFlight) {
 }
 
 // The first ball, whose turn comes first, is hidden by what is no wall: it changes nothing.
-TEST(Slices, AreNotSettledWhileSomebodyWaits) {
+TEST(CaptureBudget, AreNotSettledWhileSomebodyWaits) {
     scene::Scene scene = coarse_room();
     scene::Object shell = scene.objects[scene::mirrors(scene).front()];
     shell.name = "shell", shell.material = 0, shell.sphere.reset();
@@ -268,7 +268,7 @@ TEST(Slices, AreNotSettledWhileSomebodyWaits) {
     EXPECT_EQ(app::run(session, request).frames.size(), 3u);
 }
 
-TEST(Slices, AreRefusedWhereTheyMeanNothing) {
+TEST(CaptureBudget, AreRefusedWhereTheyMeanNothing) {
     const scene::Scene scene = coarse_room();
     app::Session session(test::engine(), scene);
     const auto refused = [&](app::FrameSpec spec, const std::string& text) {

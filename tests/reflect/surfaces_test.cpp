@@ -87,8 +87,8 @@ scene::Scene showing(scene::Mesh mesh, const scene::Material& material) {
 }
 
 /// The largest difference of a channel from what `wanted(u, v)` says, (u, v) from 0 to 1.
-template <typename Wanted>
-double farthest(const measure::Picture& picture, Wanted&& wanted) {
+template <typename ResolvedScene>
+double farthest(const measure::Picture& picture, ResolvedScene&& wanted) {
     double result = 0;
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {

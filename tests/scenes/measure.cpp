@@ -3,7 +3,7 @@
 //   catoptric_scenes SCENE [DIR]     DIR: also pictures raster-N.png, rays-N.png, judged-N.png
 // Called by ./dev scenes, whose table is docs/scenes.md.
 #include "app/exposure.hpp"
-#include "app/wanted.hpp"
+#include "app/resolved_scene.hpp"
 #include "core/error.hpp"
 #include "measure/picture_file.hpp"
 #include "sight.hpp"
@@ -27,7 +27,7 @@ constexpr uvec2 kSize{128, 128};
 constexpr float kOff = .02f;
 constexpr int kLeastPixels = 32; // of an object that is judged by itself
 
-app::Request request_of(app::Wanted& wanted, std::size_t camera) {
+app::Request request_of(app::ResolvedScene& wanted, std::size_t camera) {
     app::Request request;
     request.size = kSize;
     request.camera = camera < wanted.scene.cameras.size() ? wanted.scene.cameras[camera]
@@ -239,7 +239,7 @@ constexpr const char* kRays = "raytrace";
 
 json measure_camera(app::Engine& engine, const std::string& name, std::size_t camera,
                     const std::string& folder) {
-    app::Wanted wanted = app::load_wanted(name, {});
+    app::ResolvedScene wanted = app::resolve_scene(name, {});
     app::Request request = request_of(wanted, camera);
     app::Session session(engine, request.scene);
     app::settle_exposure(session, request);
@@ -258,7 +258,8 @@ json measure_camera(app::Engine& engine, const std::string& name, std::size_t ca
     app::Session flat_session(engine, flat.scene);
     line.update(surfaces(request, looked, rays, picture(flat_session, flat, kRays)));
 
-    app::Wanted smooth = app::load_wanted(name, {.wishes = {.dielectric_mirrors = true}});
+    app::ResolvedScene smooth = app::resolve_scene(name,
+                                                   {.overrides = {.dielectric_mirrors = true}});
     app::Request with = request_of(smooth, camera);
     with.exposure = request.exposure;
     app::Session with_session(engine, with.scene);
@@ -276,7 +277,7 @@ int main(int argc, char** argv) try {
     app::Engine engine({.cache = app::cache_folder()});
     const std::string folder = argc > 2 ? argv[2] : "";
     const std::size_t cameras = std::max<std::size_t>(
-        1, app::load_wanted(argv[1], {}).scene.cameras.size());
+        1, app::resolve_scene(argv[1], {}).scene.cameras.size());
     for (std::size_t i = 0; i < cameras; ++i)
         std::puts(measure_camera(engine, argv[1], i, folder).dump().c_str());
     return 0;

@@ -44,7 +44,7 @@ inline Layers captured(const scene::Scene& scene, render::CaptureOptions options
     const render::Cubes cubes = add_black_captures(graph, inputs, options);
     for (const std::optional<graph::Image>& image :
          {std::optional(cubes.colour), cubes.distance, cubes.colour2, cubes.distance2})
-        if (image) graph.want(*image);
+        if (image) graph.mark_output(*image);
     run(runner, graph);
     const auto read = [&](graph::Image colour, graph::Image distance) {
         return Captured{options.face, runner.read(colour), runner.read(distance),

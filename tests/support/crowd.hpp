@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bvh/closest_hit.hpp"
-#include "bvh/two_level.hpp"
+#include "bvh/tlas.hpp"
 #include "support/kernel_shapes.hpp"
 
 /// A room in which things have spaces of their own, and rays through it, all from a seed.
@@ -14,7 +14,7 @@ struct CrowdRay {
     float t_max = std::numeric_limits<float>::infinity();
 };
 
-/// What an instance's record says (bvh/two_level.hpp).
+/// What an instance's record says (bvh/tlas.hpp).
 inline f32::Place place_of(const bvh::Instance& instance) {
     const dmat3 to = instance.scene_from_own, back = glm::transpose(glm::inverse(to));
     return {vec3(back[0]), vec3(back[1]), vec3(back[2]),         vec3(to[0]),

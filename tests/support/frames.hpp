@@ -49,8 +49,8 @@ inline graph::Graph reuse_frame(std::uint32_t mirrors) {
         .writes(view_depth, Use::depth, kBlack)
         .record(nothing);
     g.pass("compose").reads(hdr, Use::sampled).writes(display, Use::storage_write).record(nothing);
-    g.want(hdr);
-    g.want(display);
+    g.mark_output(hdr);
+    g.mark_output(display);
     return g;
 }
 

@@ -93,8 +93,8 @@ private:
     std::vector<KernelHit> walk(const std::vector<KernelRay>& rays, std::uint32_t skipped,
                                 const std::vector<vec4>& lows, std::uint32_t occluded) {
         gpu::Constants constants = rules;
-        const bool own_spaces = hierarchy_.nodes[2].x > 0; // bvh/two_level.hpp
-        constants.emplace_back("own_spaces", own_spaces ? 1u : 0u);
+        const bool object_spaces = hierarchy_.nodes[2].x > 0; // bvh/tlas.hpp
+        constants.emplace_back("own_spaces", object_spaces ? 1u : 0u);
         constants.emplace_back("exact_spheres", has_balls() ? 1u : 0u);
         upload(bench().device, lows_, "lows",
                lows.empty() ? std::vector<vec4>(rays.size(), vec4(0)) : lows,
@@ -132,7 +132,7 @@ private:
                 commands.push(push);
                 commands.dispatch((size_of(in) + 63) / 64, 1);
             });
-        graph.want(out);
+        graph.mark_output(out);
         test::run(runner_, graph);
         return read_as<Out>(runner_, out);
     }

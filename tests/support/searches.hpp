@@ -65,7 +65,7 @@ struct Judged {
 namespace detail {
 
 /// The reference from one place, and where rays really go from there.
-struct Truth {
+struct ReferencePicture {
     app::Part part;
     app::Oracle oracle;
 };
@@ -79,7 +79,7 @@ inline app::Request request_from(const scene::Scene& scene, const Look& look,
 }
 
 inline Judged judge(const scene::Scene& scene, const Look& look, const std::string& technique,
-                    const Truth& truth) {
+                    const ReferencePicture& truth) {
     app::Request asked = request_from(scene, look, technique);
     asked.with_lookup = true;
     const app::Part part = std::move(last_of(asked, kConvergedFrames).front());
@@ -104,13 +104,14 @@ inline Judged judge(const scene::Scene& scene, const Look& look, const std::stri
 inline std::vector<Judged> judge(const scene::Scene& scene, const Look& look,
                                  const std::vector<std::string>& techniques,
                                  const std::string& reference = "raytrace:depth=16") {
-    static std::map<std::string, detail::Truth> truths;
+    static std::map<std::string, detail::ReferencePicture> truths;
     static std::map<std::string, Judged> known;
     const std::string place = scene.name + ", " + look.camera.name + ", " + reference;
     if (!truths.contains(place)) {
         const app::Request asked = detail::request_from(scene, look, reference);
-        truths.emplace(place, detail::Truth{std::move(app::run(engine(), asked).parts.front()),
-                                            app::Oracle(asked)});
+        truths.emplace(place,
+                       detail::ReferencePicture{std::move(app::run(engine(), asked).parts.front()),
+                                                app::Oracle(asked)});
     }
     std::vector<Judged> judged;
     for (const std::string& technique : techniques) {

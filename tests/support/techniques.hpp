@@ -23,7 +23,7 @@ inline render::Cubes add_black_captures(graph::Graph& graph, const render::Frame
                                         const render::CaptureOptions& options) {
     const render::Captures captures = render::declare_captures(
         graph, inputs, "capture", std::vector(inputs.scene.mirror_count(), options));
-    render::add_captures(graph, inputs, captures, render::same_look(inputs.scene, {}));
+    render::add_captures(graph, inputs, captures, render::same_shader(inputs.scene, {}));
     return captures.arrays.front();
 }
 

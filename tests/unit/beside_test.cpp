@@ -1,5 +1,5 @@
 // SCENE.catoptric.json, and what completes a file.
-#include "app/wanted.hpp"
+#include "app/resolved_scene.hpp"
 #include "core/file.hpp"
 #include "measure/picture_file.hpp"
 #include "scene/camera_named.hpp"
@@ -27,10 +27,10 @@ protected:
         return (folder / name).string();
     }
     /// The scene with a file beside it.
-    app::Wanted load(const std::string& beside, const Wishes& wishes = {}) const {
+    app::ResolvedScene load(const std::string& beside, const SceneOverrides& overrides = {}) const {
         const std::string scene = write("x.obj", kDark + kCamera);
         write("x.obj.catoptric.json", beside);
-        return app::load_wanted(scene, {.wishes = wishes});
+        return app::resolve_scene(scene, {.overrides = overrides});
     }
     std::string refused(const std::string& beside) const {
         return test::refusal(Failure::bad_data, [&] { load(beside); });
@@ -39,7 +39,7 @@ protected:
 
 TEST_F(Beside, EveryKeyIsRead) {
     measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
-    const app::Wanted found = load(
+    const app::ResolvedScene found = load(
         R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true,
             "environment": "sky.exr", "environment_scale": 2, "environment_rotate": -90,
             "ambient": 0.125, "exposure": -1.5, "camera": "1,2,3:0,0,0:30", "up": "y",
@@ -47,7 +47,7 @@ TEST_F(Beside, EveryKeyIsRead) {
     const Scene& scene = found.scene;
     EXPECT_EQ(scene.materials.back().reflectance, vec3(.5f));
     EXPECT_EQ(scene.mirror_max_roughness, .25f);
-    EXPECT_EQ(found.wishes.dielectric_mirrors, true);
+    EXPECT_EQ(found.overrides.dielectric_mirrors, true);
     ASSERT_NE(scene.environment, nullptr);
     EXPECT_EQ(scene.environment->name, "sky.exr");
     EXPECT_EQ(scene.environment->size, uvec2(4, 2));
@@ -57,18 +57,19 @@ TEST_F(Beside, EveryKeyIsRead) {
     EXPECT_EQ(app::exposure_of(found), -1.5);
     EXPECT_EQ(scene.cameras.front().eye, dvec3(1, 2, 3)) << "first, so that it is hashed";
     EXPECT_EQ(scene.cameras.size(), 2u);
-    EXPECT_EQ(found.wishes.animation, "none");
+    EXPECT_EQ(found.overrides.animation, "none");
     EXPECT_THAT(found.said, ElementsAre(HasSubstr("x.obj.catoptric.json (--no-scene-file")));
     EXPECT_EQ(scene.files.size(), 3u) << "nothing may be written over what was read";
 }
 
 TEST_F(Beside, ItIsPartOfTheHashAndCanBeLeftOut) {
-    const app::Wanted plain = load("{}");
+    const app::ResolvedScene plain = load("{}");
     const std::string path = (folder / "x.obj").string();
     for (const char* text : {R"({"mirrors": ["thing"]})", R"({"environment": "none"})",
                              R"({"camera": "1,2,3:0,0,0:30"})", R"({"exposure": 1})"}) {
         EXPECT_NE(hash(load(text).scene), hash(plain.scene)) << text;
-        EXPECT_EQ(hash(app::load_wanted(path, {.use_scene_file = false}).scene), hash(plain.scene));
+        EXPECT_EQ(hash(app::resolve_scene(path, {.use_scene_file = false}).scene),
+                  hash(plain.scene));
     }
 }
 
@@ -78,27 +79,27 @@ TEST_F(Beside, AnIndexCountsInTheOrderOfTheScene) {
                                                  "# catoptric camera e 0 0 7 0 0 0 0 1 0 40\n");
     for (const auto& [index, name] : {std::pair("0", "c"), {"1", "d"}, {"2", "e"}}) {
         write("x.obj.catoptric.json", std::string("{\"camera\": \"") + index + "\"}");
-        app::Wanted found = app::load_wanted(scene, {});
+        app::ResolvedScene found = app::resolve_scene(scene, {});
         EXPECT_EQ(app::camera_of(found, 1).name, name);
         EXPECT_EQ(found.scene.cameras.front().name, name);
-        Wishes wishes;
-        wishes.camera = "1";
-        app::Wanted other = app::load_wanted(scene, {.wishes = wishes});
+        SceneOverrides overrides;
+        overrides.camera = "1";
+        app::ResolvedScene other = app::resolve_scene(scene, {.overrides = overrides});
         EXPECT_EQ(app::camera_of(other, 1).name, "d");
     }
 }
 
 TEST_F(Beside, TheCommandLineWins) {
-    Wishes wishes;
-    wishes.exposure = ExposureWish{2};
-    wishes.environment = "none";
-    wishes.ambient = .5;
-    wishes.camera = "c";
-    wishes.mirrors = {{"thing", vec3(1)}};
-    app::Wanted found = load(
+    SceneOverrides overrides;
+    overrides.exposure = ExposureOverride{2};
+    overrides.environment = "none";
+    overrides.ambient = .5;
+    overrides.camera = "c";
+    overrides.mirrors = {{"thing", vec3(1)}};
+    app::ResolvedScene found = load(
         R"({"mirrors": ["thing=0.5"], "environment": "studio", "ambient": 0, "exposure": "auto",
             "camera": "1,2,3:0,0,0:30"})",
-        wishes);
+        overrides);
     EXPECT_EQ(found.scene.materials[found.scene.objects[0].material].reflectance, vec3(1));
     EXPECT_EQ(found.scene.environment, nullptr);
     EXPECT_EQ(app::ambient_of(found), .5);
@@ -144,42 +145,42 @@ TEST_F(Beside, WhatTheSceneHasNotNamesFileAndKey) {
         EXPECT_THAT(said, HasSubstr(wanted)) << text;
         EXPECT_EQ(said.find("--"), said.npos) << said;
     }
-    Wishes none;
+    SceneOverrides none;
     none.environment = "none";
     EXPECT_EQ(load(R"({"environment": "studio", "environment_scale": 2})", none).scene.environment,
               nullptr);
 }
 
 TEST_F(Beside, OnlyAFileOfAnimationsHasOneToChoose) {
-    Wishes walk;
+    SceneOverrides walk;
     walk.animation = "walk";
     const std::string path = write("x.obj", kDark);
     for (const std::string& scene : {path, std::string("cornell-mirrors")})
         EXPECT_THAT(
-            test::refusal(Failure::usage, [&] { app::load_wanted(scene, {.wishes = walk}); }),
+            test::refusal(Failure::usage, [&] { app::resolve_scene(scene, {.overrides = walk}); }),
             HasSubstr("--animation: " + scene + " has no animation 'walk': wanted one of none"));
     walk.animation = "none";
-    EXPECT_NO_THROW(app::load_wanted(path, {.wishes = walk}));
+    EXPECT_NO_THROW(app::resolve_scene(path, {.overrides = walk}));
 }
 
 TEST_F(Beside, WhatIsWrittenIsReadAgain) {
     measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
-    Wishes wishes;
-    wishes.mirrors = {{"a=b", vec3(1)}, {"c", {.1f, .5f, 0}}};
-    wishes.lights = {"l*"};
-    wishes.mirror_max_roughness = .3, wishes.dielectric_mirrors = false;
-    wishes.environment = (folder / "sky.exr").string(), wishes.environment_rotation = 12.5;
-    wishes.exposure = ExposureWish{}, wishes.up = Up::z, wishes.camera = "c";
+    SceneOverrides overrides;
+    overrides.mirrors = {{"a=b", vec3(1)}, {"c", {.1f, .5f, 0}}};
+    overrides.lights = {"l*"};
+    overrides.mirror_max_roughness = .3, overrides.dielectric_mirrors = false;
+    overrides.environment = (folder / "sky.exr").string(), overrides.environment_rotation = 12.5;
+    overrides.exposure = ExposureOverride{}, overrides.up = Up::z, overrides.camera = "c";
     const std::string scene = write("x.obj", kDark);
-    const std::string text = scene_file_text(wishes, scene);
+    const std::string text = scene_file_text(overrides, scene);
     EXPECT_THAT(text, HasSubstr("\"environment\": \"sky.exr\""));
     write("x.obj.catoptric.json", text);
     const std::optional<SceneFile> found = read_scene_file(scene, {});
     ASSERT_TRUE(found);
-    wishes.environment = real_path(folder / "sky.exr").string();
-    EXPECT_EQ(found->wishes, wishes);
-    wishes.environment = "/dev/null";
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { scene_file_text(wishes, scene); }),
+    overrides.environment = real_path(folder / "sky.exr").string();
+    EXPECT_EQ(found->overrides, overrides);
+    overrides.environment = "/dev/null";
+    EXPECT_THAT(test::refusal(Failure::usage, [&] { scene_file_text(overrides, scene); }),
                 HasSubstr("wanted a picture below"));
 }
 
@@ -205,7 +206,7 @@ std::string closed_room(bool turns_in, bool has_mirror) {
 TEST_F(Beside, AClosedRoomIsSeenFromInside) {
     write("m.mtl", "newmtl tin\nKs 1 1 1\nillum 3\n");
     const auto camera_of = [&](const std::string& text) {
-        app::Wanted found = app::load_wanted(write("x.obj", text), {});
+        app::ResolvedScene found = app::resolve_scene(write("x.obj", text), {});
         const Camera camera = app::camera_of(found, 1);
         const Bounds<double> box = bounds(found.scene);
         const bool is_inside = box.lo.x < camera.eye.x && camera.eye.x < box.hi.x &&
@@ -215,7 +216,7 @@ TEST_F(Beside, AClosedRoomIsSeenFromInside) {
                                                            "--camera "))
             << found.said.back();
         EXPECT_THAT(found.said.back(), HasSubstr(camera_text(camera)));
-        EXPECT_EQ(found.scene.gaps.back().id, "added-camera");
+        EXPECT_EQ(found.scene.unsupported.back().id, "added-camera");
         return is_inside;
     };
     EXPECT_TRUE(camera_of(closed_room(true, false))) << "outside it shows its backs alone";
@@ -229,7 +230,7 @@ TEST_F(Beside, AClosedRoomIsSeenFromInside) {
 
 TEST_F(Beside, AFileWithoutLightAndCameraIsCompleted) {
     const std::string path = write("x.obj", kDark);
-    app::Wanted found = app::load_wanted(path, {});
+    app::ResolvedScene found = app::resolve_scene(path, {});
     const Camera camera = app::camera_of(found, 2);
     ASSERT_NE(found.scene.environment, nullptr);
     EXPECT_TRUE(found.scene.environment->studio);
@@ -237,7 +238,7 @@ TEST_F(Beside, AFileWithoutLightAndCameraIsCompleted) {
     EXPECT_EQ(app::exposure_of(found), std::nullopt) << "auto";
     EXPECT_EQ(camera, default_camera(found.scene, 2));
     std::vector<std::string> ids;
-    for (const Gap& gap : found.scene.gaps) ids.push_back(gap.id);
+    for (const UnsupportedFeature& gap : found.scene.unsupported) ids.push_back(gap.id);
     EXPECT_THAT(ids, ElementsAre("indirect-left-out", "environment-unshadowed", "added-studio",
                                  "added-camera"));
     EXPECT_THAT(found.said, ElementsAre(HasSubstr("lit by the environment studio"),
@@ -249,46 +250,48 @@ TEST_F(Beside, AFileWithoutLightAndCameraIsCompleted) {
 }
 
 TEST_F(Beside, ALightOrAWordAboutItIsEnough) {
-    Wishes none;
+    SceneOverrides none;
     none.environment = "none";
     const std::string dark = write("x.obj", kDark + kCamera);
-    const app::Wanted black = app::load_wanted(dark, {.wishes = none});
+    const app::ResolvedScene black = app::resolve_scene(dark, {.overrides = none});
     EXPECT_EQ(black.scene.environment, nullptr);
     EXPECT_EQ(app::ambient_of(black), .05);
-    EXPECT_THAT(black.scene.gaps, IsEmpty());
+    EXPECT_THAT(black.scene.unsupported, IsEmpty());
     EXPECT_THAT(black.said, IsEmpty());
     write("l.mtl", "newmtl l\nKe 1 1 1\n");
     const std::string lit = write("y.obj", "mtllib l.mtl\nusemtl l\n" + kDark + kCamera);
-    EXPECT_EQ(app::load_wanted(lit, {}).scene.environment, nullptr);
-    Wishes turned;
+    EXPECT_EQ(app::resolve_scene(lit, {}).scene.environment, nullptr);
+    SceneOverrides turned;
     turned.environment_rotation = 3;
-    EXPECT_THAT(test::refusal(Failure::usage, [&] { app::load_wanted(lit, {.wishes = turned}); }),
-                HasSubstr("--environment-rotate: wanted an environment, found none"));
+    EXPECT_THAT(
+        test::refusal(Failure::usage, [&] { app::resolve_scene(lit, {.overrides = turned}); }),
+        HasSubstr("--environment-rotate: wanted an environment, found none"));
 }
 
 TEST_F(Beside, EnvironmentsAreLightOnly) {
     measure::Picture picture(3, 2);
     picture.at(1, 1) = vec3(0, -1, 0);
     measure::write_exr(picture, folder / "sky.exr");
-    Wishes wishes;
-    wishes.environment = (folder / "sky.exr").string();
+    SceneOverrides overrides;
+    overrides.environment = (folder / "sky.exr").string();
     const std::string path = write("x.obj", kDark);
-    EXPECT_THAT(
-        test::refusal(Failure::bad_data, [&] { app::load_wanted(path, {.wishes = wishes}); }),
-        HasSubstr("sky.exr: texel 1,1: wanted finite light of at least 0, found 0,-1,0"));
-    wishes.environment = "gone.hdr";
-    EXPECT_THAT(
-        test::refusal(Failure::missing_input, [&] { app::load_wanted(path, {.wishes = wishes}); }),
-        HasSubstr("gone.hdr"));
+    EXPECT_THAT(test::refusal(Failure::bad_data,
+                              [&] { app::resolve_scene(path, {.overrides = overrides}); }),
+                HasSubstr("sky.exr: texel 1,1: wanted finite light of at least 0, found 0,-1,0"));
+    overrides.environment = "gone.hdr";
+    EXPECT_THAT(test::refusal(Failure::missing_input,
+                              [&] { app::resolve_scene(path, {.overrides = overrides}); }),
+                HasSubstr("gone.hdr"));
 }
 
 /// A flat Radiance file: shared exponents, rows from the top.
 TEST_F(Beside, RadianceFilesAreRead) {
     std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
     for (const int byte : {128, 64, 32, 129, 255, 128, 0, 133}) file += static_cast<char>(byte);
-    Wishes wishes;
-    wishes.environment = write("sky.hdr", file);
-    const app::Wanted found = app::load_wanted(write("x.obj", kDark), {.wishes = wishes});
+    SceneOverrides overrides;
+    overrides.environment = write("sky.hdr", file);
+    const app::ResolvedScene found = app::resolve_scene(write("x.obj", kDark),
+                                                        {.overrides = overrides});
     ASSERT_EQ(found.scene.environment->size, uvec2(2, 1));
     const std::vector<vec3>& texels = found.scene.environment->texels;
     const vec3 first(1, .5f, .25f), second(31.875f, 16, 0); // mantissa / 256 * 2^(exponent - 128)
@@ -299,12 +302,12 @@ TEST_F(Beside, RadianceFilesAreRead) {
 }
 
 TEST_F(Beside, BuiltInScenesStayAsTheyAre) {
-    app::Wanted found = app::load_wanted("cornell-mirrors", {});
+    app::ResolvedScene found = app::resolve_scene("cornell-mirrors", {});
     EXPECT_EQ(hash(found.scene), hash(cornell_mirrors()));
     EXPECT_EQ(app::ambient_of(found), .05);
     EXPECT_EQ(app::exposure_of(found), 0);
-    ASSERT_EQ(found.scene.gaps.size(), 1u) << "as in any scene that is lit";
-    EXPECT_EQ(found.scene.gaps[0].id, "indirect-left-out");
+    ASSERT_EQ(found.scene.unsupported.size(), 1u) << "as in any scene that is lit";
+    EXPECT_EQ(found.scene.unsupported[0].id, "indirect-left-out");
     EXPECT_EQ(app::camera_of(found, 1).name, "contract");
     EXPECT_THAT(found.said, IsEmpty());
 }

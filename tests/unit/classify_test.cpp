@@ -39,15 +39,15 @@ TEST(Classify, SharpMetalIsAMirrorAndRoughOneAGap) {
         Scene scene = panel(metal(roughness));
         classify(scene);
         EXPECT_EQ(mirrors(scene).size(), is ? 1u : 0u) << roughness;
-        ASSERT_EQ(scene.gaps.size(), is ? 0u : 1u);
+        ASSERT_EQ(scene.unsupported.size(), is ? 0u : 1u);
         if (is) continue;
-        EXPECT_EQ(scene.gaps[0].id, "rough-metal");
-        EXPECT_EQ(scene.gaps[0].first, "materials[0] 'm'");
-        EXPECT_THAT(scene.gaps[0].materials, ElementsAre(0u));
+        EXPECT_EQ(scene.unsupported[0].id, "rough-metal");
+        EXPECT_EQ(scene.unsupported[0].first, "materials[0] 'm'");
+        EXPECT_THAT(scene.unsupported[0].materials, ElementsAre(0u));
         scene.mirror_max_roughness = .2f;
         classify(scene); // again, with another limit
         EXPECT_EQ(mirrors(scene).size(), 1u);
-        EXPECT_TRUE(scene.gaps.empty());
+        EXPECT_TRUE(scene.unsupported.empty());
     }
 }
 
@@ -56,7 +56,7 @@ TEST(Classify, TheLargestChannelOfF0Tells) {
         Scene scene = panel(metal(0, {.05f, .1f, blue}));
         classify(scene);
         EXPECT_EQ(scene.objects[0].mirror, is) << blue;
-        EXPECT_EQ(scene.gaps.size(), is ? 0u : 1u);
+        EXPECT_EQ(scene.unsupported.size(), is ? 0u : 1u);
     }
 }
 
@@ -64,11 +64,11 @@ TEST(Classify, SmoothDielectricsAreMirrorsOnlyWhereAsked) {
     Scene scene = panel({.name = "lacquer", .albedo = vec3(.5f), .roughness = .05f});
     classify(scene);
     EXPECT_FALSE(scene.objects[0].mirror);
-    ASSERT_EQ(scene.gaps.size(), 1u);
-    EXPECT_EQ(scene.gaps[0].id, "smooth-dielectric");
+    ASSERT_EQ(scene.unsupported.size(), 1u);
+    EXPECT_EQ(scene.unsupported[0].id, "smooth-dielectric");
     classify(scene, true);
     EXPECT_TRUE(scene.objects[0].mirror);
-    EXPECT_TRUE(scene.gaps.empty());
+    EXPECT_TRUE(scene.unsupported.empty());
     scene.materials[0].unlit = true;
     classify(scene, true);
     EXPECT_FALSE(scene.objects[0].mirror);
@@ -76,43 +76,43 @@ TEST(Classify, SmoothDielectricsAreMirrorsOnlyWhereAsked) {
 
 std::vector<std::string> ids(const Scene& scene) {
     std::vector<std::string> list;
-    for (const Gap& gap : scene.gaps) list.push_back(gap.id);
+    for (const UnsupportedFeature& gap : scene.unsupported) list.push_back(gap.id);
     return list;
 }
 
 TEST(SettleGaps, LightThatNoTechniqueComputesIsListed) {
     Scene scene = panel({.name = "wall", .albedo = vec3(.5f)});
-    settle_gaps(scene);
+    settle_unsupported(scene);
     EXPECT_THAT(ids(scene), testing::IsEmpty()) << "nothing lights it";
     scene.punctual.push_back({.intensity = vec3(1)});
-    settle_gaps(scene);
+    settle_unsupported(scene);
     ASSERT_THAT(ids(scene), ElementsAre("indirect-left-out"));
-    EXPECT_EQ(scene.gaps[0].count, 1u);
-    EXPECT_EQ(scene.gaps[0].first, "materials[0] 'wall'");
-    EXPECT_THAT(scene.gaps[0].materials, ElementsAre(0u));
+    EXPECT_EQ(scene.unsupported[0].count, 1u);
+    EXPECT_EQ(scene.unsupported[0].first, "materials[0] 'wall'");
+    EXPECT_THAT(scene.unsupported[0].materials, ElementsAre(0u));
     scene.punctual.clear();
     scene.environment = std::make_shared<Environment>();
-    settle_gaps(scene);
+    settle_unsupported(scene);
     EXPECT_THAT(ids(scene), ElementsAre("indirect-left-out", "environment-unshadowed"));
-    settle_gaps(scene); // again
+    settle_unsupported(scene); // again
     EXPECT_THAT(ids(scene), ElementsAre("indirect-left-out", "environment-unshadowed"));
     for (const Material& none :
          {Material{.albedo = vec3(0)}, {.albedo = vec3(1), .unlit = true}, metal(0)}) {
         scene.materials[0] = none;
-        settle_gaps(scene);
+        settle_unsupported(scene);
         EXPECT_THAT(ids(scene), testing::IsEmpty()) << "it has no diffuse part";
     }
 }
 
 TEST(SettleGaps, ALobeIsLeftOutWhereASurfaceIsRough) {
     Scene scene = panel({.name = "paint", .albedo = vec3(.5f), .roughness = .3f});
-    settle_gaps(scene);
-    EXPECT_TRUE(scene.gaps.empty()) << "no file asks for a lobe";
+    settle_unsupported(scene);
+    EXPECT_TRUE(scene.unsupported.empty()) << "no file asks for a lobe";
     const auto listed = [&](float limit) {
-        scene.gaps.clear();
-        add_material_gap(scene.gaps, "specular-left-out", "materials[0] 'paint'", 0);
+        scene.unsupported.clear();
+        add_unsupported_material(scene.unsupported, "specular-left-out", "materials[0] 'paint'", 0);
         scene.mirror_max_roughness = limit;
-        settle_gaps(scene);
+        settle_unsupported(scene);
         return ids(scene);
     };
     EXPECT_THAT(listed(.1f), ElementsAre("specular-left-out"));
@@ -126,7 +126,7 @@ TEST(Classify, ConstantMirrorsStayAsTheyAre) {
     classify(scene);
     EXPECT_FALSE(scene.objects[0].mirror);
     EXPECT_EQ(mirrors(scene).size(), 1u);
-    EXPECT_TRUE(scene.gaps.empty());
+    EXPECT_TRUE(scene.unsupported.empty());
 }
 
 /// One texel in `columns` is smooth: roughness lies in green, metallic in blue.
@@ -144,7 +144,7 @@ TEST(Classify, TexturedIsAMirrorFromATwentiethOfItsArea) {
         EXPECT_NEAR(surface_of(scene, scene.objects[0]).mirror, 1.0 / columns, .003);
         classify(scene);
         EXPECT_EQ(scene.objects[0].mirror, is) << columns;
-        EXPECT_EQ(scene.gaps.size(), 1u) << "the rest is rough metal";
+        EXPECT_EQ(scene.unsupported.size(), 1u) << "the rest is rough metal";
     }
 }
 

@@ -43,7 +43,7 @@ struct Dump : ::testing::Test {
             .record(body);
         g.pass("five").writes(kept, Use::colour, kBlack).layers(2).record(body);
         g.pass("six").writes(kept.layers(0, 1), Use::colour).record(body);
-        g.want(out);
+        g.mark_output(out);
         plan = graph::plan(g, {}, plain_sizer());
     }
 

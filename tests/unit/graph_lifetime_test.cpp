@@ -47,42 +47,42 @@ const ImageDesc kDesc{.name = "cubes", .width = 8, .height = 8, .layers = 12};
 
 /// A history in which layers [first, end) of "cubes" were made from `stamp`.
 History held(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
-    Stamps stamps(12);
+    ContentHashes stamps(12);
     stamps.set(first, end, stamp);
-    return {.previous = {}, .kept = {{"cubes", {kDesc, stamps}}}};
+    return {.previous = {}, .persistent = {{"cubes", {kDesc, stamps}}}};
 }
 
 struct View {
     explicit View(History history = {}) : g(std::move(history)) {}
     Graph g;
-    Image cubes = g.kept(kDesc);
+    Image cubes = g.persistent(kDesc);
     Image out = g.image({.name = "out", .width = 8, .height = 8});
 
     void make(Image part, std::uint64_t stamp) {
         g.pass("make").writes(part, Use::colour, kBlack).layers(part.layer_count).record(nothing);
-        g.made_from(part, stamp);
+        g.set_content_hash(part, stamp);
     }
     void view(Image part) {
         g.pass("view").reads(part, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
-        g.want(out);
+        g.mark_output(out);
     }
 };
 
-TEST(KeptImages, HoldWhatTheHistorySays) {
+TEST(PersistentImages, HoldWhatTheHistorySays) {
     const View fresh;
-    EXPECT_FALSE(fresh.g.holds(fresh.cubes, 0));
+    EXPECT_FALSE(fresh.g.holds_content(fresh.cubes, 0));
     const View later(held(0, 6, 7));
-    EXPECT_TRUE(later.g.holds(later.cubes.layers(0, 6), 7));
-    EXPECT_TRUE(later.g.holds(later.cubes.layers(2, 3), 7));
-    EXPECT_FALSE(later.g.holds(later.cubes.layers(0, 6), 8));
-    EXPECT_FALSE(later.g.holds(later.cubes, 7));
+    EXPECT_TRUE(later.g.holds_content(later.cubes.layers(0, 6), 7));
+    EXPECT_TRUE(later.g.holds_content(later.cubes.layers(2, 3), 7));
+    EXPECT_FALSE(later.g.holds_content(later.cubes.layers(0, 6), 8));
+    EXPECT_FALSE(later.g.holds_content(later.cubes, 7));
     Graph other(held(0, 12, 7));
     ImageDesc desc = kDesc;
     desc.width = 16;
-    EXPECT_FALSE(other.holds(other.kept(desc), 7));
+    EXPECT_FALSE(other.holds_content(other.persistent(desc), 7));
 }
 
-TEST(KeptImages, AreMadeInOneFrameAndReadWithoutABarrierInTheNext) {
+TEST(PersistentImages, AreMadeInOneFrameAndReadWithoutABarrierInTheNext) {
     View first;
     first.make(first.cubes, 7);
     first.view(first.cubes);
@@ -104,15 +104,15 @@ TEST(KeptImages, AreMadeInOneFrameAndReadWithoutABarrierInTheNext) {
     EXPECT_THAT(to_text(second.g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, kept, passes"));
 }
 
-TEST(KeptImages, MayBeWantedOfAFrameThatDoesNotTouchThem) {
+TEST(PersistentImages, MayBeWantedOfAFrameThatDoesNotTouchThem) {
     View v(held(0, 12, 7));
-    v.g.want(v.cubes.layers(0, 6));
+    v.g.mark_output(v.cubes.layers(0, 6));
     const Plan plan = planned(v.g);
     EXPECT_THAT(plan.passes, IsEmpty());
     EXPECT_THAT(plan.last, IsEmpty()); // it is readable as it is
 }
 
-TEST(KeptImages, AreWrittenThoughNobodyReadsThemInTheFrame) {
+TEST(PersistentImages, AreWrittenThoughNobodyReadsThemInTheFrame) {
     View v;
     v.make(v.cubes.layers(6, 6), 7);
     const Plan plan = planned(v.g);
@@ -120,36 +120,36 @@ TEST(KeptImages, AreWrittenThoughNobodyReadsThemInTheFrame) {
     EXPECT_EQ(plan.passes[0].unread, 0u);
 }
 
-TEST(KeptImages, LayersThatWereNeverWrittenAreNotRead) {
+TEST(PersistentImages, LayersThatWereNeverWrittenAreNotRead) {
     View v(held(0, 6, 7));
     v.view(v.cubes);
     EXPECT_EQ(refusal(v.g), "pass 'view' reads 'cubes' [0,12) as sampled before any pass writes "
                             "layers [6,12)");
 }
 
-TEST(KeptImages, SayWhatTheyAreMadeFrom) {
+TEST(PersistentImages, SayWhatTheyAreMadeFrom) {
     View v;
     v.g.pass("make").writes(v.cubes, Use::colour, kBlack).layers(12).record(nothing);
-    v.g.made_from(v.cubes.layers(0, 6), 7);
+    v.g.set_content_hash(v.cubes.layers(0, 6), 7);
     EXPECT_EQ(refusal(v.g),
               "pass 'make' writes 'cubes' [0,12), which is kept, but nobody says what "
               "layers [6,12) are made from");
 }
 
-TEST(KeptImages, AreNotMadeFromSomethingByNobody) {
+TEST(PersistentImages, AreNotMadeFromSomethingByNobody) {
     View v(held(0, 12, 7));
     v.view(v.cubes);
-    v.g.made_from(v.cubes.layers(0, 6), 7);
+    v.g.set_content_hash(v.cubes.layers(0, 6), 7);
     EXPECT_EQ(refusal(v.g), "'cubes' [0,6) is said to be made from something, but no pass writes "
                             "layers [0,6)");
     View w;
     w.make(w.cubes.layers(6, 6), 1);
-    w.g.made_from(w.cubes.layers(6, 7), 1);
+    w.g.set_content_hash(w.cubes.layers(6, 7), 1);
     EXPECT_EQ(refusal(w.g), "'cubes' [6,13) is said to be made from something, but the image has "
                             "layers [0,12) and 1 mip(s)");
 }
 
-TEST(KeptImages, HaveNoPrevious) {
+TEST(PersistentImages, HaveNoPrevious) {
     View v;
     try {
         v.g.previous(v.cubes);
@@ -158,7 +158,7 @@ TEST(KeptImages, HaveNoPrevious) {
         EXPECT_STREQ(error.what(), "previous() of image 'cubes', which is kept and has one copy");
     }
     try {
-        v.g.made_from(v.out, 1);
+        v.g.set_content_hash(v.out, 1);
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_STREQ(error.what(), "made_from() of image 'out', which is not kept");
@@ -170,7 +170,7 @@ TEST(Imported, TexturesArriveReadyAndStayAsTheyAre) {
     const Image texture = g.import(kDesc, nullptr, Use::sampled, Use::sampled);
     const Image out = g.image({.name = "out"});
     g.pass("view").reads(texture, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
-    g.want(out);
+    g.mark_output(out);
     const Plan plan = planned(g);
     EXPECT_THAT(texts(plan.passes.at(0).barriers),
                 ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
@@ -180,7 +180,7 @@ TEST(Imported, TexturesArriveReadyAndStayAsTheyAre) {
                               Graph alone;
                               const Image image = alone.image({.name = "out"});
                               alone.pass("view").writes(image, Use::colour, kBlack).record(nothing);
-                              alone.want(image);
+                              alone.mark_output(image);
                               return alone;
                           }())
                               .bytes);
@@ -219,11 +219,11 @@ TEST(Imported, ContentsThatDoNotMatterAreNotRead) {
 TEST(Imported, IsReadWhereItComesFrom) {
     Graph g;
     const Image image = g.import({.name = "window"}, nullptr, Use::sampled, Use::sampled);
-    g.want(image);
+    g.mark_output(image);
     EXPECT_EQ(refusal(g), "'window' [0,1) is wanted, but imported: read it where it comes from");
     Graph h;
     const Buffer buffer = h.import(BufferDesc{.name = "back", .bytes = 4}, nullptr);
-    h.want(buffer);
+    h.mark_output(buffer);
     EXPECT_EQ(refusal(h), "buffer 'back' is wanted, but imported: read it where it comes from");
 }
 
@@ -254,7 +254,7 @@ struct Mips : ::testing::Test {
     }
     void view(Image part) {
         g.pass("view").reads(part, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
-        g.want(out);
+        g.mark_output(out);
     }
 };
 
@@ -309,7 +309,7 @@ TEST_F(Mips, MoreThanThereAre) {
 
 TEST_F(Mips, WantedOutOfRange) {
     write(0);
-    g.want(image.mips(0, 5));
+    g.mark_output(image.mips(0, 5));
     EXPECT_EQ(refusal(g), "'pyramid' [0,2) mips [0,5) is wanted, but the image has mips [0,4)");
 }
 
@@ -347,8 +347,8 @@ TEST(Unread, IsWhatNobodyReadsBeforeItIsWrittenAgain) {
     draw("first", a, kBlack); // its depth is loaded by the second
     draw("second", b, std::nullopt);
     draw("third", a, kBlack);
-    g.want(a);
-    g.want(b);
+    g.mark_output(a);
+    g.mark_output(b);
     const Plan plan = planned(g);
     ASSERT_EQ(plan.passes.size(), 3u);
     EXPECT_EQ(plan.passes[0].unread, 1u); // its depth is loaded, its colour written again

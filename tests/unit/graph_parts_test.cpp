@@ -145,7 +145,7 @@ TEST(Places, AreTheLowestThatAreFree) {
             }
             pass.record([](Commands&) {});
         }
-        g.want(out);
+        g.mark_output(out);
         const Sizer sizer{.image =
                               [](const ImageDesc& desc) {
                                   return Requirements{

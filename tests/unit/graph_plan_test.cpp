@@ -94,7 +94,7 @@ struct Frame {
             .writes(hdr, Use::colour, kBlack)
             .record(nothing);
         g.pass("compose").reads(hdr, Use::sampled).writes(ldr, Use::colour, kBlack).record(nothing);
-        g.want(ldr);
+        g.mark_output(ldr);
     }
 
     std::uint32_t mirrors;
@@ -191,7 +191,7 @@ TEST(GraphPlan, KeptImageIsReadWithoutABarrierAndLeftReadable) {
 }
 
 TEST(GraphPlan, HistoryIsWhatTheRunnerKept) {
-    Graph g(History{.previous = {"cubes"}, .kept = {}});
+    Graph g(History{.previous = {"cubes"}, .persistent = {}});
     const Image cubes = g.image({.name = "cubes"});
     const Image other = g.image({.name = "other"});
     EXPECT_TRUE(g.has_history(cubes));
@@ -224,7 +224,7 @@ TEST_F(SmallGraph, CullsWhatNobodyWantsAndSaysWhy) {
     fill("a", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
     fill("c", c).reads(a, Use::sampled).record(nothing);
-    g.want(c);
+    g.mark_output(c);
     const Plan plan = planned(g);
     EXPECT_THAT(names_of(g, plan), ElementsAre("a", "c"));
     ASSERT_EQ(plan.culled.size(), 1u);
@@ -239,8 +239,8 @@ TEST_F(SmallGraph, CullsWhatIsOverwrittenUnread) {
     fill("seen", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
     fill("wanted", a).record(nothing);
-    g.want(a);
-    g.want(b);
+    g.mark_output(a);
+    g.mark_output(b);
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("seen", "b", "wanted"));
 }
 
@@ -248,7 +248,7 @@ TEST_F(SmallGraph, KeepsWhatIsLoadedOrOnlyPartlyOverwritten) {
     fill("base", a).record(nothing);
     fill("part", a.layers(1, 2)).record(nothing);
     g.pass("load").writes(a.layers(0, 1), Use::colour).record(nothing);
-    g.want(a);
+    g.mark_output(a);
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("base", "part", "load"));
 }
 
@@ -256,7 +256,7 @@ TEST_F(SmallGraph, CullsByLayer) {
     fill("low", a.layers(0, 2)).record(nothing);
     fill("high", a.layers(2, 2)).record(nothing);
     fill("b", b).reads(a.layers(0, 2), Use::sampled).record(nothing);
-    g.want(b);
+    g.mark_output(b);
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("low", "b"));
 }
 
@@ -264,7 +264,7 @@ TEST_F(SmallGraph, KeepsWhatTheNextFrameReads) {
     fill("base", b).record(nothing);
     fill("history", a).reads(b, Use::sampled).record(nothing); // after its reader, by way of `b`
     fill("view", c).reads(g.previous(a), Use::sampled).record(nothing);
-    g.want(c);
+    g.mark_output(c);
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("base", "history", "view"));
 }
 
@@ -273,14 +273,14 @@ TEST_F(SmallGraph, KeepsOnlyTheLastWriterForTheNextFrame) {
     fill("lost", a).record(nothing);
     fill("history", a).reads(g.previous(b), Use::sampled).record(nothing);
     fill("deeper", b).record(nothing); // needed only by what the next frame needs
-    g.want(c);
+    g.mark_output(c);
     EXPECT_THAT(names_of(g, planned(g)), ElementsAre("view", "history", "deeper"));
 }
 
 TEST_F(SmallGraph, AHistoryThatOnlyFeedsItselfIsCulled) {
     fill("loop", a).reads(g.previous(a), Use::sampled).record(nothing);
     fill("view", c).record(nothing);
-    g.want(c);
+    g.mark_output(c);
     const Plan plan = planned(g);
     EXPECT_THAT(names_of(g, plan), ElementsAre("view"));
     EXPECT_FALSE(plan.images[a.id].used);
@@ -292,7 +292,7 @@ TEST_F(SmallGraph, LifetimesAreFirstAndLastUse) {
     fill("culled", d).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
     fill("c", c).reads(b, Use::sampled).record(nothing);
-    g.want(c);
+    g.mark_output(c);
     const Plan plan = planned(g);
     EXPECT_EQ(plan.images[a.id].first, 0u);
     EXPECT_EQ(plan.images[a.id].last, 1u);
@@ -307,7 +307,7 @@ TEST_F(SmallGraph, HeapsAreNotMixed) {
     fill("b", b).reads(a, Use::sampled).record(nothing);
     fill("c", c).reads(b, Use::sampled).record(nothing);
     fill("d", d).reads(c, Use::sampled).record(nothing);
-    g.want(d);
+    g.mark_output(d);
     Sizer sizer = plain_sizer();
     sizer.image = [](const ImageDesc& desc) {
         return Requirements{.bytes = 100, .alignment = 64, .heap = desc.name == "c" ? 3u : 1u};
@@ -323,7 +323,7 @@ TEST_F(SmallGraph, HeapsAreNotMixed) {
 TEST_F(SmallGraph, ReadAfterWriteAndFirstTouch) {
     fill("a", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
-    g.want(b);
+    g.mark_output(b);
     const Plan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 0), ElementsAre("image 0 [0,4] nothing > colour!/raster"));
     EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 1 [0,4] nothing > colour!/raster",
@@ -335,8 +335,8 @@ TEST_F(SmallGraph, ReadAfterReadInTheSameLayoutNeedsNone) {
     fill("a", a).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
     fill("c", c).reads(a, Use::sampled).record(nothing);
-    g.want(b);
-    g.want(c);
+    g.mark_output(b);
+    g.mark_output(c);
     EXPECT_THAT(barriers_of(planned(g), 2), ElementsAre("image 2 [0,4] nothing > colour!/raster"));
 }
 
@@ -345,9 +345,9 @@ TEST_F(SmallGraph, ReadInAnotherStageChainsToTheReaderSoThatTheLayoutIsTrue) {
     fill("b", b).reads(a, Use::sampled).record(nothing);
     g.pass("sum").reads(a, Use::sampled).writes(args, Use::storage_write).record(nothing);
     fill("rewrite", a).record(nothing);
-    g.want(a);
-    g.want(b);
-    g.want(args);
+    g.mark_output(a);
+    g.mark_output(b);
+    g.mark_output(args);
     const Plan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > sampled"));
     EXPECT_THAT(barriers_of(plan, 3),
@@ -359,9 +359,9 @@ TEST_F(SmallGraph, ReadInAnotherLayoutNeedsOne) {
     fill("b", b).reads(a, Use::sampled).record(nothing);
     g.pass("copy").reads(a, Use::copy_from).writes(c, Use::copy_to).record(nothing);
     fill("d", d).reads(a, Use::sampled).record(nothing);
-    g.want(b);
-    g.want(c);
-    g.want(d);
+    g.mark_output(b);
+    g.mark_output(c);
+    g.mark_output(d);
     const Plan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > copy_from",
                                                   "image 2 [0,4] nothing > copy_to!"));
@@ -373,7 +373,7 @@ TEST_F(SmallGraph, WriteAfterWrite) {
     fill("a", a).record(nothing);
     g.pass("blur").writes(a, Use::storage).record(nothing);
     g.pass("again").writes(a, Use::storage).record(nothing);
-    g.want(a);
+    g.mark_output(a);
     const Plan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 0 [0,4] colour!/raster > storage!"));
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 0 [0,4] storage! > storage!"));
@@ -383,7 +383,7 @@ TEST_F(SmallGraph, BarriersAreMergedOverLayersOfOneFate) {
     fill("low", a.layers(0, 2)).record(nothing);
     g.pass("high").writes(a.layers(2, 2), Use::storage_write).record(nothing);
     fill("b", b).reads(a, Use::sampled).record(nothing);
-    g.want(b);
+    g.mark_output(b);
     const Plan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 2), ElementsAre("image 1 [0,4] nothing > colour!/raster",
                                                   "image 0 [0,2] colour!/raster > sampled/raster",
@@ -396,7 +396,7 @@ TEST_F(SmallGraph, BarriersAreNotMergedOverDifferentUses) {
         .reads(a.layers(0, 2), Use::sampled)
         .writes(a.layers(2, 2), Use::storage_write)
         .record(nothing);
-    g.want(a);
+    g.mark_output(a);
     EXPECT_THAT(barriers_of(planned(g), 1),
                 ElementsAre("image 0 [0,2] colour!/raster > sampled",
                             "image 0 [2,2] colour!/raster > storage_write!"));
@@ -411,9 +411,9 @@ TEST_F(SmallGraph, BarriersAreNotMergedOverFrames) {
         .reads(a.layers(2, 2), Use::copy_from)
         .writes(c, Use::copy_to)
         .record(nothing);
-    g.want(args);
-    g.want(b);
-    g.want(c);
+    g.mark_output(args);
+    g.mark_output(b);
+    g.mark_output(c);
     EXPECT_THAT(barriers_of(planned(g), 3),
                 ElementsAre("previous 0 [0,2] sampled > copy_from +sampled/raster",
                             "image 0 [2,2] sampled > copy_from +sampled/raster",
@@ -425,9 +425,9 @@ TEST_F(SmallGraph, BuffersHaveNoLayout) {
     fill("a", a).reads(args, Use::indirect).record(nothing);
     g.pass("b").reads(args, Use::storage_read).writes(b, Use::storage_write).record(nothing);
     g.pass("refill").writes(args, Use::copy_to).record(nothing);
-    g.want(a);
-    g.want(b);
-    g.want(args);
+    g.mark_output(a);
+    g.mark_output(b);
+    g.mark_output(args);
     const Plan plan = planned(g);
     EXPECT_THAT(barriers_of(plan, 0), IsEmpty());
     EXPECT_THAT(barriers_of(plan, 1), ElementsAre("image 0 [0,4] nothing > colour!/raster",
@@ -442,22 +442,22 @@ TEST_F(SmallGraph, BuffersHaveNoLayout) {
 
 TEST_F(SmallGraph, WantedAndKeptIsLeftSampledInAllLayers) {
     fill("a", a.layers(0, 2)).reads(g.previous(a.layers(0, 2)), Use::sampled).record(nothing);
-    g.want(a.layers(0, 1));
+    g.mark_output(a.layers(0, 1));
     EXPECT_THAT(last_barriers(planned(g)), ElementsAre("image 0 [0,2] colour!/raster > sampled",
                                                        "image 0 [2,2] nothing > sampled"));
 }
 
 TEST_F(SmallGraph, WantedTwiceIsLeftOnce) {
     fill("a", a).record(nothing);
-    g.want(a.layers(0, 3));
-    g.want(a.layers(1, 2));
+    g.mark_output(a.layers(0, 3));
+    g.mark_output(a.layers(1, 2));
     EXPECT_THAT(last_barriers(planned(g)), ElementsAre("image 0 [0,3] colour!/raster > copy_from"));
 }
 
 TEST_F(SmallGraph, LastFrameInAnotherLayoutNeedsABarrier) {
     g.pass("copy").reads(g.previous(a), Use::copy_from).writes(b, Use::copy_to).record(nothing);
     fill("a", a).record(nothing);
-    g.want(b);
+    g.mark_output(b);
     EXPECT_THAT(barriers_of(planned(g), 0),
                 ElementsAre("previous 0 [0,4] sampled > copy_from +sampled/raster",
                             "image 1 [0,4] nothing > copy_to!"));

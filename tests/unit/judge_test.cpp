@@ -56,8 +56,8 @@ TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
     made.pareto = measure::front_of(made.rows);
     EXPECT_EQ(measure::closest_row(made), &made.rows[1]);
     EXPECT_EQ(measure::fastest_rows(made), std::vector<const measure::Row*>{&made.rows[1]});
-    ASSERT_EQ(measure::standing(made).black.size(), 1U);
-    EXPECT_TRUE(measure::standing(made).beaten_by_beaten.empty());
+    ASSERT_EQ(measure::ranking_of(made).black.size(), 1U);
+    EXPECT_TRUE(measure::ranking_of(made).beaten_by_beaten.empty());
 }
 
 TEST(Judge, RowsAreApartWhereEachRoundSaysSo) {

@@ -1,7 +1,7 @@
 // What a device cannot hold is refused by its numbers, before anything is made of it.
-#include "render/details.hpp"
 #include "render/geometry.hpp"
 #include "render/limits.hpp"
+#include "render/material_parameters.hpp"
 #include "support/refusal.hpp"
 #include "support/scenes.hpp"
 
@@ -54,7 +54,7 @@ TEST(Limits, CountTheTexelsOfImages) {
     render::Vertices vertices(std::vector<bool>(room.objects.size()), 1);
     vertices.lay_out(geometry);
     const auto fill = [&](std::uint64_t most) {
-        render::Details(1).fill(room, geometry, vertices, most);
+        render::MaterialParameterLists(1).fill(room, geometry, vertices, most);
     };
     EXPECT_NO_THROW(fill(256 + 32));
     EXPECT_EQ(test::refusal(Failure::exhausted, [&] { fill(256 + 31); }),

@@ -164,13 +164,13 @@ TEST_F(LoadAnimation, OneAnimationIsShownAndTheOthersCounted) {
     gltf.root["animations"].push_back(other);
     const Scene first = scene_of(gltf);
     expect_near(carried(first, 2), {1, 0, 0});
-    ASSERT_EQ(first.gaps.size(), 1u);
-    EXPECT_EQ(first.gaps[0].id, "other-animations");
-    EXPECT_EQ(first.gaps[0].first, "animations[1] 'run'");
+    ASSERT_EQ(first.unsupported.size(), 1u);
+    EXPECT_EQ(first.unsupported[0].id, "other-animations");
+    EXPECT_EQ(first.unsupported[0].first, "animations[1] 'run'");
     expect_near(carried(scene_of(gltf, {.animation = "run"}), 2), {9, 0, 0});
     const Scene still = scene_of(gltf, {.animation = "none"});
     EXPECT_FALSE(is_animated(still));
-    EXPECT_EQ(still.gaps.at(0).count, 2u);
+    EXPECT_EQ(still.unsupported.at(0).count, 2u);
 }
 
 } // namespace

@@ -70,10 +70,10 @@ TEST_F(LoadGeometry, PointsAndLinesAreCountedAndTwoCornersAreNoStrip) {
                                                                                     "SCALAR", 5121);
     const Scene scene = scene_of(gltf);
     EXPECT_EQ(triangle_count(scene), 3u);
-    ASSERT_EQ(scene.gaps.size(), 1u);
-    EXPECT_EQ(scene.gaps[0].id, "points-lines");
-    EXPECT_EQ(scene.gaps[0].count, 4u);
-    EXPECT_EQ(scene.gaps[0].first, "meshes[0] 'm': primitives[1]");
+    ASSERT_EQ(scene.unsupported.size(), 1u);
+    EXPECT_EQ(scene.unsupported[0].id, "points-lines");
+    EXPECT_EQ(scene.unsupported[0].count, 4u);
+    EXPECT_EQ(scene.unsupported[0].first, "meshes[0] 'm': primitives[1]");
 }
 
 TEST_F(LoadGeometry, SparsePlacesStandInPlaceOfOthersOrOfZeros) {
@@ -194,7 +194,7 @@ TEST_F(LoadGeometry, MorphTargetsAtTheirDefaultWeights) {
     const Scene scene = scene_of(gltf);
     const dvec3 up(0, 0, 3);
     EXPECT_THAT(triangles(scene), ElementsAre(std::array{kA + up, kB + up, kC + up}));
-    EXPECT_EQ(scene.gaps.at(0).id, "morph");
+    EXPECT_EQ(scene.unsupported.at(0).id, "morph");
     // A node's own weigh in place of the mesh's; nodes of the same weights share.
     gltf.root["nodes"] = {
         {{"mesh", 0}}, {{"mesh", 0}, {"weights", {0, 1}}}, {{"mesh", 0}, {"weights", {0, 1}}}};
@@ -227,7 +227,7 @@ TEST_F(LoadGeometry, SkinsStandAsTheirJointsDo) {
     const Scene scene = scene_of(gltf);
     EXPECT_THAT(triangles(scene), ElementsAre(std::array{dvec3(0, 1, 0), kB, dvec3(0, 1.5, 0)}))
         << "where the node is does not matter";
-    EXPECT_EQ(scene.gaps.at(0).id, "skin");
+    EXPECT_EQ(scene.unsupported.at(0).id, "skin");
 }
 
 TEST_F(LoadGeometry, OrthographicCameras) {

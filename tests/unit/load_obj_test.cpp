@@ -24,7 +24,7 @@ protected:
     }
     static std::vector<std::string> ids(const Scene& scene) {
         std::vector<std::string> list;
-        for (const Gap& gap : scene.gaps) list.push_back(gap.id);
+        for (const UnsupportedFeature& gap : scene.unsupported) list.push_back(gap.id);
         return list;
     }
     void expect_near(const vec3& found, const vec3& wanted) const {
@@ -178,7 +178,7 @@ TEST_F(LoadObj, MissingMaterialsAreGrey) {
                 testing::Contains(HasSubstr("material libraries that are not there: "
                                             "1 (first: ")));
     ASSERT_THAT(ids(scene), ElementsAre("missing-material"));
-    EXPECT_EQ(scene.gaps[0].count, 2u);
+    EXPECT_EQ(scene.unsupported[0].count, 2u);
     write("m.mtl", "newmtl a\nKd 1 0 0\n");
     const Scene other = load(
         write("x.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 2\n"));
@@ -193,7 +193,7 @@ TEST_F(LoadObj, FewCornersPointsAndLinesAreCounted) {
     const Scene scene = load(write("x.obj", kTriangle + "f 1\nf 1 2\nf 1 2 3\np 1 2\nl 1 2 3\n"));
     EXPECT_EQ(triangle_count(scene), 1u);
     ASSERT_THAT(ids(scene), ElementsAre("points-lines"));
-    EXPECT_EQ(scene.gaps[0].count, 4u);
+    EXPECT_EQ(scene.unsupported[0].count, 4u);
 }
 
 TEST_F(LoadObj, FilesOfOtherSystems) {

@@ -48,7 +48,7 @@ protected:
     }
     static std::vector<std::string> ids(const Scene& scene) {
         std::vector<std::string> list;
-        for (const Gap& gap : scene.gaps) list.push_back(gap.id);
+        for (const UnsupportedFeature& gap : scene.unsupported) list.push_back(gap.id);
         return list;
     }
 };
@@ -140,8 +140,8 @@ TEST_F(LoadSurface, AlphaModes) {
     const Scene blended = scene_of(with({{"alphaMode", "BLEND"}}));
     EXPECT_EQ(blended.materials[0].alpha_cutoff, .5f);
     ASSERT_THAT(ids(blended), ElementsAre("blend-as-mask"));
-    EXPECT_EQ(blended.gaps[0].first, "materials[0]");
-    EXPECT_THAT(blended.gaps[0].materials, ElementsAre(0));
+    EXPECT_EQ(blended.unsupported[0].first, "materials[0]");
+    EXPECT_THAT(blended.unsupported[0].materials, ElementsAre(0));
 }
 
 TEST_F(LoadSurface, TexturesAndTheirSamplers) {
@@ -290,7 +290,7 @@ TEST_F(LoadSurface, WhatIsLeftOutIsListed) {
                 testing::UnorderedElementsAre(
                     "normal-texture", "occlusion-texture", "clearcoat", "sheen", "anisotropy",
                     "glass-as-diffuse", "glass-shadow", "material-extension", "specular-left-out"));
-    for (const Gap& gap : scene.gaps) {
+    for (const UnsupportedFeature& gap : scene.unsupported) {
         EXPECT_EQ(gap.first, "materials[0] 'all'");
         EXPECT_EQ(gap.count, 1u) << gap.id;
     }

@@ -17,7 +17,7 @@ public:
         for (std::uint32_t p = 0; p < passes; ++p) add_pass(p);
         for (std::uint32_t i = 0; i < images_.size(); ++i)
             if ((graph_.lifetime(i) == Lifetime::previous)) write_all(i);
-        want();
+        mark_output();
         return std::move(graph_);
     }
 
@@ -153,16 +153,16 @@ private:
         written_[id].assign(images_[id].layer_count, true);
     }
 
-    void want() {
+    void mark_output() {
         for (const Image& image : images_) {
             const Image part = part_of(image);
-            if (is_written(part) && chance(15)) graph_.want(part);
+            if (is_written(part) && chance(15)) graph_.mark_output(part);
         }
         for (const Image& image : images_) // seldom nothing
-            if (graph_.wanted_images().empty() && is_written(image.layers(0, 1)))
-                graph_.want(image.layers(0, 1));
+            if (graph_.output_images().empty() && is_written(image.layers(0, 1)))
+                graph_.mark_output(image.layers(0, 1));
         for (std::uint32_t b = 0; b < buffers_.size(); ++b)
-            if (buffer_written_[b] && chance(20)) graph_.want(buffers_[b]);
+            if (buffer_written_[b] && chance(20)) graph_.mark_output(buffers_[b]);
     }
 
     std::mt19937& random_;

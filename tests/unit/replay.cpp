@@ -135,9 +135,9 @@ private:
 
     bool must_be_alone(const Cell& cell) const {
         if (cell.kind == Kind::buffer)
-            return std::ranges::count(graph_.wanted_buffers(), cell.id, &Buffer::id) > 0;
+            return std::ranges::count(graph_.output_buffers(), cell.id, &Buffer::id) > 0;
         return (graph_.lifetime(cell.id) == Lifetime::previous) ||
-               std::ranges::count(graph_.wanted_images(), cell.id, &Image::id) > 0;
+               std::ranges::count(graph_.output_images(), cell.id, &Image::id) > 0;
     }
 
     void check_size(const Cell& cell) {

@@ -76,13 +76,13 @@ private:
     std::map<Cell, Value> values_;
 };
 
-/// Wanted cells, and those that passes of the plan read of the last frame.
+/// ResolvedScene cells, and those that passes of the plan read of the last frame.
 inline std::vector<Cell> outcome_cells(const Graph& graph, const Plan& plan) {
     std::vector<Cell> cells;
-    for (const Image& image : graph.wanted_images())
+    for (const Image& image : graph.output_images())
         for (std::uint32_t l = 0; l < image.layer_count; ++l)
             cells.push_back({Kind::image, image.id, image.first_layer + l});
-    for (const Buffer& buffer : graph.wanted_buffers())
+    for (const Buffer& buffer : graph.output_buffers())
         cells.push_back({Kind::buffer, buffer.id, 0});
     for (const PlannedPass& planned : plan.passes)
         for (const CellUse& u : uses_of(graph.passes()[planned.pass]))

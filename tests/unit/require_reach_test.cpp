@@ -1,6 +1,6 @@
 // Faces that nobody asks for, lights that reach nothing seen, and what is said of them.
 #include "app/seeded_camera.hpp"
-#include "require/left_out.hpp"
+#include "require/culled_work.hpp"
 #include "require/reach.hpp"
 #include "require/suggest.hpp"
 #include "support/scenes.hpp"

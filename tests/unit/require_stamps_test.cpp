@@ -1,4 +1,4 @@
-// Stamps of captures' faces and of shadow maps: equal only where nothing can have changed.
+// ContentHashes of captures' faces and of shadow maps: equal only where nothing can have changed.
 #include "core/shader_math.hpp"
 #include "require/model.hpp"
 #include "require/pieces.hpp"
@@ -35,7 +35,9 @@ int kept(const Model& before, const Model& after) {
     int count = 0;
     for (std::size_t i = 0; i < after.mirrors.size(); ++i)
         for (std::size_t face = 0; face < 6; ++face)
-            count += before.mirrors[i].stamps[face] == after.mirrors[i].stamps[face] ? 1 : 0;
+            count += before.mirrors[i].content_hashes[face] == after.mirrors[i].content_hashes[face]
+                         ? 1
+                         : 0;
     return count;
 }
 
@@ -46,12 +48,12 @@ TEST(RequireStamps, StayWhileNothingMoves) {
                 again = instants.at(1);
     EXPECT_EQ(kept(first, second), 24);
     EXPECT_EQ(kept(elsewhere, again), 24);
-    EXPECT_EQ(first.lights[0].stamp, second.lights[0].stamp);
-    EXPECT_EQ(first.lights[0].stamp, elsewhere.lights[0].stamp);
+    EXPECT_EQ(first.lights[0].content_hash, second.lights[0].content_hash);
+    EXPECT_EQ(first.lights[0].content_hash, elsewhere.lights[0].content_hash);
     ASSERT_EQ(first.casters.size(), 1u);
     EXPECT_EQ(first.casters[0].object, elsewhere.casters[0].object);
-    EXPECT_EQ(elsewhere.casters[0].stamp, again.casters[0].stamp);
-    EXPECT_NE(first.casters[0].stamp, elsewhere.casters[0].stamp);
+    EXPECT_EQ(elsewhere.casters[0].content_hash, again.casters[0].content_hash);
+    EXPECT_NE(first.casters[0].content_hash, elsewhere.casters[0].content_hash);
 }
 
 TEST(RequireStamps, ChangeWithABallThatMovesOnlyWhereItOrItsShadowShows) {
@@ -63,7 +65,8 @@ TEST(RequireStamps, ChangeWithABallThatMovesOnlyWhereItOrItsShadowShows) {
         const Model after = instants.at(.1 * frame);
         stays += kept(before, after);
         for (std::size_t face = 0; face < 6; ++face)
-            EXPECT_NE(before.mirrors[3].stamps[face], after.mirrors[3].stamps[face]); // its own
+            EXPECT_NE(before.mirrors[3].content_hashes[face],
+                      after.mirrors[3].content_hashes[face]); // its own
         before = after;
     }
     EXPECT_GE(stays, 20 * 24 / 3);
@@ -79,7 +82,7 @@ TEST(RequireStamps, ChangeWithTheLampWithAMaterialAndWithAnEdit) {
     scene.materials[3].emission = {1, 1, 1};
     const Model dimmed = model();
     EXPECT_EQ(kept(first, dimmed), 0);
-    EXPECT_NE(first.lights[0].stamp, dimmed.lights[0].stamp);
+    EXPECT_NE(first.lights[0].content_hash, dimmed.lights[0].content_hash);
     scene.materials[0].albedo = {.1f, .1f, .1f};
     const Model painted = model();
     EXPECT_EQ(kept(dimmed, painted), 0);
@@ -110,7 +113,7 @@ TEST(RequireStamps, StayWhereWhatComesNearerIsNotSeen) {
     Instants instants(scene);
     const Model before = instants.at(.1), after = instants.at(.2);
     EXPECT_EQ(kept(before, after), 5); // all but +X
-    EXPECT_NE(before.mirrors[0].stamps[0], after.mirrors[0].stamps[0]);
+    EXPECT_NE(before.mirrors[0].content_hashes[0], after.mirrors[0].content_hashes[0]);
 }
 
 TEST(RequireShadows, FallWhereTheLightSendsThem) {
@@ -189,13 +192,14 @@ TEST(RequireStamps, RaysFindNoChangeWhereAStampStays) {
             if (!before.mirrors[i].is_captured || !after.mirrors[i].is_captured) continue;
             for (int face = 0; face < 6; ++face) {
                 const auto f = static_cast<std::size_t>(face);
-                const bool is_kept = before.mirrors[i].stamps[f] == after.mirrors[i].stamps[f];
+                const bool is_persistent = before.mirrors[i].content_hashes[f] ==
+                                           after.mirrors[i].content_hashes[f];
                 const auto saw = seen_in_face(old_tree, then, mirrors[i], face),
                            sees = seen_in_face(new_tree, now, mirrors[i], face);
                 const bool is_same = saw == sees;
-                EXPECT_TRUE(is_same || !is_kept)
+                EXPECT_TRUE(is_same || !is_persistent)
                     << "seed " << seed << ", mirror " << i + 1 << ", face " << face;
-                ++faces, stays += is_kept ? 1 : 0, changes += is_same ? 0 : 1;
+                ++faces, stays += is_persistent ? 1 : 0, changes += is_same ? 0 : 1;
                 if (is_same || before.mirrors[i].settings[f] != after.mirrors[i].settings[f] ||
                     !before.mirrors[i].pieces || !after.mirrors[i].pieces)
                     continue;

@@ -4,7 +4,7 @@
 #include "core/error.hpp"
 #include "measure/difference.hpp"
 #include "measure/flip.hpp"
-#include "measure/quantity.hpp"
+#include "measure/metric.hpp"
 #include "reflect/technique.hpp"
 #include "report/report.hpp"
 #include "report_sample.hpp"
@@ -90,8 +90,8 @@ TEST(Tables, FiguresOfDifferencesAreOverTheirMask) {
     const std::vector<float> map(2, 0.F);
     const auto greener = [&](const measure::Mask& mask) {
         const measure::Difference found = measure::difference(green, black, mask, map);
-        const auto& table = measure::difference_quantities();
-        const auto row = std::ranges::find(table, "test_only_greener", &measure::Quantity::name);
+        const auto& table = measure::difference_metrics();
+        const auto row = std::ranges::find(table, "test_only_greener", &measure::Metric::name);
         return std::get<double>(measure::value_of(*row, found));
     };
     EXPECT_EQ(greener({}), 1);
@@ -100,14 +100,14 @@ TEST(Tables, FiguresOfDifferencesAreOverTheirMask) {
 }
 
 TEST(Tables, QuantitiesAreInOrderAndKnowWhatTheyAreOf) {
-    const auto& table = measure::quantities();
-    EXPECT_TRUE(std::ranges::is_sorted(table, {}, &measure::Quantity::order));
+    const auto& table = measure::metrics();
+    EXPECT_TRUE(std::ranges::is_sorted(table, {}, &measure::Metric::order));
     const auto find = [&](std::string_view name) {
-        return *std::ranges::find(table, name, &measure::Quantity::name);
+        return *std::ranges::find(table, name, &measure::Metric::name);
     };
     EXPECT_EQ(find("gpu_ms").unit, "ms");
     EXPECT_EQ(find("psnr").better, measure::Better::more);
-    const auto refused = [](const measure::Quantity& quantity, const auto& of) {
+    const auto refused = [](const measure::Metric& quantity, const auto& of) {
         try {
             measure::value_of(quantity, of);
         } catch (const Error& error) {

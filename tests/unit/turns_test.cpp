@@ -1,6 +1,6 @@
 // Whose captures a frame draws that may not draw all: nobody waits longer than a round.
-#include "app/pace.hpp"
-#include "app/slices.hpp"
+#include "app/capture_budget.hpp"
+#include "app/capture_cost.hpp"
 #include "render/turns.hpp"
 #include "support/numbers.hpp"
 
@@ -45,8 +45,8 @@ TEST(Turns, ComeWithinARound) {
     }
 }
 
-TEST(Pace, SaysHowManyMirrorsFit) {
-    app::Pace pace;
+TEST(CaptureCost, SaysHowManyMirrorsFit) {
+    app::CaptureCost pace;
     EXPECT_EQ(pace.fitting(1, 16), 16u) << "nothing was measured";
     pace.add(100, 0);
     EXPECT_EQ(pace.fitting(1, 16), 16u) << "no mirror was drawn";
@@ -57,19 +57,19 @@ TEST(Pace, SaysHowManyMirrorsFit) {
     for (int k = 0; k < 4; ++k) pace.add(900, 1);
     for (int k = 0; k < 5; ++k) pace.add(4, 1);
     EXPECT_EQ(pace.fitting(8, 16), 2u) << "the median of the last nine";
-    app::Pace at_once;
+    app::CaptureCost at_once;
     at_once.add(0, 1);
     EXPECT_EQ(at_once.fitting(1, 16), 16u);
 }
 
-TEST(Slices, SayHowOldPicturesCanBe) {
+TEST(CaptureBudget, SayHowOldPicturesCanBe) {
     EXPECT_EQ(app::to_text({.mirrors = 16, .most = 3}),
               "captures: at most 3 of 16 mirrors a frame; none shows what is older than 5 frames, "
               "and 6 more for each further mirror that it is seen by");
     EXPECT_EQ(app::to_text({.mirrors = 4, .most = 2}),
               "captures: at most 2 of 4 mirrors a frame; none shows what is older than 1 frame, "
               "and 2 more for each further mirror that it is seen by");
-    EXPECT_EQ((app::Slices{.mirrors = 0, .most = 0}).round(), 1u);
+    EXPECT_EQ((app::CaptureBudget{.mirrors = 0, .most = 0}).round(), 1u);
 }
 
 } // namespace

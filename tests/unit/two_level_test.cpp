@@ -1,6 +1,6 @@
 // Trees in spaces of their own: what holds in a flat tree holds through their transforms.
 #include "bvh/closest_hit.hpp"
-#include "bvh/two_level.hpp"
+#include "bvh/tlas.hpp"
 #include "scene/shapes.hpp"
 #include "support/crowd.hpp"
 #include "support/numbers.hpp"

@@ -98,8 +98,8 @@ TEST(Views, ThatSayNothingOfOneRowAreLeftOutOfBoth) {
     EXPECT_TRUE(measure::apart(over("a", kFlips), over("b", holed), "flip"));
     holed[1] = holed[2] = kNaN; // five are left
     EXPECT_FALSE(measure::apart(over("a", kFlips), over("b", holed), "flip"));
-    const measure::Quantity& flip = *std::ranges::find(measure::difference_quantities(), "flip",
-                                                       &measure::Quantity::name);
+    const measure::Metric& flip = *std::ranges::find(measure::difference_metrics(), "flip",
+                                                     &measure::Metric::name);
     const measure::OverViews found = measure::over_views(over("b", holed), measure::masks().front(),
                                                          flip);
     EXPECT_EQ(found.values.size(), 8u);

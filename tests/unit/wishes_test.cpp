@@ -4,7 +4,7 @@
 #include "scene/build.hpp"
 #include "scene/camera_named.hpp"
 #include "scene/load.hpp"
-#include "scene/wishes.hpp"
+#include "scene/scene_overrides.hpp"
 #include "support/numbers.hpp"
 #include "support/refusal.hpp"
 
@@ -35,13 +35,15 @@ const Material& of(const Scene& scene, std::size_t object) {
     return scene.materials[scene.objects[object].material];
 }
 
-TEST(MirrorWish, IsReadAsPatternAndReflectance) {
-    const auto read = [](const std::string& text) { return read_mirror_wish("--mirror", text); };
-    EXPECT_EQ(read("a"), (MirrorWish{"a", vec3(1)}));
-    EXPECT_EQ(read("a=.5"), (MirrorWish{"a", vec3(.5f)}));
-    EXPECT_EQ(read("a b=1,0.5,0"), (MirrorWish{"a b", {1, .5f, 0}}));
-    EXPECT_EQ(read("x=wood"), (MirrorWish{"x=wood", vec3(1)}));
-    EXPECT_EQ(read("x=3=1"), (MirrorWish{"x=3", vec3(1)}));
+TEST(MirrorOverride, IsReadAsPatternAndReflectance) {
+    const auto read = [](const std::string& text) {
+        return read_mirror_override("--mirror", text);
+    };
+    EXPECT_EQ(read("a"), (MirrorOverride{"a", vec3(1)}));
+    EXPECT_EQ(read("a=.5"), (MirrorOverride{"a", vec3(.5f)}));
+    EXPECT_EQ(read("a b=1,0.5,0"), (MirrorOverride{"a b", {1, .5f, 0}}));
+    EXPECT_EQ(read("x=wood"), (MirrorOverride{"x=wood", vec3(1)}));
+    EXPECT_EQ(read("x=3=1"), (MirrorOverride{"x=3", vec3(1)}));
     for (const char* text : {"a=2", "a=-1", "a=.5,.5", "a=1,1,1,1"})
         EXPECT_THAT(test::refusal(Failure::usage, [&] { read(text); }),
                     HasSubstr("--mirror: wanted PATTERN or PATTERN=REFLECTANCE, a number or r,g,b "
@@ -50,7 +52,7 @@ TEST(MirrorWish, IsReadAsPatternAndReflectance) {
     EXPECT_THAT(test::refusal(Failure::usage, [&] { read("=1"); }), HasSubstr("wanted a name"));
 }
 
-TEST(MirrorWish, MakesAMirrorOfOneObjectAlone) {
+TEST(MirrorOverride, MakesAMirrorOfOneObjectAlone) {
     Scene scene = room();
     apply(scene, {.mirrors = {{"table top", {1, .5f, .25f}}}});
     EXPECT_THAT(mirrors(scene), ElementsAre(0u));
@@ -59,7 +61,7 @@ TEST(MirrorWish, MakesAMirrorOfOneObjectAlone) {
     EXPECT_EQ(of(scene, 1), room().materials[0]) << "who shares the material keeps it";
 }
 
-TEST(MirrorWish, NamesObjectsNodesAndMaterials) {
+TEST(MirrorOverride, NamesObjectsNodesAndMaterials) {
     const auto made = [](const std::string& pattern) {
         Scene scene = room();
         apply(scene, {.mirrors = {{pattern, vec3(1)}}});
@@ -81,16 +83,17 @@ TEST(MirrorWish, NamesObjectsNodesAndMaterials) {
                 HasSubstr("(did you mean 'table top'?)"));
 }
 
-TEST(MirrorWish, ALaterOneWins) {
+TEST(MirrorOverride, ALaterOneWins) {
     Scene scene = room();
     apply(scene, over({.mirrors = {{"wood", vec3(.5f)}}}, {.mirrors = {{"table*", vec3(.1f)}}}));
     EXPECT_EQ(of(scene, 0).reflectance, vec3(.5f));
 }
 
 TEST(Over, SaysEachPatternOnce) {
-    const Wishes both = over({.mirrors = {{"a", vec3(1)}}, .lights = {"l"}},
-                             {.mirrors = {{"a", vec3(.5f)}, {"b", vec3(1)}}, .lights = {"l", "k"}});
-    EXPECT_EQ(both.mirrors, (std::vector<MirrorWish>{{"b", vec3(1)}, {"a", vec3(1)}}));
+    const SceneOverrides both = over(
+        {.mirrors = {{"a", vec3(1)}}, .lights = {"l"}},
+        {.mirrors = {{"a", vec3(.5f)}, {"b", vec3(1)}}, .lights = {"l", "k"}});
+    EXPECT_EQ(both.mirrors, (std::vector<MirrorOverride>{{"b", vec3(1)}, {"a", vec3(1)}}));
     EXPECT_THAT(both.lights, ElementsAre("k", "l"));
 }
 
@@ -106,7 +109,7 @@ TEST(MirrorOptions, CanBePastedAndMeanThatObject) {
     EXPECT_THAT(app::mirror_options(scene),
                 ElementsAre("--mirror 'frame/glass'", "--mirror 'table top'",
                             "--mirror 'it'\\''s a \\* \\[1]=2=1'"));
-    const MirrorWish wish = read_mirror_wish("--mirror", pattern_of(scene.objects[1].name));
+    const MirrorOverride wish = read_mirror_override("--mirror", pattern_of(scene.objects[1].name));
     apply(scene, {.mirrors = {wish}});
     EXPECT_THAT(mirrors(scene), ElementsAre(1u));
     EXPECT_TRUE(matches(pattern_of("\x1b[2J\xff"), "\x1b[2J\xff"));
@@ -189,11 +192,11 @@ TEST(LeaveOutLights, KeepsTheStrongestAtTheCentre) {
     away.world_from_light[3] = dvec4(2, 4, -50, 1);
     scene.punctual.push_back(away);
     leave_out_lights(scene, 7);
-    EXPECT_EQ(scene.gaps.size(), 1u);
-    EXPECT_EQ(scene.gaps[0].id, "lights-left-out");
-    EXPECT_EQ(scene.gaps[0].count, 1u);
-    EXPECT_EQ(scene.gaps[0].first, "light 'away'");
-    scene.gaps.clear();
+    EXPECT_EQ(scene.unsupported.size(), 1u);
+    EXPECT_EQ(scene.unsupported[0].id, "lights-left-out");
+    EXPECT_EQ(scene.unsupported[0].count, 1u);
+    EXPECT_EQ(scene.unsupported[0].first, "light 'away'");
+    scene.unsupported.clear();
     leave_out_lights(scene, 3);
     std::vector<std::string> kept;
     for (const Punctual& light : scene.punctual) kept.push_back(light.name);
@@ -201,7 +204,7 @@ TEST(LeaveOutLights, KeepsTheStrongestAtTheCentre) {
     EXPECT_THAT(kept, ElementsAre("p3", "p4", "p5"));
     EXPECT_EQ(of(scene, 3).light, vec3(0)) << "the far small lamp glows, and lights nothing";
     EXPECT_EQ(of(scene, 3).emission, vec3(1e-6f));
-    EXPECT_EQ(scene.gaps[0].first, "object 'lamp'");
+    EXPECT_EQ(scene.unsupported[0].first, "object 'lamp'");
 }
 
 /// Twenty lit boards in one mesh, each farther than the one before.
@@ -235,7 +238,7 @@ TEST(LeaveOutLights, OfOneMeshTheStrongestPartsStay) {
     EXPECT_EQ(scene.meshes[scene.objects[0].mesh].triangles.size(), 16u);
     EXPECT_EQ(scene.meshes[scene.objects[1].mesh].triangles.size(), 4u) << "seen, and dark";
     EXPECT_EQ(of(scene, 1).emission, vec3(1));
-    EXPECT_EQ(scene.gaps.at(0).first, "object 'lamp', 4 of its 20 parts");
+    EXPECT_EQ(scene.unsupported.at(0).first, "object 'lamp', 4 of its 20 parts");
 }
 
 TEST(CameraNamed, OrthographicInNumbers) {

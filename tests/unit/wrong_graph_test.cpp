@@ -35,7 +35,7 @@ struct WrongGraph : ::testing::Test {
 TEST_F(WrongGraph, IsAcceptedWithoutTheMistake) {
     make(cubes);
     g.pass("view").reads(cubes, Use::sampled).writes(out, Use::colour, kBlack).record(nothing);
-    g.want(out);
+    g.mark_output(out);
     EXPECT_EQ(plan(g, {}, plain_sizer()).passes.size(), 2u);
 }
 
@@ -48,7 +48,7 @@ TEST_F(WrongGraph, ReadBeforeWrite) {
 
 TEST_F(WrongGraph, UpdateOfNothing) {
     g.pass("mend").updates(out, Use::colour, kBlack).area({1, 1, 2, 2}).record(nothing);
-    g.want(out);
+    g.mark_output(out);
     EXPECT_EQ(refusal(g), "pass 'mend' updates 'out' [0,1) as colour before any pass writes layers "
                           "[0,1)");
 }
@@ -121,7 +121,7 @@ TEST_F(WrongGraph, OtherLayersAndLastFrameMayBeSampledWhileAttached) {
         .writes(cubes.layers(6, 6), Use::colour, kBlack)
         .layers(6)
         .record(nothing);
-    g.want(cubes);
+    g.mark_output(cubes);
     EXPECT_EQ(plan(g, {}, plain_sizer()).passes.size(), 2u);
 }
 
@@ -155,37 +155,37 @@ TEST_F(WrongGraph, TwoLayoutsAtOnce) {
 
 TEST_F(WrongGraph, WantedButNeverWritten) {
     make(cubes);
-    g.want(out);
+    g.mark_output(out);
     EXPECT_EQ(refusal(g), "'out' [0,1) is wanted, but no pass writes layers [0,1)");
 }
 
 TEST_F(WrongGraph, WantedLayersNeverWritten) {
     g.pass("a").writes(cubes.layers(0, 6), Use::colour, kBlack).layers(6).record(nothing);
-    g.want(cubes.layers(3, 6));
+    g.mark_output(cubes.layers(3, 6));
     EXPECT_EQ(refusal(g), "'cubes' [3,9) is wanted, but no pass writes layers [6,9)");
 }
 
 TEST_F(WrongGraph, WantedBufferNeverWritten) {
     make(out);
-    g.want(args);
+    g.mark_output(args);
     EXPECT_EQ(refusal(g), "buffer 'args' is wanted, but no pass writes it");
 }
 
 TEST_F(WrongGraph, WantedLayersOutOfRange) {
     make(out);
-    g.want(out.layers(0, 2));
+    g.mark_output(out.layers(0, 2));
     EXPECT_EQ(refusal(g), "'out' [0,2) is wanted, but the image has layers [0,1)");
 }
 
 TEST_F(WrongGraph, WantedPrevious) {
     make(out);
-    g.want(g.previous(out));
+    g.mark_output(g.previous(out));
     EXPECT_EQ(refusal(g), "previous('out') [0,1) is wanted: only this frame's contents can be");
 }
 
 TEST_F(WrongGraph, WantedOfAnotherGraph) {
     make(out);
-    g.want(Image{.id = 9, .layer_count = 1});
+    g.mark_output(Image{.id = 9, .layer_count = 1});
     EXPECT_EQ(refusal(g), "image number 9 is wanted, but the graph has 3");
 }
 
@@ -404,7 +404,7 @@ TEST_F(WrongGraph, UsesInTheWrongDirection) {
 // A mistake is told even where nobody wants the result.
 TEST_F(WrongGraph, CulledPassesAreLookedAt) {
     make(out);
-    g.want(out);
+    g.mark_output(out);
     g.pass("debug").reads(cubes, Use::sampled).writes(args, Use::storage_write).record(nothing);
     EXPECT_THAT(refusal(g), AllOf(HasSubstr("'debug'"), HasSubstr("'cubes'")));
 }
@@ -436,7 +436,7 @@ TEST_F(WrongGraph, OverFramebufferLayers) {
 
 TEST_F(WrongGraph, OverMemory) {
     make(cubes);
-    g.want(cubes);
+    g.mark_output(cubes);
     EXPECT_EQ(refusal(g, Failure::exhausted, {.max_memory = 12287}),
               "the frame wants 12288 bytes of memory, device allows max_memory = 12287; the "
               "largest is 'cubes' with 12288");
@@ -444,7 +444,7 @@ TEST_F(WrongGraph, OverMemory) {
 
 TEST_F(WrongGraph, OverMemoryInOnePiece) {
     make(cubes);
-    g.want(cubes);
+    g.mark_output(cubes);
     EXPECT_EQ(refusal(g, Failure::exhausted, {.max_allocation = 12287}),
               "the frame wants 12288 bytes of memory in one piece, device allows max_allocation = "
               "12287; the "
@@ -453,7 +453,7 @@ TEST_F(WrongGraph, OverMemoryInOnePiece) {
 
 TEST_F(WrongGraph, JustAtEveryLimitIsAccepted) {
     make(cubes);
-    g.want(cubes);
+    g.mark_output(cubes);
     const Limits limits{.max_size_2d = 8,
                         .max_size_cube = 8,
                         .max_layers = 24,

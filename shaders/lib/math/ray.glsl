@@ -142,7 +142,7 @@ struct BoxRay {
 };
 
 // `lo`, `hi`: bounds of what the ray may meet; boxes of anything outside are wider by themselves (engine/bvh/bvh.cpp).
-// `times`: how much wider boxes are for things in spaces of their own below them (engine/bvh/two_level.hpp); else 1.
+// `times`: how much wider boxes are for things in spaces of their own below them (engine/bvh/tlas.hpp); else 1.
 INLINE BoxRay box_ray(Ray ray, vec3 lo, vec3 hi, real times) {
     real reach = largest(max(abs(lo - ray.origin), abs(hi - ray.origin)));
     real slack = gamma_bound(16) * reach * times;

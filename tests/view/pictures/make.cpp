@@ -29,7 +29,7 @@ const std::vector<Shot> kShots{
     {"numbers", 6, [](State& state) { state.mode = Mode::numbers; }},
     {"causes", 16,
      [](State& state) {
-         state.mode = Mode::causes, state.cause = shared::kMendTexels, state.gain = 16;
+         state.mode = Mode::causes, state.cause = shared::kAblateTexels, state.gain = 16;
      }},
     {"reference", 24,
      [](State& state) {

@@ -1,0 +1,189 @@
+#include "bvh/tlas.hpp"
+
+#include "bvh/box.hpp"
+#include "bvh/words.hpp"
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+
+namespace catoptric::bvh {
+
+namespace {
+
+constexpr double kRoundings = 0x1p-22; // of a box that becomes float
+
+Box own_bounds(const Bvh& tree) { return {vec3(tree.nodes[0]), vec3(tree.nodes[1])}; }
+
+/// Bounds of what is below a node.
+Box node_bounds(const Bvh& bvh, std::size_t node) {
+    Box box;
+    for (std::size_t side = 0; side < 2; ++side)
+        box.add(
+            Box{vec3(bvh.nodes[4 * node + 2 * side]), vec3(bvh.nodes[4 * node + 2 * side + 1])});
+    return box;
+}
+
+/// Appends a tree without its header; returns its root's word.
+std::uint32_t append(Bvh& into, const Bvh& part) {
+    const auto nodes = static_cast<std::uint32_t>(node_count(into) - 1),
+               triangles = static_cast<std::uint32_t>(triangle_count(into));
+    for (std::size_t node = 1; node < node_count(part); ++node)
+        for (std::size_t k = 0; k < 4; ++k) {
+            vec4 texel = part.nodes[4 * node + k];
+            const std::uint32_t child = bits(texel.w);
+            if (k < 2 && child != f32::kBvhNothing)
+                texel.w = std::bit_cast<float>(child +
+                                               (f32::bvh_is_inner(child) ? nodes : triangles));
+            into.nodes.push_back(texel);
+        }
+    into.triangles.insert(into.triangles.end(), part.triangles.begin(), part.triangles.end());
+    into.dropped += part.dropped, into.copies += part.copies;
+    return f32::kBvhTag | (nodes + 1);
+}
+
+void add_record(Bvh& bvh, const Instance& instance, std::uint32_t root) {
+    const dmat3 own_from_scene = glm::inverse(instance.scene_from_own);
+    const vec3 centre(instance.centre);
+    const auto row = [&](int i) {
+        return vec3(own_from_scene[0][i], own_from_scene[1][i], own_from_scene[2][i]);
+    };
+    const Box own = own_bounds(*instance.tree);
+    const std::array<vec4, 4 * f32::kBvhRecordNodes> texels{
+        vec4(row(0), std::bit_cast<float>(root)),
+        vec4(row(1), word(instance.object)),
+        vec4(row(2), word(instance.shift)),
+        vec4(centre, word(instance.flags)),
+        vec4(vec3(instance.scene_from_own[0]), 0),
+        vec4(vec3(instance.scene_from_own[1]), 0),
+        vec4(vec3(instance.scene_from_own[2]), 0),
+        vec4(low_part(instance.centre), 0),
+        vec4(own.lo, 0),
+        vec4(own.hi, instance.radius)};
+    bvh.nodes.insert(bvh.nodes.end(), texels.begin(), texels.end());
+}
+
+/// Where the instance is, in floats, with their roundings. One that is an exact sphere reaches as
+/// far as that.
+Box scene_bounds(const Instance& instance) {
+    Box own = own_bounds(*instance.tree);
+    if (instance.radius > 0) own.add(Box{vec3(-instance.radius), vec3(instance.radius)});
+    Bounds<double> box;
+    for (int corner = 0; corner < 8; ++corner)
+        box.add(instance.centre +
+                instance.scene_from_own * dvec3((corner & 1 ? own.lo : own.hi).x,
+                                                (corner & 2 ? own.lo : own.hi).y,
+                                                (corner & 4 ? own.lo : own.hi).z));
+    const dvec3 pad = kRoundings * glm::max(glm::abs(box.lo), glm::abs(box.hi));
+    return {vec3(box.lo - pad), vec3(box.hi + pad)};
+}
+
+/// A tree over boxes, with one in a leaf whose word stands for its record.
+Bvh build_over(std::span<const Instance> instances, const Box& core, double times,
+               std::uint32_t first_record) {
+    std::vector<Triangle> boxes;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        Box box = scene_bounds(instances[i]);
+        const vec3 beyond = max(max(core.lo - box.lo, box.hi - core.hi), vec3(0));
+        const vec3 size = max(abs(box.lo), abs(box.hi));
+        if (f32::largest(beyond) > 0) { // farther than the walk's slack knows of
+            const float pad = static_cast<float>(times) * 2 * f32::gamma_bound(16) *
+                              f32::largest(size + core.extent());
+            box.lo -= pad, box.hi += pad;
+        }
+        boxes.push_back({box.lo, box.hi, box.hi, static_cast<std::uint32_t>(i), 0});
+    }
+    Bvh top = build(boxes, core, 1);
+    check(top.dropped == 0, Failure::exhausted,
+          "a thing in a space of its own has no finite place");
+    for (std::size_t node = 1; node < node_count(top); ++node)
+        for (std::size_t side = 0; side < 2; ++side) {
+            float& child = top.nodes[4 * node + side].w;
+            const std::uint32_t leaf = bits(child);
+            if (leaf == f32::kBvhNothing || f32::bvh_is_inner(leaf)) continue;
+            const std::uint32_t number = number_of(top.triangles[3 * f32::bvh_index(leaf) + 1].w);
+            child = word(f32::kBvhEnters << f32::kBvhCountShift |
+                         (first_record + f32::kBvhRecordNodes * number));
+        }
+    top.triangles.clear();
+    return top;
+}
+
+/// As `append`, of a tree whose leaves already have their words.
+std::uint32_t append_top(Bvh& into, const Bvh& top) {
+    const auto nodes = static_cast<std::uint32_t>(node_count(into) - 1);
+    for (std::size_t i = 4; i < top.nodes.size(); ++i) {
+        vec4 texel = top.nodes[i];
+        if (i % 4 < 2 && f32::bvh_is_inner(bits(texel.w)))
+            texel.w = std::bit_cast<float>(bits(texel.w) + nodes);
+        into.nodes.push_back(texel);
+    }
+    return f32::kBvhTag | (nodes + 1);
+}
+
+} // namespace
+
+vec3 low_part(const dvec3& v) {
+    vec3 low;
+    for (int i = 0; i < 3; ++i) {
+        // Or g++ 12 takes two numbers at once and leaves the rounding out.
+        const volatile float high = static_cast<float>(v[i]);
+        low[i] = static_cast<float>(v[i] - double{high});
+    }
+    return low;
+}
+
+double stretch(const dmat3& matrix) {
+    const dmat3 inverse = glm::inverse(matrix);
+    double most = 0;
+    for (int row = 0; row < 3; ++row) {
+        double sum = 0;
+        for (int k = 0; k < 3; ++k)
+            for (int column = 0; column < 3; ++column)
+                sum += std::abs(matrix[k][row]) * std::abs(inverse[column][k]);
+        if (!(sum <= most)) most = sum;
+    }
+    // Of a matrix without an inverse it is not finite, or nothing at all.
+    return std::isfinite(most) && most > 0 ? most : std::numeric_limits<double>::infinity();
+}
+
+Bvh assemble(const Bvh& flat, std::span<const Instance> instances) {
+    if (instances.empty()) return flat;
+    Bvh result;
+    result.nodes.resize(8, vec4(0));
+    const Box in_flat = node_bounds(flat, 1);
+    const std::uint32_t flat_root = triangle_count(flat) > 0 ? append(result, flat)
+                                                             : f32::kBvhNothing;
+    std::map<const Bvh*, std::uint32_t> roots;
+    double worst = 1;
+    Box core = own_bounds(flat);
+    for (const Instance& instance : instances) {
+        worst = std::max(worst, stretch(instance.scene_from_own));
+        if (triangle_count(flat) == 0 && flat.nodes[0].x > flat.nodes[1].x)
+            core.add(scene_bounds(instance));
+        if (!roots.contains(instance.tree)) roots[instance.tree] = append(result, *instance.tree);
+    }
+    const auto first_record = static_cast<std::uint32_t>(node_count(result));
+    for (const Instance& instance : instances)
+        add_record(result, instance, roots.at(instance.tree));
+    const double times = 1 + 4 * worst;
+    const Bvh top = build_over(instances, core, times, first_record);
+    const Box in_top = node_bounds(top, 1);
+    const std::uint32_t top_root = append_top(result, top);
+    check(node_count(result) <= f32::kBvhIndexMask && triangle_count(result) <= f32::kBvhIndexMask,
+          Failure::exhausted, "bounding volume hierarchy wants ", node_count(result), " nodes and ",
+          triangle_count(result), " triangles, its words hold ", f32::kBvhIndexMask, " each");
+    result.nodes[0] = vec4(core.lo, id_word(triangle_count(result)));
+    result.nodes[1] = vec4(core.hi, id_word(node_count(result)));
+    result.nodes[2].x = static_cast<float>(times);
+    result.nodes[4] = vec4(in_flat.lo, std::bit_cast<float>(flat_root));
+    result.nodes[5] = vec4(in_flat.hi, std::bit_cast<float>(top_root));
+    result.nodes[6] = vec4(in_top.lo, 0);
+    result.nodes[7] = vec4(in_top.hi, 0);
+    return result;
+}
+
+} // namespace catoptric::bvh

@@ -1,0 +1,209 @@
+#include "bvh/top_level_tree.hpp"
+
+#include "core/large_pages.hpp"
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace catoptric::bvh {
+
+namespace {
+
+constexpr std::size_t kSubtreeCount = 8192; // references at most in what one thread builds
+constexpr std::size_t kPieceCount = 4096;   // and in what it bins or moves at once
+
+/// A node of the crown, or what hangs on one.
+struct Branch {
+    Part part;
+    std::uint32_t depth = 0;
+    std::size_t sides = 0; ///< first of two branches; 0: it is a subtree
+    Subtree subtree{};
+    std::size_t first_node = 0;            ///< in the whole tree
+    std::size_t copies = 0;                ///< left out before its first triangle
+    std::uint32_t word = f32::kBvhNothing; ///< in the whole tree
+};
+
+/// How a branch is divided.
+struct Cut {
+    std::size_t branch;
+    Binning binning;
+    Bins bins{};
+    std::optional<Split> split{};
+};
+
+/// Some of its references.
+struct Piece {
+    std::size_t cut;
+    References references;
+    Bins bins{};
+    std::array<Reference*, 2> to{};
+    std::array<Extent, 2> centres{};
+};
+
+class TopLevelTree {
+public:
+    TopLevelTree(const Workspace& work, unsigned threads) : work_(work), threads_(threads) {}
+
+    void grow(const Part& root) {
+        branches_.push_back({root});
+        std::vector<std::size_t> level{0};
+        while (!level.empty()) level = divide(level);
+        build_subtrees();
+    }
+
+    std::size_t append_to(std::vector<vec4>& nodes) {
+        node_count_ = nodes.size() / 4;
+        number(0);
+        const bool is_node = f32::bvh_is_inner(branches_[0].word);
+        nodes.reserve(4 * (node_count_ + (is_node ? 0 : 1)));
+        advise_large_pages(nodes.data(), nodes.capacity() * sizeof(vec4));
+        nodes.resize(nodes.capacity(), vec4(0));
+        if (!is_node) write_node(&nodes[4], branches_[0], Branch{});
+        in_parallel(branches_.size(), threads_, [&](std::size_t i) {
+            const Branch& branch = branches_[i];
+            vec4* texel = nodes.data() + 4 * branch.first_node;
+            if (branch.sides != 0)
+                write_node(texel, branches_[branch.sides], branches_[branch.sides + 1]);
+            else
+                copy_nodes(texel, branch);
+        });
+        return triangle_count_;
+    }
+
+private:
+    /// Of branches one level deeper.
+    std::vector<std::size_t> divide(const std::vector<std::size_t>& level) {
+        std::vector<Cut> cuts;
+        std::vector<Piece> pieces;
+        for (const std::size_t i : level) {
+            const Part& part = branches_[i].part;
+            if (part.count <= kSubtreeCount || part.centres.is_point()) continue;
+            for (References rest = work_.of(part); !rest.empty();) {
+                const std::size_t count = std::min(kPieceCount, rest.size());
+                pieces.push_back({cuts.size(), rest.first(count)});
+                rest = rest.subspan(count);
+            }
+            cuts.push_back({i, Binning(part.centres)});
+        }
+        in_parallel(pieces.size(), threads_, [&](std::size_t i) {
+            pieces[i].bins.add(pieces[i].references, cuts[pieces[i].cut].binning);
+        });
+        choose(cuts, pieces);
+        in_parallel(pieces.size(), threads_, [&](std::size_t i) {
+            const Cut& cut = cuts[pieces[i].cut];
+            if (cut.split)
+                cut.split->scatter(pieces[i].references, cut.binning, pieces[i].to,
+                                   pieces[i].centres);
+        });
+        return fork(cuts, pieces);
+    }
+
+    void choose(std::vector<Cut>& cuts, std::vector<Piece>& pieces) const {
+        for (const Piece& piece : pieces) cuts[piece.cut].bins.add(piece.bins);
+        std::vector<std::array<Reference*, 2>> to;
+        for (Cut& cut : cuts) {
+            const Branch& branch = branches_[cut.branch];
+            cut.split = best_split(cut.bins, capacity(work_, branch.depth + 1));
+            Reference* into = work_.other(branch.part).data();
+            to.push_back({into, into + (cut.split ? cut.bins.left_count(*cut.split) : 0)});
+        }
+        for (Piece& piece : pieces) {
+            const Cut& cut = cuts[piece.cut];
+            if (!cut.split) continue;
+            const std::size_t left = piece.bins.left_count(*cut.split);
+            piece.to = to[piece.cut];
+            to[piece.cut][0] += left, to[piece.cut][1] += piece.references.size() - left;
+        }
+    }
+
+    std::vector<std::size_t> fork(const std::vector<Cut>& cuts, const std::vector<Piece>& pieces) {
+        std::vector<std::array<Extent, 2>> centres(cuts.size());
+        for (const Piece& piece : pieces)
+            for (std::size_t side = 0; side < 2; ++side)
+                centres[piece.cut][side].add(piece.centres[side]);
+        std::vector<std::size_t> next;
+        for (std::size_t i = 0; i < cuts.size(); ++i) {
+            if (!cuts[i].split) continue;
+            const std::size_t sides = branches_.size();
+            const Branch& branch = branches_[cuts[i].branch];
+            const std::uint32_t depth = branch.depth + 1;
+            const Sides parts = sides_of(branch.part, cuts[i].bins, *cuts[i].split, centres[i]);
+            branches_[cuts[i].branch].sides = sides;
+            for (const Part& part : parts) branches_.push_back({part, depth});
+            next.insert(next.end(), {sides, sides + 1});
+        }
+        return next;
+    }
+
+    void build_subtrees() {
+        std::vector<std::size_t> order(branches_.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::erase_if(order, [&](std::size_t i) { return branches_[i].sides != 0; });
+        // The largest first, so that none is begun when all others are done.
+        std::ranges::stable_sort(order, std::greater(),
+                                 [&](std::size_t i) { return branches_[i].part.count; });
+        in_parallel(order.size(), threads_, [&](std::size_t i) {
+            Branch& branch = branches_[order[i]];
+            branch.subtree = build_subtree(work_, branch.part, branch.depth);
+        });
+    }
+
+    /// Nodes and triangles in the order of a walk that goes left first.
+    void number(std::size_t i) {
+        Branch& branch = branches_[i];
+        branch.first_node = node_count_;
+        if (branch.sides != 0) {
+            branch.word = f32::kBvhTag | static_cast<std::uint32_t>(node_count_++);
+            number(branch.sides), number(branch.sides + 1);
+            return;
+        }
+        branch.copies = branch.part.first - triangle_count_;
+        branch.word = in_whole(branch, branch.subtree.root);
+        if (branch.copies > 0)
+            std::copy_n(work_.triangles + 3 * branch.part.first, 3 * branch.subtree.triangles,
+                        work_.triangles + 3 * triangle_count_);
+        node_count_ += branch.subtree.nodes.size() / 4;
+        triangle_count_ += branch.subtree.triangles;
+    }
+
+    /// A word of its subtree in the whole tree.
+    static std::uint32_t in_whole(const Branch& branch, std::uint32_t word) {
+        if (word == f32::kBvhNothing) return word;
+        return word + static_cast<std::uint32_t>(f32::bvh_is_inner(word) ? branch.first_node - 1
+                                                                         : -branch.copies);
+    }
+
+    static void write_node(vec4* texel, const Branch& left, const Branch& right) {
+        const std::array sides{&left, &right};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Box box = sides[i]->part.box.box();
+            texel[i].w = std::bit_cast<float>(sides[i]->word);
+            texel[2 * i] = vec4(box.lo, texel[2 * i].w);
+            texel[2 * i + 1] = vec4(box.hi, texel[2 * i + 1].w);
+        }
+    }
+
+    static void copy_nodes(vec4* texel, const Branch& branch) {
+        for (std::size_t i = 0; i < branch.subtree.nodes.size(); ++i) {
+            texel[i] = branch.subtree.nodes[i];
+            if (i % 4 < 2) texel[i].w = std::bit_cast<float>(in_whole(branch, bits(texel[i].w)));
+        }
+    }
+
+    const Workspace& work_;
+    unsigned threads_;
+    std::vector<Branch> branches_{}; ///< the first is the root
+    std::size_t node_count_ = 0, triangle_count_ = 0;
+};
+
+} // namespace
+
+std::size_t build_tree(const Workspace& work, const Part& root, unsigned threads,
+                       std::vector<vec4>& nodes) {
+    TopLevelTree crown(work, threads);
+    crown.grow(root);
+    return crown.append_to(nodes);
+}
+
+} // namespace catoptric::bvh

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+namespace catoptric {
+
+/// One of 2^64 numbers for a sequence of values: what differs has another one, but for chance.
+class ContentHash {
+public:
+    explicit ContentHash(std::uint64_t seed = 0) { word(seed); }
+
+    template <typename Value>
+    ContentHash& add(const Value& value) {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        return bytes(&value, sizeof value);
+    }
+    template <typename Value>
+    ContentHash& add_all(std::span<const Value> values) {
+        add(values.size());
+        return bytes(values.data(), values.size_bytes());
+    }
+    std::uint64_t value() const { return sum_; }
+
+private:
+    ContentHash& bytes(const void* data, std::size_t size) {
+        const auto* from = static_cast<const unsigned char*>(data);
+        for (; size > 0;) {
+            std::uint64_t next = 0;
+            const std::size_t part = size < sizeof next ? size : sizeof next;
+            std::memcpy(&next, from, part);
+            word(next);
+            from += part, size -= part;
+        }
+        return *this;
+    }
+    /// SplitMix64's finaliser over the running sum.
+    void word(std::uint64_t next) {
+        std::uint64_t z = (sum_ ^ next) + 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        sum_ = z ^ (z >> 31);
+    }
+
+    std::uint64_t sum_ = 0;
+};
+
+} // namespace catoptric

@@ -1,0 +1,122 @@
+#include "graph/persistent_images.hpp"
+
+#include "graph/access.hpp"
+#include "graph/device_memory.hpp"
+#include "graph/sync.hpp"
+
+namespace catoptric::graph {
+
+namespace {
+
+void clear(VkCommandBuffer commands, const Physical& image) {
+    const ImageDesc& desc = image.desc;
+    const VkImageSubresourceRange range{aspect_of(desc.format), 0, desc.mips, 0, desc.layers};
+    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    barrier.image = image.image;
+    barrier.subresourceRange = range;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+    if (is_depth(desc.format)) {
+        const VkClearDepthStencilValue nothing{};
+        vkCmdClearDepthStencilImage(commands, image.image, barrier.newLayout, &nothing, 1, &range);
+    } else {
+        const VkClearColorValue black{};
+        vkCmdClearColorImage(commands, image.image, barrier.newLayout, &black, 1, &range);
+    }
+    barrier.srcStageMask = barrier.dstStageMask, barrier.srcAccessMask = barrier.dstAccessMask;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
+    barrier.oldLayout = barrier.newLayout, barrier.newLayout = layout_of(Use::sampled);
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+} // namespace
+
+/// Black and readable.
+void PersistentImages::make(const ImageDesc& desc, PersistentImage& kept) {
+    const std::size_t copies = kept.lifetime == Lifetime::previous ? 2 : 1;
+    const Requirements needs = sizer_of(device_).image(desc);
+    const std::uint64_t second = (needs.bytes + needs.alignment - 1) / needs.alignment *
+                                 needs.alignment;
+    kept.bytes = (copies - 1) * second + needs.bytes;
+    kept.memory = device_.allocate(kept.bytes, needs.heap, desc.name);
+    for (std::size_t i = 0; i < copies; ++i) {
+        kept.copies.push_back(make_physical(device_, desc));
+        gpu::check_vk(
+            vkBindImageMemory(device_.handle(), kept.copies[i].image, kept.memory, i * second),
+            "place image '" + desc.name + "'");
+    }
+    device_.submit_now("clear image '" + desc.name + "'", [&](VkCommandBuffer commands) {
+        for (const Physical& copy : kept.copies) clear(commands, copy);
+    });
+    kept.stamps = ContentHashes(desc.layers * desc.mips);
+}
+
+PersistentImage& PersistentImages::provide(const ImageDesc& desc, Lifetime lifetime,
+                                           const std::function<void()>& wait) {
+    auto found = all_.find(desc.name);
+    if (found != all_.end() &&
+        (found->second.copies[0].desc != desc || found->second.lifetime != lifetime)) {
+        wait();
+        all_.erase(found);
+        found = all_.end();
+    }
+    if (found == all_.end()) {
+        PersistentImage kept;
+        kept.lifetime = lifetime;
+        make(desc, kept);
+        found = all_.emplace(desc.name, std::move(kept)).first;
+    }
+    return found->second;
+}
+
+void PersistentImages::provide(Compiled& shape, const std::function<void()>& wait) {
+    shape.kept.assign(shape.plan.images.size(), nullptr);
+    for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i)
+        if (shape.is_persistent(i))
+            shape.kept[i] = &provide(shape.outline.images()[i], shape.outline.lifetime(i), wait);
+}
+
+void PersistentImages::write(const Graph& graph, const Compiled& shape) {
+    for (const auto& [part, content_hash] : graph.stamps()) {
+        PersistentImage* const kept = shape.kept[part.id];
+        if (!kept) continue; // nothing of it was used
+        for_each_range(part, graph.images()[part.id].layers,
+                       [&](std::uint32_t first, std::uint32_t end) {
+                           kept->stamps.set(first, end, content_hash);
+                       });
+    }
+}
+
+void PersistentImages::advance(const Compiled& shape) {
+    for (PersistentImage* const kept : shape.kept) {
+        if (!kept || kept->lifetime != Lifetime::previous) continue;
+        kept->last = 1 - kept->last;
+        kept->valid = true;
+    }
+}
+
+std::uint64_t PersistentImages::bytes() const {
+    std::uint64_t sum = 0;
+    for (const auto& [name, kept] : all_) sum += kept.bytes;
+    return sum;
+}
+
+History PersistentImages::history() const {
+    History history;
+    for (const auto& [name, kept] : all_) {
+        if (kept.lifetime == Lifetime::persistent)
+            history.persistent.emplace(name,
+                                       History::PersistentImage{kept.copies[0].desc, kept.stamps});
+        else if (kept.valid)
+            history.previous.insert(name);
+    }
+    return history;
+}
+
+} // namespace catoptric::graph

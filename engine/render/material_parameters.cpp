@@ -1,0 +1,139 @@
+#include "render/material_parameters.hpp"
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "render/facets.hpp"
+#include "scene/texel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+#include <string>
+#include <unordered_map>
+
+namespace catoptric::render {
+
+namespace {
+
+constexpr std::size_t kTableTexels = 256; // before all others: sRGB bytes in linear light
+
+std::uint32_t bit(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
+
+shared::MaterialParameters detail_of(const scene::Material& material, const DrawRange& range) {
+    shared::MaterialParameters detail{};
+    detail.flags = bit(range.varies, shared::kMaterialVaries) |
+                   bit(range.first_attribute.has_value(), shared::kMaterialAttributes) |
+                   bit(material.mirror, shared::kMaterialConstant) |
+                   bit(material.unlit, shared::kMaterialUnlit) |
+                   bit(range.turns, shared::kMaterialTurns);
+    detail.metallic = material.metallic, detail.roughness = material.roughness;
+    detail.alpha = material.alpha, detail.alpha_cutoff = material.alpha_cutoff;
+    detail.f0 = material.dielectric_f0, detail.f90 = material.dielectric_f90;
+    return detail;
+}
+
+} // namespace
+
+MaterialParameterLists::MaterialParameterLists(std::size_t slots)
+    : details_("details", gpu::BufferUse::quads, slots),
+      attributes_("attributes", gpu::BufferUse::texels, slots),
+      texels_("texels", gpu::BufferUse::words, slots) {}
+
+shared::TextureUse
+MaterialParameterLists::use_of(const std::optional<scene::Texture>& texture) const {
+    shared::TextureUse use{};
+    if (!texture) return use;
+    const auto at = std::ranges::find(images_, texture->image) - images_.begin();
+    use.first = first_texels_[static_cast<std::size_t>(at)];
+    use.size = texture->image->size.x | texture->image->size.y << 16;
+    use.how = static_cast<std::uint32_t>(texture->wrap_u) |
+              static_cast<std::uint32_t>(texture->wrap_v) << 2 |
+              bit(texture->nearest, shared::kTextureNearest) |
+              bit(texture->srgb, shared::kTextureSrgb) |
+              bit(texture->uv_set == 1, shared::kTextureSecondUv);
+    use.u_row = texture->u_row, use.v_row = texture->v_row;
+    return use;
+}
+
+void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t most) {
+    std::vector<std::shared_ptr<const scene::Image>> images;
+    std::uint64_t count = kTableTexels;
+    for (const scene::Object& object : now.objects) {
+        const scene::Material& material = now.materials[object.material];
+        for (const auto* texture :
+             {&material.albedo_texture, &material.emission_texture, &material.roughness_texture}) {
+            if (!*texture || std::ranges::find(images, (*texture)->image) != images.end()) continue;
+            images.push_back((*texture)->image);
+            count += images.back()->texels.size();
+            check(count <= most, Failure::exhausted, "scene '", now.name, "': its images up to ",
+                  in_quotes(images.back()->name), " take ", count, " texels, the device allows ",
+                  most);
+        }
+    }
+    if (images == images_ && !first_texels_.empty()) return;
+    std::vector<std::uint32_t> texels;
+    texels.reserve(count);
+    for (std::uint32_t byte = 0; byte < kTableTexels; ++byte)
+        texels.push_back(std::bit_cast<std::uint32_t>(scene::linear_from_srgb(byte)));
+    first_texels_ = {};
+    for (const auto& image : images) {
+        first_texels_.push_back(static_cast<std::uint32_t>(texels.size()));
+        texels.insert(texels.end(), image->texels.begin(), image->texels.end());
+    }
+    images_ = std::move(images);
+    texels_.set(texels);
+}
+
+void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geometry,
+                                  const Vertices& vertices, std::uint64_t most) {
+    fill_texels(now, most);
+    std::vector<shared::MaterialParameters> details;
+    std::unordered_map<std::string, std::uint32_t> known; // index, by the bytes of a detail
+    indices_.clear();
+    any_ = masks_ = false;
+    std::map<std::size_t, bool> leaves; // by mesh
+    for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
+        const DrawRange& range = geometry.ranges[i];
+        const scene::Material& material = now.materials[now.objects[i].material];
+        shared::MaterialParameters detail = detail_of(material, range);
+        detail.max_specular_roughness = now.mirror_max_roughness;
+        // Wraps around: what is drawn counts from the first vertex of its buffer.
+        if (range.first_attribute)
+            detail.first_attribute = *range.first_attribute - vertices.first_of(range.storage);
+        detail.albedo = use_of(material.albedo_texture);
+        detail.emission = use_of(material.emission_texture);
+        detail.rough = use_of(material.roughness_texture);
+        any_ = any_ || range.varies || range.turns;
+        if (material.albedo != vec3(0) && !(range.mirror && !range.lit)) {
+            const std::size_t mesh = now.objects[i].mesh;
+            const auto [entry, is_new] = leaves.try_emplace(mesh, false);
+            if (is_new) entry->second = leaves_facets(now.meshes[mesh]);
+            detail.flags |= bit(entry->second, shared::kMaterialFacets);
+            any_ = any_ || entry->second;
+        }
+        masks_ = masks_ || range.masked;
+        const auto bytes = std::bit_cast<std::array<char, sizeof detail>>(detail);
+        const auto [entry, is_new] = known.try_emplace(std::string(bytes.data(), bytes.size()),
+                                                       static_cast<std::uint32_t>(details.size()));
+        if (is_new) details.push_back(detail);
+        indices_.push_back(entry->second);
+    }
+    if (details.empty()) details.emplace_back(); // a buffer is never empty
+    details_.set(details);
+    attributes_.set(geometry.attributes.empty() ? std::vector<shared::Attribute>(1)
+                                                : geometry.attributes);
+}
+
+std::size_t MaterialParameterLists::write(gpu::Device& device, std::size_t slot) {
+    return details_.write(device, slot) + attributes_.write(device, slot) +
+           texels_.write(device, slot);
+}
+
+void MaterialParameterLists::bind(graph::Commands& commands, std::size_t slot) const {
+    commands.bind("detail_quads", details_.at(slot));
+    commands.bind("attribute_texels", attributes_.at(slot));
+    commands.bind("texture_words", texels_.at(slot));
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,52 @@
+#include "render/mirror_shaders.hpp"
+
+#include <algorithm>
+
+namespace catoptric::render {
+
+namespace {
+
+/// What a pass reads so far.
+struct Reads {
+    graph::PassBuilder& pass;
+    std::vector<graph::Image> images = {};
+    std::vector<graph::Buffer> buffers = {};
+
+    void add(graph::Image image) {
+        if (std::ranges::find(images, image) != images.end()) return;
+        images.push_back(image);
+        pass.reads(image, graph::Use::sampled);
+    }
+    void add(graph::Buffer buffer, graph::Use use) {
+        if (std::ranges::find(buffers, buffer) != buffers.end()) return;
+        buffers.push_back(buffer);
+        pass.reads(buffer, use);
+    }
+    void add(const Captures& captures) {
+        for (const Cubes& cubes : captures.arrays) {
+            add(cubes.colour);
+            if (cubes.distance) add(*cubes.distance);
+            if (cubes.surfaces) add(*cubes.surfaces);
+        }
+        if (captures.table) add(*captures.table, graph::Use::sampled);
+    }
+};
+
+} // namespace
+
+Looks same_shader(const GpuScene& scene, MirrorShader look) {
+    return {{std::move(look)}, std::vector<std::uint32_t>(scene.mirror_count(), 0)};
+}
+
+void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const Looks& looks) {
+    Reads reads{pass};
+    if (lighting.shadow_map) reads.add(*lighting.shadow_map);
+    for (const MirrorShader& look : looks.looks) {
+        if (look.captures) reads.add(*look.captures);
+        for (const auto& [name, images] : look.images)
+            for (const graph::Image& image : images) reads.add(image);
+        for (const auto& [name, buffer] : look.buffers) reads.add(buffer, graph::Use::storage_read);
+    }
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,102 @@
+#include "render/object_space.hpp"
+
+#include "bvh/tlas.hpp"
+#include "scene/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::render {
+
+namespace {
+
+/// A float turns a ray into a space by a matrix that stretches no more than this.
+constexpr double kWorstStretch = 64;
+
+/// The power of two that makes `size` about 1.
+double unit_of(double size) { return std::exp2(-std::ceil(std::log2(size))); }
+
+Bounds<double> mesh_bounds(const scene::Mesh& mesh) {
+    Bounds<double> box;
+    for (const dvec3& position : mesh.positions) box.add(position);
+    return box;
+}
+
+/// By mesh, whether its copies are too many; the first meshes are copied as long as there is room.
+std::vector<bool> shared_meshes(const scene::Scene& scene) {
+    std::vector<std::uint64_t> uses(scene.meshes.size());
+    for (const scene::Object& object : scene.objects) ++uses[object.mesh];
+    std::uint64_t copied = 0;
+    std::vector<bool> shared(scene.meshes.size());
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const scene::Mesh& mesh = scene.meshes[i];
+        if (uses[i] < 2 || mesh.triangles.empty()) continue;
+        const std::uint64_t wanted = copied + (uses[i] - 1) * mesh.triangles.size();
+        if (wanted <= kMostCopied)
+            copied = wanted;
+        else
+            shared[i] = largest_component(mesh_bounds(mesh).extent()) > 0;
+    }
+    return shared;
+}
+
+} // namespace
+
+bool may_share(const scene::Scene& now, const scene::Object& object) {
+    const scene::Material& material = now.materials[object.material];
+    const bool is_lamp = scene::is_one_sided(material) && scene::light_of(material) != vec3(0);
+    return !is_lamp && bvh::stretch(dmat3(object.world_from_object)) <= kWorstStretch;
+}
+
+std::vector<bool> shared_objects(const scene::Scene& scene) {
+    const std::vector<bool> meshes = shared_meshes(scene);
+    std::vector<bool> objects;
+    for (const scene::Object& object : scene.objects)
+        objects.push_back(meshes[object.mesh] && may_share(scene, object));
+    return objects;
+}
+
+bool is_small(const scene::Scene& now, const scene::Object& object, const Space& space) {
+    return is_small(scene::bounds(now, object), space.origin_world);
+}
+
+MeshSpace space_of_mesh(const scene::Mesh& mesh) {
+    const Bounds<double> box = mesh_bounds(mesh);
+    return {box.centre(), unit_of(largest_component(box.extent())), {}};
+}
+
+ObjectSpace object_space_of(const MeshSpace& mesh, const dmat4& world_from_object,
+                            const Space& space) {
+    ObjectSpace own;
+    own.scene_from_own = dmat3(world_from_object) * (space.scale / mesh.unit);
+    own.centre = space.place(scene::transform_point(world_from_object, mesh.middle));
+    const dmat3 inverse = glm::inverse(own.scene_from_own);
+    own.least = 1 / std::sqrt(dot(inverse[0], inverse[0]) + dot(inverse[1], inverse[1]) +
+                              dot(inverse[2], inverse[2]));
+    return own;
+}
+
+ObjectSpace object_space_of(const scene::Scene& now, const scene::Object& object,
+                            const Space& space) {
+    const Bounds<double> box = scene::bounds(now, object);
+    const double unit = unit_of(largest_component(box.extent())); // own units in one of the world
+    ObjectSpace own;
+    own.scene_from_own = dmat3(space.scale / unit);
+    own.centre = space.place(object.sphere ? object.sphere->centre : box.centre());
+    own.least = space.scale / unit;
+    if (object.sphere) own.radius = static_cast<float>(object.sphere->radius * unit);
+    return own;
+}
+
+Bounds<float> scene_bounds(const ObjectSpace& own, const Bounds<double>& box) {
+    constexpr double kRoundings = 0x1p-22;
+    Bounds<double> result;
+    for (int corner = 0; corner < 8; ++corner)
+        result.add(own.centre + own.scene_from_own * dvec3((corner & 1 ? box.lo : box.hi).x,
+                                                           (corner & 2 ? box.lo : box.hi).y,
+                                                           (corner & 4 ? box.lo : box.hi).z));
+    const dvec3 pad = kRoundings * glm::max(glm::abs(result.lo), glm::abs(result.hi));
+    return {vec3(result.lo - pad), vec3(result.hi + pad)};
+}
+
+} // namespace catoptric::render

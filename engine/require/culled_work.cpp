@@ -1,0 +1,153 @@
+#include "require/culled_work.hpp"
+
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+
+namespace catoptric::require {
+
+namespace {
+
+using Numbers = std::vector<std::size_t>; ///< of mirrors or lights, from 1
+
+/// A thing and what it is called, or several.
+std::string called(const std::string& one, const Numbers& numbers, const std::string& name) {
+    if (numbers.size() == 1) return one + " " + ranges(numbers) + (name.empty() ? "" : " " + name);
+    return one + "s " + ranges(numbers);
+}
+
+std::string name_of(const scene::Scene& scene, std::size_t object) {
+    return in_quotes(scene.objects[object].name);
+}
+
+/// Why nobody sees them, `seen` mirrors being seen.
+std::string why_unseen(const Unseen& unseen, std::size_t seen, bool is_one,
+                       const scene::Scene& scene) {
+    const std::string they = is_one ? "it" : "they", them = is_one ? "it" : "them";
+    std::string why;
+    switch (unseen.why) {
+    case Unseen::Why::empty: return they + (is_one ? " has" : " have") + " no triangle";
+    case Unseen::Why::outside:
+        why = they + (is_one ? " is" : " are") + " not in the camera's picture";
+        break;
+    case Unseen::Why::hidden_from_camera: why = "the camera passes " + them + " by"; break;
+    case Unseen::Why::hidden:
+        why = name_of(scene, unseen.wall) + " hides " + them + " from the camera";
+        break;
+    }
+    if (seen == 0) return why + ", and no mirror is seen in which " + they + " could show";
+    if (seen == 1) return why + ", and walls from the one mirror that is seen";
+    return why + ", and walls from each of the " + std::to_string(seen) + " mirrors that are seen";
+}
+
+void add_unseen(std::vector<CulledWork>& all, const Model& model, const Findings& findings,
+                const scene::Scene& scene, const std::vector<std::size_t>& mirrors) {
+    const auto seen = static_cast<std::size_t>(
+        std::ranges::count_if(model.mirrors, &MirrorNeeds::is_seen));
+    std::map<std::pair<Unseen::Why, std::size_t>, Numbers> alike;
+    for (std::size_t i = 0; i < mirrors.size(); ++i)
+        if (!model.mirrors[i].is_captured && findings.camera[i])
+            alike[{findings.camera[i]->why, findings.camera[i]->wall}].push_back(i + 1);
+    for (const auto& [reason, numbers] : alike) {
+        const bool is_one = numbers.size() == 1;
+        const std::string count = std::to_string(numbers.size());
+        all.push_back(
+            {.what = (is_one ? "the capture of " : "the captures of ") +
+                     called("mirror", numbers, name_of(scene, mirrors[numbers[0] - 1])),
+             .why = why_unseen({reason.first, reason.second}, seen, is_one, scene),
+             .saves = is_one ? "the six faces of a capture, each time that it would be made anew"
+                             : "the six faces of each of " + count +
+                                   " captures, each time that they would be made anew"});
+    }
+}
+
+void add_faces(std::vector<CulledWork>& all, const Model& model, const scene::Scene& scene,
+               const std::vector<std::size_t>& mirrors) {
+    std::map<Faces, Numbers> alike;
+    for (std::size_t i = 0; i < mirrors.size(); ++i)
+        if (model.mirrors[i].is_captured && model.mirrors[i].faces != kAllFaces)
+            alike[model.mirrors[i].faces].push_back(i + 1);
+    for (const auto& [faces, numbers] : alike) {
+        const auto without = static_cast<Faces>(kAllFaces & ~faces);
+        const int count = std::popcount(without);
+        const bool is_one = numbers.size() == 1;
+        all.push_back({.what = std::string(count == 1 ? "face " : "faces ") + names_of(without) +
+                               (is_one ? " of the capture of " : " of the captures of ") +
+                               called("mirror", numbers, name_of(scene, mirrors[numbers[0] - 1])),
+                       .why = is_one ? "it is flat, all who look at it stand on one side, and what "
+                                       "they see in it lies on that side, too"
+                                     : "they are flat, all who look at each stand on one side, and "
+                                       "what they see in it lies on that side, too",
+                       .saves = std::to_string(count) + " of " + (is_one ? "six" : "each six") +
+                                " faces, each time that they would be made anew"});
+    }
+}
+
+void add_maps(std::vector<CulledWork>& all, const Model& model, const scene::Scene& scene) {
+    for (std::size_t i = 0; i < model.lights.size(); ++i)
+        if (!model.lights[i].has_map)
+            all.push_back(
+                {.what = "the shadow map of " +
+                         called("light", {i + 1}, name_of_light(scene, i, model.lights.size())),
+                 .why = "nothing that is seen lies within its range and in front of it",
+                 .saves = "its map, each time that it would be made anew"});
+}
+
+} // namespace
+
+void fill_key(Findings& findings, const Model& model) {
+    findings.key.clear();
+    for (std::size_t i = 0; i < model.mirrors.size(); ++i) {
+        const MirrorNeeds& needs = model.mirrors[i];
+        std::uint64_t word = needs.faces | (needs.is_captured ? 64u : 0u);
+        if (!needs.is_captured && findings.camera[i])
+            word |= static_cast<std::uint64_t>(findings.camera[i]->why) << 8 |
+                    std::uint64_t{findings.camera[i]->wall} << 16;
+        findings.key.push_back(word);
+    }
+    for (const LightNeeds& needs : model.lights) findings.key.push_back(needs.has_map ? 1 : 0);
+}
+
+std::string ranges(const std::vector<std::size_t>& numbers) {
+    std::string text;
+    for (std::size_t i = 0; i < numbers.size();) {
+        std::size_t last = i;
+        while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+        text += (text.empty() ? "" : ", ") + std::to_string(numbers[i]);
+        if (last > i) text += "-" + std::to_string(numbers[last]);
+        i = last + 1;
+    }
+    return text;
+}
+
+std::vector<CulledWork> left_out(const Model& model, const Findings& findings,
+                                 const scene::Scene& scene) {
+    std::vector<CulledWork> all;
+    const std::vector<std::size_t> mirrors = scene::mirrors(scene);
+    add_unseen(all, model, findings, scene, mirrors);
+    add_faces(all, model, scene, mirrors);
+    add_maps(all, model, scene);
+    return all;
+}
+
+std::string name_of_light(const scene::Scene& scene, std::size_t light, std::size_t count) {
+    std::vector<std::string> names;
+    for (const scene::Object& object : scene.objects)
+        if (scene::light_of(scene.materials[object.material]) != vec3(0))
+            names.push_back(in_quotes(object.name));
+    for (const scene::Punctual& punctual : scene.punctual)
+        names.push_back(in_quotes(punctual.name));
+    return names.size() == count ? names[light] : "";
+}
+
+std::string names_of(Faces faces) {
+    constexpr const char* kNames[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+    std::string text;
+    for (std::size_t face = 0; face < 6; ++face)
+        if ((faces >> face & 1) != 0) text += (text.empty() ? "" : " ") + std::string(kNames[face]);
+    return text;
+}
+
+} // namespace catoptric::require

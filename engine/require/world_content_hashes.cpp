@@ -1,0 +1,83 @@
+#include "require/world_content_hashes.hpp"
+
+#include <map>
+
+namespace catoptric::require {
+
+namespace {
+
+template <typename Value>
+void add(ContentHash& content_hash, const std::vector<Value>& values) {
+    content_hash.add_all(std::span<const Value>(values));
+}
+
+/// Of images, each looked at once however many materials show it.
+class Images {
+public:
+    std::uint64_t operator[](const std::shared_ptr<const scene::Image>& image) {
+        const auto [entry, is_new] = known_.try_emplace(image.get(), 0);
+        if (!is_new || !image) return entry->second;
+        ContentHash content_hash;
+        content_hash.add(image->size);
+        add(content_hash, image->texels);
+        return entry->second = content_hash.value();
+    }
+
+private:
+    std::map<const scene::Image*, std::uint64_t> known_;
+};
+
+void add(ContentHash& content_hash, const std::optional<scene::Texture>& texture, Images& images) {
+    content_hash.add(texture.has_value());
+    if (!texture) return;
+    content_hash.add(images[texture->image]).add(texture->wrap_u).add(texture->wrap_v);
+    content_hash.add(texture->nearest).add(texture->srgb).add(texture->uv_set);
+    content_hash.add(texture->u_row).add(texture->v_row);
+}
+
+} // namespace
+
+std::uint64_t content_hash_of(const scene::Mesh& mesh) {
+    ContentHash content_hash;
+    add(content_hash, mesh.positions), add(content_hash, mesh.normals),
+        add(content_hash, mesh.triangles);
+    add(content_hash, mesh.uv[0]), add(content_hash, mesh.uv[1]), add(content_hash, mesh.colours);
+    return content_hash.value();
+}
+
+std::uint64_t content_hash_of(const std::vector<scene::Material>& materials) {
+    ContentHash content_hash;
+    Images images;
+    for (const scene::Material& m : materials) {
+        content_hash.add(m.albedo)
+            .add(m.emission)
+            .add(m.mirror)
+            .add(m.reflectance)
+            .add(m.two_sided);
+        content_hash.add(m.front_only).add(m.unlit).add(m.metallic).add(m.roughness);
+        content_hash.add(m.dielectric_f0).add(m.dielectric_f90).add(m.alpha).add(m.alpha_cutoff);
+        add(content_hash, m.albedo_texture, images), add(content_hash, m.emission_texture, images);
+        add(content_hash, m.roughness_texture, images);
+        content_hash.add(scene::light_of(m));
+    }
+    return content_hash.value();
+}
+
+std::uint64_t content_hash_of(const scene::Environment* environment) {
+    if (environment == nullptr) return 0;
+    ContentHash content_hash(1);
+    content_hash.add(environment->studio).add(environment->size);
+    add(content_hash, environment->texels);
+    content_hash.add(environment->scale).add(environment->rotation_degrees);
+    return content_hash.value();
+}
+
+std::uint64_t content_hash_of(const scene::PointLight& light) {
+    ContentHash content_hash;
+    content_hash.add(light.position).add(light.normal).add(light.area).add(light.emission);
+    content_hash.add(light.closed).add(light.axes).add(light.cosines);
+    content_hash.add(light.axis).add(light.range).add(light.cos_inner).add(light.cos_outer);
+    return content_hash.add(light.directional).value();
+}
+
+} // namespace catoptric::require

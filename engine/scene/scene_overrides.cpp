@@ -1,0 +1,202 @@
+#include "scene/scene_overrides.hpp"
+
+#include "core/error.hpp"
+#include "core/knob.hpp"
+#include "core/text.hpp"
+#include "scene/classify.hpp"
+#include "scene/number.hpp"
+#include "scene/texel.hpp"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace catoptric::scene {
+
+namespace {
+
+/// The last one where both say something.
+template <typename Value>
+void put_over(std::optional<Value>& value, const std::optional<Value>& stronger) {
+    if (stronger) value = stronger;
+}
+
+/// The names that an object goes by: its own, its node's where the node has several materials
+/// ("NODE/MATERIAL"), and its material's.
+std::vector<std::string> names_of(const Scene& scene, const Object& object) {
+    const std::string& material = scene.materials[object.material].name;
+    std::vector<std::string> names{object.name, material};
+    if (const std::string end = "/" + material; object.name.ends_with(end))
+        names.push_back(object.name.substr(0, object.name.size() - end.size()));
+    return names;
+}
+
+/// Indices of the objects that a pattern means.
+std::vector<std::size_t> objects_of(const Scene& scene, const SaidBy& by,
+                                    const std::string& pattern) {
+    std::vector<std::size_t> found;
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const std::vector<std::string> names = names_of(scene, scene.objects[i]);
+        if (std::ranges::any_of(names, [&](const auto& name) { return matches(pattern, name); }))
+            found.push_back(i);
+        known.insert(known.end(), names.begin(), names.end());
+    }
+    if (!found.empty()) return found;
+    std::erase(known, "");
+    std::ranges::sort(known);
+    known.erase(std::ranges::unique(known).begin(), known.end());
+    const std::string nearest = nearest_name(pattern, known);
+    std::string list;
+    constexpr std::size_t kMostListed = 10;
+    for (std::size_t i = 0; i < std::min(known.size(), kMostListed); ++i)
+        list += (i ? ", " : "") + in_quotes(known[i]);
+    if (known.size() > kMostListed)
+        list += " and " + std::to_string(known.size() - kMostListed) + " more";
+    fail(by.failure, by.where, " ", in_quotes(pattern), ": matches no object or material of scene ",
+         in_quotes(scene.name), "; it has: ", list,
+         nearest.empty() ? "" : " (did you mean " + in_quotes(nearest) + "?)");
+}
+
+/// Gives these objects a changed copy of their material, one for each that they share; materials
+/// keep their places.
+template <typename Change>
+void repaint(Scene& scene, const std::vector<std::size_t>& objects, Change&& change) {
+    std::map<std::size_t, std::size_t> copies; // of materials
+    for (const std::size_t i : objects) {
+        std::size_t& material = scene.objects[i].material;
+        const auto [entry, is_new] = copies.try_emplace(material, scene.materials.size());
+        if (is_new) {
+            Material copy = scene.materials[material];
+            change(copy);
+            scene.materials.push_back(std::move(copy));
+        }
+        material = entry->second;
+    }
+}
+
+void make_mirrors(Scene& scene, const MirrorOverride& wish) {
+    repaint(scene, objects_of(scene, {"--mirror"}, wish.pattern), [&](Material& material) {
+        material = {.name = material.name, .mirror = true, .reflectance = wish.reflectance};
+    });
+}
+
+/// Those of them that emit light.
+std::vector<std::size_t> glowing_of(const Scene& scene, const SaidBy& by,
+                                    const std::string& pattern) {
+    std::vector<std::size_t> objects = objects_of(scene, by, pattern);
+    std::erase_if(
+        objects, [&](std::size_t i) { return !glows(scene.materials[scene.objects[i].material]); });
+    check(!objects.empty(), by.failure, by.where, " ", in_quotes(pattern),
+          ": wanted something that emits light, found objects that do not");
+    return objects;
+}
+
+void make_lights(Scene& scene, const std::string& pattern) {
+    repaint(scene, glowing_of(scene, {"--light"}, pattern), [](Material& material) {
+        material.light = material.emission;
+        if (material.emission_texture) *material.light *= mean_texel(*material.emission_texture);
+    });
+}
+
+} // namespace
+
+SceneOverrides over(const SceneOverrides& stronger, const SceneOverrides& weaker) {
+    SceneOverrides both = weaker;
+    for (const MirrorOverride& wish : stronger.mirrors)
+        std::erase_if(both.mirrors,
+                      [&](const MirrorOverride& other) { return other.pattern == wish.pattern; });
+    for (const std::string& pattern : stronger.lights) std::erase(both.lights, pattern);
+    both.mirrors.insert(both.mirrors.end(), stronger.mirrors.begin(), stronger.mirrors.end());
+    both.lights.insert(both.lights.end(), stronger.lights.begin(), stronger.lights.end());
+    put_over(both.mirror_max_roughness, stronger.mirror_max_roughness);
+    put_over(both.dielectric_mirrors, stronger.dielectric_mirrors);
+    put_over(both.environment, stronger.environment);
+    put_over(both.environment_scale, stronger.environment_scale);
+    put_over(both.environment_rotation, stronger.environment_rotation);
+    put_over(both.exposure, stronger.exposure);
+    put_over(both.camera, stronger.camera);
+    put_over(both.up, stronger.up);
+    put_over(both.animation, stronger.animation);
+    put_over(both.ambient, stronger.ambient);
+    return both;
+}
+
+bool matches(const std::string& pattern, const std::string& name) {
+    return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+MirrorOverride read_mirror_override(const std::string& option, const std::string& text) {
+    MirrorOverride wish{.pattern = text};
+    const std::size_t at = text.rfind('=');
+    if (at != text.npos) {
+        std::vector<double> numbers;
+        std::string_view rest = std::string_view(text).substr(at + 1);
+        bool all = true;
+        while (all) {
+            const std::size_t comma = rest.find(',');
+            const std::optional<double> number = parse_number(rest.substr(0, comma));
+            all = number.has_value();
+            if (number) numbers.push_back(*number);
+            if (comma == rest.npos) break;
+            rest.remove_prefix(comma + 1);
+        }
+        if (all) {
+            const bool is_colour = numbers.size() == 1 || numbers.size() == 3;
+            check(is_colour &&
+                      std::ranges::all_of(numbers, [](double n) { return n >= 0 && n <= 1; }),
+                  Failure::usage, option,
+                  ": wanted PATTERN or PATTERN=REFLECTANCE, a number or r,g,b from 0 to 1, found ",
+                  in_quotes(text));
+            wish.pattern = text.substr(0, at);
+            for (int i = 0; i < 3; ++i)
+                wish.reflectance[i] = static_cast<float>(
+                    numbers[numbers.size() == 3 ? static_cast<std::size_t>(i) : 0]);
+        }
+    }
+    check(!wish.pattern.empty(), Failure::usage, option, ": wanted a name or a pattern, found ",
+          in_quotes(text));
+    return wish;
+}
+
+std::string pattern_of(const std::string& name) {
+    constexpr std::size_t kLongest = 60; // bytes; what is longer is named by its beginning
+    std::size_t size = std::min(name.size(), kLongest);
+    while (size > 0 && size < name.size() && (name[size] & 0xc0) == 0x80)
+        --size; // whole characters
+    const bool is_plain = printable(name) == name;
+    std::string pattern;
+    for (const char c : name.substr(0, size)) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (!is_plain && (byte < 0x20 || byte >= 0x7f)) {
+            pattern += '?';
+            continue;
+        }
+        if (std::string_view("*?[\\").find(c) != std::string_view::npos) pattern += '\\';
+        pattern += c;
+    }
+    if (size < name.size()) pattern += '*';
+    if (pattern.find('=') != pattern.npos)
+        pattern += "=1"; // or its end might read as a reflectance
+    return pattern;
+}
+
+void check_patterns(const Scene& scene, const SceneOverrides& overrides, const std::string& file) {
+    for (const MirrorOverride& wish : overrides.mirrors)
+        objects_of(scene, {file + ": mirrors", Failure::bad_data}, wish.pattern);
+    for (const std::string& pattern : overrides.lights)
+        glowing_of(scene, {file + ": lights", Failure::bad_data}, pattern);
+}
+
+void apply(Scene& scene, const SceneOverrides& overrides) {
+    if (overrides.up == Up::z) turn_z_up(scene);
+    for (const MirrorOverride& wish : overrides.mirrors) make_mirrors(scene, wish);
+    for (const std::string& pattern : overrides.lights) make_lights(scene, pattern);
+    if (overrides.mirror_max_roughness)
+        scene.mirror_max_roughness = static_cast<float>(*overrides.mirror_max_roughness);
+    classify(scene, overrides.dielectric_mirrors.value_or(false));
+}
+
+} // namespace catoptric::scene

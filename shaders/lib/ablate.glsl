@@ -1,0 +1,151 @@
+// A mirror as it would be with single causes of error taken away: in place of what the technique has, what
+// the reference's rays find. draw.ablated says which. For measuring: it traces up to a dozen rays a pixel.
+// A pixel whose rays took more steps than the driver allows is NaN.
+// Calls are few, in loops if need be: the driver's compiler inlines every one, each with a walk, and is slow.
+#ifndef CATOPTRIC_ABLATE_GLSL
+#define CATOPTRIC_ABLATE_GLSL
+
+#include "lib/bindings.glsl"
+#include "lib/constants.glsl"
+
+// A mirror that rays pass through, from 1: a capture does not show its own. 0: none.
+uint left_out;
+bool is_seen(uint object) { return left_out == 0u || surface_of(object).mirror != left_out; }
+// Shadows as the row makes them, or by rays.
+uint shadow_by;
+
+#define TRACE_PRIVATE_STACK
+#define TRACE_SEES(object) is_seen(object)
+#define SHADOW_BY shadow_by
+#include "lib/whitted.glsl"
+
+layout(constant_id = PICTURE_WIDTH_CONSTANT) const uint picture_width = 1u;
+layout(constant_id = PICTURE_HEIGHT_CONSTANT) const uint picture_height = 1u;
+
+// What stands nearer to a capture's centre by no more than this part is not in the way.
+const float kInTheWay = 1.0 / 16384.0;
+
+bool ablates(uint cause) { return (draw.ablated & cause) != 0u; }
+
+// Distance of what capture `mirror` shows in a direction of any length; +infinity: nothing.
+float exact_distance(uint mirror, vec3 direction) {
+    left_out = mirror + 1u;
+    Hit hit;
+    bool found = closest_hit(Ray(probe_at(mirror).centre, direction, 0u), kLargest, kBvhOneSided, hit);
+    left_out = 0u;
+    return found ? hit.t * length(direction) : uintBitsToFloat(0x7f800000u);
+}
+
+// Where a ray ends.
+struct End {
+    bool meets; // false: it leaves
+    Point point;
+    uint mirror; // that it meets, from 1; 0: none
+};
+
+End end_of(Ray ray, uint skipped) {
+    End end;
+    end.meets = trace_ray(ray, skipped, end.point);
+    end.mirror = end.meets ? surface_of(end.point.object).mirror : 0u;
+    return end;
+}
+
+Ray reflected(Ray ray, Point at) {
+    vec3 direction = mirror_direction(ray.direction, at.normal, at.facet);
+    return Ray(leaving(at, direction), direction, at.leaves);
+}
+
+// What capture `mirror` shows in the looked-up direction: in the second layer the next surface behind
+// that faces the centre.
+End captured_end(uint mirror, Lookup lookup) {
+    left_out = mirror + 1u;
+    Ray ray = Ray(probe_at(mirror).centre, lookup.direction, 0u);
+    End end;
+    bool goes_on, is_first = true;
+    do {
+        end = end_of(ray, 0u);
+        goes_on = end.meets && (is_first ? lookup.layer != 0.0 : dot(end.point.facet, ray.direction) >= 0.0);
+        is_first = false;
+        if (goes_on)
+            ray = Ray(spawn_origin(end.point.position, end.point.error, end.point.facet, ray.direction), ray.direction, end.point.leaves);
+    } while (goes_on);
+    left_out = 0u;
+    return end;
+}
+
+// Its own light, seen from where `direction` comes from.
+vec3 shaded(Point at, vec3 direction, uint by) {
+    shadow_by = by;
+    Surface surface = surface_at(at, direction);
+    point = at; // whose shadow rays start there
+    return shade(surface, at.position, at.normal, lit_facet(surface.detail, at.facet));
+}
+
+// Of what the search looked up, with texels or shadows mended.
+vec3 looked_up(Path path, Lookup lookup, End target, bool is_target) {
+    vec3 colour = lookup_colour(path.mirror, lookup);
+    bool sees_nothing = lookup.state == kUnknown && lookup.layer == kLeaves;
+    if (sees_nothing || !(ablates(kAblateTexels) || ablates(kAblateShadows))) return colour;
+    End captured = target;
+    if (!is_target) captured = captured_end(path.mirror, lookup);
+    if (captured.mirror != 0u) return colour; // its picture in the capture stays as it is
+    if (!captured.meets) return ablates(kAblateTexels) ? environment(lookup.direction) : colour;
+    if (ablates(kAblateTexels)) colour = vec3(0);
+    // The texels were lit through the map: what a ray would have changed.
+    for (uint i = 0u; i < (ablates(kAblateTexels) ? 1u : 2u); ++i) {
+        vec3 lit = shaded(captured.point, lookup.direction, i == 0u && ablates(kAblateShadows) ? kShadowRay : shadow);
+        colour += i == 0u ? lit : -lit;
+    }
+    return colour;
+}
+
+vec3 ablated_radiance(Path path, Lookup lookup) {
+    left_out = 0u;
+    shadow_by = ablates(kAblateShadows) ? kShadowRay : shadow;
+    Ray camera = camera_ray(gl_FragCoord.xy, uvec2(picture_width, picture_height));
+    Ray search_ray = camera;
+    End first, target;
+    bool from_camera;
+    // From the eye, from the mirror and, if the search went on from another, from that.
+    uint i = 0u, last = path.hops > 0u ? 2u : 1u;
+    do {
+        left_out = i == 2u ? path.mirror + 1u : 0u;
+        target = end_of(search_ray, i == 0u ? kBvhHidden : 0u);
+        if (i == 0u) {
+            // The rasteriser and the ray disagree on what is seen here: another cause.
+            if (target.mirror != drawn_mirror()) return path.weight * lookup_colour(path.mirror, lookup);
+            first = target;
+            search_ray = reflected(camera, first.point);
+        } else if (i == 1u) {
+            bool is_own = target.mirror == drawn_mirror();
+            bool is_mirrored = !is_own && (target.mirror != 0u || path.hops > 0u);
+            from_camera = is_own ? ablates(kAblateOwn) : is_mirrored && ablates(kAblateMirrors);
+            if (path.hops > 0u) search_ray = Ray(path.at, path.direction, 0u);
+        }
+    } while (++i <= last);
+    left_out = 0u;
+    vec3 to_target = target.meets ? target.point.position - path.centre : search_ray.direction;
+    float distance = target.meets ? length(to_target) : uintBitsToFloat(0x7f800000u);
+    bool in_capture = target.mirror != path.mirror + 1u;
+    bool asks_hidden = in_capture && (ablates(kAblateHidden) || ablates(kAblateDirection));
+    bool is_hidden = asks_hidden && exact_distance(path.mirror, to_target) < distance * (1.0 - kInTheWay);
+    bool along_search = is_hidden && ablates(kAblateHidden);
+    vec3 result = details != 0u ? shaded(first.point, camera.direction, ablates(kAblateShadows) ? kShadowRay : shadow) : vec3(0);
+    // What is hidden or left out has no direction that shows it.
+    bool is_shown = in_capture && !is_hidden;
+    if (from_camera || along_search) {
+        bool whole = from_camera || path.hops == 0u;
+        if (!whole) camera = search_ray;
+        uint met;
+        result = (whole ? vec3(0) : result) + (whole ? vec3(1) : path.weight) * radiance(camera, whole ? 0u : 1u + path.hops, met);
+    } else {
+        if (ablates(kAblateDirection) && is_shown) {
+            lookup = Lookup(normalize(to_target), kHit, 0.0, 0.0);
+            set_last_hit_distance(target.meets ? distance : 0.0);
+        }
+        result += path.weight * looked_up(path, lookup, target, ablates(kAblateDirection) && is_shown);
+    }
+    return trace_exhausted ? vec3(uintBitsToFloat(0x7fc00000u)) : result;
+}
+
+#endif

@@ -1,0 +1,161 @@
+// Each cause of error that can be taken away, alone and with others, where it is known what must be
+// left: nothing, wherever the rest is right.
+#include "app/causes.hpp"
+#include "shared.h"
+#include "support/boxes.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+using namespace catoptric::shared;
+
+constexpr uvec2 kSize{48, 48};
+
+std::vector<measure::Picture> pictures_of(const app::Request& request,
+                                          const std::vector<std::uint32_t>& masks) {
+    std::vector<measure::Picture> pictures;
+    app::Session session(test::engine(), request.scene);
+    app::last_pictures(session, request, masks, [&](std::size_t, const measure::Picture& picture) {
+        pictures.push_back(picture);
+    });
+    return pictures;
+}
+
+/// How far a row is from ray tracing with each of some sums of causes mended, first with none.
+std::vector<test::Compared> ablated(const scene::Scene& scene, const std::string& technique,
+                                    std::vector<std::uint32_t> masks,
+                                    const std::string& shadow = "none", int frames = 1) {
+    const app::Part truth = test::render(scene, "raytrace:depth=16,shadow=" + shadow, kSize);
+    app::Request request = test::request(scene, {technique}, kSize);
+    request.warmup = frames - 1;
+    masks.insert(masks.begin(), 0);
+    std::vector<test::Compared> result;
+    for (const measure::Picture& picture : pictures_of(request, masks))
+        result.push_back(test::compared(picture, truth));
+    std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": of " << result[0].pixels
+              << " off, by mask";
+    for (std::size_t i = 0; i < masks.size(); ++i)
+        std::cout << (i > 0 ? ", " : " ") << masks[i] << ": " << result[i].off;
+    std::cout << "\n";
+    return result;
+}
+
+constexpr std::uint32_t kFirstOrder = kAblateDirection | kAblateHidden | kAblateTexels;
+constexpr std::size_t kRim = 3; // pixels whose centre lies next to an outline or an edge
+
+// One crossing on every ray: with exact distances a search ends at it.
+TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
+    const auto found = ablated(test::box({}),
+                               "secant:steps=8,face=2,distance=unorm8,range=60,shadow=none",
+                               {kAblateTexels, kAblateDistance, kAblateDistance | kAblateTexels});
+    EXPECT_GT(found[1].off, 8u) << "distances are wrong";
+    EXPECT_GT(found[2].off, 100u) << "texels are coarse";
+    EXPECT_LE(found[3].off, kRim);
+}
+
+// Neither distances nor colours are taken from the captures.
+TEST(Mended, WithoutTextureNothingDependsOnItsSize) {
+    const app::Part truth = test::render(test::box({}), "raytrace:shadow=none", kSize);
+    std::vector<measure::Picture> pictures;
+    for (const std::string face : {"2", "64"}) {
+        app::Request request = test::request(test::box({}), {"parallax:shadow=none,face=" + face},
+                                             kSize);
+        pictures.push_back(pictures_of(request, {kAblateDistance | kAblateTexels}).front());
+        // Parallax's one step is no exact one.
+        EXPECT_LE(test::compared(pictures.back(), truth).share(), .02);
+    }
+    EXPECT_TRUE(test::same_bytes(pictures[0], pictures[1]));
+}
+
+TEST(Mended, DirectionAndTexelsAreAllThereIsInAnEmptyBox) {
+    const auto found = ablated(test::box({}), "reuse:face=8,shadow=none",
+                               {kAblateDirection, kAblateTexels, kAblateDirection | kAblateTexels,
+                                kAblateHidden, kAblateMirrors | kAblateOwn});
+    EXPECT_GT(found[1].off, 100u);
+    EXPECT_GT(found[2].off, 60u);
+    EXPECT_LE(found[3].off, kRim);
+    EXPECT_EQ(found[4].off, found[0].off) << "nothing is hidden";
+    EXPECT_EQ(found[5].off, found[0].off) << "and there is no second mirror";
+    const auto open = ablated(test::box({}, true), "reuse:face=8,shadow=none", {kFirstOrder});
+    EXPECT_LE(open[1].off, kRim) << "nothing is seen where it is open";
+}
+
+// Three boards before the walls: what they hide from the ball's centre has no direction.
+TEST(Mended, WhatIsHiddenIsNotFoundByDirection) {
+    for (const std::string technique : {"reuse:", "secant:steps=8,"}) {
+        const auto found = ablated(test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+                                   technique + "face=32,shadow=none",
+                                   {kAblateDirection | kAblateTexels, kAblateHidden, kFirstOrder});
+        EXPECT_GT(found[1].off, 20u);
+        EXPECT_LE(found[2].off + 10, found[0].off);
+        EXPECT_LE(found[3].off, kRim);
+    }
+    // A fifth of the way before floor and ceiling.
+    scene::Scene scene = test::box({});
+    for (const double y : {-2.4, 2.4})
+        for (const double x : {-1.1, .7, 2.5})
+            test::add_glowing_board(scene, {0, .1f, 0}, {x, y, -.6}, {.5, 0, 0}, {0, 0, 1.2});
+    const auto close = ablated(scene, "reuse:face=32,shadow=none",
+                               {kAblateDirection | kAblateTexels, kFirstOrder});
+    EXPECT_GT(close[1].off, 8u);
+    EXPECT_LE(close[2].off, kRim);
+    // Texels of the layer that was looked up, which may be the second.
+    const auto layered = ablated(test::box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
+                                 "layered:face=128,shadow=none", {kAblateTexels});
+    EXPECT_LE(layered[1].off, layered[0].off);
+}
+
+TEST(Mended, MirrorsInMirrorsAreAsThisEyeSeesThem) {
+    const auto once = ablated(test::three_balls(), "secant:steps=8,continue=0,face=32,shadow=none",
+                              {kFirstOrder, kFirstOrder | kAblateMirrors, kAblateMirrors});
+    EXPECT_GT(once[1].off, 100u) << "without history mirrors are black in captures";
+    EXPECT_LE(once[2].off, kRim);
+    EXPECT_LT(5 * once[3].off, once[0].off);
+    // What the second mirror's centre does not see is seen with both mirrors' shares.
+    scene::Scene scene = test::three_balls();
+    scene.name = "three balls and boards";
+    for (const dvec3& centre : {dvec3(1.2, -1.5, .3), dvec3(1.2, .1, 1.9), dvec3(-1.25, -1.9, .6),
+                                dvec3(-1.25, 1.2, .3), dvec3(1.3, 1.5, .2), dvec3(-1.2, -.3, 2.3)})
+        test::add_glowing_board(scene, {.1f, 0, 0}, centre, {.35, 0, 0},
+                                {0, centre.z > 1 ? .35 : 0, centre.z > 1 ? 0 : .35});
+    const auto followed = ablated(
+        scene, "secant:steps=8,continue=8,face=32,shadow=none",
+        {kAblateDirection | kAblateTexels, kFirstOrder, kFirstOrder | kAblateMirrors});
+    EXPECT_LE(followed[2].off, 2 * kRim);
+    EXPECT_GT(followed[1].off, 20u);
+    EXPECT_LE(followed[3].off, kRim);
+}
+
+scene::Scene corner() {
+    scene::Scene scene{.name = "corner"};
+    test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
+    test::add_mesh(scene, test::hollow_corner(), test::add_halving_mirror(scene, 0));
+    scene.cameras.push_back(
+        {.eye = {.1, .2, -2.9}, .target = {-.4, 0, 1.5}, .vertical_fov_degrees = 45});
+    return scene;
+}
+
+TEST(Mended, AMirrorsOwnReflectionIsInNoCapture) {
+    const auto found = ablated(corner(), "secant:steps=8,continue=0,face=32,shadow=none",
+                               {kFirstOrder | kAblateMirrors, kAblateOwn});
+    EXPECT_GT(found[1].off, 200u);
+    EXPECT_LE(found[2].off, kRim);
+}
+
+TEST(Mended, ShadowsByRaysReplaceThoseOfTheMap) {
+    scene::Scene scene = test::room(1, 1);
+    scene.cameras.front() = {
+        .eye = {-.3, -.7, -1.8}, .target = {-.9, -1.2, .3}, .vertical_fov_degrees = 42};
+    for (const std::string map : {"shadow_map=8", "shadow=none"}) {
+        const auto found = ablated(scene, "secant:steps=8,face=64," + map,
+                                   {kFirstOrder, kFirstOrder | kAblateShadows, kAblateShadows},
+                                   "ray");
+        EXPECT_GT(found[1].off, 30u);
+        EXPECT_LE(found[2].off, kRim);
+        EXPECT_LT(5 * found[3].off, found[0].off);
+    }
+}
+
+} // namespace
