@@ -22,7 +22,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kBenchExamples = R"(Examples:
   catoptric bench -o now.json
   catoptric bench --techniques raytrace:depth=4 parallax:face=512 --rounds 12
   catoptric bench scene.glb --size 256x256 --json > scene.json
@@ -53,7 +53,7 @@ constexpr const char* kOneModel =
 constexpr const char* kFlatScene = "flat"; // `planar` needs a flat mirror
 constexpr const char* kFlatTechnique = "planar";
 
-struct Options {
+struct BenchOptions {
     Common common; ///< of every scene
     std::vector<std::string> scenes;
     std::vector<std::string> techniques;
@@ -71,7 +71,7 @@ struct SceneAsked {
     std::vector<std::string> techniques;
 };
 
-std::vector<SceneAsked> asked_of(const Options& options) {
+std::vector<SceneAsked> asked_of(const BenchOptions& options) {
     std::vector<SceneAsked> list;
     std::vector<std::string> scenes = options.scenes;
     if (scenes.empty()) scenes.push_back(options.common.scene);
@@ -87,7 +87,7 @@ std::vector<SceneAsked> asked_of(const Options& options) {
     return list;
 }
 
-int frames_of(const Options& options) {
+int frames_of(const BenchOptions& options) {
     return options.common.frames.value_or(app::Request().frames);
 }
 
@@ -112,7 +112,7 @@ void add_subjects(app::Engine& engine, const SceneAsked& asked, app::Request req
     }
 }
 
-void check_output(const Options& options, const std::vector<std::filesystem::path>& inputs,
+void check_output(const BenchOptions& options, const std::vector<std::filesystem::path>& inputs,
                   const std::string& read) {
     if (options.output.empty()) return;
     check_file_can_be_made(options.output);
@@ -120,14 +120,14 @@ void check_output(const Options& options, const std::vector<std::filesystem::pat
 }
 
 /// To stdout, and into the file where one is asked for.
-void put_result(const Options& options, const std::string& json, const std::string& table) {
+void put_result(const BenchOptions& options, const std::string& json, const std::string& table) {
     put(options.common.manners.json ? json : table);
     if (options.output.empty()) return;
     write_file(options.output, json);
     note(options.common.manners, "written: " + options.output);
 }
 
-int measure(const Options& options) {
+int measure(const BenchOptions& options) {
     // Before the driver's threads are there, so that it counts them.
     const app::UsageMeter meter(app::UsageMeter::Of::process);
     check(!options.common.both_models, Failure::usage, kOneModel);
@@ -169,7 +169,7 @@ void warn_of_circumstances(const measure::BenchmarkRun& before,
         warn("others were at work beside what was measured; times are not to be trusted");
 }
 
-int judge(const Options& options, const measure::BenchmarkRun& before,
+int judge(const BenchOptions& options, const measure::BenchmarkRun& before,
           const measure::BenchmarkRun& after) {
     warn_of_circumstances(before, after);
     const measure::Changes changes = measure::compare(before, after);
@@ -185,7 +185,7 @@ int judge(const Options& options, const measure::BenchmarkRun& before,
     return 0;
 }
 
-int compare_files(const Options& options) {
+int compare_benchmark_files(const BenchOptions& options) {
     const std::vector<std::string>& files = options.before_and_after;
     check(files.size() == 2, Failure::usage, "--compare: wanted OLD and NEW, found ", files.size(),
           files.size() == 1 ? " file" : " files");
@@ -196,7 +196,7 @@ int compare_files(const Options& options) {
     return judge(options, runs[0], runs[1]);
 }
 
-int run_against(const Options& options) {
+int run_against(const BenchOptions& options) {
     app::check_rounds(options.rounds);
     check_output(options, {options.against}, ", which is run");
     const std::string own = std::filesystem::read_symlink("/proc/self/exe").string();
@@ -209,7 +209,7 @@ int run_against(const Options& options) {
     return judge(options, runs[0], runs[1]);
 }
 
-int tune(const Options& options) {
+int tune(const BenchOptions& options) {
     check(options.techniques.empty() && options.scenes.size() <= 1, Failure::usage,
           "--tune: wanted at most one SCENE and no --techniques, since ", app::kTunedTechnique,
           " is what is measured");
@@ -219,23 +219,23 @@ int tune(const Options& options) {
     return tune_device(common, std::min(options.rounds, frames_of(options)), options.output);
 }
 
-int run(const Options& options) {
+int run_bench(const BenchOptions& options) {
     const bool compares = !options.before_and_after.empty(), in_turn = !options.against.empty();
     for (const auto& [both, names] : {std::pair{compares && in_turn, "--compare and --against"},
                                       {options.tunes && compares, "--tune and --compare"},
                                       {options.tunes && in_turn, "--tune and --against"}})
         check(!both, Failure::usage, names, ": wanted one of them, found both");
     if (options.tunes) return tune(options);
-    return compares ? compare_files(options) : in_turn ? run_against(options) : measure(options);
+    return compares ? compare_benchmark_files(options) : in_turn ? run_against(options) : measure(options);
 }
 
 } // namespace
 
 void add_bench(CommandLine& program, std::vector<std::string> command) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<BenchOptions>();
     options->command = std::move(command);
     Verb& verb = program.add("bench", "what frames and scenes cost; beside another run or build");
-    verb.examples(kExamples);
+    verb.examples(kBenchExamples);
     verb.arguments("SCENE",
                    "built-in names (see 'list scenes') or .glb, .gltf or .obj files "
                    "(cornell-mirrors; and flat for planar)",
@@ -264,7 +264,7 @@ void add_bench(CommandLine& program, std::vector<std::string> command) {
               "configuration, or -o FILE",
               options->tunes);
     add_common_without_scene(verb, options->common);
-    verb.does([options] { return run(*options); });
+    verb.does([options] { return run_bench(*options); });
 }
 
 } // namespace catoptric::cli

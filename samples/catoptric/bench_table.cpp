@@ -19,11 +19,11 @@ using measure::Cost;
 
 using Cells = std::vector<std::vector<std::string>>;
 
-std::string figure(double value) { return fmt::format("{:.3f}", value); }
+std::string benchmark_figure(double value) { return fmt::format("{:.3f}", value); }
 
 /// Median and interval, in `unit`.
 void add(std::vector<std::string>& cells, const std::vector<double>& values, double unit = 1) {
-    cells.push_back(figure(measure::percentile(values, .5) / unit));
+    cells.push_back(benchmark_figure(measure::percentile(values, .5) / unit));
     cells.push_back(interval_text(measure::median_interval(values), unit));
 }
 
@@ -36,13 +36,13 @@ std::vector<std::string> cells_of(const Benchmark& benchmark, bool counted) {
     std::vector<double> instructions;
     for (const measure::BenchmarkRound& round : benchmark.rounds)
         instructions.push_back(round.instructions.value_or(0));
-    cells.push_back(figure(measure::percentile(instructions, .5) / 1e6));
+    cells.push_back(benchmark_figure(measure::percentile(instructions, .5) / 1e6));
     return cells;
 }
 
 /// Both as millions of cycles, or milliseconds.
 std::string cost_text(double cost, Cost of) {
-    return figure(of == Cost::cycles ? cost / 1e6 : cost);
+    return benchmark_figure(of == Cost::cycles ? cost / 1e6 : cost);
 }
 
 /// The costs that the list is compared by.
@@ -95,8 +95,8 @@ std::string changes_table(const measure::Changes& changes) {
     Cells cells{{"benchmark", "before", "after", "ratio", "[95 %]", "ms ratio", "[95 %]", ""}};
     for (const Change& change : changes.list)
         cells.push_back({printable(change.name), cost_text(change.medians[0], change.cost),
-                         cost_text(change.medians[1], change.cost), figure(change.ratio.median),
-                         interval_text(change.ratio.ci95), figure(change.real_ratio.median),
+                         cost_text(change.medians[1], change.cost), benchmark_figure(change.ratio.median),
+                         interval_text(change.ratio.ci95), benchmark_figure(change.real_ratio.median),
                          interval_text(change.real_ratio.ci95), name_of(change.outcome())});
     return (changes.list.empty()
                 ? "nothing is in both\n"

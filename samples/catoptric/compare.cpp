@@ -20,7 +20,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kCompareExamples = R"(Examples:
   catoptric compare -o out
   catoptric compare scene.glb -o out --techniques reuse parallax:face=512
   catoptric compare -o out --together --json > report.json
@@ -32,7 +32,7 @@ constexpr const char* kExamples = R"(Examples:
 SCENE comes before --techniques; several become one report with a section and a front for each. DIR gets
 report.html, report.md, report.json, rows.csv and images/.)";
 
-struct Options {
+struct CompareOptions {
     Common common; ///< of every scene
     std::vector<std::string> scenes;
     std::string folder;
@@ -57,19 +57,19 @@ int parse_views(const std::string& text) {
 }
 
 /// As they were asked for; one, the built-in scene, where none was.
-std::vector<std::string> scenes_of(const Options& options) {
+std::vector<std::string> scenes_of(const CompareOptions& options) {
     return options.scenes.empty() ? std::vector{options.common.scene} : options.scenes;
 }
 
 /// Throws `usage` for more rounds than frames: each round measures at least one frame of each row.
-void check_rounds(const Options& options) {
+void check_rounds(const CompareOptions& options) {
     const int frames = options.common.frames.value_or(app::Request().frames);
     check(!options.rounds || *options.rounds <= frames, Failure::usage, "--rounds: wanted at most ",
           frames, ", one for each of --frames, found ", options.rounds.value_or(0));
 }
 
 /// What is asked of every scene.
-app::CompareRequest make_compare_request(const Options& options, const std::string& scene) {
+app::CompareRequest make_compare_request(const CompareOptions& options, const std::string& scene) {
     app::CompareRequest request;
     Common common = options.common;
     common.scene = scene;
@@ -89,7 +89,7 @@ app::CompareRequest make_compare_request(const Options& options, const std::stri
 }
 
 /// All of them before any work, so that the last one's fault is known at once.
-std::vector<app::CompareRequest> make_compare_requests(const Options& options) {
+std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& options) {
     check_rounds(options);
     check_no_scene(options.techniques);
     app::check_rows(options.techniques);
@@ -110,7 +110,7 @@ std::vector<std::string> rows_of(const app::CompareRequest& request) {
     return base.techniques.empty() ? app::default_techniques(base) : base.techniques;
 }
 
-void check_places(const Options& options, const std::vector<app::CompareRequest>& requests) {
+void check_places(const CompareOptions& options, const std::vector<app::CompareRequest>& requests) {
     std::vector<std::filesystem::path> outputs{kStdout}, inputs;
     for (const app::CompareRequest& request : requests) {
         std::vector<std::string> images;
@@ -146,7 +146,7 @@ std::string phase_of(const report::Comparison& comparison) {
 }
 
 /// Throws what ended the comparison early.
-void check_not_stopped(const Options& options, const report::Comparison& comparison) {
+void check_not_stopped(const CompareOptions& options, const report::Comparison& comparison) {
     if (comparison.stopped)
         fail_incomplete(*comparison.stopped, comparison.rows.size(), comparison.asked,
                         phase_of(comparison), options.folder);
@@ -155,7 +155,7 @@ void check_not_stopped(const Options& options, const report::Comparison& compari
 /// Where the reports of one or of several scenes go.
 class Output {
 public:
-    Output(const Options& options, std::size_t count)
+    Output(const CompareOptions& options, std::size_t count)
         : options_(options), one_(options.folder, options.csv),
           several_(options.folder, scenes_of(options), options.csv), is_one_(count == 1) {}
 
@@ -182,7 +182,7 @@ public:
     }
 
 private:
-    const Options& options_;
+    const CompareOptions& options_;
     report::Writer one_;
     report::ScenesWriter several_;
     bool is_one_;
@@ -205,7 +205,7 @@ report::Comparison compare_one(app::Engine& engine, app::CompareRequest& request
     return comparison;
 }
 
-int run(const Options& options) {
+int run_compare(const CompareOptions& options) {
     const Manners& manners = options.common.manners;
     require_given(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
     check_folder_can_be_made(options.folder);
@@ -240,11 +240,11 @@ int run(const Options& options) {
 } // namespace
 
 void add_compare(CommandLine& program, std::vector<std::string> command) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CompareOptions>();
     options->command = std::move(command);
     Verb& verb = program.add("compare",
                              "every technique against the reference: speed and error in one table");
-    verb.examples(kExamples);
+    verb.examples(kCompareExamples);
     verb.arguments("SCENE",
                    "built-in names (see 'list scenes') or .glb, .gltf or .obj files "
                    "(cornell-mirrors)",
@@ -282,7 +282,7 @@ void add_compare(CommandLine& program, std::vector<std::string> command) {
                     const bool all = parse_choice("--csv", text, {"table", "all"}) == 1;
                     options->csv = all ? report::CsvColumns::all : report::CsvColumns::table;
                 });
-    verb.does([options] { return run(*options); });
+    verb.does([options] { return run_compare(*options); });
 }
 
 } // namespace catoptric::cli

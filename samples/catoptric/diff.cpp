@@ -20,7 +20,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kDiffExamples = R"(Examples:
   catoptric diff a.exr b.exr
   catoptric diff a.png b.png --mask mirrors.png --json
   catoptric diff new.exr golden.exr --max-flip 0.01 --max-rmse 0.001
@@ -30,7 +30,7 @@ per degree; if one of them is a PNG, both are rounded to 8 bits.
 
 Exit code 1 when a figure is over its threshold or, with one given, a pixel is not finite.)";
 
-struct Options {
+struct DiffOptions {
     Manners manners;
     std::string a, b, mask;
     double exposure = 0;
@@ -45,7 +45,7 @@ void judge(DiffFacts& facts, const char* option, double value, std::optional<dou
             fmt::format("{} {:.6g} is over --max-{} {:.6g}", option, value, option, *most));
 }
 
-DiffFacts compare_files(const Options& options) {
+DiffFacts compare_files(const DiffOptions& options) {
     const measure::FileDifference found = measure::difference_of_files(
         options.a, options.b, options.mask, options.exposure);
     DiffFacts facts{options.a,
@@ -92,7 +92,7 @@ std::string text_of(const DiffFacts& facts) {
            mean_text("B", facts.b_mean, facts.b_clamped);
 }
 
-int run(const Options& options) {
+int run_diff(const DiffOptions& options) {
     const DiffFacts facts = compare_files(options);
     put(options.manners.json ? diff_json(facts) : text_of(facts));
     check(facts.over.empty(), Failure::threshold, join(facts.over));
@@ -102,9 +102,9 @@ int run(const Options& options) {
 } // namespace
 
 void add_diff(CommandLine& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DiffOptions>();
     Verb& verb = program.add("diff", "how far two pictures are apart");
-    verb.examples(kExamples);
+    verb.examples(kDiffExamples);
     verb.argument("A", "picture, .exr, .hdr or .png", options->a, Verb::Need::required);
     verb.argument("B", "picture of the same size", options->b, Verb::Need::required);
     verb.option("--mask", "M", "PNG of the same size: pixels that are not black count",
@@ -120,7 +120,7 @@ void add_diff(CommandLine& program) {
     verb.option("--exposure", "STOPS", "figures are of light times 2^STOPS (0)",
                 [options](const std::string& text) { options->exposure = parse_stops(text); });
     add_manners(verb, options->manners);
-    verb.does([options] { return run(*options); });
+    verb.does([options] { return run_diff(*options); });
 }
 
 } // namespace catoptric::cli

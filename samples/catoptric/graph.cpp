@@ -15,7 +15,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kGraphExamples = R"(Examples:
   catoptric graph --technique naive:bounces=2
   catoptric graph --technique reuse --format dot | dot -Tsvg > reuse.svg
   catoptric graph --technique parallax --json
@@ -27,7 +27,7 @@ The plan of a frame with a frame before it: passes in order, what each reads and
 left out and why, memory that images share. With --why what the picture requires of mirrors and
 lights, what of captures and shadow maps it does without and why, and which plan suits it.)";
 
-struct Options {
+struct GraphOptions {
     Common common;
     Drawn drawn;
     std::string technique; ///< of the two, checked
@@ -35,7 +35,7 @@ struct Options {
     bool why = false;
 };
 
-app::PlanFormat format_of(const Options& options) {
+app::PlanFormat format_of(const GraphOptions& options) {
     const app::PlanFormat asked = options.common.manners.json ? app::PlanFormat::json
                                                               : app::PlanFormat::text;
     const app::PlanFormat format = options.format.value_or(asked);
@@ -52,7 +52,7 @@ void put_why(const app::Request& request, app::PlanFormat format,
                                         : app::why_text(request, slices));
 }
 
-int run(const Options& options) {
+int run_graph(const GraphOptions& options) {
     const app::PlanFormat format = format_of(options);
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a plan has one");
@@ -84,9 +84,9 @@ int run(const Options& options) {
 } // namespace
 
 void add_graph(CommandLine& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<GraphOptions>();
     Verb& verb = program.add("graph", "the compiled plan of a technique's frame");
-    verb.examples(kExamples);
+    verb.examples(kGraphExamples);
     add_drawn(verb, options->drawn);
     verb.option("--format", "F", "text, dot or json (text)", [options](const std::string& text) {
         constexpr app::PlanFormat kFormats[] = {app::PlanFormat::text, app::PlanFormat::dot,
@@ -103,7 +103,7 @@ void add_graph(CommandLine& program) {
         const bool is_given = !options->drawn.technique.empty() || !options->drawn.plan.empty();
         if (is_given || !options->why || options->common.budget_ms > 0)
             options->technique = checked(options->drawn, "graph");
-        return run(*options);
+        return run_graph(*options);
     });
 }
 

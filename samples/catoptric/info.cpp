@@ -23,7 +23,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kInfoExamples = R"(Examples:
   catoptric info --json
   catoptric info room.glb
   catoptric info room.glb --mirror 'wall mirror' --write)";
@@ -76,14 +76,14 @@ std::string text_of(const InfoFacts& facts) {
     return text;
 }
 
-struct Options {
+struct InfoOptions {
     Common common; ///< without a scene: about the program
     bool writes = false, replaces = false;
 };
 
 /// Returns the exposure that the scene is shown with; none where no device can tell. Moves the
 /// scene away.
-std::optional<double> exposure_of(app::Request& request, const Options& options) {
+std::optional<double> exposure_of(app::Request& request, const InfoOptions& options) {
     if (!request.auto_exposure) return request.exposure;
     constexpr std::size_t kMostTriangles =
         500'000; // a tree over more would cost what a picture does
@@ -106,7 +106,7 @@ std::optional<double> exposure_of(app::Request& request, const Options& options)
 }
 
 /// What was asked for, with what was added.
-void write_scene_file(const Options& options, const app::ResolvedScene& wanted,
+void write_scene_file(const InfoOptions& options, const app::ResolvedScene& wanted,
                       const app::Request& request) {
     const scene::Scene& scene = request.scene;
     check(wanted.is_file, Failure::usage,
@@ -125,7 +125,7 @@ void write_scene_file(const Options& options, const app::ResolvedScene& wanted,
     note(options.common.manners, "written: " + path.string());
 }
 
-int about_scene(const Options& options) {
+int about_scene(const InfoOptions& options) {
     Asked asked = make_asked(options.common);
     app::Request& request = asked.request;
     if (options.writes) write_scene_file(options, asked.wanted, request);
@@ -139,7 +139,7 @@ int about_scene(const Options& options) {
     return 0;
 }
 
-int run(const Options& options) {
+int run_info(const InfoOptions& options) {
     check(options.writes || !options.replaces, Failure::usage, "--force: wanted --write beside it");
     if (!options.common.scene.empty()) return about_scene(options);
     check(!options.writes, Failure::usage, "--write: wanted a SCENE");
@@ -151,10 +151,10 @@ int run(const Options& options) {
 } // namespace
 
 void add_info(CommandLine& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<InfoOptions>();
     options->common.scene.clear();
     Verb& verb = program.add("info", "what a scene is made of; or version, device and features");
-    verb.examples(kExamples);
+    verb.examples(kInfoExamples);
     verb.argument(
         "SCENE",
         "built-in name or .glb, .gltf or .obj file; none: about the program and the device",
@@ -166,7 +166,7 @@ void add_info(CommandLine& program) {
     add_view(verb, options->common);
     add_scene_overrides(verb, options->common);
     add_manners(verb, options->common.manners);
-    verb.does([options] { return run(*options); });
+    verb.does([options] { return run_info(*options); });
 }
 
 } // namespace catoptric::cli

@@ -17,7 +17,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kListExamples = R"(Examples:
   catoptric list techniques
   catoptric list techniques parallax      its knobs
   catoptric list devices --json)";
@@ -141,7 +141,7 @@ void add_list(CommandLine& program) {
     };
     const auto options = std::make_shared<Options>();
     Verb& verb = program.add("list", "techniques, scenes, devices or metrics");
-    verb.examples(kExamples);
+    verb.examples(kListExamples);
     verb.argument("WHAT", "techniques, scenes, devices or metrics", options->kind,
                   Verb::Need::required);
     verb.argument("NAME", "of a technique: its knobs", options->name, Verb::Need::optional);

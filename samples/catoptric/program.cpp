@@ -14,7 +14,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kProgramExamples = R"(Examples:
   catoptric compare -o out                     every technique, in one table
   catoptric render --technique parallax -o parallax.png
   catoptric diff a.exr b.exr --max-flip 0.01
@@ -28,11 +28,11 @@ void say_failure(const std::string& name, const std::string& message) {
     if (!message.empty()) say(name + ": " + message);
 }
 
-int run(int argc, char** argv) {
+int run_program_checked(int argc, char** argv) {
     const std::vector<std::string> words(argv, argv + argc);
     CommandLine program("catoptric",
                         "Measures what each way of rendering mirrors costs and gets wrong.",
-                        "catoptric " + app::version() + " (" + app::commit() + ")", kExamples);
+                        "catoptric " + app::version() + " (" + app::commit() + ")", kProgramExamples);
     add_compare(program, words);
     add_render(program);
     add_stress(program, words);
@@ -70,7 +70,7 @@ int run_guarded(const std::string& name, const std::function<int()>& work) {
 }
 
 int run_program(int argc, char** argv) {
-    return run_guarded("catoptric", [&] { return run(argc, argv); });
+    return run_guarded("catoptric", [&] { return run_program_checked(argc, argv); });
 }
 
 } // namespace catoptric::cli

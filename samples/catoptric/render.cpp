@@ -26,7 +26,7 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kRenderExamples = R"(Examples:
   catoptric render --technique parallax -o parallax.png
   catoptric render scene.glb --technique raytrace:samples=16 -o truth.exr
   catoptric render --technique reuse --frames 60 --trace frame.json -o last.png
@@ -40,7 +40,7 @@ A still takes the frames that it needs: one, or with last frame's captures as ma
 or with {n}, {n:3}, %d or %03d in its name there is one of each measured frame, numbered from 1.
 EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
 
-struct Options {
+struct RenderOptions {
     Common common;
     Drawn drawn;
     std::string technique; ///< of the two, checked
@@ -49,20 +49,20 @@ struct Options {
     std::string profile;
 };
 
-bool is_stdout(const Options& options) { return options.output == "-"; }
-bool is_exr(const Options& options) { return options.output.ends_with(".exr"); }
+bool is_stdout(const RenderOptions& options) { return options.output == "-"; }
+bool is_exr(const RenderOptions& options) { return options.output.ends_with(".exr"); }
 
 constexpr int kMostPictures = 100'000; ///< of a sequence
 
 /// A picture, no measurement: nothing asks for times or for a certain number of frames.
-bool is_still(const Options& options) {
+bool is_still(const RenderOptions& options) {
     const Common& common = options.common;
     return !common.animate && !common.frames && !common.warmup && options.trace.empty() &&
            options.profile.empty();
 }
 
 /// Returns the files that pictures are written to; none where the picture goes to stdout.
-std::vector<std::string> pictures_of(const Options& options) {
+std::vector<std::string> pictures_of(const RenderOptions& options) {
     if (is_stdout(options)) return {};
     const std::optional<Sequence> sequence = Sequence::find(options.output);
     if (!sequence) return {options.output};
@@ -76,7 +76,7 @@ std::vector<std::string> pictures_of(const Options& options) {
     return files;
 }
 
-void check_output(const Options& options) {
+void check_output(const RenderOptions& options) {
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a picture has one");
     check_budget(options.common);
@@ -93,7 +93,7 @@ void check_output(const Options& options) {
         if (!file.empty()) check_file_can_be_made(file);
 }
 
-void check_places(const Options& options, const scene::Scene& scene) {
+void check_places(const RenderOptions& options, const scene::Scene& scene) {
     std::vector<std::filesystem::path> outputs;
     if (is_stdout(options) || options.common.manners.json) outputs.push_back(kStdout);
     for (const std::string& file : pictures_of(options)) outputs.emplace_back(file);
@@ -102,7 +102,7 @@ void check_places(const Options& options, const scene::Scene& scene) {
     check_apart(outputs, scene.files);
 }
 
-app::Request make_render_request(const Options& options) {
+app::Request make_render_request(const RenderOptions& options) {
     app::Request request = make_request(options.common);
     request.techniques = {options.technique};
     request.model = options.common.model.value_or(app::Modelling::required);
@@ -136,7 +136,7 @@ std::vector<double> gpu_times(const app::Result& result) {
     return ms;
 }
 
-void describe(const Options& options, const app::Request& request, const app::Result& result) {
+void describe(const RenderOptions& options, const app::Request& request, const app::Result& result) {
     const Manners& manners = options.common.manners;
     const app::Part& part = result.parts.front();
     for (const std::string& what : part.notes) note(manners, part.label + ": " + what);
@@ -164,7 +164,7 @@ void warn_of_nonfinite(const measure::Picture& picture) {
     if (broken > 0) warn(fmt::format("{} pixels are not finite", broken));
 }
 
-int run(const Options& options) {
+int run_render(const RenderOptions& options) {
     const Manners& manners = options.common.manners;
     const app::TechniqueChoice choice = app::parse_technique(options.technique);
     check_output(options);
@@ -204,9 +204,9 @@ int run(const Options& options) {
 } // namespace
 
 void add_render(CommandLine& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RenderOptions>();
     Verb& verb = program.add("render", "one picture by one technique");
-    verb.examples(kExamples);
+    verb.examples(kRenderExamples);
     add_drawn(verb, options->drawn);
     verb.option("-o,--output", "OUT",
                 "OUT.exr, OUT.png, frame-{n:4}.png for one a frame, or - for a PNG on stdout; "
@@ -224,7 +224,7 @@ void add_render(CommandLine& program) {
     add_common(verb, options->common);
     verb.does([options] {
         options->technique = checked(options->drawn, "render");
-        return run(*options);
+        return run_render(*options);
     });
 }
 

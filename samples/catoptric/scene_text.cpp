@@ -10,7 +10,7 @@ namespace catoptric::cli {
 
 namespace {
 
-using Cells = std::vector<std::vector<std::string>>;
+using SceneCells = std::vector<std::vector<std::string>>;
 
 std::string point_text(const dvec3& p) {
     return fmt::format("{:.4g} {:.4g} {:.4g}", p.x, p.y, p.z);
@@ -32,7 +32,7 @@ std::string line(const std::string& name, const std::string& value) {
 }
 
 /// A table under its title; `left`: the first columns that are to the left.
-std::string table(const std::string& title, const Cells& cells) {
+std::string table(const std::string& title, const SceneCells& cells) {
     return cells.size() < 2 ? "" : "\n" + title + "\n" + aligned(cells, 0);
 }
 
@@ -47,9 +47,9 @@ std::string how(const app::MaterialInfo& material) {
     return text.empty() ? "-" : text;
 }
 
-Cells materials(const app::SceneInfo& info) {
+SceneCells materials(const app::SceneInfo& info) {
     constexpr std::size_t kMost = 50;
-    Cells cells{{"material", "is", "objects", "colour", "metallic", "roughness", "F0", "more"}};
+    SceneCells cells{{"material", "is", "objects", "colour", "metallic", "roughness", "F0", "more"}};
     for (const app::MaterialInfo& material : info.materials) {
         if (cells.size() > kMost) {
             cells.push_back({fmt::format("... {} more: --json", info.materials.size() - kMost), "",
@@ -72,8 +72,8 @@ std::string shape_text(const scene::Shape& shape) {
     return text;
 }
 
-Cells mirrors(const app::SceneInfo& info) {
-    Cells cells{{"mirror", "name", "shape", "screen", "reflects", "captured from"}};
+SceneCells mirrors(const app::SceneInfo& info) {
+    SceneCells cells{{"mirror", "name", "shape", "screen", "reflects", "captured from"}};
     for (const app::MirrorInfo& mirror : info.mirrors)
         cells.push_back({std::to_string(mirror.number), printable(mirror.name),
                          shape_text(mirror.shape),
@@ -83,8 +83,8 @@ Cells mirrors(const app::SceneInfo& info) {
     return cells;
 }
 
-Cells lights(const report::SceneFacts& facts) {
-    Cells cells{{"light", "name", "at", "towards", "emits", "area"}};
+SceneCells lights(const report::SceneFacts& facts) {
+    SceneCells cells{{"light", "name", "at", "towards", "emits", "area"}};
     for (const report::LightFacts& light : facts.lights)
         cells.push_back({light.kind, light.name.empty() ? "-" : printable(light.name),
                          light.kind == "directional" ? "-" : point_text(light.position),
@@ -124,9 +124,9 @@ std::string exposure_text(const SceneWords& words) {
     return fmt::format("{:.4g} stops{}", *words.exposure, how);
 }
 
-Cells unsupported(const report::SceneFacts& facts) {
+SceneCells unsupported(const report::SceneFacts& facts) {
     const report::Table table = report::unsupported_table(facts);
-    Cells cells{{"gap", "count", "pixels", "first", "instead"}};
+    SceneCells cells{{"gap", "count", "pixels", "first", "instead"}};
     for (const std::vector<std::string>& row : table.rows) {
         cells.push_back(row);
         cells.back()[3] = printable(cells.back()[3]);

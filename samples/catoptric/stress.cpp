@@ -20,13 +20,13 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kStressExamples = R"(Examples:
   catoptric stress                             every property
   catoptric stress -o out --only N1 C9         two of them
 
 Exit code 1 when a row fails.)";
 
-struct Options {
+struct StressOptions {
     Manners manners;
     std::string folder;
     std::vector<std::string> only;
@@ -49,7 +49,7 @@ std::string table_of(const report::Stress& stress) {
     return aligned(cells, 5);
 }
 
-int run(const Options& options) {
+int run_stress(const StressOptions& options) {
     for (const std::string& id : options.only) stress::find_property(id); // before any work
     if (!options.folder.empty()) {
         const std::filesystem::path folder = options.folder;
@@ -91,11 +91,11 @@ int run(const Options& options) {
 } // namespace
 
 void add_stress(CommandLine& program, std::vector<std::string> command) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<StressOptions>();
     options->command = std::move(command);
     Verb& verb = program.add("stress",
                              "rendering at the extremes: measured values beside thresholds");
-    verb.examples(kExamples);
+    verb.examples(kStressExamples);
     verb.option("-o,--output", "DIR",
                 "folder for stress.json, stress.html, stress.md and pictures of what failed",
                 options->folder);
@@ -107,7 +107,7 @@ void add_stress(CommandLine& program, std::vector<std::string> command) {
     add_device(verb, options->device);
     add_validate(verb, options->device);
     add_manners(verb, options->manners);
-    verb.does([options] { return run(*options); });
+    verb.does([options] { return run_stress(*options); });
 }
 
 } // namespace catoptric::cli
