@@ -118,7 +118,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
 
 void GpuScene::lay_out(const scene::Scene& now) {
     geometry_ = make_geometry(now, space_, Spaces::own);
-    has_own_spaces_ = std::ranges::any_of(
+    has_object_spaces_ = std::ranges::any_of(
         geometry_.ranges, [](const DrawRange& range) { return range.own.has_value(); });
     mirror_objects_ = scene::mirrors(now);
     find_shells(now);
@@ -177,7 +177,7 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
 /// Where vertices in spaces of their own are; an entry an object, one in all if no object has such
 /// a space.
 void GpuScene::fill_placements() {
-    std::vector<shared::Placement> placements(has_own_spaces_ ? geometry_.ranges.size() : 1);
+    std::vector<shared::Placement> placements(has_object_spaces_ ? geometry_.ranges.size() : 1);
     for (std::size_t i = 0; i < placements.size(); ++i) {
         const std::optional<ObjectSpace>& own = geometry_.ranges[i].own;
         if (!own) continue;
@@ -267,7 +267,7 @@ void GpuScene::bind(graph::Commands& commands) const {
 }
 
 gpu::Constants GpuScene::features(std::uint32_t view) const {
-    return {{"own_spaces", has_object_spaces() ? 1u : 0u},
+    return {{"object_spaces", has_object_spaces() ? 1u : 0u},
             {"details", details_.any() ? 1u : 0u},
             {"masks", details_.masks() ? 1u : 0u},
             {"light_kinds", has_light_kinds_ ? 1u : 0u},

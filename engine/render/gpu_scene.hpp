@@ -76,7 +76,7 @@ public:
     /// Cubes that the device keeps in one array.
     std::uint32_t most_cubes() const { return device_.limits().maxImageArrayLayers / 6; }
     /// Whether some object has (DrawRange::own).
-    bool has_object_spaces() const { return has_own_spaces_; }
+    bool has_object_spaces() const { return has_object_spaces_; }
     /// What shaders that show this view are to be built for; what the scene has not got costs
     /// nothing.
     gpu::Constants features(std::uint32_t view = kCameraView) const;
@@ -167,7 +167,7 @@ private:
     scene::Camera camera_; ///< of the last update
     uvec2 size_{0};
     bool complete_ = false; ///< the last update came to its end
-    bool has_own_spaces_ = false;
+    bool has_object_spaces_ = false;
     bool has_light_kinds_ = false; ///< some light has no surface, or two sides
     std::uint32_t shadow_faces_ = 6;
     mutable std::size_t uploads_ = 0;

@@ -8,7 +8,7 @@
 
 layout(local_size_x = TRACE_LOCAL_SIZE) in;
 layout(set = 0, binding = 2, std430) readonly buffer Starts { uvec4 starts[]; };   // weights, place; direction, unused
-layout(set = 0, binding = 3, std430) writeonly buffer RetainedImages { uvec4 leavings[]; }; // point, 0; normal, 0; origin, 0
+layout(set = 0, binding = 3, std430) writeonly buffer Leavings { uvec4 leavings[]; }; // point, 0; normal, 0; origin, 0
 layout(push_constant) uniform Push { uint count; };
 
 void main() {

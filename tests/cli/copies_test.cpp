@@ -68,16 +68,31 @@ std::string objects(bool apart) {
     return text;
 }
 
+/// 100,000 nodes that share one triangle, in one place or side by side.
+Json nodes(bool apart) {
+    Json scene = triangle("corners.bin");
+    scene["nodes"] = Json::array();
+    for (int i = 0; i < 100'000; ++i)
+        scene["nodes"].push_back(
+            {{"mesh", 0}, {"translation", {apart ? i % 316 : 0, apart ? i / 316 : 0, 0}}});
+    return scene;
+}
+
 TEST_F(Cli, ManyObjectsTakeAtMostHalfAGibibyte) {
+    write("corners.bin", corners());
     for (const bool apart : {false, true}) {
         write("many.obj", objects(apart));
-        for (const std::vector<std::string>& words :
-             {std::vector<std::string>{"info", "many.obj"},
-              quick({"render", "many.obj", "--technique", "raytrace", "-o", "x.png"})}) {
-            const test::Ended ended = test::run_process(start(words));
-            ASSERT_EQ(ended.exit_code, 0) << ended.err;
-            EXPECT_LE(ended.peak_bytes, 512U << 20) << words[0] << ", apart: " << apart;
-        }
+        write("many.gltf", nodes(apart).dump());
+        for (const std::string file : {"many.obj", "many.gltf"})
+            for (const std::vector<std::string>& words :
+                 {std::vector<std::string>{"info", file},
+                  quick({"render", file, "--technique", "raytrace", "-o", "x.png"}),
+                  quick({"render", file, "--technique", "hybrid", "-o", "x.png"})}) {
+                const test::Ended ended = test::run_process(start(words));
+                ASSERT_EQ(ended.exit_code, 0) << ended.err;
+                EXPECT_LE(ended.peak_bytes, 512U << 20)
+                    << words[0] << " " << file << " " << words.back() << ", apart: " << apart;
+            }
     }
 }
 

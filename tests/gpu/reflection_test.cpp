@@ -54,7 +54,7 @@ TEST(Reflection, FindsTheBindingsOfTheRayTracer) {
         constants(found),
         (std::vector<std::string>{"bvh_in_storage", "details", "environment_kind", "exact_spheres",
                                   "fixed_offset", "groups_in_order", "light_kinds", "masks",
-                                  "max_depth", "one_light", "orthographic", "own_spaces",
+                                  "max_depth", "object_spaces", "one_light", "orthographic",
                                   "pixels_in_rows", "shadow", "texels_in_storage", "without"}));
 }
 

@@ -52,7 +52,7 @@ struct Live {
 
 TEST(Resident, WritesWhatDiffersAndNothingElse) {
     Live live;
-    EXPECT_EQ(live.update(), 11u) << "all lists but the empty ones of what moves and of the sky";
+    EXPECT_EQ(live.update(), 12u) << "all lists but the empty ones of what moves and of the sky";
     EXPECT_EQ(live.update(), 0u);
     live.camera.eye.x += .1;
     EXPECT_EQ(live.update(), 1u) << "views";

@@ -11,10 +11,10 @@ constexpr uvec2 kSize{64, 64};
 TEST(Auto, DrawsEachMirrorWithWhatSuitsItAndSaysWhy) {
     const scene::Scene hall = test::hall();
     const app::Part part = test::render(hall, "auto", kSize, 3),
-                    plan = test::render(hall, "2,3=planar *=hybrid", kSize, 3);
+                    plan = test::render(hall, "2,3=planar *=march", kSize, 3);
     EXPECT_TRUE(test::same_bytes(part.hdr, plan.hdr));
     ASSERT_EQ(part.plan.size(), 3u);
-    const std::pair<const char*, const char*> wanted[] = {{"hybrid", "hybrid: a sphere, "},
+    const std::pair<const char*, const char*> wanted[] = {{"march", "march: a sphere, "},
                                                           {"planar", "planar: flat faces, "},
                                                           {"planar", "planar: flat, "}};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -42,12 +42,12 @@ TEST(Auto, IsSuggestedAnewAfterAnEditAndACut) {
     session.change(scene::paint(block, 0)); // no mirror any more: the panel has another number
     const std::vector<PlanEntry> plan = session.frame(spec).read().plan;
     ASSERT_EQ(plan.size(), 2u);
-    EXPECT_EQ(plan[0].technique, "hybrid");
+    EXPECT_EQ(plan[0].technique, "march");
     EXPECT_EQ(plan[1].technique, "planar");
     app::FrameSpec away = spec; // a corner of the panel, in which the ball is not
     away.camera.eye = {.9, .9, 1.2}, away.camera.target = {.9, 1, 1.9};
     away.camera.vertical_fov_degrees = 10;
-    EXPECT_EQ(session.frame(away).read().plan[0].technique, "hybrid")
+    EXPECT_EQ(session.frame(away).read().plan[0].technique, "march")
         << "the sequence goes on as it began";
     session.forget();
     EXPECT_EQ(session.frame(away).read().plan[0].technique, "reuse");
@@ -59,7 +59,7 @@ TEST(Auto, StaysWhatItWasWhereItsSequenceIsSetAside) {
     const scene::Scene hall = test::hall();
     app::Session session(test::engine(), hall);
     app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kSize};
-    EXPECT_EQ(session.frame(spec).read().plan[0].technique, "hybrid");
+    EXPECT_EQ(session.frame(spec).read().plan[0].technique, "march");
     app::Sequence sequence = session.suspend();
     app::FrameSpec other = spec;
     other.techniques = {"reuse:face=16"};
@@ -68,7 +68,7 @@ TEST(Auto, StaysWhatItWasWhereItsSequenceIsSetAside) {
     session.resume(std::move(sequence));
     spec.camera.eye = {.9, .9, 1.2}, spec.camera.target = {.9, 1, 1.9}; // the ball is not in it
     spec.camera.vertical_fov_degrees = 10;
-    EXPECT_EQ(session.frame(spec).read().plan[0].technique, "hybrid");
+    EXPECT_EQ(session.frame(spec).read().plan[0].technique, "march");
 }
 
 } // namespace

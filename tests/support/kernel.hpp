@@ -94,7 +94,7 @@ private:
                                 const std::vector<vec4>& lows, std::uint32_t occluded) {
         gpu::Constants constants = rules;
         const bool object_spaces = hierarchy_.nodes[2].x > 0; // bvh/tlas.hpp
-        constants.emplace_back("own_spaces", object_spaces ? 1u : 0u);
+        constants.emplace_back("object_spaces", object_spaces ? 1u : 0u);
         constants.emplace_back("exact_spheres", has_balls() ? 1u : 0u);
         upload(bench().device, lows_, "lows",
                lows.empty() ? std::vector<vec4>(rays.size(), vec4(0)) : lows,

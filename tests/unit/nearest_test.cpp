@@ -75,7 +75,7 @@ TEST(Nearest, OfThingsInTheirOwnSpacesIsThatOfTheNearest) {
                                                             render::Spaces::own);
     render::Nearest nearest;
     nearest.lay_out(geometry);
-    std::size_t in_own_spaces = 0;
+    std::size_t in_object_spaces = 0;
     for (int k = 0; k < 200; ++k) {
         const render::DrawRange& near = geometry.ranges[numbers.below(geometry.ranges.size())];
         const dvec3 point = dvec3(near.bounds.centre()) + .02 * dvec3(numbers.in_cube());
@@ -87,12 +87,12 @@ TEST(Nearest, OfThingsInTheirOwnSpacesIsThatOfTheNearest) {
                 [&](std::size_t other, const render::DrawRange&) { return other != i; });
             if (alone < wanted) wanted = alone, which = i;
         }
-        in_own_spaces += geometry.ranges[which].own.has_value();
+        in_object_spaces += geometry.ranges[which].own.has_value();
         ASSERT_EQ(nearest.distance(geometry, point,
                                    [](std::size_t, const render::DrawRange&) { return false; }),
                   wanted);
     }
-    EXPECT_GT(in_own_spaces, 100u);
+    EXPECT_GT(in_object_spaces, 100u);
 }
 
 TEST(Nearest, OfNothingIsInfinity) {
