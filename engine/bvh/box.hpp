@@ -2,33 +2,38 @@
 
 #include "bvh/bvh.hpp"
 
-/// Boxes of a hierarchy, as those who build and refit it make them.
+/// Bounding boxes that the build and the refit of a hierarchy share.
 namespace catoptric::bvh {
 
 using Box = Bounds<float>;
 
-inline constexpr double kTraversalCost = 2; // of a node, in triangle tests
+inline constexpr double kTraversalCost = 2; // cost of visiting a node, in triangle tests
 
-/// In double, where the extent of finite floats cannot overflow.
+/// Returns the surface area of a box. Computes in double, where the extents of finite floats cannot
+/// overflow.
 inline double area(const Box& box) { return Bounds<double>{dvec3(box.lo), dvec3(box.hi)}.area(); }
 
-/// What the walk's slack lacks for a triangle that reaches out of the core: its distance from the
-/// middle, of which box_ray (shaders/lib/math/ray.glsl) takes the same part for rays that start in
+/// Returns by how much the box of a triangle outside the core must grow on each side. The walk
+/// widens every box by a slack that box_ray (shaders/lib/math/ray.glsl) derives from the size of
+/// the core. That slack is too small for a triangle that reaches out of the core. This pad adds the
+/// same fraction of the triangle's distance from the middle of the core. Returns 0 for a box inside
 /// the core.
 inline float pad_of(const Box& box, const Box& core) {
     const bool inside = all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
     if (inside) return 0;
     const vec3 middle = core.lo * 0.5f + core.hi * 0.5f;
     return 2 * f32::gamma_bound(16) *
-           f32::largest(max(abs(box.lo - middle), abs(box.hi - middle))); // twice: roundings here
+           // Twice, for the roundings of this function.
+           f32::largest(max(abs(box.lo - middle), abs(box.hi - middle)));
 }
 
-/// Wider all around, as far as finite numbers go.
+/// Returns the box, grown by `pad` on each side and clamped to the range of finite floats.
 inline Box padded(const Box& box, float pad) {
     return {max(box.lo - pad, vec3(-f32::kLargest)), min(box.hi + pad, vec3(f32::kLargest))};
 }
 
-/// Of a triangle, or of a ball with what its test's roundings reach out of it.
+/// Returns the bounds of a triangle. If `flags` has kBall, returns the bounds of a sphere, grown by
+/// the rounding errors of the sphere test.
 inline Box box_of(const vec3& a, const vec3& b, const vec3& c, std::uint32_t flags) {
     Box box;
     if ((flags & kBall) != 0) {

@@ -13,10 +13,10 @@ namespace catoptric::bvh {
 namespace {
 
 constexpr std::uint32_t kMaxTriangles = f32::kBvhIndexMask;
-constexpr std::size_t kRunCount = 8192; // triangles that a thread reads at once
+constexpr std::size_t kRunCount = 8192; // triangles that one task of a thread reads
 
-/// Writes references of those that are finite, the first of which has number `first`. `core` is
-/// empty where all lies in it. Returns what was written.
+/// Writes a reference to each finite triangle. The first triangle has the number `first`. An empty
+/// `core` means that all triangles lie in the core. Returns the part that the references make up.
 Part refer(std::span<const Triangle> triangles, std::size_t first, const Box& core,
            Reference* into) {
     Part part;
@@ -32,7 +32,8 @@ Part refer(std::span<const Triangle> triangles, std::size_t first, const Box& co
     return part;
 }
 
-/// Of all that are finite.
+/// Writes references to all finite triangles, on several threads. Returns the part that they make
+/// up.
 Part refer_all(std::span<const Triangle> triangles, const Box& core, References into,
                unsigned threads) {
     std::vector<Part> runs((triangles.size() + kRunCount - 1) / kRunCount);
@@ -43,7 +44,7 @@ Part refer_all(std::span<const Triangle> triangles, const Box& core, References 
     });
     Part all;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        if (all.count < i * kRunCount) // some before were not finite
+        if (all.count < i * kRunCount) // an earlier run had triangles that are not finite
             std::copy_n(&into[i * kRunCount], runs[i].count, &into[all.count]);
         all.box.add(runs[i].box), all.centres.add(runs[i].centres), all.count += runs[i].count;
     }
@@ -62,7 +63,7 @@ Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, Copies
     check(triangles.size() <= kMaxTriangles, Failure::exhausted, "bounding volume hierarchy wants ",
           triangles.size(), " triangles, its words hold ", kMaxTriangles);
     if (threads == 0) threads = all_threads();
-    // Of references that nobody wrote nothing is read.
+    // The memory stays uninitialised because each reference is written before it is read.
     const auto memory = std::make_unique_for_overwrite<Reference[]>(2 * triangles.size());
     const References references(memory.get(), 2 * triangles.size());
     advise_large_pages(references.data(), references.size_bytes());

@@ -11,97 +11,109 @@ namespace catoptric::bvh {
 /// One triangle in scene units.
 struct Triangle {
     vec3 a{0}, b{0}, c{0};
-    std::uint32_t object = 0; ///< below 2^29; comes back with a hit
+    std::uint32_t object = 0; ///< below 2^29; a hit returns it
     std::uint32_t flags = 0;  ///< kHidden | kShadowless | kSphere | kOneSided | kMasked | kBall
 };
 
 inline constexpr std::uint32_t kHidden = f32::kBvhHidden;         ///< camera rays pass through
 inline constexpr std::uint32_t kShadowless = f32::kBvhShadowless; ///< shadow rays pass through
 inline constexpr std::uint32_t kSphere = f32::kBvhSphere;         ///< stands for an exact sphere
-inline constexpr std::uint32_t kOneSided = f32::kBvhOneSided; ///< where skipped: met in front alone
-inline constexpr std::uint32_t kMasked = f32::kBvhMasked;     ///< parts of it may be cut out
-inline constexpr std::uint32_t kBall = f32::kBvhBall;         ///< no triangle: see `sphere`
+/// Rays that skip this flag hit the triangle from the front only.
+inline constexpr std::uint32_t kOneSided = f32::kBvhOneSided;
+inline constexpr std::uint32_t kMasked = f32::kBvhMasked; ///< parts of it may be cut out
+/// A sphere in place of a triangle: see `sphere`.
+inline constexpr std::uint32_t kBall = f32::kBvhBall;
 inline constexpr std::uint32_t kMaxDepth = f32::kBvhMaxDepth;
 inline constexpr std::uint32_t kMaxLeaf = 4; ///< triangles in a leaf
 
-/// A sphere in a triangle's place, for walks that know spheres (TRACE_BALLS of
-/// shaders/lib/trace.glsl).
+/// Returns a sphere that takes the place of a triangle. Only walks with TRACE_BALLS set
+/// (shaders/lib/trace.glsl) can intersect spheres.
 inline Triangle sphere(const vec3& centre, float radius, std::uint32_t object,
                        std::uint32_t flags) {
     return {centre, vec3(radius, 0, 0), vec3(0), object, flags | kBall};
 }
 
-/// The two arrays that the device reads as they stand.
+/// The two arrays of a hierarchy, in the layout that the device reads.
 ///
-/// `nodes`, four vec4 each; w is a word's bits (see below):
+/// `nodes` has four vec4 a node. Each w holds the bits of a word (see below):
 ///   node 0, the header:  lo.xyz of the core, number of kept triangles
-///                        hi.xyz of the core, number of nodes with the header
-///                        two times zero
-///   node 1, the root, and all others hold their two children's boxes:
+///                        hi.xyz of the core, number of nodes including the header
+///                        two vec4 of zeros
+///   node 1, the root, and all other nodes hold the boxes of their two children:
 ///                        lo.xyz of child 0, word of child 0
 ///                        hi.xyz of child 0, word of child 1
 ///                        lo.xyz of child 1, 0
 ///                        hi.xyz of child 1, 0
 ///   An absent child has the empty box (lo = +inf, hi = -inf) and the word kBvhNothing.
 ///
-/// `triangles`, three vec4 each, in the order of the leaves:
-///                        a.xyz, object index               (of a ball: its centre)
-///                        b.xyz, original triangle number   (its radius, 0, 0)
+/// `triangles` has three vec4 a triangle, in the order of the leaves:
+///                        a.xyz, object index               (of a sphere: its centre)
+///                        b.xyz, original triangle number   (of a sphere: its radius, 0, 0)
 ///                        c.xyz, flags
 ///
-/// Words. Bit 31 is clear, bit 30 set and bit 29 clear or followed by clear ones, so that no word,
-/// read as a float, is denormal, infinite or NaN and none is changed on its way. A child's word has
-/// its triangle count in bits 27..29 and its first triangle's place in bits 0..26; count 0 means an
-/// inner node, and then bits 0..26 are that node's place (0: nothing there). The other words have
-/// their number in bits 0..28.
+/// Words. Bit 31 is clear and bit 30 is set. Bit 29 is clear, or the bits after it are clear. Read
+/// as a float, a word is therefore never denormal, infinite or NaN, and no device changes its bits.
+/// A child's word holds its triangle count in bits 27..29 and the place of its first triangle in
+/// bits 0..26. Count 0 means an inner node, whose place is in bits 0..26 (0: no child). All other
+/// words hold their number in bits 0..28.
 struct Bvh {
     std::vector<vec4> nodes;
     std::vector<vec4> triangles;
     std::size_t dropped = 0; ///< triangles left out because a coordinate is not finite
-    std::size_t copies = 0;  ///< left out as copies of one with a lower number (see build)
-    double cost = 0; ///< what the function of that name says; `refit` keeps it by what it changes
+    std::size_t copies = 0; ///< triangles left out as copies of one with a lower number (see build)
+    double cost = 0;        ///< result of the function `cost`; `refit` updates it incrementally
 };
 
-/// Binned surface area heuristic; where a path would grow deeper than kMaxDepth, halves by number.
-/// Of more than kMaxLeaf triangles around one centre, those with the same corners, object and flags
-/// count as one, the lowest number: walks past thousands of copies would not end in time.
-/// Same input, same output. O(n log^2 n) whatever the input, .4 s of one thread for a million
-/// triangles. `core`: where most of it is; the walk widens all boxes by roundings of that size.
-/// Boxes of triangles that lie farther out are wider themselves, so that one of them does not cost
-/// every ray. Empty: all is. `leaf`: triangles in a leaf, 1 to kMaxLeaf. `threads`: at most so
-/// many, on which the tree does not depend; 0: as many as the machine runs at once. Throws
-/// `Failure::exhausted` above 2^27 - 1 triangles.
+/// Builds a hierarchy with the binned surface area heuristic. Where a path would grow deeper than
+/// kMaxDepth, halves the triangles by number instead. The same input always gives the same tree.
+///
+/// Copies: if more than kMaxLeaf triangles share a centre, those with equal corners, object and
+/// flags count as one. The copy with the lowest number stays. Without this rule, walks past
+/// thousands of copies would take too long.
+///
+/// Costs O(n log^2 n) for any input: .4 s on one thread for a million triangles.
+///
+/// `core`: the bounds of most of the scene; empty: of all of it. The walk widens all boxes by
+/// roundings of that size. The boxes of triangles farther out are wider themselves. A single
+/// distant triangle therefore does not slow down every ray.
+/// `leaf`: the most triangles in a leaf, 1 to kMaxLeaf.
+/// `threads`: the most threads to use; 0: as many as the machine runs at once. The tree does not
+/// depend on it.
+/// Throws `Failure::exhausted` above 2^27 - 1 triangles.
 Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core = {},
           std::uint32_t leaf = kMaxLeaf, unsigned threads = 0);
 
-/// From the first to before `end`.
+/// A half-open range of indices: `first` is included, `end` is not.
 struct Run {
     std::size_t first = 0, end = 0;
     bool operator==(const Run&) const = default;
 };
 
-/// What of a tree is to be looked at when some objects move.
+/// The parts of a tree that a refit must visit when some objects move.
 struct Reach {
-    std::vector<std::uint32_t> triangles; ///< places in the order of the leaves, rising
-    std::vector<std::uint32_t> boxes;     ///< 2 * node + side, those below before those above
+    std::vector<std::uint32_t> triangles; ///< places in the order of the leaves, ascending
+    std::vector<std::uint32_t> boxes; ///< 2 * node + side; descendants come before their ancestors
 };
 
-/// Triangles of the objects, by number whether they may move, and the boxes that hold some. O(n).
+/// Returns the triangles of the moving objects and the boxes that hold some of them. `objects`: by
+/// object index, non-zero for an object that may move. Costs O(n).
 Reach reach_of(const Bvh& bvh, std::span<const char> objects);
 
-/// The same tree over the same triangles elsewhere: `triangles` as they were given to `build`, in
-/// the same order, moved. `reach`: of all objects that may have moved; null: all have. Returns the
-/// run of Bvh::triangles outside of which none did. What a ray meets does not depend on whether a
-/// tree was built or refitted. O(what is reached), a tenth of a build for all. Throws
-/// `Failure::internal` where a triangle that was finite is not.
+/// Updates the boxes of a tree after its triangles have moved. The structure of the tree stays.
+/// `triangles`: the list given to `build`, in the same order, with the new positions.
+/// `reach`: the parts of all objects that may have moved; null: all objects may have moved.
+/// Returns the range of Bvh::triangles that holds every changed element. A refitted tree and a
+/// rebuilt tree give the same hits. Costs O(size of `reach`); refitting everything costs a tenth of
+/// a build. Throws `Failure::internal` if a triangle that was finite no longer is.
 Run refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
           const Reach* reach = nullptr);
 
-/// What the surface area heuristic expects of a ray's walk, times the area of the whole: rises as
-/// the triangles of a refitted tree move away from their neighbours. O(n).
+/// Returns the walk cost of a ray that the surface area heuristic expects, times the area of the
+/// whole tree. The value rises as the triangles of a refitted tree move away from their neighbours.
+/// Costs O(n).
 double cost(const Bvh& bvh);
 
-std::size_t node_count(const Bvh& bvh);     ///< with the header
-std::size_t triangle_count(const Bvh& bvh); ///< kept ones
+std::size_t node_count(const Bvh& bvh);     ///< including the header
+std::size_t triangle_count(const Bvh& bvh); ///< of the triangles that the build kept
 
 } // namespace catoptric::bvh

@@ -8,7 +8,8 @@
 #include <optional>
 #include <type_traits>
 
-/// The oracle of shaders/lib/trace.glsl: the same walk over the same arrays, in float or double.
+/// The CPU reference of shaders/lib/trace.glsl: the same walk over the same arrays, in float or
+/// double.
 namespace catoptric::bvh {
 
 template <typename Real>
@@ -16,19 +17,21 @@ using Vec = glm::vec<3, Real>;
 template <typename Real>
 using Ray = std::conditional_t<std::is_same_v<Real, float>, f32::Ray, f64::Ray>;
 
-/// What a ray met first. Of triangles at the same t the lowest original number wins.
+/// The first intersection of a ray. If triangles tie at the same t, the lowest original number
+/// wins.
 template <typename Real>
 struct Hit {
     Real t = 0;
     Vec<Real> barycentric{0};   ///< weights of a, b, c
     std::uint32_t triangle = 0; ///< original number
     std::uint32_t object = 0;
-    std::uint32_t place = 0;  ///< in Bvh::triangles
-    std::uint32_t inside = 0; ///< record of the thing in whose own space it lies; 0: none
+    std::uint32_t place = 0; ///< index of the triangle in Bvh::triangles
+    /// Record of the instance in whose object space the triangle lies; 0: none.
+    std::uint32_t inside = 0;
     friend bool operator==(const Hit&, const Hit&) = default;
 };
 
-/// Counts node visits and triangle tests.
+/// Counters of node visits and triangle tests.
 struct Steps {
     std::size_t nodes = 0;
     std::size_t triangles = 0;
@@ -52,7 +55,7 @@ Vec<Real> corner(const vec4& texel) {
 template <typename Real>
 using Place = std::conditional_t<std::is_same_v<Real, float>, f32::Place, f64::Place>;
 
-/// What the record at a node says (two_level.hpp).
+/// Returns the position and axes that an instance's record stores (see tlas.hpp).
 template <typename Real>
 Place<Real> place_at(const Bvh& bvh, std::uint32_t record) {
     const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
@@ -61,18 +64,18 @@ Place<Real> place_at(const Bvh& bvh, std::uint32_t record) {
             corner<Real>(texel[3]), corner<Real>(texel[7])};
 }
 
-/// The best hit so far, and what one triangle does to it.
+/// The closest hit so far, and the state that a triangle test needs.
 template <typename Real>
 struct Search {
     const Bvh& bvh;
-    Ray<Real> ray; ///< as the tree that is walked sees it
-    Real t_max;    ///< excluded; shrinks to the best hit
+    Ray<Real> ray; ///< in the space of the tree that is being walked
+    Real t_max;    ///< exclusive; shrinks to the closest hit
     std::uint32_t skipped_flags;
     std::optional<Hit<Real>> best{};
     decltype(ray_shear(Vec<Real>{})) shear = ray_shear(ray.direction);
     std::uint32_t record = 0;
 
-    /// Into the tree of a record, or back (0).
+    /// Continues in the tree of a record, or returns to the tree above (0).
     void enter(std::uint32_t into, const Ray<Real>& as_it_sees_it) {
         record = into, ray = as_it_sees_it;
         shear = ray_shear(ray.direction);
@@ -179,9 +182,10 @@ std::optional<Hit<Real>> walk(const Bvh& bvh, const Ray<Real>& ray, const Vec<Re
 
 } // namespace detail
 
-/// The first triangle that the ray meets at a t in (0, t_max); a ray that is not finite misses.
-/// Triangles with a flag of `skipped` are passed by (kOneSided: from behind alone); no ray sees the
-/// triangle it leaves. `low`: what the ray's origin lacks as a sum of two numbers.
+/// Returns the first triangle that the ray meets at a t in (0, t_max). A ray that is not finite
+/// misses. Skips triangles that have a flag of `skipped`; kOneSided skips hits from behind only. A
+/// ray never hits the triangle that it leaves. `low`: the rounding error of the ray's origin, so
+/// that origin + low is the exact start.
 template <typename Real>
 std::optional<Hit<Real>> closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
                                      std::uint32_t skipped = 0, Steps* steps = nullptr,
@@ -189,14 +193,15 @@ std::optional<Hit<Real>> closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real 
     return detail::walk<Real>(bvh, ray, low, t_max, skipped, false, steps);
 }
 
-/// Whether some triangle is met at a t in (0, t_max).
+/// Returns whether the ray meets any triangle at a t in (0, t_max).
 template <typename Real>
 bool any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t skipped = 0,
              Steps* steps = nullptr, const Vec<Real>& low = Vec<Real>(0)) {
     return detail::walk<Real>(bvh, ray, low, t_max, skipped, true, steps).has_value();
 }
 
-/// `closest_hit` without the tree, where nothing has a space of its own: tests every triangle.
+/// Returns the same as `closest_hit`, by testing every triangle. Valid only for hierarchies without
+/// instances.
 template <typename Real>
 std::optional<Hit<Real>> brute_force(const Bvh& bvh, const Ray<Real>& ray, Real t_max,
                                      std::uint32_t skipped = 0) {

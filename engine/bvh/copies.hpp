@@ -4,15 +4,15 @@
 
 namespace catoptric::bvh {
 
-/// Which triangles with the same corners and flags count as one where many lie in one place.
+/// Which triangles with equal corners and flags count as copies where many share a centre.
 enum class Copies {
-    of_object, ///< those of one object, as `build` does
-    of_all     ///< those of all objects, but for kMasked and kSphere ones, which objects tell apart
+    of_object, ///< triangles of the same object, as in `build`
+    of_all     ///< triangles of all objects, except kMasked and kSphere ones, whose object matters
 };
 
-/// As `build` of bvh/bvh.hpp. Of several copies the lowest number is kept, which is the one that a
-/// ray meets. A tree that left out copies of all objects must not be refitted when one of these
-/// moves.
+/// Builds a hierarchy as `build` of bvh/bvh.hpp does. Of several copies, the lowest number stays,
+/// because that is the one that a ray hits. Do not refit a tree that left out copies across objects
+/// once one of these objects moves.
 Bvh build(std::span<const Triangle> triangles, const Bounds<float>& core, Copies copies,
           std::uint32_t leaf = kMaxLeaf, unsigned threads = 0);
 

@@ -13,7 +13,7 @@ Box bounds_of(const vec4* stored) {
     return box_of(vec3(stored[0]), vec3(stored[1]), vec3(stored[2]), number_of(stored[2].w));
 }
 
-/// Box of what a child's word stands for, from corners and nodes below it.
+/// Returns the bounds of a child, from the corners and nodes below it.
 Box child_bounds(const Bvh& bvh, std::uint32_t child, const Box& core) {
     Box box;
     if (f32::bvh_is_inner(child)) {
@@ -29,19 +29,19 @@ Box child_bounds(const Bvh& bvh, std::uint32_t child, const Box& core) {
     return box;
 }
 
-/// Of one child: a node's two add up.
+/// Returns the cost of one child. The cost of a node is the sum over its two children.
 double cost_of_child(std::uint32_t child, const Box& box) {
     return area(box) *
            (f32::bvh_is_inner(child) ? kTraversalCost : static_cast<double>(f32::bvh_count(child)));
 }
 
-/// A zero that changes its sign is another.
+/// Compares bits, because 0 and -0 count as different here.
 bool same_bits(const vec3& a, const vec3& b) {
     return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
 }
 
-/// Puts the triangle at `place`, in the order of the leaves, where it is now. Whether it stood
-/// elsewhere.
+/// Writes the new corners of the triangle at `place`, in the order of the leaves. Returns whether
+/// they changed.
 bool move(Bvh& bvh, std::size_t place, std::span<const Triangle> triangles) {
     vec4* texel = &bvh.triangles[3 * place];
     const std::size_t number = number_of(texel[1].w);
@@ -85,7 +85,7 @@ Reach reach_of(const Bvh& bvh, std::span<const char> objects) {
         const auto first = moves.begin() + f32::bvh_index(child);
         return std::any_of(first, first + f32::bvh_count(child), [](char c) { return c != 0; });
     };
-    // A node comes before what is below it.
+    // Nodes precede their descendants, so the loop runs backwards.
     for (auto node = static_cast<std::uint32_t>(node_count(bvh)); node-- > 1;) {
         for (std::uint32_t side = 0; side < 2; ++side) {
             if (!is_reached(bits(bvh.nodes[4 * std::size_t{node} + side].w))) continue;
@@ -111,7 +111,7 @@ Run refit(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& co
     if (slack.empty())
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3)
             slack.add(bounds_of(&bvh.triangles[i]));
-    // How much boxes of what lies far out are wider depends on where the rest is.
+    // The padding of far triangles depends on the core, so a new core changes every box.
     if (reach && vec3(bvh.nodes[0]) == slack.lo && vec3(bvh.nodes[1]) == slack.hi)
         for (const std::uint32_t place : reach->boxes) move_box(bvh, place, slack);
     else

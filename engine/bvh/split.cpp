@@ -11,8 +11,7 @@ namespace {
 
 using Integers = std::int32_t __attribute__((vector_size(16)));
 
-/// References from one that is looked at to one that is wanted soon: processors do not look ahead
-/// across pages by themselves.
+/// Distance of the prefetch, in references. Processors do not prefetch across pages by themselves.
 constexpr std::size_t kAhead = 24;
 
 double cost_of(const Extent& extent, std::size_t count) {
@@ -35,7 +34,7 @@ Binning::Binning(const Extent& centres)
 void Bins::add(std::span<const Reference> references, const Binning& binning) {
     for (const Reference& r : references) {
         __builtin_prefetch(&r + kAhead);
-        // The last bin takes what is no number, too.
+        // The minimum also sends NaN to the last bin.
         const Integers bin = __builtin_convertvector(
             smaller(all_lanes(kBinCount - 1), binning.place(r.centre())), Integers);
         for (int axis = 0; axis < 3; ++axis) {
@@ -84,7 +83,7 @@ void Split::scatter(std::span<const Reference> references, const Binning& binnin
     for (const Reference& r : references) {
         __builtin_prefetch(&r + kAhead);
         const Lanes centre = r.centre();
-        // No branch, which nobody could foresee, and no sum by way of memory.
+        // Without a branch, because no predictor could foresee it. Without sums in memory, too.
         const bool is_right = !((centre[k] - lo) * bins_per_unit < end);
         *(is_right ? right : left) = r;
         right += is_right, left += !is_right;
@@ -100,7 +99,7 @@ std::optional<Split> best_split(const Bins& bins, std::size_t most) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto& extents = bins.extents_[axis];
         const auto& counts = bins.counts_[axis];
-        std::array<double, kBinCount> right_cost; // of bins i and above
+        std::array<double, kBinCount> right_cost; // of bins i to kBinCount - 1
         std::array<std::size_t, kBinCount> right_count;
         Extent right;
         std::size_t count = 0;

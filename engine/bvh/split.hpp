@@ -8,27 +8,27 @@
 #include <array>
 #include <optional>
 
-/// How a node's triangles are divided between its children.
+/// How the builder divides the triangles of a node between its children.
 namespace catoptric::bvh {
 
 /// A triangle while the tree is being built.
 struct Reference {
-    Lanes lo; ///< of its box; the fourth is the triangle's number as a word
+    Lanes lo; ///< low corner of the box; the fourth element is the triangle's number as a word
     Lanes hi;
 
     std::uint32_t triangle() const { return number_of(lo[3]); }
-    /// Of its box; the sum itself may overflow.
+    /// Returns the centre of the box. Halves before adding, because the sum itself may overflow.
     Lanes centre() const { return lo * .5f + hi * .5f; }
     Extent extent() const { return {lo, hi}; }
 };
 
 using References = std::span<Reference>;
 
-/// Triangles that a subtree is made of.
+/// The references below a node.
 struct Part {
-    std::size_t first = 0, count = 0; ///< among all references
-    bool in_second = false;           ///< of the two buffers
-    bool is_heap = false;             ///< all centres are one; no copies, and in order of number
+    std::size_t first = 0, count = 0; ///< place among all references
+    bool in_second = false;           ///< lies in the second of the two buffers
+    bool is_heap = false; ///< all centres are equal, copies are gone, and the order is by number
     Extent box, centres;
 
     void add(const Reference& r) { box.add(r.extent()), centres.add(r.centre()), ++count; }
@@ -36,25 +36,26 @@ struct Part {
 
 inline constexpr int kBinCount = 16;
 
-/// Maps centres to bins along each axis of the centres' bounds.
+/// A map from centres to bins along each axis of the centres' bounds.
 struct Binning {
     Lanes lo, bins_per_unit;
 
     explicit Binning(const Extent& centres);
-    /// In units of bins, from 0 to kBinCount with its end. Not finite where bounds are too small or
-    /// too large for a float's quotient: then all are in one bin.
+    /// Returns the position in units of bins, 0 to kBinCount inclusive. The result is not finite if
+    /// the bounds are too small or too large for a float quotient. In that case all references go
+    /// to one bin.
     Lanes place(Lanes centre) const { return (centre - lo) * bins_per_unit; }
 };
 
 struct Split;
 
-/// What is in the bins of each axis.
+/// The contents of the bins of each axis.
 class Bins {
 public:
     void add(std::span<const Reference> references, const Binning& binning);
     void add(const Bins& other);
     std::size_t left_count(const Split& split) const;
-    /// Boxes of the sides.
+    /// Returns the bounds of both sides.
     std::array<Extent, 2> extents(const Split& split) const;
 
 private:
@@ -63,46 +64,49 @@ private:
     std::array<std::array<std::uint32_t, kBinCount>, 3> counts_{};
 };
 
-/// A plane between bins.
+/// A plane between two bins.
 struct Split {
     int axis;
-    int first_right; ///< bins from here on go right
+    int first_right; ///< the first bin on the right side
 
-    /// Copies each side's references, in their order, to where `to` says; adds their centres.
+    /// Copies the references of each side, in order, to the addresses in `to`. Adds their centres
+    /// to `centres`.
     void scatter(std::span<const Reference> references, const Binning& binning,
                  std::array<Reference*, 2> to, std::array<Extent, 2>& centres) const;
 };
 
 using Sides = std::array<Part, 2>;
 
-/// What a part becomes, in the other buffer, with bounds of the centres on each side.
+/// Returns the two parts that a split makes, in the other buffer. `centres`: bounds of the centres
+/// on each side.
 Sides sides_of(const Part& part, const Bins& bins, const Split& split,
                const std::array<Extent, 2>& centres);
 
-/// The cheapest of the planes between the bins, neither side with more than `most` triangles; none
-/// where one bin holds all.
+/// Returns the cheapest plane between bins that leaves at most `most` triangles on each side.
+/// Returns nothing if there is none, as when one bin holds all references.
 std::optional<Split> best_split(const Bins& bins, std::size_t most);
 
-/// References that `sweep` looks at, at most.
+/// The most references that `sweep` accepts.
 inline constexpr std::size_t kSweepCount = 8;
 
-/// The cheapest of all divisions along an axis.
+/// The cheapest way to cut a list of references in two along an axis.
 struct Division {
-    double cost;        ///< sum over the sides of half the area times count
-    std::size_t middle; ///< the first on the right
+    double cost;        ///< sum over the sides of half area times count
+    std::size_t middle; ///< index of the first reference on the right
 };
 
-/// Sorts references by centre, then number, along the axis along which their cheapest division is;
-/// none where a side would have more than `most`. At most kSweepCount of them.
+/// Sorts references by centre, then by number, along the axis with the cheapest division, and
+/// returns that division. Returns nothing if one side would always have more than `most`. Accepts
+/// at most kSweepCount references.
 std::optional<Division> sweep(References references, std::size_t most);
 
-/// Puts the half with the smaller centres along the longest axis of their bounds first; by number
-/// where they tie.
+/// Moves the half with the smaller centres, along the longest axis of their bounds, to the front.
+/// Breaks ties by number. Returns the index of the first reference of the other half.
 std::size_t halve(References references, const Extent& centres);
 
-/// One reference of each triangle, the lowest number, in order of number: where more lie around one
-/// centre than a leaf holds, a ray would have to look at all copies, since all are at the same t,
-/// and the lowest number wins.
+/// Keeps one reference for each set of equal triangles, the one with the lowest number. Returns
+/// them in order of number. If more triangles share a centre than fit into a leaf, a ray would test
+/// every copy: all are at the same t and the lowest number wins.
 References without_copies(References references, std::span<const Triangle> triangles,
                           Copies copies);
 

@@ -26,7 +26,7 @@ public:
             return add_leaf(part);
         if (part.count > kSweepCount) return add_node(divide(part, depth), depth);
         const std::optional<Division> best = sweep(work_.of(part), capacity(work_, depth + 1));
-        // Written so that NaN and areas of zero make a leaf.
+        // Written so that NaN and zero areas make a leaf.
         const double whole = part.box.half_area();
         const bool is_worth_it = best && kTraversalCost * whole + best->cost <
                                              whole * static_cast<double>(part.count);
@@ -40,7 +40,7 @@ private:
         subtree_.nodes.resize(place + 4, vec4(0));
         for (std::size_t i = 0; i < 2; ++i) {
             const std::uint32_t child = add(sides[i], depth + 1);
-            vec4* texel = &subtree_.nodes[place]; // after `add`, which moves the nodes
+            vec4* texel = &subtree_.nodes[place]; // taken after `add`, which reallocates the nodes
             texel[2 * i] = vec4(vector(sides[i].box.lo), texel[2 * i].w);
             texel[2 * i + 1] = vec4(vector(sides[i].box.hi), texel[2 * i + 1].w);
             texel[i].w = word(child);

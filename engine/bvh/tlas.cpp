@@ -14,11 +14,11 @@ namespace catoptric::bvh {
 
 namespace {
 
-constexpr double kRoundings = 0x1p-22; // of a box that becomes float
+constexpr double kRoundings = 0x1p-22; // relative error of a box that becomes float
 
 Box own_bounds(const Bvh& tree) { return {vec3(tree.nodes[0]), vec3(tree.nodes[1])}; }
 
-/// Bounds of what is below a node.
+/// Returns the bounds of everything below a node.
 Box node_bounds(const Bvh& bvh, std::size_t node) {
     Box box;
     for (std::size_t side = 0; side < 2; ++side)
@@ -27,7 +27,7 @@ Box node_bounds(const Bvh& bvh, std::size_t node) {
     return box;
 }
 
-/// Appends a tree without its header; returns its root's word.
+/// Appends a tree without its header. Returns the word of its root.
 std::uint32_t append(Bvh& into, const Bvh& part) {
     const auto nodes = static_cast<std::uint32_t>(node_count(into) - 1),
                triangles = static_cast<std::uint32_t>(triangle_count(into));
@@ -66,8 +66,8 @@ void add_record(Bvh& bvh, const Instance& instance, std::uint32_t root) {
     bvh.nodes.insert(bvh.nodes.end(), texels.begin(), texels.end());
 }
 
-/// Where the instance is, in floats, with their roundings. One that is an exact sphere reaches as
-/// far as that.
+/// Returns the bounds of the instance in scene units, padded for rounding to float. The bounds
+/// include the exact sphere, if the instance has one.
 Box scene_bounds(const Instance& instance) {
     Box own = own_bounds(*instance.tree);
     if (instance.radius > 0) own.add(Box{vec3(-instance.radius), vec3(instance.radius)});
@@ -81,7 +81,7 @@ Box scene_bounds(const Instance& instance) {
     return {vec3(box.lo - pad), vec3(box.hi + pad)};
 }
 
-/// A tree over boxes, with one in a leaf whose word stands for its record.
+/// Builds the tree over the instances' boxes, one in each leaf. Each leaf word refers to a record.
 Bvh build_over(std::span<const Instance> instances, const Box& core, double times,
                std::uint32_t first_record) {
     std::vector<Triangle> boxes;
@@ -89,7 +89,7 @@ Bvh build_over(std::span<const Instance> instances, const Box& core, double time
         Box box = scene_bounds(instances[i]);
         const vec3 beyond = max(max(core.lo - box.lo, box.hi - core.hi), vec3(0));
         const vec3 size = max(abs(box.lo), abs(box.hi));
-        if (f32::largest(beyond) > 0) { // farther than the walk's slack knows of
+        if (f32::largest(beyond) > 0) { // beyond the slack of the walk
             const float pad = static_cast<float>(times) * 2 * f32::gamma_bound(16) *
                               f32::largest(size + core.extent());
             box.lo -= pad, box.hi += pad;
@@ -112,7 +112,7 @@ Bvh build_over(std::span<const Instance> instances, const Box& core, double time
     return top;
 }
 
-/// As `append`, of a tree whose leaves already have their words.
+/// Appends like `append`, for a tree whose leaf words already refer to records.
 std::uint32_t append_top(Bvh& into, const Bvh& top) {
     const auto nodes = static_cast<std::uint32_t>(node_count(into) - 1);
     for (std::size_t i = 4; i < top.nodes.size(); ++i) {
@@ -129,7 +129,7 @@ std::uint32_t append_top(Bvh& into, const Bvh& top) {
 vec3 low_part(const dvec3& v) {
     vec3 low;
     for (int i = 0; i < 3; ++i) {
-        // Or g++ 12 takes two numbers at once and leaves the rounding out.
+        // `volatile`, because g++ 12 otherwise vectorises this and drops the rounding.
         const volatile float high = static_cast<float>(v[i]);
         low[i] = static_cast<float>(v[i] - double{high});
     }
@@ -146,7 +146,7 @@ double stretch(const dmat3& matrix) {
                 sum += std::abs(matrix[k][row]) * std::abs(inverse[column][k]);
         if (!(sum <= most)) most = sum;
     }
-    // Of a matrix without an inverse it is not finite, or nothing at all.
+    // A singular matrix gives a sum that is not finite or is zero.
     return std::isfinite(most) && most > 0 ? most : std::numeric_limits<double>::infinity();
 }
 

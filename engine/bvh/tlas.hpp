@@ -4,35 +4,36 @@
 
 namespace catoptric::bvh {
 
-/// A tree in a space of its own, and where it stands: scene = centre + scene_from_own * own.
+/// A tree in an object space and its placement: scene = centre + scene_from_own * own.
 struct Instance {
-    const Bvh* tree = nullptr; ///< built without a core; may be shared
+    const Bvh* tree = nullptr; ///< built without a core; several instances may share it
     dmat3 scene_from_own{1};   ///< invertible
     dvec3 centre{0};           ///< scene units
     std::uint32_t object = 0;
-    std::uint32_t flags = 0; ///< in place of those of its triangles
-    std::uint32_t shift = 0; ///< added to the numbers of its triangles
-    float radius = 0;        ///< own units, of the exact sphere it stands for; 0: none
+    std::uint32_t flags = 0; ///< replace the flags of its triangles
+    std::uint32_t shift = 0; ///< added to the triangle numbers
+    float radius = 0;        ///< of the exact sphere that it stands for, object space; 0: none
 };
 
-/// What each number lacks once it is rounded to a float, itself rounded.
+/// Returns the rounding error of each component when it becomes a float, itself rounded to float.
 vec3 low_part(const dvec3& v);
 
-/// How much a matrix and its inverse together may stretch roundings: the largest sum of a row of
-/// |m| |m^-1|; 1 for a scale, at most 3 for a turn, infinite without an inverse.
+/// Returns how much a matrix and its inverse together may amplify roundings: the largest row sum of
+/// |m| |m^-1|. The value is 1 for a scale, at most 3 for a rotation and infinite for a singular
+/// matrix.
 double stretch(const dmat3& matrix);
 
-/// The tree of a scene in which some things have a space of their own, to be walked as one: the
-/// root has the flat tree and a tree over the instances, with one in a leaf. A word with the count
-/// kBvhEnters stands for an instance; its index is the node at which kBvhRecordNodes nodes say
-/// where it stands (texels; w is a word's bits but for the radius):
-///   0..2  rows of own_from_scene; root of its tree, object, shift
-///   3     centre; flags             7  what the centre lacks as a sum of two floats
+/// Builds the tree of a scene in which some objects have an object space. The root has two
+/// children: the flat tree, and a top-level tree with one instance in each leaf. A word with the
+/// count kBvhEnters stands for an instance. Its index is the first of kBvhRecordNodes nodes, the
+/// record of the instance (texels; w holds a word's bits, except for the radius):
+///   0..2  rows of own_from_scene; w: root of the instance's tree, object, shift
+///   3     centre; w: flags          7  rounding error of the centre as floats
 ///   4..6  columns of scene_from_own
-///   8, 9  own bounds lo, hi; w of 9: radius
-/// Texel 2 of the header says how many times wider boxes are: a ray is turned into own units with
-/// roundings relative to its distance, and stretched ones come back.
-/// Without instances: `flat` as it is.
+///   8, 9  bounds lo, hi in object space; w of 9: radius
+/// Texel 2 of the header holds the factor by which the walk widens boxes. The transform of a ray
+/// into object space adds roundings relative to its distance, and the way back amplifies them.
+/// Without instances, returns `flat` unchanged.
 Bvh assemble(const Bvh& flat, std::span<const Instance> instances);
 
 } // namespace catoptric::bvh

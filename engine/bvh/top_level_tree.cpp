@@ -10,21 +10,22 @@ namespace catoptric::bvh {
 
 namespace {
 
-constexpr std::size_t kSubtreeCount = 8192; // references at most in what one thread builds
-constexpr std::size_t kPieceCount = 4096;   // and in what it bins or moves at once
+// The most references in the subtree that one task builds.
+constexpr std::size_t kSubtreeCount = 8192;
+constexpr std::size_t kPieceCount = 4096; // the most references that one task bins or moves
 
-/// A node of the crown, or what hangs on one.
+/// A node of the top-level tree, or a subtree below it.
 struct Branch {
     Part part;
     std::uint32_t depth = 0;
-    std::size_t sides = 0; ///< first of two branches; 0: it is a subtree
+    std::size_t sides = 0; ///< index of the first of two branches; 0: a subtree
     Subtree subtree{};
-    std::size_t first_node = 0;            ///< in the whole tree
-    std::size_t copies = 0;                ///< left out before its first triangle
-    std::uint32_t word = f32::kBvhNothing; ///< in the whole tree
+    std::size_t first_node = 0;            ///< index in the whole tree
+    std::size_t copies = 0;                ///< copies left out before its first triangle
+    std::uint32_t word = f32::kBvhNothing; ///< its word in the whole tree
 };
 
-/// How a branch is divided.
+/// The division of a branch.
 struct Cut {
     std::size_t branch;
     Binning binning;
@@ -32,7 +33,7 @@ struct Cut {
     std::optional<Split> split{};
 };
 
-/// Some of its references.
+/// A share of a branch's references, for one task.
 struct Piece {
     std::size_t cut;
     References references;
@@ -72,7 +73,7 @@ public:
     }
 
 private:
-    /// Of branches one level deeper.
+    /// Divides all branches of a level. Returns the branches one level deeper.
     std::vector<std::size_t> divide(const std::vector<std::size_t>& level) {
         std::vector<Cut> cuts;
         std::vector<Piece> pieces;
@@ -140,7 +141,7 @@ private:
         std::vector<std::size_t> order(branches_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::erase_if(order, [&](std::size_t i) { return branches_[i].sides != 0; });
-        // The largest first, so that none is begun when all others are done.
+        // Largest first, so that no thread starts a large subtree when the others have finished.
         std::ranges::stable_sort(order, std::greater(),
                                  [&](std::size_t i) { return branches_[i].part.count; });
         in_parallel(order.size(), threads_, [&](std::size_t i) {
@@ -149,7 +150,7 @@ private:
         });
     }
 
-    /// Nodes and triangles in the order of a walk that goes left first.
+    /// Numbers nodes and triangles in the order of a depth-first walk, left side first.
     void number(std::size_t i) {
         Branch& branch = branches_[i];
         branch.first_node = node_count_;
@@ -167,7 +168,7 @@ private:
         triangle_count_ += branch.subtree.triangles;
     }
 
-    /// A word of its subtree in the whole tree.
+    /// Converts a word of the branch's subtree to a word of the whole tree.
     static std::uint32_t in_whole(const Branch& branch, std::uint32_t word) {
         if (word == f32::kBvhNothing) return word;
         return word + static_cast<std::uint32_t>(f32::bvh_is_inner(word) ? branch.first_node - 1

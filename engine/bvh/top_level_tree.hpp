@@ -2,12 +2,13 @@
 
 #include "bvh/subtree.hpp"
 
-/// A tree, built on several threads: its top level by level, what is small one subtree at a time.
-/// What is done does not depend on their number, so that the tree does not either.
+/// Building a tree on several threads: the top of the tree level by level, and each small subtree
+/// as one task. Neither the work nor the tree depends on the number of threads.
 namespace catoptric::bvh {
 
-/// Appends the tree over `root`, in the first buffer, to the header in `nodes`. Returns how many of
-/// its triangles are left, which are the first of `work.triangles`.
+/// Builds the tree over `root`, whose references lie in the first buffer, and appends it to the
+/// header in `nodes`. Returns the number of triangles kept. They are the first ones of
+/// `work.triangles`.
 std::size_t build_tree(const Workspace& work, const Part& root, unsigned threads,
                        std::vector<vec4>& nodes);
 

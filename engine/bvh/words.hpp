@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The words in the texels of a hierarchy (bvh.hpp says which means what).
+/// The words in the texels of a hierarchy; bvh.hpp defines their layout.
 namespace catoptric::bvh {
 
 inline std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }

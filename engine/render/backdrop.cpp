@@ -7,20 +7,22 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint32_t kMostTriangles = 64; ///< of an object that is asked
-constexpr std::size_t kMostLooks = 1 << 22;  ///< at boxes and vertices, all together
-/// As a part of the triangle's largest coordinate: sixteen of its roundings. Not of the scene's
-/// extent or of what lies farther out, before which a small thing's height may be nothing.
+constexpr std::uint32_t kMostTriangles = 64; ///< the most triangles of an object that is tested
+constexpr std::size_t kMostLooks = 1 << 22;  ///< the most tests of boxes and vertices, in total
+/// Tolerance as a fraction of the triangle's largest coordinate: sixteen of its roundings. The
+/// extent of the scene does not enter, nor do distant objects. The height of a small object may be
+/// tiny next to them.
 constexpr double kInPlane = 0x1p-20;
 
 struct Plane {
-    dvec3 normal; ///< unit, to the light's side
+    dvec3 normal; ///< unit length, towards the light
     double at;
-    double room; ///< how far behind it is in it
-    double depth(const dvec3& point) const { return at - dot(normal, point); } ///< behind it
+    double room; ///< points up to this far behind the plane count as in it
+    /// Distance of the point behind the plane.
+    double depth(const dvec3& point) const { return at - dot(normal, point); }
 };
 
-/// How far the box's farthest corner is behind.
+/// Returns how far the farthest corner of the box lies behind the plane.
 double depth_of(const Plane& plane, const Bounds<float>& box) {
     const dvec3 corner(plane.normal.x < 0 ? box.hi.x : box.lo.x,
                        plane.normal.y < 0 ? box.hi.y : box.lo.y,
@@ -41,14 +43,14 @@ public:
     }
 
 private:
-    /// Whether all is before the triangle's plane, where the light is.
+    /// Returns whether all geometry lies on the light's side of the triangle's plane.
     bool is_before(std::uint32_t first_index) {
         const auto corner = [&](std::uint32_t j) {
             return dvec3(geometry_.vertices[geometry_.indices[first_index + j]].position);
         };
         const dvec3 across = cross(corner(1) - corner(0), corner(2) - corner(0));
         const double size = length(across);
-        if (!(size > 0)) return true; // no area, no shadow
+        if (!(size > 0)) return true; // a triangle without area casts no shadow
         Plane plane{across / size, 0, 0};
         plane.at = dot(plane.normal, corner(0));
         for (std::uint32_t j = 0; j < 3; ++j)
@@ -56,7 +58,7 @@ private:
         const double height = light_.kind == shared::kLightDirectional
                                   ? -dot(plane.normal, dvec3(light_.forward))
                                   : -plane.depth(dvec3(light_.position));
-        if (height == 0) return true; // seen from its edge
+        if (height == 0) return true; // edge-on to the light, so it casts no shadow
         if (height < 0) plane = {-plane.normal, -plane.at, plane.room};
         return std::ranges::all_of(geometry_.ranges, [&](const DrawRange& other) {
             return ++looks_ < kMostLooks && (depth_of(plane, other.bounds) <= plane.room ||

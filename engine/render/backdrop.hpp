@@ -7,11 +7,15 @@
 
 namespace catoptric::render {
 
-/// Of each object, 1 where its shadow by a light falls on nothing: all there is stands before each
-/// of its triangles' planes, or in it, as the walls, the floor and the ceiling of a room that the
-/// light is in. A shadow map need not show it: a receiver in the plane of its caster is lifted off
-/// it. Asked of objects of few triangles in scene units; the others, and all after some millions of
-/// comparisons, are 0. By bounds, and by vertices where these do not tell.
+/// Finds the objects whose shadow falls on nothing for a given light. The result has an entry per
+/// object: 1 for such an object, else 0. All geometry lies in front of each of the object's
+/// triangles, or in the triangle's plane, on the light's side. Examples are the walls, floor and
+/// ceiling of a room that contains the light. A shadow map need not show these objects, because a
+/// receiver in the plane of its caster is moved off that plane.
+///
+/// Tests only objects of few triangles in scene units. Every other object gets 0, and so does every
+/// object after some millions of comparisons. Compares bounds first, and vertices where the bounds
+/// do not decide.
 std::vector<std::uint8_t> find_backdrops(const Geometry& geometry, const shared::Light& light);
 
 } // namespace catoptric::render

@@ -10,10 +10,10 @@ namespace catoptric::render {
 
 namespace {
 
-/// Of a sequence, and of what is rendered beside it and follows nothing.
+/// Names of the two sets of a sequence, and of the set for frames outside any sequence.
 constexpr std::array<const char*, 3> kSets{"a", "b", "aside"};
 
-/// A mirror that is not captured is one without a capture, unless that would leave none.
+/// Removes the captures of mirrors that need none. If no capture would remain, keeps all of them.
 std::vector<CaptureOptions> required_options(const std::vector<CaptureOptions>& options,
                                              const require::Model& model) {
     std::vector<CaptureOptions> required = options;
@@ -23,7 +23,8 @@ std::vector<CaptureOptions> required_options(const std::vector<CaptureOptions>& 
     return std::ranges::any_of(required, exists) ? required : options;
 }
 
-/// The same for as long as that holds all that is wanted: arrays do not become smaller.
+/// Returns the layout of the frame before if it holds every wanted capture, because arrays do not
+/// shrink. Otherwise returns `wanted`.
 std::vector<CaptureOptions> layout_of(std::vector<CaptureOptions> wanted,
                                       const CaptureCache* before) {
     if (!before) return wanted;
@@ -41,7 +42,7 @@ bool same_layout(const std::vector<CaptureOptions>& a, const std::vector<Capture
     return std::ranges::equal(a, b, same_contents);
 }
 
-/// Calls visit for each image of both that is there.
+/// Calls visit for each image that both cube arrays have.
 template <typename Visit>
 void for_each_pair(const Cubes& from, const Cubes& to, const Visit& visit) {
     visit(from.colour, to.colour);
@@ -55,8 +56,8 @@ Cubes faces_of(const Captures& captures, std::uint32_t mirror, std::uint32_t fir
     return part_of(captures.arrays[array], 6 * cube + first, count);
 }
 
-/// Brings what stays into the set that the frame fills, unless it is there, and says what the frame
-/// makes that from.
+/// Declares the pass that copies unchanged contents into the set that the frame fills, if they are
+/// not there yet. Records in the graph which picture each face will hold.
 void add_keeping(graph::Graph& graph, const std::string& name, const CaptureUpdate& feeding) {
     const Captures& captures = *feeding.captures;
     std::vector<std::pair<graph::Image, graph::Image>> copies;
@@ -97,7 +98,7 @@ void add_keeping(graph::Graph& graph, const std::string& name, const CaptureUpda
     });
 }
 
-/// What captures can see of last frame's.
+/// Returns the images that captures of the next frame may sample: colours and distances.
 std::shared_ptr<const Captures> looked_into(Captures captures) {
     for (Cubes& cubes : captures.arrays)
         cubes.surfaces.reset(), cubes.colour2.reset(), cubes.distance2.reset();

@@ -11,68 +11,76 @@
 #include <span>
 #include <vector>
 
-/// Captures that stay as long as what they show does. They lie in one of two sets of arrays: a
-/// frame that draws some of them anew looks into the one set and fills the other, so that each of
-/// its mirrors shows the frame before; a frame that draws none uses the set as it is.
+/// The capture cache: captures that stay as long as what they show does not change. The captures
+/// lie in one of two sets of arrays. A frame that redraws captures samples one set and fills the
+/// other, so that each of its mirrors shows the frame before. A frame that redraws none uses the
+/// set unchanged.
 namespace catoptric::render {
 
 /// A face of a mirror's capture.
 struct CachedFace {
-    std::uint64_t content_hash = 0; ///< of what it shows but for mirrors; 0: of nothing any more
-    std::uint64_t drawing = 0;  ///< which picture it is: the same number, the same bytes; 0: none
-    bool is_behind = false;     ///< it was to be drawn anew and was put off
-    std::uint64_t settings = 0; ///< of what it shows but for mirrors and `pieces`
-    std::shared_ptr<const require::Pieces> pieces; ///< of the mirror, when the stamp was this
+    /// Content hash of everything that the face shows, except mirrors; 0: the contents are invalid.
+    std::uint64_t content_hash = 0;
+    std::uint64_t drawing = 0; ///< identifies the picture: equal numbers mean equal bytes; 0: none
+    bool is_behind = false;    ///< was due for a redraw that was put off
+    /// Content hash of everything that the face shows, except mirrors and `pieces`.
+    std::uint64_t settings = 0;
+    std::shared_ptr<const require::Pieces>
+        pieces; ///< moving pieces in the mirror's faces, as of `content_hash`
     bool operator==(const CachedFace&) const = default;
 };
 
-/// What became of a mirror's capture in a frame, against the frame before.
+/// How a mirror's capture changed since the frame before.
 enum class Change {
     none,
-    unknown, ///< drawn anew, and only since other mirrors' captures had changed
-    some,    ///< or it may have
+    unknown, ///< drawn again only because the captures of other mirrors changed; may be equal
+    some,    ///< changed, or may have changed in another way
 };
 
-/// The captures that a frame left, for the next one to go on from.
+/// The captures that a frame leaves for the next frame.
 struct CaptureCache {
-    std::vector<CaptureOptions> options;          ///< after which they lie in the arrays
-    std::uint32_t set = 0;                        ///< of the two
-    std::vector<std::array<CachedFace, 6>> faces; ///< of each mirror
-    std::vector<Change> changes;                  ///< of each mirror
-    std::vector<std::uint32_t> waited; ///< of each mirror: frames for which it has been put off
-    bool is_late = false; ///< somebody was drawn who had waited: `saw` does not tell of it
-    // While some change is unknown:
-    std::vector<std::vector<std::uint32_t>> saw; ///< of each mirror: whom those faces show
+    std::vector<CaptureOptions> options; ///< settings that determine the layout of the arrays
+    std::uint32_t set = 0;               ///< index of the set in use, of the two
+    std::vector<std::array<CachedFace, 6>> faces; ///< by mirror
+    std::vector<Change> changes;                  ///< by mirror
+    /// By mirror: for how many frames the redraw has been put off.
+    std::vector<std::uint32_t> waited;
+    bool is_late = false; ///< a capture that had waited was drawn, and `saw` does not record that
+    // Valid while some change is unknown:
+    /// By mirror: the mirrors that the faces with an unknown change show.
+    std::vector<std::vector<std::uint32_t>> saw;
     std::shared_ptr<CaptureCache> before;
-    std::shared_ptr<const gpu::Buffer> differing; ///< a word a mirror, once the frame has ended
-    std::uint64_t frame = 0; ///< that was submitted with it, which its caller says
+    /// One word a mirror, valid once the frame has ended.
+    std::shared_ptr<const gpu::Buffer> differing;
+    std::uint64_t frame = 0; ///< number of the frame, which the caller sets
 };
 
-/// Of each mirror, whether its capture is another one than a frame before, for all that is known.
-/// The unknown is told by what it saw: where nothing of that had changed, what was drawn again is
-/// the same.
+/// Returns, for each mirror, whether its capture may differ from the frame before. An unknown
+/// change counts as a change if one of the mirrors that the capture showed had changed. If none had
+/// changed, the redrawn capture equals the old one.
 std::vector<char> changed(const CaptureCache& captures);
 
-/// Reads what comparisons of frames that have ended have found, along the frames before it.
-/// `has_ended`: asked with CaptureCache::frame.
+/// Reads the results of comparisons in frames that have ended, for these captures and the frames
+/// before. `has_ended`: called with CaptureCache::frame.
 void learn(const std::shared_ptr<CaptureCache>& captures,
            const std::function<bool(std::uint64_t)>& has_ended);
 
-/// As if comparisons had found all as it was.
+/// Marks all captures as unchanged, as if the comparisons had found no difference.
 void find_unchanged(CaptureCache& captures);
 
-/// What a frame does with a face.
+/// The work of a frame on one face.
 enum class FaceWork : std::uint8_t {
     keep,
-    clear,   ///< nobody looks, and there is nothing yet
-    draw,    ///< what it shows is another thing now
-    compare, ///< draw, since mirrors in it may have changed, and tell whether it did
+    clear,   ///< no ray can ask for the face, and it has no contents yet
+    draw,    ///< what it shows has changed
+    compare, ///< draw because mirrors in it may have changed, then compare with the frame before
 };
 
-/// What a frame does with its captures.
+/// The work of a frame on its captures.
 struct CaptureWork {
-    std::vector<std::array<FaceWork, 6>> faces; ///< of each mirror; empty: all six are drawn
-    /// Of those that are drawn: outside of it they are what they were in the frame before.
+    std::vector<std::array<FaceWork, 6>> faces; ///< by mirror; empty: all six faces are drawn
+    /// By mirror: the part of each face that is redrawn. Outside the part, the texels equal those
+    /// of the frame before.
     std::vector<std::array<require::FacePart, 6>> parts;
     FaceWork of(std::uint32_t mirror, std::uint32_t face) const {
         return faces.empty() ? FaceWork::draw : faces[mirror][face];
@@ -85,67 +93,70 @@ struct CaptureWork {
     }
 };
 
-/// Captures of a frame, what they are made from, and what is left for the next.
+/// The captures of a frame, their sources, and the capture cache for the next frame.
 struct CaptureUpdate {
-    std::shared_ptr<const Captures> captures; ///< that the frame looks into
-    std::shared_ptr<const Captures> last;     ///< that captures look into; null: nothing was there
-    std::vector<bool> was_there;              ///< of each mirror, in `last`
+    std::shared_ptr<const Captures> captures; ///< captures that the frame samples
+    /// Captures that other captures sample; null: none existed.
+    std::shared_ptr<const Captures> last;
+    std::vector<bool> was_there; ///< by mirror: has a capture in `last`
     CaptureWork work;
-    std::shared_ptr<CaptureCache> kept; ///< null: nothing is kept
+    std::shared_ptr<CaptureCache> kept; ///< null: captures do not persist
 };
 
-/// Where comparisons write what they found; of one session.
+/// The buffers of a session into which comparisons write their results.
 class Comparisons {
 public:
-    /// `has_ended`: asked with the numbers of frames.
+    /// `has_ended`: called with the numbers of frames.
     Comparisons(gpu::Device& device, std::function<bool(std::uint64_t)> has_ended)
         : device_(device), has_ended_(std::move(has_ended)) {}
-    /// A buffer of zeros that neither host nor device has, a word a mirror.
+    /// Returns a buffer of zeros, one word a mirror, that neither the host nor the device uses.
     std::shared_ptr<gpu::Buffer> buffer(std::size_t mirrors);
-    /// The frame was submitted that writes to it; null: none does.
+    /// Records that the frame `frame`, just submitted, writes to the buffer. Null is ignored.
     void used(const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame);
 
 private:
     struct Entry {
-        std::shared_ptr<gpu::Buffer> buffer; ///< free where nobody else holds it
-        std::uint64_t frame = 0;             ///< that wrote to it last
+        std::shared_ptr<gpu::Buffer> buffer; ///< free if nobody else holds it
+        std::uint64_t frame = 0;             ///< number of the last frame that wrote to it
     };
     gpu::Device& device_;
     std::function<bool(std::uint64_t)> has_ended_;
     std::vector<Entry> entries_;
 };
 
-/// Everything anew in each frame, beside last frame's: declares both.
+/// Declares all captures of this frame and those of the frame before. Every capture is drawn again
+/// in each frame.
 CaptureUpdate update_all_captures(graph::Graph& graph, const FrameInputs& inputs,
                                   const std::string& name, std::vector<CaptureOptions> options);
 
-/// What captures of a sequence go on from.
+/// The state from which the captures of a frame sequence continue.
 struct PreviousCaptures {
-    std::shared_ptr<CaptureCache> before; ///< of the frame before; null: there was none
-    /// null: the frame is beside the sequence, and so tells the next one nothing.
+    std::shared_ptr<CaptureCache> before; ///< of the frame before; null: this is the first frame
+    /// Null: the frame does not belong to the sequence and leaves nothing for the next frame.
     Comparisons* comparisons = nullptr;
-    /// Mirrors that are drawn again at most; 0: all. Others are put off and stay as they are;
-    /// whoever holds nothing of what is looked at, or something that nobody kept up, is drawn
-    /// beside them.
+    /// The capture budget: the most mirrors whose captures are drawn again; 0: no limit. The other
+    /// captures stay as they are. A capture without valid contents in a needed face does not count
+    /// and is always drawn.
     std::uint32_t most = 0;
 };
 
-/// Whether the next frame must know what comparisons found: whose turn it is depends on that.
+/// Returns whether the next frame must first read the comparisons of this frame. The order of
+/// captures under a budget depends on their results.
 bool must_learn(const CaptureCache& captures, std::uint32_t most);
 
-/// What of the captures has to be drawn, given those of the frame before; declares the arrays, and
-/// the pass that brings what stays into the set that the frame fills. Throws `internal` where it
-/// must_learn and did not. O(mirrors seen by mirrors).
+/// Decides which captures must be drawn, given those of the frame before. Declares the arrays, and
+/// the pass that copies unchanged faces into the set that the frame fills. Throws `internal` if
+/// must_learn holds and `learn` was not called. Costs O(mirrors seen by mirrors).
 CaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& inputs,
                                        const std::string& name,
                                        const std::vector<CaptureOptions>& options,
                                        const require::Model& model, const PreviousCaptures& sequel);
 
-/// After the captures are drawn: declares the pass that tells which of those that were to be
-/// compared differ from the frame before. None where none was.
+/// Declares the pass that compares captures with those of the frame before. Call it after the
+/// captures are drawn. Declares nothing if no capture needs a comparison.
 void add_comparison(graph::Graph& graph, const FrameInputs& inputs, const CaptureUpdate& feeding);
 
-/// Calls visit(first, end) for each run of faces of a mirror, of six, for which `is` holds.
+/// Calls visit(first, end) for each run of a mirror's six faces for which `is` holds.
 template <typename Is, typename Visit>
 void for_each_run(Is&& is, Visit&& visit) {
     for (std::uint32_t first = 0; first < 6; ++first) {

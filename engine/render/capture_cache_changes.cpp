@@ -1,4 +1,4 @@
-// What drawing captures again has changed.
+// Detects which captures changed when they were drawn again.
 #include "render/capture_cache.hpp"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void find_unchanged(CaptureCache& captures) {
 
 std::shared_ptr<gpu::Buffer> Comparisons::buffer(std::size_t mirrors) {
     const std::vector<std::uint32_t> zeros(mirrors, 0);
-    // Who discards a frame lets go of its buffer while the device may still write to it.
+    // A caller that discards a frame releases its buffer while the device may still write to it.
     const auto fits = [&](const Entry& entry) {
         return entry.buffer.use_count() == 1 && has_ended_(entry.frame) &&
                entry.buffer->bytes() >= sizeof(std::uint32_t) * mirrors;
@@ -70,7 +70,7 @@ void add_comparison(graph::Graph& graph, const FrameInputs& inputs, const Captur
         std::uint32_t before, after, mirror;
     };
     struct Compared {
-        Cubes before, after; ///< of the whole arrays
+        Cubes before, after; ///< the whole arrays
         Push push;
         std::uint32_t faces;
     };

@@ -1,4 +1,4 @@
-// Captures of mirrors' surroundings: all that is drawn anew of them.
+// Passes that draw the captures of mirrors' surroundings.
 #include "core/half.hpp"
 #include "render/draw.hpp"
 #include "render/face_area.hpp"
@@ -17,10 +17,12 @@ using graph::Image;
 using graph::Tag;
 using graph::Use;
 
-/// They are cleared; with an area within it, and keep what is around it.
+/// Declares that a pass clears and writes the cubes. With an area, clears and writes only inside it
+/// and keeps the rest.
 void write_cubes(graph::PassBuilder& pass, const CaptureOptions& options, const Cubes& cubes,
                  const std::optional<graph::Area>& area = {}) {
-    // "Nothing there" is +infinity; unorm8 has none, so there it is the end of the range.
+    // An empty direction has the distance +infinity. Unorm8 cannot store it and uses the end of its
+    // range.
     const float nothing = options.distance == Format::r8_unorm
                               ? 1.0f
                               : std::numeric_limits<float>::infinity();
@@ -33,7 +35,7 @@ void write_cubes(graph::PassBuilder& pass, const CaptureOptions& options, const 
     if (area) pass.area(*area);
 }
 
-/// Whether the part shows some of the object.
+/// Returns whether the part of the face may show the object.
 bool may_show(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
               const require::FacePart& part, std::size_t object) {
     return part.is_whole() ||
@@ -42,7 +44,8 @@ bool may_show(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
                 .empty();
 }
 
-/// Faces of a mirror; with `peeled`, of what lies behind these distances.
+/// Declares a pass that draws a range of faces of a mirror's capture. `peeled`: draws only what
+/// lies behind these distances.
 void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
                  const Faces& faces, const std::string& pass_name, const Cubes& cubes,
                  const std::shared_ptr<const Looks>& looks, std::optional<Image> peeled,
@@ -82,7 +85,7 @@ void add_capture(graph::Graph& graph, const FrameInputs& inputs, const CaptureOp
         });
 }
 
-/// Faces that nobody looks at hold nothing.
+/// Declares a pass that clears faces that no ray can ask for.
 void add_clear(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
                const Faces& faces, const std::string& name, const Cubes& cubes) {
     graph::PassBuilder pass = graph.pass(inputs.prefix + name_of(name, faces) + ".clear");

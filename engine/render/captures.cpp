@@ -11,7 +11,7 @@ namespace catoptric::render {
 
 namespace {
 
-/// What captures of one array have in common, but for the edge.
+/// The properties that captures of one array share, except the edge.
 using Contents = std::tuple<Format, std::optional<Format>, bool, bool, float>;
 
 Contents contents_of(const CaptureOptions& options) {
@@ -37,8 +37,8 @@ std::size_t arrays_for(const Kinds& kinds, std::size_t most_cubes) {
     return arrays;
 }
 
-/// Enlarges the captures of the kind for which that adds the fewest texels to the next larger edge
-/// of their format. False where every format has one edge only.
+/// Enlarges one kind of captures to the next larger edge of the same format. Chooses the kind for
+/// which that adds the fewest texels. Returns false if no format has two edges.
 bool merge(Kinds& kinds, std::vector<std::string>& notes) {
     auto cheapest = kinds.end();
     double least = 0;
@@ -64,7 +64,7 @@ bool merge(Kinds& kinds, std::vector<std::string>& notes) {
     return true;
 }
 
-/// A piece of a kind that fits into one array.
+/// Declares one array for captures of the same kind.
 Cubes declare_cubes(graph::Graph& graph, const std::string& name, const CaptureOptions& options,
                     std::size_t cubes, bool stay) {
     const auto image = [&](const char* what, Format format) {
@@ -87,7 +87,7 @@ Cubes declare_cubes(graph::Graph& graph, const std::string& name, const CaptureO
     return made;
 }
 
-/// A buffer that a pass of its own fills with where each mirror's capture is.
+/// Declares a buffer with the place of each mirror's capture, and the pass that fills it.
 graph::Buffer add_table(graph::Graph& graph, const std::string& name, const Captures& captures) {
     shared::CaptureTable places{};
     for (std::size_t i = 0; i < captures.places.size(); ++i) {

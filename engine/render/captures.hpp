@@ -9,75 +9,80 @@
 #include <string>
 #include <vector>
 
-/// Captures of mirrors' surroundings: what each holds, and the cube arrays that they are kept in.
+/// Captures of the surroundings of mirrors: what each capture holds, and the cube arrays that store
+/// them.
 namespace catoptric::render {
 
-/// A cube array of 6 layers a mirror: colour and, where asked for, radial distance. The second pair
-/// holds, in the same directions, the next surface behind that faces the centre.
+/// A cube array with 6 layers a mirror: colour and, if requested, radial distance. `colour2` and
+/// `distance2` hold the next surface behind the first in the same direction, if that surface faces
+/// the centre.
 struct Cubes {
     std::uint32_t face = 0; ///< edge in texels
     graph::Image colour;
     std::optional<graph::Image> distance;
     std::optional<graph::Image> colour2, distance2;
-    std::optional<graph::Image>
-        surfaces; ///< rgba16f: number and normal, see shaders/lib/surface.glsl
+    /// Surface number and normal (rgba16f), see shaders/lib/surface.glsl.
+    std::optional<graph::Image> surfaces;
 };
 
-/// Some layers of each image that is there.
+/// Returns a range of layers of every image that exists.
 Cubes part_of(const Cubes& cubes, std::uint32_t first, std::uint32_t count);
 
-/// What one mirror's capture holds, and how it is made.
+/// What one mirror's capture holds and how it is drawn.
 struct CaptureOptions {
-    std::uint32_t face = 256; ///< cube edge in texels; 0: there is no capture of this mirror
+    std::uint32_t face = 256; ///< cube edge in texels; 0: the mirror has no capture
     Format colour = Format::rgba16f;
     std::optional<Format> distance;
-    bool saturates = true;     ///< half colour; false only to measure what that costs
-    bool second_layer = false; ///< with distance: another pass, name2/1; fragment#peel exists
-    bool surfaces = false;     ///< with distance: also keep which object is seen, and its normal
-    bool leaves_out_spheres = false; ///< no mirror that is an exact sphere is drawn
-    float stored_unit = 1;           ///< scene units of a stored 1 (unorm8: the range)
+    bool saturates = true;     ///< clamps half-float colour; false only to measure the cost
+    bool second_layer = false; ///< needs distance: adds a pass name2/1; fragment#peel must exist
+    /// Needs distance: also stores the number and normal of the visible surface.
+    bool surfaces = false;
+    bool leaves_out_spheres = false; ///< mirrors that are exact spheres are not drawn
+    float stored_unit = 1;           ///< scene units that a stored 1 means (unorm8: the range)
     Lighting lighting;
 };
 
-/// Whether captures of the one are captures of the other but for what they show.
+/// Returns whether both options give captures of the same layout and content, apart from lighting.
 bool same_contents(const CaptureOptions& a, const CaptureOptions& b);
 
-/// Where a mirror's capture is kept.
+/// The place of a mirror's capture in the arrays.
 struct CapturePlace {
-    std::uint32_t array = shared::kMostArrays, cube = 0; ///< from 0; kMostArrays: nowhere
+    /// Indices from 0; `array` is kMostArrays if the mirror has no capture.
+    std::uint32_t array = shared::kMostArrays, cube = 0;
     bool exists() const { return array < shared::kMostArrays; }
     bool operator==(const CapturePlace&) const = default;
 };
 
 /// The captures of all mirrors.
 struct Captures {
-    std::string name;                    ///< passes are called name/1, name/2, ...
-    std::vector<CaptureOptions> options; ///< of each mirror
-    std::vector<CapturePlace> places;    ///< of each mirror
-    std::vector<Cubes> arrays;           ///< 1 to shared::kMostArrays
-    /// shared::CaptureTable; none where mirror n is cube n of the only array.
+    std::string name;                    ///< passes have the names name/1, name/2, ...
+    std::vector<CaptureOptions> options; ///< by mirror
+    std::vector<CapturePlace> places;    ///< by mirror
+    std::vector<Cubes> arrays;           ///< 1 to shared::kMostArrays arrays
+    /// Holds a shared::CaptureTable; absent if mirror n is cube n of the only array.
     std::optional<graph::Buffer> table;
-    std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
-    /// Of each mirror's faces, where captures are kept: with the same options the same number, the
-    /// same texels.
+    std::vector<std::string> notes; ///< deviations from the request, one sentence each
+    /// By mirror and face, if captures persist: equal numbers under equal options mean equal
+    /// texels.
     std::vector<std::array<std::uint64_t, 6>> drawings;
 
-    /// That a mirror's capture is part of; null: it has none.
+    /// Returns the array that holds the mirror's capture; null if the mirror has none.
     const Cubes* array_of(std::uint32_t mirror) const {
         return places[mirror].exists() ? &arrays[places[mirror].array] : nullptr;
     }
 };
 
-/// Declares the arrays, one for each size and format that some mirror wants and as many more as the
-/// device's limit of layers asks for. Where that makes more than kMostArrays, the edges that cost
-/// least are enlarged to the next larger one, which `notes` says. `options`: of each mirror, one of
-/// which at least has a capture. With a `set` the arrays stay until they are written again
-/// (graph::Lifetime::persistent), and it tells them from others of the same name. Throws
-/// `exhausted` where so many arrays do not hold them. O(mirrors).
+/// Declares one array for each combination of size and format, and more if the device limits the
+/// layers. If that exceeds kMostArrays, enlarges the captures for which the next larger edge adds
+/// the fewest texels, and says so in `notes`.
+/// `options`: by mirror; at least one mirror must have a capture.
+/// `set`: if not empty, the arrays persist until they are overwritten
+/// (graph::Lifetime::persistent). The name tells them from other arrays of the same captures.
+/// Throws `exhausted` if kMostArrays arrays cannot hold the captures. Costs O(mirrors).
 Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
                           std::vector<CaptureOptions> options, const std::string& set = "");
 
-/// The same as they were at the end of the frame before: colours and distances.
+/// Returns the colours and distances of these captures at the end of the frame before.
 Captures previous(graph::Graph& graph, const Captures& captures);
 
 } // namespace catoptric::render

@@ -11,7 +11,7 @@ bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphe
            (!a || (a->centre == b->centre && a->radius == b->radius));
 }
 
-/// As scene::at leaves them, without motion.
+/// Compares lights as scene::at leaves them, without motion.
 bool same(const scene::Punctual& a, const scene::Punctual& b) {
     return a.kind == b.kind && a.intensity == b.intensity && a.range == b.range &&
            a.cos_inner == b.cos_inner && a.cos_outer == b.cos_outer &&
@@ -20,8 +20,8 @@ bool same(const scene::Punctual& a, const scene::Punctual& b) {
 
 bool lights(const scene::Material& material) { return scene::light_of(material) != vec3(0); }
 
-/// Whether the object is drawn, traced and counted in the same way with either material: only
-/// values differ.
+/// Returns whether the object is drawn, traced and counted in the same way with either material, so
+/// that only values differ.
 bool same_kind(const scene::Material& a, scene::Material b) {
     if (lights(a) != lights(b) || (a.albedo == vec3(0)) != (b.albedo == vec3(0)) ||
         (a.reflectance == vec3(1)) != (b.reflectance == vec3(1)))

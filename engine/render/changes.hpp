@@ -7,19 +7,20 @@
 
 namespace catoptric::render {
 
-/// What a scene differs in from the one before.
+/// The differences between a scene and the scene of the update before.
 struct Changes {
-    bool layout = false;    ///< objects are others, or of another kind
-    bool materials = false; ///< or exact spheres
+    bool layout = false;    ///< the objects differ in number or kind
+    bool materials = false; ///< materials or exact spheres changed
     bool lights = false;
     std::vector<std::size_t> moved;
     bool shapes() const { return layout || !moved.empty(); }
 };
 
-/// What the objects of a scene looked like.
+/// The state of a scene's objects at the last update.
 class Seen {
 public:
-    /// What differs from the scene that was seen last, which `now` becomes; with `anew` everything.
+    /// Returns the differences from the scene of the last call, then stores `now` in its place.
+    /// `anew`: report everything as changed.
     Changes take_over(const scene::Scene& now, bool anew);
 
 private:

@@ -10,7 +10,7 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint64_t kCleared = 1; // the drawing of a face that holds nothing
+constexpr std::uint64_t kCleared = 1; // `drawing` of a face that holds nothing
 
 } // namespace
 
@@ -96,7 +96,8 @@ FaceWork Decider::decide(std::uint32_t mirror, std::uint32_t face,
     if (shows_same && !now.is_behind && std::ranges::none_of(seen, has_changed))
         return FaceWork::keep;
     if (!needs.is_captured || !(needs.faces >> face & 1)) {
-        now.content_hash = 0, now.is_behind = false; // should somebody look again
+        // So that the face is drawn if a ray asks for it again.
+        now.content_hash = 0, now.is_behind = false;
         if (now.drawing > 0) return FaceWork::keep;
         now.drawing = kCleared;
         return FaceWork::clear;
@@ -117,7 +118,8 @@ require::FacePart Decider::changing(std::uint32_t mirror, std::uint32_t face,
     require::FacePart part = require::differing(before.pieces->faces[face],
                                                 now.pieces->faces[face]);
     const shared::View& view = scene_.views()[scene_.capture_view(mirror) + face];
-    // All of them: what one shows may change before its capture does, by where others are.
+    // All of them, because the position of other mirrors can change a mirror's look before its
+    // capture changes.
     for (const std::uint32_t other : seen)
         part = united(part, part_with(view, static_cast<int>(face),
                                       scene_.ranges()[scene_.mirror_object(other)].bounds));

@@ -7,36 +7,38 @@
 
 namespace catoptric::render {
 
-/// Tells what a frame has to do with its captures, mirror by mirror.
+/// Decides, mirror by mirror, what a frame has to do with its captures.
 class Decider {
 public:
-    /// `layout`: of the frame's captures; `before`: of the frame before, null: there was none. Both
-    /// and the others must outlive this. `compares`: what may have changed is compared.
+    /// `layout`: options of this frame's captures. `before`: captures of the frame before; null:
+    /// there are none. All references must outlive this object. `compares`: captures that may have
+    /// changed are compared.
     Decider(const GpuScene& scene, const require::Model& model,
             const std::vector<CaptureOptions>& layout, const CaptureCache* before, bool compares);
 
-    /// Whether the frame before has a capture of the mirror as this one wants it.
+    /// Returns whether the frame before left a capture of the mirror with the same options.
     bool was_there(std::uint32_t mirror) const;
-    /// Frames for which the mirror has been put off until the frame before.
+    /// Returns for how many frames, up to the frame before, the mirror's capture has been put off.
     std::uint32_t waited(std::uint32_t mirror) const;
 
-    /// What is drawn of the mirror, compared and kept; six faces of `work`, and `kept` of it.
+    /// Decides for all six faces of the mirror. Fills the mirror's entries in `work` and `kept`.
     void decide(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
-    /// Whether what is to be drawn can stay as it was: it shows what was there once, and was kept
-    /// up since then.
+    /// Returns whether the redraw can wait. The old contents must be valid in every face that would
+    /// be drawn.
     bool can_wait(std::uint32_t mirror, const CaptureWork& work) const;
-    /// After `decide`: what was to be drawn stays as it was.
+    /// Cancels the redraw that `decide` asked for; the old contents stay.
     void put_off(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
 
 private:
-    /// The other mirrors that the face shows by their captures.
+    /// Returns the other mirrors whose captures the face shows.
     std::vector<std::uint32_t> seen_by(std::uint32_t mirror, std::uint32_t face) const;
     FaceWork decide(std::uint32_t mirror, std::uint32_t face,
                     const std::vector<std::uint32_t>& seen, CachedFace& now) const;
-    /// Of a face that is drawn: all that may be another than it was.
+    /// Returns the part of a drawn face that may differ from its old contents.
     require::FacePart changing(std::uint32_t mirror, std::uint32_t face,
                                const std::vector<std::uint32_t>& seen, const CachedFace& now) const;
-    /// By what it is made from, to the captures that it shows.
+    /// Returns the number of a face's picture, from the content hash and the captures that the face
+    /// shows.
     std::uint64_t drawing(std::uint64_t content_hash, const std::vector<std::uint32_t>& seen) const;
 
     const GpuScene& scene_;
@@ -45,7 +47,8 @@ private:
     const CaptureCache* before_;
     bool compares_;
     std::vector<char> changed_;
-    std::uint64_t shadow_views_ = 0; ///< of all lights
+    /// Content hash of the shadow views and backdrops of all lights.
+    std::uint64_t shadow_views_ = 0;
 };
 
 } // namespace catoptric::render

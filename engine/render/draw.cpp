@@ -13,15 +13,15 @@ using graph::Commands;
 using graph::Filter;
 using graph::Image;
 
-/// How triangles that are seen from behind run in a view's picture: cube faces show it mirrored.
+/// Returns the winding of back faces in a view's picture. Cube faces show the scene mirrored.
 gpu::Winding turns_away(const shared::View& view) {
     return dot(glm::cross(view.right, view.down), view.forward) > 0
                ? gpu::Winding::clockwise
                : gpu::Winding::counterclockwise;
 }
 
-/// One object in the layers whose view it may meet; neighbouring layers in one draw for each run of
-/// its triangles.
+/// Draws one object into the layers whose views it may meet. Draws neighbouring layers in one call
+/// for each run of triangles.
 void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
                  std::uint32_t first_view, std::uint32_t layers, Triangles triangles) {
     const DrawRange& range = scene.ranges()[object];
@@ -42,7 +42,7 @@ void draw_object(Commands& commands, const GpuScene& scene, std::size_t object,
     }
 }
 
-/// One image of each array.
+/// Returns one image of each array.
 template <typename Part>
 std::vector<Image> images_of(const Captures& captures, Part&& part) {
     std::vector<Image> images;
@@ -54,7 +54,8 @@ void bind_captures(Commands& commands, const Captures& captures) {
     commands.bind("colour_cubes",
                   images_of(captures, [](const Cubes& cubes) { return cubes.colour; }),
                   Filter::linear);
-    // A shader has a binding for what some captures lack; nothing reads it where it is the colour.
+    // Every shader has these bindings. If a capture lacks an image, its colour is bound instead,
+    // and nothing reads it.
     commands.bind("surface_cubes", images_of(captures, [](const Cubes& cubes) {
                       return cubes.surfaces.value_or(cubes.colour);
                   }));
@@ -70,7 +71,7 @@ void bind_captures(Commands& commands, const Captures& captures) {
     commands.bind("nearest_texels", Filter::nearest);
 }
 
-/// What the shader is built for: where captures are kept.
+/// Adds the constants that tell a shader where the captures are stored.
 void add_places(const Captures& captures, gpu::Constants& constants) {
     const auto unit_of = [](const CaptureOptions& options) { return options.stored_unit; };
     const float unit = unit_of(captures.options.front());
@@ -81,7 +82,7 @@ void add_places(const Captures& captures, gpu::Constants& constants) {
         constants.emplace_back("array_count", static_cast<std::uint32_t>(captures.arrays.size()));
 }
 
-/// The build of the fragment shader that the look asks for.
+/// Returns the name of the fragment shader variant that draws the mirrors.
 std::string build_of(const MirrorShader& look, bool peeled, bool shadow_map, bool lit) {
     std::string build = look.captures && look.captures->table ? "arrays" : "";
     const auto add = [&](const char* more) {
@@ -113,8 +114,9 @@ void draw_mirrors(Commands& commands, const GpuScene& scene, const Drawing& draw
          triangles);
 }
 
-/// Whether nothing of the object that faces away is seen in a view, so that it need not be drawn:
-/// of a ball those triangles are half of all. Not where it is seen from within or cut.
+/// Returns whether no back face of the object is visible in a view and back faces can be skipped.
+/// For a sphere they are half of all triangles. Returns false if the eye is inside the object's
+/// bounds or the view has a clip plane.
 bool hides_its_back(const GpuScene& scene, const shared::View& view, std::size_t object) {
     const DrawRange& range = scene.ranges()[object];
     const bool within = all(lessThanEqual(range.bounds.lo, view.eye)) &&
@@ -132,7 +134,7 @@ void draw_objects(Commands& commands, const GpuScene& scene, gpu::RasterState st
     for (const bool own : {false, true}) {
         if (own && !scene.has_object_spaces()) break;
         state.vertex = (own ? "placed.vert" : "scene.vert") + std::string(build);
-        bool in_use = false; // a pipeline that draws nothing is not made
+        bool in_use = false; // avoids creating a pipeline that draws nothing
         for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
             if (scene.ranges()[i].own.has_value() != own || !wanted(i)) continue;
             if (!std::exchange(in_use, true)) {
@@ -197,7 +199,8 @@ void draw_scene(Commands& commands, const GpuScene& scene, const Drawing& drawin
                 },
                 &part.triangles);
     };
-    // Among many mirrors little else is seen from one of them, so what they hide is not shaded.
+    // In a scene of many mirrors, other mirrors cover most of a capture. Drawing them first avoids
+    // shading what they hide.
     const bool mirrors_first = scene.uses_mirror_bvh() && first_view != GpuScene::kCameraView;
     if (mirrors_first) draw_all_mirrors();
     draw_diffuse(false, gpu::Winding::none);

@@ -4,38 +4,40 @@
 
 #include <functional>
 
-/// Draws objects of a scene: what the bodies of raster passes are made of.
+/// Drawing of scene objects, as raster passes record it.
 namespace catoptric::render {
 
-/// Which objects are drawn, by their index.
+/// Returns whether an object, given by its index, is drawn.
 using Wanted = std::function<bool(std::size_t)>;
 
-/// Some triangles of an object; null: all.
+/// The triangles of an object to draw; null: all of them.
 using Triangles = const std::vector<scene::TriangleRun>*;
 
-/// The objects that are asked for, with this fragment shader and state, into the layers whose views
-/// they may meet: views from `first_view` on. Those in spaces of their own come last.
+/// Draws the wanted objects with this fragment shader and state. Draws each object into those
+/// layers whose views may meet it; the views start at `first_view`. Draws objects with an object
+/// space last.
 void draw_objects(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
                   const Wanted& wanted, Triangles triangles = nullptr);
 
-/// The same without triangles that face away of what hides its own back. Not for what is looked at
-/// behind a first layer.
+/// Draws as draw_objects does, but without back faces of objects that hide their own back. Not
+/// valid for depth peeling, which shows surfaces behind a first layer.
 void draw_fronts(graph::Commands& commands, const GpuScene& scene, gpu::RasterState state,
                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
                  const Wanted& wanted, Triangles triangles = nullptr);
 
-/// What a picture of the scene is made with.
+/// The settings with which a picture of the scene is drawn.
 struct Drawing {
     std::uint32_t first_view = 0, layers = 1;
     Lighting lighting;
-    std::shared_ptr<const Looks> looks; ///< of mirrors
-    gpu::Constants store;               ///< how distances are kept, and what else
-    std::optional<graph::Image>
-        peeled; ///< the distances of a first layer: only what lies behind them is drawn
+    std::shared_ptr<const Looks> looks; ///< shaders of the mirrors
+    gpu::Constants store;               ///< constants for storing distances and surfaces
+    /// Distances of a first layer; only surfaces behind them are drawn.
+    std::optional<graph::Image> peeled;
 };
 
-/// Everything that is no mirror, then the mirrors, of what is wanted.
+/// Draws all wanted objects: non-mirrors first, then mirrors. Captures in scenes with many mirrors
+/// draw the mirrors first.
 void draw_scene(graph::Commands& commands, const GpuScene& scene, const Drawing& drawing,
                 const Wanted& wanted);
 

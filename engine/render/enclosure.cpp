@@ -9,14 +9,15 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr double kRoundings = 1e-3; // of a sum of solid angles, far more than they are
+// Tolerance for a sum of solid angles, far above its rounding error.
+constexpr double kRoundings = 1e-3;
 
 using Place = std::array<double, 3>;
 
 Place place_of(const dvec3& p) { return {p.x, p.y, p.z}; }
 
-/// Whether each edge is run through as often one way as the other, by places rather than by
-/// vertices. `at(k)`: corner k, three a triangle.
+/// Returns whether each edge is traversed equally often in both directions. Edges are compared by
+/// position, not by vertex index. `at(k)`: corner k, three corners a triangle.
 template <typename At>
 bool is_closed(std::size_t corners, At&& at) {
     std::map<std::pair<Place, Place>, int> runs;
@@ -29,8 +30,8 @@ bool is_closed(std::size_t corners, At&& at) {
     return std::ranges::all_of(runs, [](const auto& run) { return run.second == 0; });
 }
 
-/// Solid angle of the triangle seen from the origin, signed by its winding (Van Oosterom and
-/// Strackee 1983); 0 in its plane.
+/// Returns the solid angle of the triangle as seen from the origin, signed by its winding (Van
+/// Oosterom and Strackee 1983); 0 in the triangle's plane.
 double solid_angle(dvec3 a, dvec3 b, dvec3 c) {
     const double volume = dot(a, cross(b, c)), x = length(a), y = length(b), z = length(c);
     if (volume == 0) return 0;
@@ -52,8 +53,8 @@ bool encloses(const Geometry& geometry, const DrawRange& range, const dvec3& pla
         };
         seen += solid_angle(corner(0), corner(1), corner(2));
     }
-    // Inside the whole sphere of directions, on a face half of it, on an edge or a corner a part,
-    // outside nothing.
+    // Inside, the sum is the whole sphere of directions. On a face it is half of that, and on an
+    // edge or a corner a fraction. Outside it is 0.
     return std::abs(seen) > kRoundings && is_closed(range.index_count, [&](std::size_t k) {
                return dvec3(geometry.vertices[geometry.indices[range.first_index + k]].position);
            });

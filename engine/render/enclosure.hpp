@@ -4,14 +4,14 @@
 
 namespace catoptric::render {
 
-/// Whether the object's triangles are a closed surface with the place (scene units) in it or on it.
-/// Costs a look at the bounds where it is outside of them, else O(n log n) in the object's
+/// Returns whether the object's triangles form a closed surface with `place` (scene units) inside
+/// or on it. Costs O(1) if `place` is outside the bounds, else O(n log n) in the object's
 /// triangles.
 bool encloses(const Geometry& geometry, const DrawRange& range, const dvec3& place);
 
-/// Whether the mesh is a closed surface around the middle of its bounds whose triangles, seen from
-/// there, all run clockwise, as those of a ball do: from outside none that faces away is seen.
-/// O(n log n) in its triangles.
+/// Returns whether the mesh is a closed surface around the middle of its bounds, with all triangles
+/// clockwise as seen from that middle. A sphere is such a mesh. No back face is visible from
+/// outside. Costs O(n log n) in the mesh's triangles.
 bool is_shell(const scene::Mesh& mesh);
 
 } // namespace catoptric::render

@@ -6,16 +6,17 @@
 
 #include <optional>
 
-/// Parts of a capture's faces in texels.
+/// Parts of capture faces in texels.
 namespace catoptric::render {
 
-/// The part grown to whole texels of a face of `edge`, and by one more: where a drawing of what it
-/// holds may change texels.
+/// Returns the part, grown to whole texels of a face with this edge and by one more texel. Drawing
+/// the part's contents can change no texel outside the result.
 require::FacePart in_texels(const require::FacePart& part, std::uint32_t edge);
-/// The texels of such a part; nothing: all.
+/// Returns the texels of a part from in_texels; nothing for a whole face.
 std::optional<graph::Area> area_of(const require::FacePart& part, std::uint32_t edge);
 
-/// What a face of a capture, whose view this is, shows of a box in scene units.
+/// Returns the part of a capture face that shows a box in scene units. `view`: the view of that
+/// face.
 require::FacePart part_with(const shared::View& view, int face, const Bounds<float>& box);
 
 } // namespace catoptric::render

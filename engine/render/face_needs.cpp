@@ -7,7 +7,7 @@ namespace catoptric::render {
 
 namespace {
 
-/// The vertices of an object in its own space, as arms from its middle.
+/// Returns the vertices of an object with an object space, relative to its middle, in scene units.
 std::vector<shared::Vertex> arms_of(const Geometry& geometry, const DrawRange& range) {
     std::vector<shared::Vertex> arms;
     const dmat3 turn = range.own->scene_from_own, normals = glm::transpose(glm::inverse(turn));
@@ -19,7 +19,7 @@ std::vector<shared::Vertex> arms_of(const Geometry& geometry, const DrawRange& r
     return arms;
 }
 
-/// The object's triangles by its vertices alone.
+/// Returns the object's indices, counted from its first vertex.
 std::vector<std::uint32_t> own_indices(const Geometry& geometry, const DrawRange& range) {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k)
@@ -27,8 +27,8 @@ std::vector<std::uint32_t> own_indices(const Geometry& geometry, const DrawRange
     return indices;
 }
 
-/// An orthographic picture's pixels are taken as those of an eye that stands a scene's size in
-/// front of what it shows there.
+/// Replaces an orthographic view by a perspective one whose eye is one unit, the size of the scene,
+/// in front of the shown point.
 shared::View in_perspective(shared::View view, const vec3& shown) {
     if (view.parallel == 0) return view;
     view.eye += view.forward * (dot(view.forward, shown - view.eye) - 1);

@@ -6,9 +6,9 @@
 
 namespace catoptric::render {
 
-/// Texels that the edge of each mirror's cube needs for a camera at `eye` with a picture of so many
-/// rows (render/footprint.hpp); 0 for a mirror that is not in it. `mirrors`: their objects;
-/// `probes` in the same order. O(triangles of mirrors).
+/// Returns, for each mirror, the texels that the edge of its cube needs (render/footprint.hpp). The
+/// camera is at `eye` and draws a picture of `height` rows. A mirror outside the picture needs 0.
+/// `mirrors`: object indices; `probes` in the same order. Costs O(triangles of mirrors).
 std::vector<double> find_face_needs(const Geometry& geometry, std::span<const std::size_t> mirrors,
                                     std::span<const shared::Probe> probes,
                                     const shared::View& camera, const dvec3& eye,

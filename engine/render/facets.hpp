@@ -4,10 +4,10 @@
 
 namespace catoptric::render {
 
-/// Whether some corner's normal leaves that of its facet, on either side, by more than 6 degrees.
-/// What light meets there fades towards the facet's plane (`facet_share` in lib/math/light.glsl);
-/// everything else is lit by its normals alone, so from up to 6 degrees below a facet's plane. In
-/// the mesh's own space. O(n).
+/// Returns whether the normal of some corner differs from its facet's plane normal, on either side,
+/// by more than 6 degrees. Light on such meshes fades towards the plane of the facet (`facet_share`
+/// in lib/math/light.glsl). Other meshes are lit by their normals alone, and so receive light from
+/// up to 6 degrees below the plane. Angles are measured in the mesh's own coordinates. Costs O(n).
 bool leaves_facets(const scene::Mesh& mesh);
 
 } // namespace catoptric::render

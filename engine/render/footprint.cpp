@@ -20,9 +20,9 @@ struct Facet {
     dvec3 middle_normal() const { return glm::normalize(normal[0] + normal[1] + normal[2]); }
 };
 
-/// The least and the largest normal curvature of the surface whose normals the facet interpolates:
-/// the eigenvalues of the symmetric part of the matrix that takes two edges to the change of normal
-/// along them.
+/// Returns the least and the largest normal curvature of the surface with the facet's interpolated
+/// normals. They are the eigenvalues of the symmetric part of the matrix that maps two edges to the
+/// change of normal along them.
 std::array<double, 2> principal_curvatures(const Facet& facet) {
     const dvec3 edge1 = facet.position[1] - facet.position[0],
                 edge2 = facet.position[2] - facet.position[0];
@@ -39,7 +39,7 @@ std::array<double, 2> principal_curvatures(const Facet& facet) {
     return {mean - half, mean + half};
 }
 
-/// The planes that bound what is in the picture: inwards, through the eye.
+/// Returns the inward normals of the planes through the eye that bound the picture.
 std::array<dvec3, 5> picture_planes(const shared::View& view) {
     const dvec3 forward(view.forward), right(view.right), down(view.down);
     return {forward, forward + right, forward - right, forward + down, forward - down};
@@ -53,7 +53,7 @@ bool is_in_picture(const Pixels& pixels, const Facet& facet) {
     });
 }
 
-/// Cosine of the angle between the axis and a place; 0 where the eye is.
+/// Returns the cosine of the angle between the axis and a point; 0 at the eye.
 double cosine_to_axis(const shared::View& view, const dvec3& place) {
     const dvec3 seen = place - dvec3(view.eye);
     const double distance = glm::length(seen);
@@ -70,7 +70,8 @@ double facet_need(const Pixels& pixels, const Facet& facet) {
     const double cosine = distance > 0 ? dot(to_eye, facet.middle_normal()) / distance : 1;
     double need = 0;
     for (const double curvature : principal_curvatures(facet)) {
-        const double seen = cosine < 0 ? -curvature : curvature; // from behind a hollow is a bulge
+        // A concave mirror is convex from behind.
+        const double seen = cosine < 0 ? -curvature : curvature;
         need = std::max(
             need, face_need(reflected_footprint(pixel_angle, distance, seen, std::abs(cosine))));
     }
@@ -91,7 +92,7 @@ double Pixels::angle(double cosine) const {
 }
 
 double reflected_footprint(double pixel_angle, double distance, double curvature, double cosine) {
-    if (curvature == 0) return pixel_angle; // whatever the cosine
+    if (curvature == 0) return pixel_angle; // holds for any cosine
     return pixel_angle * std::max(1.0, std::abs(1 + 2 * distance * curvature / cosine));
 }
 
@@ -103,12 +104,13 @@ double sphere_need(const Pixels& pixels, const vec3& centre, double radius) {
         if (dot(inward, seen) <= -radius * glm::length(inward)) return 0;
     const double distance = glm::length(seen);
     if (distance <= radius) return face_need(pixels.angle(0));
-    // In the plane of the axis and the centre, outwards from the centre: there pixels shrink.
+    // Samples the sphere in the plane of the axis and its centre, outwards from the centre, because
+    // pixels shrink in that direction.
     const double axis = std::acos(glm::clamp(cosine_to_axis(pixels.view, dvec3(centre)), -1., 1.));
     constexpr int kPlaces = 64;
     double need = 0;
     for (int k = 0; k < kPlaces; ++k) {
-        const double across = k * radius / kPlaces; // of the ray past the centre
+        const double across = k * radius / kPlaces; // distance of the ray from the centre
         const double cosine = std::sqrt(1 - across * across / (radius * radius));
         const double along = std::sqrt(distance * distance - across * across) - radius * cosine;
         const double pixel = pixels.angle(std::cos(axis + std::asin(across / distance)));

@@ -5,19 +5,20 @@
 #include <optional>
 #include <string>
 
-/// What all passes of a frame are declared from.
+/// The inputs from which all passes of a frame are declared.
 namespace catoptric::render {
 
 struct FrameInputs {
     const GpuScene& scene;
     uvec2 size{512, 512};
-    std::string prefix;        ///< of the names of passes and images
-    std::uint64_t seed = 1;    ///< of stratified samples
-    std::uint32_t ablated = 0; ///< causes of error to take away in the view: shared::kMend...
-    bool with_lookup = false; ///< also say where mirrors looked: for measuring, costs an attachment
+    std::string prefix;        ///< starts the names of passes and images
+    std::uint64_t seed = 1;    ///< seed of the stratified samples
+    std::uint32_t ablated = 0; ///< causes of error to remove in the camera's view: shared::kMend...
+    /// Adds an output of where mirrors looked; for measuring, costs an attachment.
+    bool with_lookup = false;
 };
 
-/// How captures and view are lit; no map: light without shadows.
+/// The lighting of captures and views. Without a shadow map, light casts no shadows.
 struct Lighting {
     std::optional<graph::Image> shadow_map;
     friend bool operator==(const Lighting&, const Lighting&) = default;

@@ -8,7 +8,8 @@ namespace catoptric::render {
 
 namespace {
 
-/// Seen from where its normals point; what a mirrored object or a careless file gives.
+/// Returns whether the triangle is clockwise as seen from the side of its normals. Mirrored objects
+/// and badly written files have such triangles.
 bool runs_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& triangle) {
     const shared::Vertex &a = vertices[triangle.x], &b = vertices[triangle.y],
                          &c = vertices[triangle.z];
@@ -16,7 +17,7 @@ bool runs_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& tr
                a.normal + b.normal + c.normal) < 0;
 }
 
-/// Writes the object's triangles.
+/// Writes the object's indices.
 void store_indices(Geometry& geometry, const scene::Mesh& mesh, const DrawRange& range) {
     std::size_t index = range.first_index;
     for (uvec3 triangle : mesh.triangles) {
@@ -27,7 +28,7 @@ void store_indices(Geometry& geometry, const scene::Mesh& mesh, const DrawRange&
     }
 }
 
-/// The vertices that all copies of a mesh share; returns their space.
+/// Writes the vertices that all copies of a mesh share. Returns their space.
 MeshSpace store_shared(Geometry& geometry, const scene::Mesh& mesh, const DrawRange& range) {
     MeshSpace space = space_of_mesh(mesh);
     const dmat3 to_own(space.unit), normal_to_own(1);
@@ -41,13 +42,13 @@ MeshSpace store_shared(Geometry& geometry, const scene::Mesh& mesh, const DrawRa
     return space;
 }
 
-/// The vertices of a single object in its own space; whether they changed.
+/// Writes the vertices of a single object into its object space. Returns whether they changed.
 bool move_own(Geometry& geometry, const scene::Scene& now, const Space& space, std::size_t index) {
     const scene::Object& object = now.objects[index];
     const scene::Mesh& mesh = now.meshes[object.mesh];
     DrawRange& range = geometry.ranges[index];
     range.own = object_space_of(now, object, space);
-    // The turned mesh relative to the space's middle.
+    // Transforms the mesh relative to the middle of the space.
     const dvec3 middle = space_of_mesh(mesh).middle;
     const dmat3 own_from_scene = glm::inverse(range.own->scene_from_own),
                 turn = own_from_scene * space.scale * dmat3(object.world_from_object),
@@ -70,7 +71,7 @@ bool move_own(Geometry& geometry, const scene::Scene& now, const Space& space, s
     return changed;
 }
 
-/// The object's vertices in scene units.
+/// Writes the object's vertices in scene units.
 void move_flat(Geometry& geometry, const scene::Scene& now, const Space& space, std::size_t index) {
     const dmat4& world_from_object = now.objects[index].world_from_object;
     const scene::Mesh& mesh = now.meshes[now.objects[index].mesh];
@@ -85,7 +86,7 @@ void move_flat(Geometry& geometry, const scene::Scene& now, const Space& space, 
     }
 }
 
-/// Whether what is seen of the surface is more than one colour and its light.
+/// Returns whether the visible surface has more than one constant colour and its emission.
 bool varies(const scene::Mesh& mesh, const scene::Material& material,
             float max_specular_roughness) {
     const bool is_sharp = material.roughness <= max_specular_roughness ||
@@ -96,7 +97,7 @@ bool varies(const scene::Mesh& mesh, const scene::Material& material,
            (material.mirror ? throws_back || scene::glows(material) : is_sharp);
 }
 
-/// A mirror that shows nothing but what it mirrors.
+/// Returns whether a mirror shows nothing except reflections.
 bool is_pure(const scene::Mesh& mesh, const scene::Material& material) {
     if (scene::glows(material)) return false;
     if (material.mirror) return material.albedo == vec3(0) || material.reflectance == vec3(1);
@@ -104,7 +105,7 @@ bool is_pure(const scene::Mesh& mesh, const scene::Material& material) {
            !material.roughness_texture && !material.unlit;
 }
 
-/// What is known of an object without its place.
+/// Returns the properties of an object that do not depend on its place.
 DrawRange range_of(const scene::Scene& now, const scene::Object& object) {
     const scene::Mesh& mesh = now.meshes[object.mesh];
     const scene::Material& material = now.materials[object.material];
@@ -117,7 +118,7 @@ DrawRange range_of(const scene::Scene& now, const scene::Object& object) {
     range.exact_sphere = object.sphere.has_value();
     range.one_sided = !range.mirror && scene::is_one_sided(material);
     range.varies = varies(mesh, material, now.mirror_max_roughness);
-    // A mirror is there from both sides, whatever its material says of sides.
+    // A mirror reflects on both sides, even if its material is one-sided.
     range.turns = (material.two_sided || range.mirror) &&
                   (material.albedo != vec3(0) || range.varies);
     range.masked = scene::is_masked(material);
@@ -125,8 +126,8 @@ DrawRange range_of(const scene::Scene& now, const scene::Object& object) {
     return range;
 }
 
-/// Gives every range its part of both lists: what is in scene units comes first, copies of a mesh
-/// that share have one part.
+/// Gives each range its part of the vertex and index lists. Objects in scene units come first.
+/// Copies that share a mesh have one part.
 void lay_out(Geometry& geometry, const scene::Scene& now) {
     std::uint32_t vertices = 0, indices = 0;
     const auto store = [&](DrawRange& range) {
@@ -154,7 +155,7 @@ void lay_out(Geometry& geometry, const scene::Scene& now) {
     geometry.indices.resize(indices);
 }
 
-/// Attributes of every mesh that has them.
+/// Stores the attributes of every mesh that has them, once.
 void lay_out_attributes(Geometry& geometry, const scene::Scene& now) {
     std::vector<std::optional<std::uint32_t>> first_of(now.meshes.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
@@ -200,7 +201,8 @@ Geometry make_geometry(const scene::Scene& now, const Space& space, Spaces space
     return geometry;
 }
 
-/// Of a sphere around the middle of its bounds that holds the object.
+/// Returns the radius of a sphere around the middle of the object's bounds that contains the
+/// object.
 float radius_of(const Geometry& geometry, const DrawRange& range) {
     constexpr float kRoom = 1 + 0x1p-20f;
     if (range.bounds.empty()) return 0;

@@ -1,4 +1,4 @@
-// The lights of a scene on the device, and the views that their shadows are drawn from.
+// The lights of a scene on the device, and the views that draw their shadows.
 #include "render/gpu_scene.hpp"
 #include "render/views.hpp"
 
@@ -8,9 +8,9 @@ namespace catoptric::render {
 
 namespace {
 
-/// But for where it is and the frame of its shadows.
+/// Returns the light's entry, without its position and its shadow axes.
 shared::Light light_of(const scene::PointLight& light, const Space& space) {
-    constexpr double kNarrowest = .001; // a spot's edge, as a difference of cosines
+    constexpr double kNarrowest = .001; // least width of a spot's edge, as a difference of cosines
     shared::Light entry{};
     entry.normal = vec3(light.normal);
     entry.forward = light.axis == dvec3(0) ? entry.normal : vec3(light.axis);
@@ -23,7 +23,8 @@ shared::Light light_of(const scene::PointLight& light, const Space& space) {
                  : light.cosines != dvec3(0) ? shared::kLightOfTwoSides
                                              : shared::kLightAtPoint;
     const bool is_spot = light.axis != dvec3(0) && !light.directional;
-    entry.cos_outer = is_spot ? static_cast<float>(light.cos_outer) : -3.0f; // whole everywhere
+    // No cosine is below it, so all directions are lit.
+    entry.cos_outer = is_spot ? static_cast<float>(light.cos_outer) : -3.0f;
     entry.sharpness = is_spot ? static_cast<float>(
                                     1 / std::max(kNarrowest, light.cos_inner - light.cos_outer))
                               : 1.0f;
@@ -81,7 +82,7 @@ std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) con
                                   glm::mat3(light.right, -light.down, light.forward), 0);
         for (shared::View& view : views) view.near = light.near;
     }
-    views.resize(shadow_faces_); // the last one looks back, where a one-sided light is dark
+    views.resize(shadow_faces_); // the last face looks back, where a one-sided light is dark
     return views;
 }
 

@@ -21,7 +21,7 @@ constexpr std::uint32_t kNoMirror = 0;
 shared::Surface surface_of(const scene::Object& object, const scene::Material& material,
                            std::uint32_t mirror, const Space& space) {
     shared::Surface surface{};
-    // Of a mirror that throws light back itself, or else of none.
+    // Diffuse light of a mirror counts only if the mirror reflects less than all light.
     const bool is_pure = material.mirror && material.reflectance == vec3(1);
     surface.albedo = is_pure ? vec3(0) : material.albedo;
     surface.emission = material.emission;
@@ -34,7 +34,7 @@ shared::Surface surface_of(const scene::Object& object, const scene::Material& m
     return surface;
 }
 
-/// Scene units.
+/// Returns the flat faces of a mirror, in scene units.
 scene::FlatFaces faces_in(const Space& space, const scene::Scene& now, std::size_t object) {
     const scene::Object& mirror = now.objects[object];
     scene::FlatFaces flats = scene::flat_faces(now.meshes[mirror.mesh], mirror.world_from_object);
@@ -51,7 +51,7 @@ bool same(const scene::Camera& a, const scene::Camera& b) {
            a.orthographic_height == b.orthographic_height;
 }
 
-/// By object.
+/// Returns, by object, whether the scene gives it a motion.
 std::vector<bool> expected_motion(const scene::Scene& scene) {
     std::vector<bool> moves;
     for (const scene::Object& object : scene.objects)
@@ -59,7 +59,7 @@ std::vector<bool> expected_motion(const scene::Scene& scene) {
     return moves;
 }
 
-/// The scene, once its numbers are known to fit.
+/// Returns the scene after checking that it fits on the device.
 const scene::Scene& fitting(const gpu::Device& device, const scene::Scene& scene) {
     check_limits(scene.name, amounts_of(scene),
                  {device.most_texels(sizeof(vec4)), device.limits().maxStorageBufferRange,
@@ -86,7 +86,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     const Stopwatch watch(update_ms_);
     slot_ = slot, wants_tracing_ = {};
     const Changes changes = seen_.take_over(now, !complete_);
-    complete_ = false; // until the end: whatever throws, the next update starts anew
+    complete_ = false; // stays false if the update throws, so that the next update starts anew
     if (changes.layout)
         lay_out(now);
     else
@@ -127,7 +127,7 @@ void GpuScene::lay_out(const scene::Scene& now) {
     vertices_.lay_out(geometry_);
 }
 
-/// Of the mirrors that are exact spheres, the shapes that hide their own backs.
+/// Finds the exact spheres among the mirrors whose mesh hides its own back faces.
 void GpuScene::find_shells(const scene::Scene& now) {
     std::map<std::size_t, bool> known; // by mesh
     for (const std::size_t object : mirror_objects_) {
@@ -167,15 +167,16 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
             object, material, scene::is_mirror(now, object) ? ++mirrors : kNoMirror, space_));
         surfaces_.back().detail = details_.indices()[surfaces_.size() - 1];
     }
-    // The walk meets exact spheres in spaces of their own; the shaders' list has the others.
+    // The traversal intersects exact spheres with an object space, so the shaders' list leaves them
+    // out.
     std::vector<shared::Surface> listed = surfaces_;
     for (std::size_t i = 0; i < listed.size(); ++i)
         if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;
     surface_buffer_.set(texels_of(listed));
 }
 
-/// Where vertices in spaces of their own are; an entry an object, one in all if no object has such
-/// a space.
+/// Writes the placements of object spaces: an entry for each object, or a single entry if no object
+/// has an object space.
 void GpuScene::fill_placements() {
     std::vector<shared::Placement> placements(has_object_spaces_ ? geometry_.ranges.size() : 1);
     for (std::size_t i = 0; i < placements.size(); ++i) {
@@ -194,7 +195,7 @@ bool GpuScene::has_other_mirrors() const {
     });
 }
 
-/// Six views for each mirror, then the shadow faces of each light.
+/// Fills the probes, and the views: six for each mirror, then the shadow faces of each light.
 void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
     const std::size_t known = changes.layout ? 0 : probes_.size();
     probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
@@ -215,7 +216,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const Changes& changes) {
         const bool is_lit = geometry_.ranges[object].lit;
         probe.kind = is_lit ? shared::kProbeLit
                             : (material.mirror ? shared::kProbeConstant : shared::kProbeMetal);
-        if (is_lit) probe.radius = 0; // no ray is followed through it
+        if (is_lit) probe.radius = 0; // no ray is followed through the mirror
         const Bounds<float>& box = geometry_.ranges[object].bounds;
         probe.lowest = box.lo, probe.highest = box.hi;
         const float gap = nearest_.distance(

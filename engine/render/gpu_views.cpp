@@ -1,13 +1,12 @@
-// The views of a scene on the device: the camera's, those of mirrors and lights, and those that a
-// frame adds.
+// The views of a scene on the device: the camera's view, the views of mirrors and lights, and the
+// views that a frame adds.
 #include "render/enclosure.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/views.hpp"
 
 namespace catoptric::render {
 
-/// What all views that one draw may go to share.
-/// The camera's, then those of mirrors and lights.
+/// Fills the list of views: the camera's first, then those of mirrors and lights.
 void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
     eye_ = space_.place(camera.eye);
     const float gap = nearest_.distance(

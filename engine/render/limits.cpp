@@ -18,7 +18,8 @@ constexpr std::uint64_t kTexelBytes = 16, kTexelsOfTriangle = 3, kTexelsOfNode =
 Amounts amounts_of(const scene::Scene& scene) {
     Amounts amounts;
     const std::vector<bool> shared = shared_objects(scene);
-    std::vector<bool> stored(scene.meshes.size()); // once for all its copies
+    // By mesh: its copies share vertices, which count once.
+    std::vector<bool> stored(scene.meshes.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
         const scene::Mesh& mesh = scene.meshes[object.mesh];
@@ -54,7 +55,7 @@ void check_limits(const std::string& scene, const Amounts& amounts, const Limits
            "bytes of views");
     within(vertex_bytes, limits.piece_bytes, "bytes of vertices");
     within(index_bytes, limits.piece_bytes, "bytes of indices");
-    // Triangles, their normals, and the nodes above them.
+    // The sum includes triangles, their normals, and the nodes above them.
     within(vertex_bytes + index_bytes + (2 * texels + node_texels) * kTexelBytes,
            limits.memory_bytes, "bytes");
 }

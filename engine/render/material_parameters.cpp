@@ -16,7 +16,7 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::size_t kTableTexels = 256; // before all others: sRGB bytes in linear light
+constexpr std::size_t kTableTexels = 256; // a table before the images: sRGB bytes in linear light
 
 std::uint32_t bit(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
 
@@ -89,7 +89,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
                                   const Vertices& vertices, std::uint64_t most) {
     fill_texels(now, most);
     std::vector<shared::MaterialParameters> details;
-    std::unordered_map<std::string, std::uint32_t> known; // index, by the bytes of a detail
+    std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
     indices_.clear();
     any_ = masks_ = false;
     std::map<std::size_t, bool> leaves; // by mesh
@@ -98,7 +98,8 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
         const scene::Material& material = now.materials[now.objects[i].material];
         shared::MaterialParameters detail = detail_of(material, range);
         detail.max_specular_roughness = now.mirror_max_roughness;
-        // Wraps around: what is drawn counts from the first vertex of its buffer.
+        // The difference may wrap around, because draws count vertices from the start of their own
+        // buffer.
         if (range.first_attribute)
             detail.first_attribute = *range.first_attribute - vertices.first_of(range.storage);
         detail.albedo = use_of(material.albedo_texture);
@@ -119,7 +120,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const Geometry& geome
         if (is_new) details.push_back(detail);
         indices_.push_back(entry->second);
     }
-    if (details.empty()) details.emplace_back(); // a buffer is never empty
+    if (details.empty()) details.emplace_back(); // buffers must not be empty
     details_.set(details);
     attributes_.set(geometry.attributes.empty() ? std::vector<shared::Attribute>(1)
                                                 : geometry.attributes);

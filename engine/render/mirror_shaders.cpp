@@ -6,7 +6,7 @@ namespace catoptric::render {
 
 namespace {
 
-/// What a pass reads so far.
+/// The resources that a pass has declared so far.
 struct Reads {
     graph::PassBuilder& pass;
     std::vector<graph::Image> images = {};

@@ -7,40 +7,41 @@
 #include <string>
 #include <vector>
 
-/// How mirrors are drawn.
+/// The shaders that draw mirrors.
 namespace catoptric::render {
 
-/// A fragment shader and what it looks into.
+/// A fragment shader and the resources that it reads.
 struct MirrorShader {
-    std::string fragment; ///< empty: black
+    std::string fragment; ///< empty: the mirror is black
     gpu::Constants constants;
     std::shared_ptr<const Captures> captures;
-    /// What else it samples (nearest), by shader name: one image, or one an array of the captures.
+    /// Further images that it samples (nearest), by shader name: one image, or one for each array
+    /// of the captures.
     std::vector<std::pair<std::string, std::vector<graph::Image>>> images;
-    std::vector<std::pair<std::string, graph::Buffer>> buffers; ///< what else it reads
-    bool blank = false;        ///< the captures are last frame's and there was none: black
-    std::uint32_t ablated = 0; ///< causes of error that its fragment#ablate takes away
+    std::vector<std::pair<std::string, graph::Buffer>> buffers; ///< further buffers that it reads
+    bool blank = false;        ///< black, because the captures of the frame before do not exist
+    std::uint32_t ablated = 0; ///< causes of error that fragment#ablate removes
 };
 
-/// A part of a mirror that has a look of its own.
+/// A part of a mirror with its own shader.
 struct PartShader {
-    std::uint32_t mirror = 0; ///< from 0
+    std::uint32_t mirror = 0; ///< number from 0
     std::uint32_t look = 0;   ///< index into Looks::looks
     std::vector<scene::TriangleRun> triangles;
 };
 
-/// One of several looks for each mirror.
+/// The shader of each mirror, chosen from a list.
 struct Looks {
     static constexpr std::uint32_t kInParts = ~0u;
     std::vector<MirrorShader> looks;
-    std::vector<std::uint32_t> of_mirror; ///< index into `looks`; kInParts: as `parts` say
-    std::vector<PartShader> parts;        ///< what is in none is not drawn
+    std::vector<std::uint32_t> of_mirror; ///< index into `looks`; kInParts: see `parts`
+    std::vector<PartShader> parts;        ///< triangles in no part are not drawn
 };
 
-/// All mirrors alike.
+/// Returns shaders that draw all mirrors alike.
 Looks same_shader(const GpuScene& scene, MirrorShader look);
 
-/// Says which of the look's resources a pass reads, each once.
+/// Declares that a pass reads the resources of these shaders and of the lighting, each once.
 void read_surroundings(graph::PassBuilder& pass, const Lighting& lighting, const Looks& looks);
 
 } // namespace catoptric::render

@@ -7,7 +7,8 @@ namespace catoptric::render {
 
 namespace {
 
-/// No narrower than what a ray is tested against.
+/// Returns bounds that contain everything that the ray test may hit. Roundings make sphere bounds
+/// one step wider.
 Bounds<float> box_of(const shared::Probe& probe) {
     if (!(probe.radius > 0)) return {probe.lowest, probe.highest};
     Bounds<float> box{probe.sphere - probe.radius, probe.sphere + probe.radius};

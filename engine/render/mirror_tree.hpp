@@ -8,13 +8,14 @@
 
 namespace catoptric::render {
 
-/// As many mirrors are looked through one by one: a walk over a tree of theirs costs as much.
+/// Up to this many mirrors are tested one by one, because a walk over a tree costs as much.
 inline constexpr std::size_t kFewMirrors = 8;
 
-/// A tree over what rays may meet of mirrors, exact spheres or bounds, as shaders walk it without a
-/// stack (shaders/lib/next_mirror.glsl): two texels a node, parents before their children; 2 n - 1
-/// nodes for n mirrors. A low corner and the number of the node's mirror from 1, or 0; a high
-/// corner and the number of the node after all that is below it. O(n log n).
+/// Returns a tree over the exact spheres or bounds of mirrors, which shaders walk without a stack
+/// (shaders/lib/next_mirror.glsl). The tree has 2 n - 1 nodes for n mirrors, parents before
+/// children, and two texels a node. The first texel holds the low corner and the node's mirror
+/// number from 1, or 0. The second holds the high corner and the number of the node after the whole
+/// subtree. Costs O(n log n).
 std::vector<vec4> mirror_tree(std::span<const shared::Probe> probes);
 
 } // namespace catoptric::render

@@ -7,15 +7,15 @@ namespace catoptric::render {
 
 namespace {
 
-/// A plane, kept where dot(xyz, p - eye) + w >= 0.
+/// Planes; a point p is inside a plane if dot(xyz, p - eye) + w >= 0.
 using Planes = std::vector<dvec4>;
 using Polygon = std::vector<dvec3>; ///< convex, relative to the eye
 
-/// An eye that is nearer to a mirror's plane than this, scene units, sees it edge on: some
-/// roundings of a place about 1.
+/// An eye nearer than this to a mirror's plane, in scene units, sees the mirror edge-on. The value
+/// is a few roundings of a coordinate near 1.
 constexpr double kEdgeOn = 1e-7;
 
-/// What is left of a polygon in front of the plane (Sutherland and Hodgman 1974).
+/// Returns the part of a polygon in front of the plane (Sutherland and Hodgman 1974).
 Polygon clipped(const Polygon& polygon, const dvec4& plane) {
     Polygon left;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -27,13 +27,13 @@ Polygon clipped(const Polygon& polygon, const dvec4& plane) {
     return left;
 }
 
-/// Where the view's picture shows a place, from -1 to 1.
+/// Returns the position of a point in the view's picture, each coordinate from -1 to 1.
 dvec2 projected(const shared::View& view, const dvec3& v) {
     const double w = view.parallel != 0 ? 1 : dot(dvec3(view.forward), v);
     return dvec2(dot(dvec3(view.right), v), dot(dvec3(view.down), v)) / w;
 }
 
-/// Bounds in the picture, -1 to 1.
+/// A rectangle of the picture, -1 to 1.
 struct Part {
     dvec2 low{-1}, high{1};
 };
@@ -43,7 +43,7 @@ Part part_of(const graph::Area& area, uvec2 size) {
     return {low / dvec2(size) * 2.0 - 1.0, (low + extent) / dvec2(size) * 2.0 - 1.0};
 }
 
-/// The sides of the part of a view, and its near plane.
+/// Returns the side planes and the near plane of a part of the view.
 Planes sides_of(const shared::View& view, const Part& part) {
     const dvec3 right(view.right), down(view.down), forward(view.forward);
     if (view.parallel != 0)
@@ -59,7 +59,7 @@ Planes sides_of(const shared::View& view, const Part& part) {
             {part.high.y * forward - down, 0}};
 }
 
-/// The pixels that a polygon of what is in the view may cover, one more on each side.
+/// Returns the pixels that a visible polygon may cover, and one more on each side.
 graph::Area pixels_of(const Polygon& polygon, const shared::View& view, uvec2 size,
                       const graph::Area& within) {
     dvec2 low(1), high(-1);
@@ -82,7 +82,8 @@ dvec3 mirrored(const dvec3& direction, const dvec3& normal) {
     return direction - 2 * dot(direction, normal) * normal;
 }
 
-/// The view of an eye behind the plane. `height`: of the eye above the plane, along the normal.
+/// Returns the view of the eye mirrored in the plane. `height`: of the original eye above the
+/// plane, along the normal.
 MirroredView behind(const MirroredView& from, const scene::Flat& plane, double height,
                     const Bounds<float>& everything) {
     MirroredView made;
@@ -93,8 +94,8 @@ MirroredView behind(const MirroredView& from, const scene::Flat& plane, double h
     view.eye_low = vec3(made.eye - dvec3(view.eye));
     view.right = turned(from.view.right), view.down = turned(from.view.down),
     view.forward = turned(from.view.forward);
-    // Through the mirror everything is at least as far away as the mirror is from the eye, so the
-    // near plane stays. A parallel view goes on to the scene's end.
+    // Through the mirror, nothing is nearer than the mirror is to the eye, so the near plane stays.
+    // A parallel view extends to the end of the scene.
     if (view.parallel != 0) {
         const dvec3 forward(view.forward), middle(everything.centre()),
             half(dvec3(everything.extent()) * .5);
@@ -106,14 +107,15 @@ MirroredView behind(const MirroredView& from, const scene::Flat& plane, double h
     return made;
 }
 
-/// The view in the mirror that `from` shows; nothing where it shows none of it.
+/// Returns the view in the mirror as `from` shows it; nothing if `from` does not show the mirror.
 std::optional<MirroredView> view_in(const MirroredView& from, const scene::Flat& mirror, uvec2 size,
                                     const Bounds<float>& everything) {
     const double height = dot(from.eye - mirror.point, mirror.normal);
     if (std::abs(height) < kEdgeOn || (mirror.is_one_sided && height < 0)) return {};
     Polygon polygon;
     for (const dvec3& corner : mirror.corners) polygon.push_back(corner - from.eye);
-    // What touches the mirror that is looked through, or lies in its plane, is not in front of it.
+    // A mirror that touches the plane of the view's own mirror, or lies in it, is not in front of
+    // it.
     const dvec4 clip(from.view.clip);
     if (clip != dvec4(0) && std::ranges::all_of(polygon, [&](const dvec3& corner) {
             return dot(dvec3(clip), corner) + clip.w <= kEdgeOn;
@@ -130,15 +132,15 @@ std::optional<MirroredView> view_in(const MirroredView& from, const scene::Flat&
     return made;
 }
 
-/// What all views are made from.
+/// The inputs that all views share.
 struct Mirrors {
     const std::vector<std::optional<MirrorPlane>>& planes;
     uvec2 size;
     const Bounds<float>& everything;
 };
 
-/// Adds what `from`, the view numbered `within` or the camera's, shows, `left` mirrors deep. False
-/// where there are too many.
+/// Adds the views of mirrors that `from` shows, up to `left` mirrors deep. `within`: index of
+/// `from`; empty for the camera. Returns false if there are too many views.
 bool add_views(std::vector<MirroredView>& views, const MirroredView& from,
                std::optional<std::size_t> within, const Mirrors& mirrors, int left) {
     for (std::uint32_t mirror = 0; mirror < mirrors.planes.size(); ++mirror) {

@@ -8,7 +8,7 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint32_t kFew = 16; // triangles that are looked at one by one
+constexpr std::uint32_t kFew = 16; // the most triangles that are tested one by one
 
 Bounds<float> bounds_of(const Geometry& geometry, std::uint32_t first_index) {
     Bounds<float> box;
@@ -45,7 +45,7 @@ BoxTree::BoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf)
     if (!boxes.empty()) add(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
 }
 
-/// The node over these boxes, split in halves by number along the longest axis.
+/// Adds the node over these boxes. Splits it by count into halves along the longest axis.
 void BoxTree::add(std::span<const Bounds<float>> boxes, std::uint32_t first, std::uint32_t count) {
     const std::size_t place = nodes_.size();
     nodes_.emplace_back();
@@ -129,9 +129,9 @@ void Nearest::look_at(const Geometry& geometry, std::size_t object, const vec3& 
 
 void Nearest::look_at_own(const Geometry& geometry, std::size_t object, const dvec3& point,
                           float& squared) {
-    constexpr double kRoundings = 1e-5; // more than those of the way there and back
+    constexpr double kRoundings = 1e-5; // above the error of the transform there and back
     const ObjectSpace& own = *geometry.ranges[object].own;
-    // No farther than what is known already.
+    // Starts from the known distance, so that farther triangles are skipped.
     const double known = std::sqrt(double{squared}) / own.least * (1 + kRoundings);
     float own_squared = static_cast<float>(known * known);
     look_at(geometry, object, vec3(own.point(point)), own_squared);

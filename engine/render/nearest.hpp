@@ -8,33 +8,33 @@
 
 namespace catoptric::render {
 
-/// Boxes in a tree that is made once and follows them as they move.
+/// A tree over boxes, built once and refitted when the boxes move.
 class BoxTree {
 public:
     BoxTree() = default;
-    /// At most `leaf` boxes, at least 1, in what is not split further.
+    /// Builds a tree with at most `leaf` boxes, at least 1, in each leaf.
     explicit BoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf = 4);
-    /// The same boxes elsewhere. O(n).
+    /// Updates the tree for moved boxes. Costs O(n).
     void refit(std::span<const Bounds<float>> boxes);
-    /// Calls visit(box) for all boxes that may hold a point nearer to `point` than the root of
-    /// `squared`, which visit lowers.
+    /// Calls visit(box) for every box that may hold a point nearer to `point` than sqrt(`squared`).
+    /// `visit` lowers `squared`.
     template <typename Visit>
     void nearest(const vec3& point, const float& squared, Visit&& visit) const;
 
-    /// A node of a walk without a stack: what the ray does not meet is left by going on at `past`.
+    /// A node of a walk without a stack. If the ray misses the box, the walk goes on at `past`.
     struct Step {
         Bounds<float> box;
-        std::uint32_t past = 0;            ///< the node after all that is below this one
-        std::optional<std::uint32_t> only; ///< its box, where it has just one
+        std::uint32_t past = 0;            ///< the node after the whole subtree
+        std::optional<std::uint32_t> only; ///< index of the box, if the node holds a single one
     };
-    /// All nodes, parents before their children.
+    /// Returns all nodes, parents before their children.
     std::vector<Step> steps() const;
 
 private:
     struct Node {
         Bounds<float> box;
-        std::uint32_t first = 0, count = 0; ///< of a leaf, in `order_`
-        std::uint32_t second = 0;           ///< the other child; one is the next node
+        std::uint32_t first = 0, count = 0; ///< range of a leaf in `order_`
+        std::uint32_t second = 0;           ///< the second child; the first child is the next node
     };
     void add(std::span<const Bounds<float>> boxes, std::uint32_t first, std::uint32_t count);
 
@@ -43,18 +43,20 @@ private:
     std::vector<Node> nodes_; ///< children after their parents
 };
 
-/// How near the nearest triangle of a scene is. Trees over objects and, from the first question
-/// that comes near an object on, over its triangles: O(log n) a question, not over all triangles.
+/// Distance queries to the nearest triangle of a scene. Keeps a tree over objects. Builds a tree
+/// over an object's triangles at the first query that comes near the object. A query costs O(log
+/// n).
 class Nearest {
 public:
-    /// Of a geometry laid out anew.
+    /// Prepares for a new geometry layout.
     void lay_out(const Geometry& geometry);
-    /// The object's triangles have moved.
+    /// Records that the object's triangles have moved.
     void move(std::size_t object);
 
-    /// Distance from a point to the nearest triangle, scene units: what looking at all of them
-    /// finds. Objects where `skip(index, range)` are left out; infinity when nothing is left.
-    /// An object in a shared mesh's space counts as at least as near as it is.
+    /// Returns the distance from a point to the nearest triangle, scene units. The result equals
+    /// that of testing all triangles. Leaves out objects for which `skip(index, range)` holds.
+    /// Returns infinity if none is left. For an object with an object space, the distance is a
+    /// lower bound.
     float distance(const Geometry& geometry, const dvec3& point,
                    const std::function<bool(std::size_t, const DrawRange&)>& skip);
 
@@ -72,8 +74,8 @@ private:
     std::vector<Part> parts_; ///< by object
 };
 
-/// A lower bound of the distance from the point to anything in the box, also as squared_distance
-/// rounds it.
+/// Returns a lower bound of the distance from the point to the box. The bound also holds for the
+/// rounded result of squared_distance.
 float gap_below(const vec3& point, const Bounds<float>& box);
 
 template <typename Visit>

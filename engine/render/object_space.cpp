@@ -10,10 +10,10 @@ namespace catoptric::render {
 
 namespace {
 
-/// A float turns a ray into a space by a matrix that stretches no more than this.
+/// The largest stretch of a matrix that may transform rays in float.
 constexpr double kWorstStretch = 64;
 
-/// The power of two that makes `size` about 1.
+/// Returns the power of two that scales `size` to about 1.
 double unit_of(double size) { return std::exp2(-std::ceil(std::log2(size))); }
 
 Bounds<double> mesh_bounds(const scene::Mesh& mesh) {
@@ -22,7 +22,8 @@ Bounds<double> mesh_bounds(const scene::Mesh& mesh) {
     return box;
 }
 
-/// By mesh, whether its copies are too many; the first meshes are copied as long as there is room.
+/// Returns, by mesh, whether its copies share vertices. Meshes early in the list are copied while
+/// the limit allows it.
 std::vector<bool> shared_meshes(const scene::Scene& scene) {
     std::vector<std::uint64_t> uses(scene.meshes.size());
     for (const scene::Object& object : scene.objects) ++uses[object.mesh];
@@ -79,7 +80,8 @@ ObjectSpace object_space_of(const MeshSpace& mesh, const dmat4& world_from_objec
 ObjectSpace object_space_of(const scene::Scene& now, const scene::Object& object,
                             const Space& space) {
     const Bounds<double> box = scene::bounds(now, object);
-    const double unit = unit_of(largest_component(box.extent())); // own units in one of the world
+    // Object space units in one world unit.
+    const double unit = unit_of(largest_component(box.extent()));
     ObjectSpace own;
     own.scene_from_own = dmat3(space.scale / unit);
     own.centre = space.place(object.sphere ? object.sphere->centre : box.centre());

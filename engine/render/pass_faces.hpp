@@ -5,18 +5,18 @@
 #include <cstdint>
 #include <string>
 
-/// What the passes of captures and of shadow maps have in common.
+/// Definitions that the passes of captures and of shadow maps share.
 namespace catoptric::render {
 
 inline constexpr graph::Clear kBlack{0, 0, 0, 1};
-inline constexpr graph::Clear kFarthest{0, 0, 0, 0}; ///< reversed depth
+inline constexpr graph::Clear kFarthest{0, 0, 0, 0}; ///< 0, because depth is reversed
 
-/// Neighbouring faces of a mirror's capture, or of a light's shadow map.
+/// A range of faces of a mirror's capture or of a light's shadow map.
 struct Faces {
     std::uint32_t owner = 0, first = 0, count = 6;
 };
 
-/// Of all six, or "NAME.FIRST-LAST".
+/// Returns `name` for all six faces, else "NAME.FIRST-LAST".
 inline std::string name_of(const std::string& name, const Faces& faces) {
     if (faces.count == 6) return name;
     return name + "." + std::to_string(faces.first + 1) + "-" +

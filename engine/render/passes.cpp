@@ -15,7 +15,7 @@ using graph::Image;
 using graph::Tag;
 using graph::Use;
 
-/// The same looks with causes of error taken away.
+/// Returns the same shaders with some causes of error removed.
 Looks ablated(Looks looks, const FrameInputs& inputs, const Lighting& lighting) {
     if (!inputs.ablated) return looks;
     inputs.scene.want_tracing();
@@ -43,8 +43,8 @@ View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& li
     View view{hdr, {}, {}};
     pass.writes(hdr, Use::colour, kBlack);
     if (is_traced || inputs.with_lookup) {
-        // Attachments have the locations of the shaders: the distance's, where views keep who
-        // traces, then the lookup's.
+        // The order of attachments is that of the shaders' outputs. `tracers` takes the location
+        // that captures use for distance. The lookup follows.
         view.tracers = graph.image({inputs.prefix + "view.tracers", Format::r32f, size.x, size.y});
         view.lookup = graph.image({inputs.prefix + "lookup", Format::rgba32f, size.x, size.y});
         pass.writes(*view.tracers, Use::colour, Clear{}).writes(*view.lookup, Use::colour, Clear{});

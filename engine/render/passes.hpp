@@ -7,48 +7,51 @@
 #include <optional>
 #include <string>
 
-/// The passes that techniques share. Each declares passes in a graph and returns what they make; a
-/// `prefix` keeps the names of several techniques in one frame apart.
+/// The passes that techniques share. Each function declares passes in a graph and returns their
+/// outputs. `prefix` keeps the names of several techniques in one frame apart.
 namespace catoptric::render {
 
-/// Mirror bounces of the reference, and of whatever stands in for it.
+/// Mirror bounces of the reference, and of techniques that replace it.
 inline constexpr std::uint32_t kReferenceDepth = 16;
 
-/// Depth around every light, one pass a light: layers [shadow_faces * l, ...) of a 2D array.
-/// Nothing when the scene has no light. `suffix` tells maps of one frame apart. Unless the model is
-/// everything, maps stay while what casts shadows does, and none is drawn of a light that needs
-/// none.
+/// Declares one pass for each light, which draws the depth around it: layers [shadow_faces * l,
+/// ...) of a 2D array. Returns nothing if the scene has no light. `suffix` tells several maps of a
+/// frame apart. With a required model, maps persist while the shadow casters stay, and a light that
+/// needs no map gets none.
 std::optional<graph::Image> add_shadow(graph::Graph& graph, const FrameInputs& inputs,
                                        std::uint32_t edge, const require::Model& model = {},
                                        const std::string& suffix = "");
 
-/// One pass a mirror that has a capture, all faces that are drawn at once (neighbours, where some
-/// are not; each by itself of which only a part is); two with a second layer. `looks`: of the other
-/// mirrors; mirror n is left out of its own capture.
+/// Declares one pass for each mirror with a capture. The pass draws all faces that need drawing. If
+/// some faces stay, each run of neighbours has its own pass, and so has each face of which only a
+/// part is drawn. A second layer needs a second pass. `looks`: shaders of the other mirrors; a
+/// mirror is left out of its own capture.
 void add_captures(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
                   Looks looks, const CaptureWork& work = {});
 
-/// The camera's picture.
+/// The outputs of the camera's view.
 struct View {
     graph::Image hdr; ///< linear radiance, rgba32f
-    std::optional<graph::Image>
-        lookup; ///< rgba32f, where each mirror pixel looked: see shaders/lib/mirror.glsl; else 0
-    std::optional<graph::Image>
-        tracers; ///< r32f: the number, from 1, of the tracing that takes over; 0: none
+    /// Where each mirror pixel looked, rgba32f: see shaders/lib/mirror.glsl; 0 for other pixels.
+    std::optional<graph::Image> lookup;
+    /// Number of the tracing that completes the pixel, from 1, r32f; 0: none.
+    std::optional<graph::Image> tracers;
 };
-/// `is_traced`: some look leaves pixels to tracing. Then there are `lookup` and `tracers`.
+/// Declares the pass that draws the camera's view. `is_traced`: some shader leaves pixels to
+/// tracing. In that case `lookup` and `tracers` exist.
 View add_view(graph::Graph& graph, const FrameInputs& inputs, const Lighting& lighting, Looks looks,
               bool is_traced = false);
 
-/// What the scene's view numbered `number`, which is `view`, shows in its area: linear radiance,
-/// rgba32f, defined there alone. What lies behind the mirror's plane is not drawn, nor is the
-/// mirror `left_out`, from 0.
+/// Declares a pass that draws a mirrored view within its area, and returns linear radiance,
+/// rgba32f. The image is defined only in that area. `number`: of the view in the scene's list of
+/// views. Leaves out everything behind the mirror's plane, and the mirror `left_out`, from 0.
 graph::Image add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                                const std::string& name, const MirroredView& view,
                                std::uint32_t number, const Lighting& lighting, Looks looks,
                                std::optional<std::uint32_t> left_out);
 
-/// Exposure in stops, clamp, sRGB curve: rgba8_unorm.
+/// Declares the pass that makes the final picture: exposure in stops, clamp and sRGB curve,
+/// rgba8_unorm.
 graph::Image add_compose(graph::Graph& graph, const FrameInputs& inputs, graph::Image hdr,
                          double exposure_stops);
 

@@ -31,7 +31,7 @@ bool Resident::set(std::span<const std::byte> data, std::size_t from, std::size_
     return changed;
 }
 
-/// A copy that no other slot binds.
+/// Returns a copy that no other slot binds.
 std::size_t Resident::free_copy(std::size_t slot) {
     const auto is_free = [&](std::size_t copy) {
         for (std::size_t other = 0; other < bound_.size(); ++other)

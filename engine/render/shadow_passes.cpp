@@ -1,4 +1,4 @@
-// Shadow maps: all of them, or what is to be drawn anew.
+// Passes that draw shadow maps, or those parts that have changed.
 #include "core/content_hash.hpp"
 #include "render/draw.hpp"
 #include "render/pass_faces.hpp"
@@ -16,7 +16,8 @@ using graph::Image;
 using graph::Tag;
 using graph::Use;
 
-/// Of what a face of a light's shadow map may show, and of the view that it is drawn with.
+/// Returns the content hash of everything that a face of a light's shadow map may show, and of the
+/// face's view.
 std::uint64_t shadow_content_hash(const GpuScene& scene, const require::Model& model,
                                   std::uint32_t light, std::uint32_t face) {
     const require::LightNeeds& needs = model.lights[light];
@@ -32,7 +33,8 @@ std::uint64_t shadow_content_hash(const GpuScene& scene, const require::Model& m
     return content_hash.value();
 }
 
-/// Neighbouring faces of a light's shadow map; without a map nothing is nearer than what is lit.
+/// Declares a pass that draws a range of faces of a light's shadow map. Without a map, only clears
+/// them to the farthest depth, so that nothing is in shadow.
 void add_shadow_faces(graph::Graph& graph, const GpuScene& scene, std::uint32_t light,
                       const Faces& faces, bool has_map, const std::string& name, Image part) {
     graph.pass(name, Tag::scene)

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-/// What is seen where the scene ends.
+/// The environment, which fills the background of pictures.
 namespace catoptric::render {
 
 class GpuScene;
@@ -16,14 +16,15 @@ class Sky {
 public:
     explicit Sky(std::size_t slots);
 
-    /// None: black. O(texels) where it is another than before.
+    /// Sets the environment; null: black. Costs O(texels) if the environment differs from the last
+    /// one.
     void set(const std::shared_ptr<const scene::Environment>& environment);
-    /// As Resident::write.
+    /// Writes the changes, like Resident::write.
     std::size_t write(gpu::Device& device, std::size_t slot);
     void bind(graph::Commands& commands, std::size_t slot) const;
     /// Binds the triangle that covers the picture.
     void bind_vertices(graph::Commands& commands, std::size_t slot) const;
-    /// As shaders/lib/environment.glsl numbers them; 0: none.
+    /// Returns the kind of environment, numbered as in shaders/lib/environment.glsl; 0: none.
     std::uint32_t kind() const { return kind_; }
 
 private:
@@ -32,8 +33,8 @@ private:
     Resident sky_, texels_, vertices_, indices_;
 };
 
-/// Draws it into the layers, whose views are those from `first_view` on, where nothing else is.
-/// `store`: as Drawing has it.
+/// Draws the environment where nothing else is, into layers whose views start at `first_view`.
+/// `store`: as in Drawing.
 void draw_sky(graph::Commands& commands, const GpuScene& scene, std::uint32_t first_view,
               std::uint32_t layers, const gpu::Constants& store);
 

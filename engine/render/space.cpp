@@ -54,7 +54,7 @@ Space space_of(const scene::Scene& scene) {
 
 void check_reach(const Bounds<float>& box, const std::string& object) {
     const float farthest = f32::largest(max(abs(box.lo), abs(box.hi)));
-    // Written so that infinity and NaN are refused too; an empty box is no place.
+    // Written so that infinity and NaN fail too. An empty box has no position and passes.
     check(box.empty() || farthest <= scene::kFarthestReach, Failure::exhausted, "object '", object,
           "': wanted every corner within ", scene::kFarthestReach,
           " sizes of the scene's core, found one at ", farthest,

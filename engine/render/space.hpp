@@ -6,14 +6,14 @@
 
 namespace catoptric::render {
 
-/// Scene units: world positions minus an origin, times a power of two that makes the largest extent
-/// of the scene's core (scene/core.hpp) about 1. Done in double before anything becomes a float, so
-/// that neither the scale of a scene nor its distance from the world's origin reaches the device,
-/// and nothing far outside costs what is looked at its precision.
+/// Scene units: world positions minus an origin, times a power of two. With that scale, the largest
+/// extent of the scene's core (scene/core.hpp) is about 1. The conversion uses double, before any
+/// position becomes a float. Therefore neither the scale of a scene nor its distance from the
+/// world's origin reaches the device. Distant objects do not reduce the precision of the core.
 struct Space {
     dvec3 origin_world{0};
     double scale = 1;   ///< scene units per world unit, a power of two
-    Bounds<float> core; ///< scene units; things may lie outside
+    Bounds<float> core; ///< scene units; objects may lie outside
 
     bool operator==(const Space&) const = default;
     dvec3 place(const dvec3& world) const { return (world - origin_world) * scale; }
@@ -21,22 +21,26 @@ struct Space {
     float length(double world) const { return static_cast<float>(world * scale); }
 };
 
-/// Smaller than this part of its distance from the origin, a thing loses half of a float's digits.
+/// An object smaller than this fraction of its distance from the origin loses half of a float's
+/// digits.
 inline constexpr double kSmallPart = 0x1p-12;
 
-/// Whether it is, its distance that of its farthest corner; world units. Not of what is a point or
-/// nothing.
+/// Returns whether the box is small in that sense; world units. The distance is that of its
+/// farthest corner. Empty boxes and points are not small.
 bool is_small(const Bounds<double>& box, const dvec3& origin);
 
-/// Of the scene at rest; the same for all its frames, so that motion does not move the units. The
-/// origin is the core's centre. Where mirrors in the core are small from there but not from the
-/// centre of their bounds, it is that: reflections are looked at next to them, with a float's
-/// digits. Mirrors that no one place suits, and those outside the core, which would take the digits
-/// from all else, do not move it: what is small keeps a space of its own (own_space.hpp).
+/// Returns the scene units of a scene at rest. All frames use the same units, so that motion does
+/// not change them.
+///
+/// The origin is the centre of the core. If mirrors in the core are small from there, but none is
+/// small from the centre of their bounds, that centre becomes the origin. Reflections are seen
+/// close to these mirrors and need a float's precision. Mirrors that no common origin suits do not
+/// move it, nor do mirrors outside the core, which would take precision from everything else. Small
+/// objects have an object space instead (object_space.hpp).
 Space space_of(const scene::Scene& scene);
 
-/// Throws `exhausted` naming the object where a corner of `box` (scene units) is farther away than
-/// scene::kFarthestReach.
+/// Throws `exhausted` with the object's name if a corner of `box` (scene units) is farther away
+/// than scene::kFarthestReach.
 void check_reach(const Bounds<float>& box, const std::string& object);
 
 inline double largest_component(const dvec3& v) { return std::max({v.x, v.y, v.z}); }

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-/// Lists of structures as texels of four floats, as shaders/lib/bindings.glsl reads them: of each
-/// structure shared::k...Texels, one after the other. Numbers are words (bvh/words.hpp), since a
-/// device may take a small one's bits for a number too small to keep.
+/// Lists of structures as texels of four floats, in the layout that shaders/lib/bindings.glsl
+/// reads. Each structure takes shared::k...Texels texels in sequence. Integers are stored as words
+/// (bvh/words.hpp), because a device may flush the bits of a small integer as a denormal float.
 namespace catoptric::render {
 
 std::vector<vec4> texels_of(std::span<const shared::Surface> surfaces);

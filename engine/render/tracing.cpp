@@ -22,8 +22,8 @@ std::uint32_t flags_of(const DrawRange& range) {
            (range.masked ? bvh::kMasked : 0);
 }
 
-/// What rays see of an object's triangles, and the normals at their corners with the number of the
-/// attribute there.
+/// Reads an object's triangles, as rays see them. Also reads the normal and the attribute number of
+/// each corner.
 void read_object(const Geometry& geometry, std::size_t object,
                  std::vector<bvh::Triangle>& triangles, std::vector<vec4>& normals) {
     const DrawRange& range = geometry.ranges[object];
@@ -42,7 +42,7 @@ void read_object(const Geometry& geometry, std::size_t object,
     }
 }
 
-/// Makes a tree's triangles count from `first`.
+/// Adds `first` to the triangle numbers of a tree.
 void renumber(bvh::Bvh& tree, std::uint32_t first) {
     for (std::size_t i = 1; i < tree.triangles.size(); i += 3)
         tree.triangles[i].w = std::bit_cast<float>(
@@ -53,8 +53,8 @@ bool is_own_storage(const Geometry& geometry, std::size_t object) {
     return geometry.ranges[object].own && geometry.ranges[object].storage == object;
 }
 
-/// The same list with a ball in place of the triangles of each thing in scene units that stands for
-/// an exact sphere: where the first was. The others are no triangles.
+/// Returns the list with exact spheres in scene units as spheres. Each sphere takes the place of
+/// its first triangle. Its other triangles become NaN, which the build drops.
 std::vector<bvh::Triangle> with_spheres(std::span<const bvh::Triangle> flat,
                                         const Geometry& geometry,
                                         std::span<const shared::Surface> surfaces) {
@@ -71,7 +71,8 @@ std::vector<bvh::Triangle> with_spheres(std::span<const bvh::Triangle> flat,
     return triangles;
 }
 
-/// Equal for two things of one mesh, in spaces of their own, that lie in the same place.
+/// Returns a key that is equal for two objects of one mesh whose object spaces have the same
+/// placement.
 std::array<double, 15> place_of(const DrawRange& range) {
     std::array<double, 15> place{double(range.storage), double(flags_of(range)),
                                  double(range.own->radius)};
@@ -118,13 +119,13 @@ void Tracing::build(Hierarchy& hierarchy, const Geometry& geometry,
 
 void Tracing::refit(Hierarchy& hierarchy, const Geometry& geometry,
                     std::span<const bvh::Triangle> flat) {
-    if (hierarchy.moved != hierarchy.reached) { // mostly the same things move from frame to frame
+    if (hierarchy.moved != hierarchy.reached) { // mostly the same objects move from frame to frame
         hierarchy.reach = bvh::reach_of(hierarchy.tree, hierarchy.moved);
         hierarchy.reached = hierarchy.moved;
     }
     hierarchy.changed = bvh::refit(hierarchy.tree, flat, geometry.core, &hierarchy.reach);
     ++refitted_;
-    // Written so that a NaN builds too.
+    // Written so that NaN rebuilds too.
     if (!(hierarchy.tree.cost <= kWorstRefit * hierarchy.cost_when_built))
         build(hierarchy, geometry, flat);
 }
@@ -136,7 +137,7 @@ void Tracing::build_own(const Geometry& geometry, std::size_t object) {
     renumber(tree, range.first_index / 3);
 }
 
-/// Takes over what has moved.
+/// Reads the objects that have moved.
 void Tracing::follow(const Geometry& geometry) {
     bvh::Run changed{normals_.size(), 0};
     for (const auto& [object, vertices] : moved_) {
@@ -156,10 +157,10 @@ void Tracing::follow(const Geometry& geometry) {
     normals_buffer_.set(normals_, changed.first, changed.end);
 }
 
-/// Takes over what was laid out or has moved.
+/// Reads a new layout, or the objects that have moved.
 void Tracing::read(const Geometry& geometry) {
     if (is_read_ && moved_.empty()) return;
-    // Until the end: whatever throws, the next time starts anew.
+    // `is_read_` stays false if this throws, so that the next call starts anew.
     if (std::exchange(is_read_, false)) {
         ++version_.moves;
         follow(geometry);
@@ -178,15 +179,16 @@ void Tracing::read(const Geometry& geometry) {
     moved_.clear();
 }
 
-/// Puts together what the device walks.
+/// Assembles the trees that the device walks.
 void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry) const {
     std::vector<bvh::Instance> instances;
-    std::set<std::array<double, 15>> places; // of a copy in the place of another no ray meets
+    std::set<std::array<double, 15>> places; // rays never meet a copy in the same place as another
     auto next = static_cast<std::uint32_t>(triangles_.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
         if (!range.own) continue;
-        const bool copy = range.storage != i; // has numbers of its own, after all others
+        // A copy has triangle numbers of its own, after all others.
+        const bool copy = range.storage != i;
         if (range.masked || places.insert(place_of(range)).second)
             instances.push_back({&own_trees_.at(range.storage), range.own->scene_from_own,
                                  range.own->centre, static_cast<std::uint32_t>(i), flags_of(range),
@@ -205,12 +207,12 @@ void Tracing::fill(Hierarchy& hierarchy, const Geometry& geometry) const {
         hierarchy.triangles.set(shown.triangles);
 }
 
-/// `flat`: the triangles and balls in scene units.
+/// `flat`: the triangles and spheres in scene units.
 void Tracing::bring_up_to_date(Hierarchy& hierarchy, const Geometry& geometry,
                                std::span<const bvh::Triangle> flat) {
-    // Triangles that were left out as copies may lie apart once something has moved.
+    // Triangles left out as copies may no longer coincide after a move.
     const bool is_new = hierarchy.seen.layouts != version_.layouts || hierarchy.tree.copies > 0;
-    hierarchy.seen = {}, hierarchy.changed = {}; // whatever throws, the next time starts anew
+    hierarchy.seen = {}, hierarchy.changed = {}; // if this throws, the next call starts anew
     if (is_new)
         build(hierarchy, geometry, flat);
     else if (std::ranges::find(hierarchy.moved, 1) != hierarchy.moved.end())

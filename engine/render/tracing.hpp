@@ -13,42 +13,46 @@
 
 namespace catoptric::render {
 
-/// A refitted hierarchy is built anew once its cost (bvh::cost) is this many times what it was.
+/// A refitted hierarchy is rebuilt once its cost (bvh::cost) exceeds this many times the cost when
+/// built.
 inline constexpr double kWorstRefit = 2;
 
-/// What rays meet of a thing that stands for an exact sphere: its triangles, or a ball in their
-/// place. Each has a hierarchy of its own.
+/// How rays intersect an exact sphere: by its mesh's triangles, or as a sphere. Each way has its
+/// own hierarchy.
 enum class Spheres { mesh, exact };
 
-/// What the tracer's shaders are to be built for by a device's choices, but for its defaults, where
-/// nodes and triangles have so many bytes: more than a storage buffer may are texels.
+/// Returns the constants with which the tracer's shaders are built for a device's choices, without
+/// defaults. `bytes`: the size of the nodes or triangles. If it exceeds `most_of_storage`, they are
+/// texel buffers instead of storage buffers.
 gpu::Constants constants_of(const gpu::Choices& choices, std::uint64_t bytes,
                             std::uint64_t most_of_storage);
 
-/// The hierarchies that rays walk, each made when somebody asks for it: built once for a layout of
-/// objects, refitted where objects have moved since.
+/// The hierarchies that rays walk. Each is built at its first use for a layout of objects, and
+/// refitted after objects have moved.
 class Tracing {
 public:
     explicit Tracing(std::size_t slots);
 
-    /// The objects are others than before.
+    /// Records that the layout of objects changed.
     void lay_out();
-    /// `vertices`: these changed, not only where an object's own space stands.
+    /// Records that an object moved. `vertices`: its vertices changed, not only the placement of
+    /// its object space.
     void move(std::size_t object, bool vertices) { moved_.push_back({object, vertices}); }
-    /// Brings a hierarchy up to date for slot `slot`; nothing to do where nothing has changed
-    /// since. `surfaces`: of each object, scene units. Building is O(n log^2 n), refitting O(n).
+    /// Brings a hierarchy up to date for slot `slot`. Does nothing if nothing changed since the
+    /// last call. `surfaces`: by object, scene units. A build costs O(n log^2 n), a refit O(n).
     void prepare(gpu::Device& device, const Geometry& geometry,
                  std::span<const shared::Surface> surfaces, Spheres spheres, std::size_t slot);
     void bind(graph::Commands& commands, Spheres spheres, std::size_t slot) const;
-    /// Bytes of nodes or of triangles, the more, as `prepare` wrote them for the slot.
+    /// Returns the bytes of the nodes or of the triangles, whichever is more, as written for the
+    /// slot.
     std::uint64_t largest_bytes(Spheres spheres, std::size_t slot) const;
 
     std::size_t built() const { return built_; }
     std::size_t refitted() const { return refitted_; }
-    std::size_t writes() const { return writes_; } ///< of device memory, all together
-    double ms() const { return ms_; }              ///< of the host, all together
-    /// Of the host, what is in `ms` of the first time that somebody asked: trees, and their way to
-    /// the device.
+    std::size_t writes() const { return writes_; } ///< to device memory, in total
+    double ms() const { return ms_; }              ///< of host time, in total
+    /// Returns the host milliseconds of the first use, which `ms` includes: for building the trees,
+    /// and for writing them to the device.
     double first_build_ms() const { return first_build_ms_; }
     double first_write_ms() const { return first_write_ms_; }
 
@@ -57,7 +61,7 @@ private:
         std::size_t object;
         bool vertices;
     };
-    /// What changed so far: a hierarchy that has seen less is behind.
+    /// The changes so far. A hierarchy with an older version is out of date.
     struct Version {
         std::size_t layouts = 0, moves = 0;
         friend bool operator==(const Version&, const Version&) = default;
@@ -66,13 +70,13 @@ private:
         explicit Hierarchy(std::size_t slots)
             : nodes("bvh_nodes", gpu::BufferUse::texels, slots),
               triangles("bvh_triangles", gpu::BufferUse::texels, slots) {}
-        bvh::Bvh tree; ///< of what is in scene units
+        bvh::Bvh tree; ///< of the triangles in scene units
         double cost_when_built = 0;
         Version seen;
-        std::vector<char> moved;   ///< by object in scene units, since then
-        std::vector<char> reached; ///< likewise, those of `reach`
+        std::vector<char> moved;   ///< by object in scene units: moved since `seen`
+        std::vector<char> reached; ///< by object: the objects that `reach` was made for
         bvh::Reach reach;
-        bvh::Run changed; ///< of the tree's triangles, since they were filled
+        bvh::Run changed; ///< range of the tree's triangles that changed since the last `fill`
         Resident nodes, triangles;
     };
     Hierarchy& of(Spheres spheres) { return hierarchies_[static_cast<std::size_t>(spheres)]; }
@@ -87,10 +91,10 @@ private:
 
     std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
     std::vector<vec4> normals_;
-    std::map<std::size_t, bvh::Bvh> own_trees_; ///< by the object whose vertices they are
+    std::map<std::size_t, bvh::Bvh> own_trees_; ///< by the object that owns the vertices
     Version version_{1, 0};
-    bool is_read_ = false;    ///< this layout
-    std::vector<Move> moved_; ///< since the triangles were read
+    bool is_read_ = false;    ///< the present layout has been read
+    std::vector<Move> moved_; ///< moves since the triangles were read
     std::array<Hierarchy, 2> hierarchies_;
     Resident normals_buffer_;
     std::size_t built_ = 0, refitted_ = 0, writes_ = 0;

@@ -3,18 +3,19 @@
 #include <cstdint>
 #include <vector>
 
-/// Whose captures a frame draws that may not draw all which are asked for.
+/// The capture budget: which captures a frame draws if it may not draw all of those requested.
 namespace catoptric::render {
 
-/// A mirror whose capture is to be drawn anew.
+/// A mirror whose capture has to be drawn again.
 struct Asking {
     std::uint32_t mirror = 0;
-    std::uint32_t waited = 0; ///< frames in which it was asked for and put off
+    std::uint32_t waited = 0; ///< frames for which the redraw has been put off
 };
 
-/// Mirrors that are put off: all but the `most`, at least 1, that have waited longest, of equals
-/// the first. Where put_off is asked frame after frame, of M that ask at once each is drawn in one
-/// of the next ceil(M / most) frames, whoever asks later. O(n log n).
+/// Returns the mirrors whose captures are put off: all except the `most` (at least 1) that have
+/// waited longest. Between equals, the lower mirror number goes first. If M mirrors ask at once and
+/// put_off runs in every frame, each is drawn within the next ceil(M / most) frames. Later requests
+/// do not delay them. Costs O(n log n).
 std::vector<std::uint32_t> put_off(std::vector<Asking> asking, std::uint32_t most);
 
 } // namespace catoptric::render

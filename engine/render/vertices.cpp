@@ -19,7 +19,7 @@ void Vertices::lay_out(const Geometry& geometry) {
     std::vector<std::uint32_t> indices(geometry.indices.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const DrawRange& range = geometry.ranges[i];
-        if (range.shares) places_[i].moves = false; // the mesh's vertices never do
+        if (range.shares) places_[i].moves = false; // the mesh's vertices never move
         if (range.storage != i) continue;
         std::vector<shared::Vertex>& home = places_[i].moves ? moving : still;
         places_[i].first = static_cast<std::uint32_t>(home.size());

@@ -6,29 +6,29 @@
 
 namespace catoptric::render {
 
-/// A geometry's vertices and indices on the device. What stands still has one copy there, apart
-/// from what moves and is written again.
+/// The vertices and indices of a geometry on the device. Static vertices are stored apart from
+/// moving ones, which are written again.
 class Vertices {
 public:
     /// `moves`: by object, whether it is expected to move.
     Vertices(const std::vector<bool>& moves, std::size_t slots);
 
-    /// Of a geometry laid out anew, or of one whose indices changed. O(n).
+    /// Stores a new geometry layout, or one whose indices changed. Costs O(n).
     void lay_out(const Geometry& geometry);
-    /// The object's vertices have changed. Returns whether nobody expected that, and all are to be
-    /// laid out.
+    /// Records that the object's vertices changed. Returns true if the object was expected to be
+    /// static; the caller must then lay out everything again.
     bool move(std::size_t object);
-    /// Takes over what has moved, where nothing else changed.
+    /// Copies the moved vertices. Nothing else may have changed.
     void follow(const Geometry& geometry);
-    /// How often they were laid out.
+    /// Returns how often `lay_out` ran.
     std::size_t layouts() const { return layouts_; }
-    /// Place of the object's first vertex among those that are drawn with it.
+    /// Returns the index of the object's first vertex in the buffer that it is drawn from.
     std::uint32_t first_of(std::size_t object) const { return places_[object].first; }
-    /// As Resident::write.
+    /// Writes the changes, like Resident::write.
     std::size_t write(gpu::Device& device, std::size_t slot);
-    /// Binds those of what stands still, and all indices.
+    /// Binds the static vertices and all indices.
     void bind(graph::Commands& commands, std::size_t slot) const;
-    /// Binds the object's.
+    /// Binds the vertices of the object and all indices.
     void bind(graph::Commands& commands, std::size_t slot, std::size_t object) const;
 
 private:

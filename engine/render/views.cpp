@@ -13,16 +13,19 @@ namespace catoptric::render {
 
 namespace {
 
-// Depth is a float with reversed range: its relative precision does not depend on the near plane,
-// so near only has to be above 0 and below everything. 2^-24: the rounding of a coordinate about 1.
+// Depth is a float with reversed range, so its relative precision does not depend on the near
+// plane. Near only has to be above 0 and below everything. 2^-24 is the rounding of a coordinate
+// near 1.
 constexpr float kSmallestNear = 0x1p-24f;
 
-/// Room around what a parallel view holds, as a part of it: far more than roundings.
+/// Margin around the contents of a parallel view, as a fraction of their size. It far exceeds
+/// roundings.
 constexpr double kRoom = 1e-3;
-/// A window over everything, so many times as large as one over the core, does for both.
+/// If the window over everything is at most this many times larger than the window over the core,
+/// the large window serves as both.
 constexpr double kHardlyLarger = 1.5;
 
-/// The axes of a cube whose face +Z looks along `forward`, as columns.
+/// Returns the axes of a cube whose face +Z looks along `forward`, as columns.
 glm::mat3 turned_cube(vec3 forward) {
     const vec3 size = abs(forward);
     const vec3 other = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0)
@@ -32,7 +35,7 @@ glm::mat3 turned_cube(vec3 forward) {
     return glm::mat3(x, cross(forward, x), forward);
 }
 
-/// Products of an axis with the places of a box: the least and the largest.
+/// The least and the largest product of an axis with the points of a box.
 struct Extent {
     double low = 0, high = 0;
 };
@@ -43,14 +46,15 @@ Extent along(const dvec3& axis, const Bounds<float>& box) {
     return {at - reach, at + reach};
 }
 
-/// Where everything begins along an axis and where it ends, with some room.
+/// Returns where all geometry begins and ends along an axis, with a margin.
 Extent depth_of(const dvec3& forward, const Bounds<float>& everything) {
     const auto [low, high] = along(forward, everything);
     const double room = kRoom * std::max(high - low, 1.0);
     return {low - room, high + room};
 }
 
-/// Makes the view parallel: from a plane through the eye, which is moved there, to another.
+/// Makes the view parallel. It reaches from a plane at depth.low, to which the eye moves, to a
+/// plane at depth.high.
 void look_along(shared::View& view, dvec3& eye, const dvec3& forward, const Extent& depth) {
     eye += forward * (depth.low - dot(forward, eye));
     view.near = static_cast<float>(1 / std::max(depth.high - depth.low, kRoom));
@@ -72,7 +76,7 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
     const dvec3 down = glm::cross(forward, right);
     const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     const double aspect = static_cast<double>(size.x) / static_cast<double>(size.y);
-    // A thing at distance `gap` in the corner of the picture lies this far along the axis.
+    // A surface at distance `gap` in the corner of the picture lies this far along the axis.
     const double along = 1 / std::sqrt(1 + tangent * tangent * (1 + aspect * aspect));
     shared::View view{};
     dvec3 eye = space.place(camera.eye);
@@ -89,7 +93,7 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
     }
     view.eye = vec3(eye);
     view.eye_low = bvh::low_part(eye);
-    // Written so that a NaN is refused too.
+    // Written so that NaN fails too.
     check(length(view.eye) <= scene::kFarthestReach && length(view.forward) > .5f &&
               length(view.right) > 0 && length(view.down) > 0,
           Failure::usage, "camera '", camera.name, "': wanted an eye within ",
@@ -101,7 +105,7 @@ shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 
 
 namespace {
 
-/// The largest that is not above a positive number.
+/// Returns the largest power of two that is not above a positive number.
 float power_of_two_below(float number) { return std::ldexp(1.0f, std::ilogb(number)); }
 
 } // namespace
@@ -122,9 +126,9 @@ std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_fro
         view.right = world_from_cube * f32::cube_direction(face, vec3(1, 0, 0));
         view.down = world_from_cube * f32::cube_direction(face, vec3(0, 1, 0));
         view.forward = world_from_cube * f32::cube_direction(face, vec3(0, 0, 1));
-        // The nearest thing may lie in a corner, 1 / sqrt(3) of its distance along the axis. A
-        // power of two: while something comes nearer it seldom changes, and depths but by their
-        // exponent.
+        // The nearest surface may lie in a corner, at 1 / sqrt(3) of its distance along the axis. A
+        // power of two seldom changes as something approaches, and a change alters only the
+        // exponent of depths.
         view.near = std::max(kSmallestNear, power_of_two_below(0.5f * gap));
         views.push_back(view);
     }
@@ -134,7 +138,7 @@ std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_fro
 std::array<shared::View, 2> sun_views(vec3 forward, const Bounds<float>& core,
                                       const Bounds<float>& everything) {
     const glm::mat3 axes = turned_cube(forward);
-    const dvec3 right(axes[0]), down(-axes[1]); // as face +Z has them
+    const dvec3 right(axes[0]), down(-axes[1]); // as in face +Z
     const Bounds<float>& middle = core.empty() ? everything : core;
     dvec3 eye = middle.empty() ? dvec3(0) : dvec3(middle.centre());
     const auto half_of = [&](const dvec3& axis, const Bounds<float>& box) {
@@ -157,13 +161,15 @@ std::array<shared::View, 2> sun_views(vec3 forward, const Bounds<float>& core,
 
 namespace {
 
-/// Of a view in perspective, through its eye: normals, of any length.
+/// Returns the inward normals, of any length, of the planes that bound a perspective view. All
+/// planes pass through the eye.
 std::array<vec3, 5> inward_planes(const shared::View& view) {
     return {view.forward, view.forward + view.right, view.forward - view.right,
             view.forward + view.down, view.forward - view.down};
 }
 
-/// The inside of a parallel view: between its sides and in front of its eye.
+/// Returns whether the box may lie inside a parallel view: between its sides and in front of its
+/// eye.
 bool may_meet_parallel(const shared::View& view, const Bounds<float>& box) {
     const auto furthest = [&](const vec3& plane) {
         const vec3 corner(plane.x > 0 ? box.hi.x : box.lo.x, plane.y > 0 ? box.hi.y : box.lo.y,
@@ -187,7 +193,8 @@ bool may_meet(const shared::View& view, const Bounds<float>& box) {
 }
 
 bool may_meet(const shared::View& view, const DrawRange& range) {
-    constexpr float kRoom = 0x1p-20f; // of how far it is: what places and planes are rounded by
+    // Fraction of the distance, for the roundings of positions and planes.
+    constexpr float kRoom = 0x1p-20f;
     if (!may_meet(view, range.bounds)) return false;
     if (view.parallel != 0) return true;
     const vec3 towards = range.bounds.centre() - view.eye;

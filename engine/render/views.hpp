@@ -6,32 +6,37 @@
 
 namespace catoptric::render {
 
-/// The camera's projection onto a picture of `size` pixels; `gap` = distance to the nearest thing.
-/// An orthographic one looks from its eye, or from where `everything` begins in front of that, to
-/// its end.
+/// Returns the camera's projection onto a picture of `size` pixels. `gap`: distance to the nearest
+/// surface. An orthographic view starts at the eye, or where `everything` begins if that lies in
+/// front of the eye, and ends where `everything` ends.
 shared::View camera_view(const scene::Camera& camera, const Space& space, uvec2 size, float gap,
                          const Bounds<float>& everything = {});
 
-/// What the objects of the geometry take up.
+/// Returns the bounds of all objects of the geometry.
 Bounds<float> bounds_of(const Geometry& geometry);
 
-/// Six 90-degree views from a point along the world's axes, in the order and orientation of cube
-/// map faces (+X -X +Y -Y +Z -Z): what is drawn with them can be sampled with a world direction.
+/// Returns six 90-degree views from a point along the world's axes. Their order and orientation are
+/// those of cube map faces (+X -X +Y -Y +Z -Z). A cube drawn with them can be sampled with a world
+/// direction.
 std::vector<shared::View> cube_views(vec3 eye, float gap);
 
-/// The same, turned so that face +Z looks along `forward` (unit; zero: world axes).
+/// Returns cube_views, turned so that face +Z looks along `forward` (unit length; zero: world
+/// axes).
 std::vector<shared::View> turned_cube_views(vec3 eye, vec3 forward, float gap);
-/// Turned by this matrix.
+/// Returns cube_views, turned by this matrix.
 std::vector<shared::View> turned_cube_views(vec3 eye, const glm::mat3& world_from_cube, float gap);
 
-/// Two parallel views along `forward` (unit) from one eye before everything, down to its end: one
-/// over `core`, and one over everything; the same twice where that is hardly larger.
+/// Returns two parallel views along `forward` (unit length). Both start at one eye in front of
+/// everything and reach to its end. The first covers `core`, the second covers everything. The
+/// second view is returned twice if it is hardly larger than the first.
 std::array<shared::View, 2> sun_views(vec3 forward, const Bounds<float>& core,
                                       const Bounds<float>& everything);
 
-/// False when the box is certainly outside the view: all corners beyond one of its planes.
+/// Returns false only if the box is certainly outside the view: all corners beyond one of its
+/// planes.
 bool may_meet(const shared::View& view, const Bounds<float>& box);
-/// The same of an object, whose bounding sphere may be outside though its box is not.
+/// Returns the same for an object. Also tests its bounding sphere, which may be outside although
+/// the box is not.
 bool may_meet(const shared::View& view, const DrawRange& range);
 
 } // namespace catoptric::render
