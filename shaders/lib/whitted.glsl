@@ -95,7 +95,7 @@ Point on_triangle(Hit hit) {
     uint corner = 3u * hit.triangle;
     if (object_spaces != 0u && hit.inside != 0u) corner -= 3u * number_shift(hit.inside);
     p.at = kNoAttribute;
-    if (details != 0u && has_attributes(hit.object)) p.at = attribute_at(corner, w);
+    if (details != 0u && has_attributes(surface_of(hit.object).detail)) p.at = attribute_at(corner, w);
     p.inside = 0u;
     p.arm = p.arm_error = vec3(0);
     vec3 normal_a = NORMAL(corner), normal_b = NORMAL(corner + 1u), normal_c = NORMAL(corner + 2u);
