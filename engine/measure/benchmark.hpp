@@ -10,17 +10,17 @@
 #include <string>
 #include <vector>
 
-/// Benchmarks: what each round of them took, and what of two runs is slower.
+/// Types and functions for benchmarks: the costs of each round, and the comparison of two runs.
 namespace catoptric::measure {
 
-/// What an iteration of one round took, on average.
+/// Mean cost of one iteration of a round.
 struct BenchmarkRound {
     std::uint64_t iterations = 1;
-    double real_ms = 0; ///< on the clock
-    double cpu_ms = 0;  ///< processor time
-    /// In user mode; none where the system does not count them.
+    double real_ms = 0; ///< elapsed time, ms
+    double cpu_ms = 0;  ///< processor time, ms
+    /// Processor cycles and instructions in user mode. Empty if the system does not count them.
     std::optional<double> cycles, instructions;
-    std::map<std::string, double> counters; ///< whatever else there is to say, by name
+    std::map<std::string, double> counters; ///< further values of the benchmark, by name
 };
 
 struct Benchmark {
@@ -28,64 +28,68 @@ struct Benchmark {
     std::vector<BenchmarkRound> rounds;
 };
 
-/// What one run of a program measured, and where.
+/// Measurements of one run of a program, and the circumstances of the run.
 struct BenchmarkRun {
     std::string version, commit, date; ///< date: ISO 8601 with the offset from UTC
     std::vector<std::string> command;
-    DeviceFacts device;        ///< of type "" where nothing is said of one
-    int processors = 0;        ///< of the machine
-    std::string uncounted;     ///< why cycles are not counted; empty: they are
-    double load = 0;           ///< runnable threads of the machine when it began; NaN: not told
-    std::optional<bool> noisy; ///< its threads had to wait for processors that others had
+    DeviceFacts device;    ///< an empty `type` means that the run names no device
+    int processors = 0;    ///< number of the machine's processors
+    std::string uncounted; ///< reason why cycles are not counted; empty if they are
+    double load = 0;       ///< the machine's runnable threads at the start; NaN if unknown
+    /// Whether the run's threads waited for processors that other programs used.
+    std::optional<bool> noisy;
     std::vector<Benchmark> benchmarks;
 };
 
-/// What benchmarks are compared by.
+/// The cost by which benchmarks are compared.
 enum class Cost { cycles, cpu_time, real_time };
-/// "cycles", "processor time", "time"
+/// Returns "cycles", "processor time" or "time".
 std::string name_of(Cost cost);
 
-/// A round's cost, cycles or milliseconds. NaN where the round has no cycles.
+/// Returns a round's cost in cycles or milliseconds. Returns NaN if the round has no cycles.
 double cost_of(const BenchmarkRound& round, Cost cost);
-/// Of all rounds, in order.
+/// Returns the costs of all rounds, in order.
 std::vector<double> costs_of(const Benchmark& benchmark, Cost cost);
 
-/// A ratio of costs that were measured in rounds: the median of the rounds' ratios, and how far it
-/// can be believed.
+/// Ratio of costs that were measured in rounds: the median of the rounds' ratios, and its
+/// confidence interval.
 struct Ratio {
     double median = 0;
-    Interval ci95; ///< unknown for fewer than `kFewest` rounds
+    Interval ci95; ///< 95 % confidence; unknown for fewer than `kFewest` rounds
     bool is_above_one() const { return ci95.low > 1; }
     bool is_below_one() const { return ci95.high < 1; }
 };
-/// a[i] / b[i], pair by pair; as many pairs as the shorter list has, at least one, else `internal`.
+/// Returns the ratio a[i] / b[i] over as many pairs as the shorter list has. Throws `internal`
+/// without a pair.
 Ratio ratio_of(const std::vector<double>& a, const std::vector<double>& b);
 
-/// One benchmark before and after.
+/// Costs of one benchmark before and after a change.
 struct Change {
-    /// slower, faster: by its cost, and the clock does not say the opposite; mixed: it does. same:
-    /// not told apart. unknown: too few rounds.
+    /// Result of the comparison. `slower` and `faster`: the cost says so and the elapsed time does
+    /// not say the opposite. `mixed`: the elapsed time says the opposite. `same`: the two cannot be
+    /// told apart. `unknown`: there are too few rounds.
     enum class Outcome { slower, faster, mixed, same, unknown };
     std::string name;
     Cost cost = Cost::real_time;
-    std::array<double, 2> medians{}; ///< of the cost, before and after
-    Ratio ratio;                     ///< of the cost, after over before
-    Ratio real_ratio;                ///< of the time on the clock
+    std::array<double, 2> medians{}; ///< medians of the cost, before and after
+    Ratio ratio;                     ///< cost after, divided by cost before
+    Ratio real_ratio;                ///< the same for the elapsed time
     Outcome outcome() const;
 };
-/// "slower", "faster", "mixed", "same", "unknown"
+/// Returns "slower", "faster", "mixed", "same" or "unknown".
 std::string name_of(Change::Outcome outcome);
 
 struct Changes {
-    std::vector<Change> list; ///< of what is in both, in the order of the later run
+    std::vector<Change> list; ///< the benchmarks of both runs, in the order of the later run
     std::vector<std::string> only_before, only_after;
 };
-/// By cycles where both runs counted them; else by processor time, since that repeats where others
-/// are at work beside; by the clock where one of the runs has a device that is no processor.
+/// Compares the benchmarks that both runs contain. The cost is cycles if both runs counted them.
+/// Otherwise the cost is processor time, because it repeats even if other programs run at the same
+/// time. If a run's device is not a processor, the cost is elapsed time.
 Changes compare(const BenchmarkRun& before, const BenchmarkRun& after);
 
-/// The rounds of both in one, in this order: what one of them lacks is left out. Its circumstances
-/// are those of `first`.
+/// Returns one run with the rounds of `first` followed by those of `more`. Benchmarks that `more`
+/// lacks are left out. The circumstances are those of `first`, but noise in either run is kept.
 BenchmarkRun joined(BenchmarkRun first, const BenchmarkRun& more);
 
 } // namespace catoptric::measure

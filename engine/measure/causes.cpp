@@ -1,4 +1,4 @@
-// Figures of a row's error by cause.
+// Metrics of a row's error split by cause.
 #include "measure/causes.hpp"
 
 #include "measure/metric.hpp"

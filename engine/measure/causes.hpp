@@ -10,51 +10,55 @@
 #include <string>
 #include <vector>
 
-/// A row's error by cause: what goes when one thing after another is replaced by the reference's
-/// own.
+/// Error of a row split by cause: the error that goes away when one cause after another is removed
+/// by using the reference's data.
 namespace catoptric::measure {
 
-/// Squared errors are means over mirror pixels and channels, linear, both pictures clamped to
-/// [0,1]; entry n-1 of a vector is mirror n. A part is negative where mending this uncovers
-/// another's error.
+/// Part of a row's error that one cause contributes. Squared errors are means over mirror pixels
+/// and channels, in linear RGB, with both pictures clamped to [0,1]. Entry n-1 of a vector belongs
+/// to mirror n. A part is negative if removing this cause uncovers the error of another.
 struct Cause {
     std::string name;
-    double squared_error = 0; ///< its part of the row's; all parts add up to it
-    /// The same in parts of the row's, 1 in sum; NaN where that is 0.
+    /// Part of the row's squared error; all parts add up to the whole.
+    double squared_error = 0;
+    /// The part divided by the row's squared error, so that all shares add up to 1. NaN if the
+    /// row's error is 0.
     double share = NAN;
-    /// What of `share` lies in pixels whose reflected ray meets no second mirror, and in the
-    /// others.
+    /// Parts of `share` in pixels whose reflected ray meets no second mirror, and in the others.
     double share_first_order = NAN, share_mirror_in_mirror = NAN;
-    std::vector<double> share_per_mirror; ///< ... and in each mirror's
-    /// Squared error that goes when this is mended alone, before all others; NaN: it cannot be.
+    std::vector<double> share_per_mirror; ///< parts of `share` in the pixels of each mirror
+    /// Squared error that goes away if only this cause is removed. NaN if the cause cannot be
+    /// removed alone.
     double alone = NAN;
-    std::vector<double> alone_per_mirror; ///< the same of each mirror, mean over its own pixels
+    /// `alone` of each mirror, as a mean over its own pixels.
+    std::vector<double> alone_per_mirror;
 };
 
 struct Causes {
-    double squared_error = 0;                     ///< of the row itself
+    double squared_error = 0;                     ///< squared error of the row
     std::vector<double> squared_error_per_mirror; ///< mean over each mirror's own pixels
     std::vector<Cause> list;
-    double rest_rmse = 0; ///< when all is mended: near 0 where no cause is missing
-    /// Row-major: 1 + index in `list` of the cause with the largest part of the pixel's squared
-    /// error; 0: no mirror, or the pixel is not off (kOff).
+    double rest_rmse = 0; ///< rmse with all causes removed; near 0 if no cause is missing
+    /// Cause with the largest part of each pixel's squared error, row-major, as 1 + its index in
+    /// `list`. 0 means that the pixel shows no mirror or is not off (kOff).
     std::vector<std::uint8_t> largest;
 };
 
-/// Parts of every mirror pixel's squared error that one cause has.
+/// Part of the squared error of each mirror pixel that one cause contributes.
 struct PixelCause {
     std::string name;
     std::vector<double> part;
-    std::vector<double> alone; ///< empty: it cannot be mended alone
+    std::vector<double> alone; ///< empty if the cause cannot be removed alone
 };
 
-/// Places of the mirrors' pixels in the picture, ascending.
+/// Returns the row-major indices of the pixels whose first hit is a mirror, in ascending order.
 CATOPTRIC_API std::vector<std::size_t> mirror_pixels(std::span<const std::uint32_t> hits);
 
-/// Sums what is known of each of `mirror_pixels(hits)`: the row's squared error `whole`, which the
-/// parts of `causes` add up to, the last of them being what nothing explains. Pixels that are not
-/// finite in one of them are left out, as in `difference`. `off`, of the whole picture, says which
-/// to name in `largest`.
+/// Sums the squared errors of `mirror_pixels(hits)` to means and shares. `whole` is the row's
+/// squared error of each of these pixels. The parts of `causes` add up to it, and the last cause is
+/// the unexplained rest. Pixels with a value that is not finite are left out, as in `difference`.
+/// `off` is a mask of the whole picture and says which pixels get a cause in `largest`. Throws
+/// `internal` if a list has another length than the number of mirror pixels.
 CATOPTRIC_API Causes sum_up(std::span<const std::uint32_t> hits, const Mask& off,
                             std::span<const double> whole, const std::vector<PixelCause>& causes);
 

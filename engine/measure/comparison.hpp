@@ -17,44 +17,51 @@
 #include <utility>
 #include <vector>
 
-/// What `compare` found, as plain data: filled by the application, judged here, written by report/.
+/// Results of `compare` as plain data. The application fills them, this folder judges them, and
+/// report/ writes them.
 namespace catoptric::measure {
 
 struct DeviceFacts {
     std::string name, driver, api, type;
-    int threads = 0;     ///< of a cpu device
-    std::string profile; ///< file name of its profile; empty: none holds
-    std::vector<std::pair<std::string, std::string>> variants; ///< of its shaders, by name
-    int held_threads =
-        0;         ///< of a cpu device's, how many stayed on a processor while rows were measured
-    int lanes = 0; ///< 32-bit lanes of a shader that run together; 0: not counted
+    int threads = 0;     ///< number of threads of a cpu device
+    std::string profile; ///< file name of the device's profile; empty if no profile applies
+    /// Chosen variants of the shaders: name and choice.
+    std::vector<std::pair<std::string, std::string>> variants;
+    /// Number of the cpu device's threads that were each held on one processor while rows were
+    /// measured.
+    int held_threads = 0;
+    int lanes = 0; ///< number of 32-bit shader lanes that run together; 0 if not counted
 };
 
-/// Where the picture was taken from, world units.
+/// Camera of a picture, in world units.
 struct CameraFacts {
-    std::string name; ///< empty: none
+    std::string name; ///< empty if the camera has no name
     dvec3 eye{0}, target{0}, up{0};
     double vertical_fov_degrees = 0;
-    double orthographic_height = 0; ///< of the picture, world units; 0: in perspective
+    /// Height of the picture, world units; 0 for a perspective camera.
+    double orthographic_height = 0;
 };
 
-/// What the scene says that is not shown so, or what was added to it.
+/// Unsupported feature of the scene file: something left out, approximated or added.
 struct UnsupportedFeatureFacts {
     std::string id;
     std::uint64_t count = 0;
-    std::string first;                 ///< where
-    std::optional<double> pixel_share; ///< of the picture, 0..1; none: pixels cannot tell it
+    std::string first; ///< place of the first occurrence
+    /// Share of the picture's pixels, 0..1; empty if pixels cannot tell it.
+    std::optional<double> pixel_share;
 };
 
-/// A light as the shading formula sees it.
+/// Light as the shading formula sees it, in world units.
 struct LightFacts {
     std::string kind; ///< "mesh", "point", "spot" or "directional"
-    std::string name; ///< of a light without a surface
+    std::string name; ///< name of a light without a surface
     dvec3 position{0};
-    dvec3 direction{
-        0}; ///< where a spot or a directional light shines to, a mesh faces; 0: all round
-    dvec3 emission{0}; ///< radiance of a mesh; candela, or lux of a directional light
-    double area = 0;   ///< of a mesh
+    /// Direction in which a spot or directional light shines, or in which a mesh faces. 0 if the
+    /// light shines in all directions.
+    dvec3 direction{0};
+    /// Radiance of a mesh; candela of a point or spot light; lux of a directional light.
+    dvec3 emission{0};
+    double area = 0; ///< area of a mesh
 };
 
 struct EnvironmentFacts {
@@ -67,21 +74,27 @@ struct SceneFacts {
     std::size_t triangles = 0;
     std::size_t mirrors = 0;
     std::string hash;
-    bool is_seed = false; ///< the scene of the seed report, beside whose figures its own may stand
+    /// Whether this is the seed report's scene, with whose numbers ours may be compared.
+    bool is_seed = false;
     CameraFacts camera;
     std::vector<LightFacts> lights = {};
     std::optional<EnvironmentFacts> environment = {};
     std::vector<UnsupportedFeatureFacts> unsupported = {};
 };
 
-/// What the rows needed once, milliseconds of the host each; no row's times hold it.
+/// Set-up that is done once, in milliseconds of host time each. The times of the rows do not
+/// include it.
 struct SetupFacts {
-    std::optional<double> load_ms; ///< the scene read or made, where the caller told
-    double upload_ms = 0;          ///< laid out for the device and written to it
-    double hierarchy_ms = 0;       ///< trees for tracing, built; 0: no row traced
-    double compile_ms = 0; ///< pipelines, up to what a driver leaves for the first frame with one
+    /// Reading or building the scene; empty if the caller gave no time.
+    std::optional<double> load_ms;
+    double upload_ms = 0;    ///< laying the scene out for the device and writing it there
+    double hierarchy_ms = 0; ///< building the trees for ray tracing; 0 if no row traces rays
+    /// Compiling pipelines. Work that a driver defers to the first frame with a pipeline is not
+    /// included.
+    double compile_ms = 0;
     std::size_t pipelines = 0;
-    std::string pipeline_cache = "none"; ///< on disk: "none", "made" (empty before) or "used"
+    /// Pipeline cache on disk: "none", "made" (empty before) or "used".
+    std::string pipeline_cache = "none";
 };
 
 struct PassFacts {
@@ -93,131 +106,150 @@ struct Rays {
     std::uint64_t primary = 0, mirror = 0, shadow = 0;
 };
 
-/// What face=auto stood for.
+/// Cube sizes that face=auto chose.
 struct AutoFace {
-    std::uint32_t edge = 0;    ///< of every mirror's cube, texels
-    std::vector<double> needs; ///< entry n-1: what mirror n alone needs; 0: not in view
+    std::uint32_t edge = 0; ///< edge of each mirror's cube, texels
+    /// Entry n-1: edge that mirror n alone needs, texels; 0 if it is not in view.
+    std::vector<double> needs;
 };
 
-/// Medians over frames, milliseconds each.
+/// Parts of the host's work, each a median over frames in milliseconds.
 struct HostParts {
-    double update = 0;    ///< what moved: buffers written, views and lights found
-    double hierarchy = 0; ///< trees for tracing, built or refitted
-    double compile = 0;   ///< passes declared, and planned where their shape is new
-    double record = 0;    ///< filling the command buffer
+    double update = 0;    ///< moved objects: writing buffers, finding views and lights
+    double hierarchy = 0; ///< building or refitting the trees for ray tracing
+    double compile = 0;   ///< declaring the passes, and planning them if the graph's shape is new
+    double record = 0;    ///< recording the command buffer
 };
 
-/// How far a picture is from the truth, over one set of pixels after the other.
+/// Errors of a picture against the reference, each over another set of pixels.
 struct Errors {
-    Difference error;                  ///< over the pixels whose first hit is a mirror
-    Difference error_first_order;      ///< ... whose reflected ray meets no second mirror
-    Difference error_mirror_in_mirror; ///< ... whose reflected ray does
-    Difference error_non_mirror;       ///< everything else
+    Difference error; ///< over pixels whose first hit is a mirror
+    /// Over pixels that show a mirror and whose reflected ray meets no second mirror.
+    Difference error_first_order;
+    /// Over pixels that show a mirror and whose reflected ray meets another.
+    Difference error_mirror_in_mirror;
+    Difference error_non_mirror; ///< over pixels whose first hit is no mirror
     Difference error_all;
-    Difference error_dielectrics; ///< over the pixels whose first hit reflects, but is no mirror
-    std::vector<Difference> error_per_mirror; ///< by MirrorId::index
+    /// Over pixels whose first hit reflects but is no mirror: smooth dielectrics.
+    Difference error_dielectrics;
+    std::vector<Difference> error_per_mirror; ///< one entry a mirror, by MirrorId::index
 };
 
-/// From where and when a picture shows a scene.
+/// Camera and time of a picture.
 struct View {
     CameraFacts camera;
     double time = 0;        ///< seconds into the scene's motion
-    std::uint64_t seed = 0; ///< that the camera was drawn from
+    std::uint64_t seed = 0; ///< seed from which the camera was drawn
 };
 
-/// The view at which a row is furthest from the reference.
+/// View in which a row has its largest error.
 struct WorstView {
-    std::size_t view = 0; ///< among Comparison::views
-    Picture display;      ///< the row's picture there, to its right the reference's
+    std::size_t view = 0; ///< index into Comparison::views
+    Picture display;      ///< the row's picture, with the reference to its right
 };
 
-/// What a row did not render, since its picture does not need it.
+/// Rendering that a row left out because its picture does not need it.
 struct CulledWork {
     std::string what, why, saves;
-    double error = 0; ///< the most that a displayed pixel can differ for it, of 1
+    double error = 0; ///< largest change of a displayed pixel that this causes, 0..1
 };
 
-/// One technique with its settings: what it cost and what it got wrong.
+/// Results of one technique with its settings, or of one plan: cost and error.
 struct Row : Errors {
-    std::string technique;            ///< "naive"; "plan" where several draw the mirrors
-    std::string label;                ///< as it was asked for: "naive:bounces=1"
-    std::vector<Setting> settings;    ///< all knobs
-    std::vector<PlanEntry> plan;      ///< of each mirror
+    /// "naive", for example; "plan" if several techniques draw the mirrors.
+    std::string technique;
+    std::string label;                ///< text of the request, such as "naive:bounces=1"
+    std::vector<Setting> settings;    ///< values of all knobs
+    std::vector<PlanEntry> plan;      ///< technique of each mirror
     std::string model = "everything"; ///< or "required"
     std::vector<CulledWork> left_out;
-    int scene_passes =
-        0; ///< counted in the executed plan; a cube counts once, as in the seed report
-    int scene_draws = 0; ///< the same with every cube face counted
+    /// Scene passes in the executed plan. A cube counts once, as in the seed report.
+    int scene_passes = 0;
+    int scene_draws = 0; ///< the same, but each face of a cube counts
     Summary gpu_ms, cpu_record_ms, wall_ms;
-    Summary cpu_ms; ///< processor time of the process a frame; of cpu devices
-    /// Share of the time in which its threads waited for a processor that others had; NaN: not
-    /// told.
+    Summary cpu_ms; ///< processor time of the process per frame; cpu devices only
+    /// Share of time in which the row's threads waited for a processor that other programs used,
+    /// 0..1. NaN if unknown.
     double waited = NAN;
-    bool noisy = false; ///< its threads waited for a processor: its times are not to be trusted
-    Summary wait_ms;    ///< the host stood still for the device: part of nothing else
-    Summary host_ms;    ///< the processor's work before the device could begin; waiting is none
-    Summary frame_ms;   ///< host_ms and the device's time, frame by frame: they do not overlap
+    /// Whether the threads waited for processors too long for the times to be trusted.
+    bool noisy = false;
+    Summary wait_ms; ///< time that the host waited for the device; no other time includes it
+    Summary host_ms; ///< host work before the device can begin, without waiting
+    /// host_ms plus device time, frame by frame, because the two do not overlap.
+    Summary frame_ms;
     HostParts host_parts;
-    bool moves = false; ///< the scene moved, so that every frame had work for the host
-    /// What the row is ranked by: a moving scene's rows pay for it on the host too.
+    bool moves = false; ///< whether the scene moved, so that the host had work in each frame
+    /// Returns the time by which the row is ranked. It is frame_ms if the scene moves, because the
+    /// host then works in each frame, and gpu_ms otherwise.
     const Summary& time_ms() const { return moves ? frame_ms : gpu_ms; }
-    std::vector<PassFacts> passes; ///< in order of execution
-    /// Sum of all the frame's passes over wall_ms, frame by frame: near 1 where stamps tell the
-    /// truth.
+    std::vector<PassFacts> passes; ///< passes in order of execution
+    /// Sum of all pass times of a frame divided by wall_ms, frame by frame. It is near 1 if the
+    /// timestamps are right.
     Summary closure;
-    std::uint64_t memory_bytes = 0;              ///< of the frame's images
-    std::optional<Rays> rays;                    ///< of ray tracing, one frame
-    std::optional<std::size_t> saturated_texels; ///< of captures that hold halves: cut off at 65504
-    std::optional<LookupError> lookup;           ///< first-order pixels: where mirrors looked
-    std::optional<LightEdges> light_edges;       ///< of rows that look into captures
-    std::optional<Causes> causes;                ///< of rows that look into captures
+    std::uint64_t memory_bytes = 0; ///< memory of the frame's images
+    std::optional<Rays> rays;       ///< rays of one frame; empty if the row traces none
+    /// Texels of half-float captures that are clipped at 65504.
+    std::optional<std::size_t> saturated_texels;
+    /// Error of the looked-up directions, over first-order pixels.
+    std::optional<LookupError> lookup;
+    std::optional<LightEdges> light_edges; ///< only for rows that look into captures
+    std::optional<Causes> causes;          ///< only for rows that look into captures
     std::optional<double> traced_fraction;
     std::optional<AutoFace> auto_face;
-    /// Of Comparison::views, in their order; empty: none were drawn; fewer: of a run cut short.
+    /// Errors in each of Comparison::views, in the same order. Empty if no views were drawn. A run
+    /// that was cut short has fewer entries.
     std::vector<Errors> views;
-    std::optional<WorstView> worst; ///< of these, by FLIP over the mirrors
+    std::optional<WorstView> worst; ///< the drawn view with the largest FLIP over the mirrors
     Mean mean, mean_clamped;
-    int pictured = 0; ///< frame, from 1, that pictures and errors are of; later ones show the same
-    Picture hdr;      ///< linear
-    Picture display;  ///< the same as shown
-    std::vector<float> flip_map; ///< against the reference, row-major
-    std::string image;           ///< file name without folder and ending: "naive-bounces1"
-    bool is_reference = false;   ///< same technique and settings as the reference
-    bool mirrors_black = false;  ///< it draws nothing in them: see measure::is_candidate
+    /// Frame, from 1, whose picture and errors are given. Later frames show the same.
+    int pictured = 0;
+    Picture hdr;                 ///< the row's picture, linear RGB
+    Picture display;             ///< the same picture as displayed
+    std::vector<float> flip_map; ///< FLIP of each pixel against the reference, row-major
+    /// File name of the pictures without folder and ending: "naive-bounces1".
+    std::string image;
+    bool is_reference = false; ///< whether technique and settings are those of the reference
+    /// Whether the row draws nothing in its mirrors: see measure::is_candidate.
+    bool mirrors_black = false;
 };
 
 struct Comparison {
     std::string version, commit;
-    std::string date; ///< when the run began: UTC, ISO 8601, "2026-11-24T03:05:10Z"
+    std::string date; ///< start of the run in UTC, ISO 8601: "2026-11-24T03:05:10Z"
     std::vector<std::string> command;
-    bool complete = true;         ///< false: the rows so far, of a run that goes on or was stopped
-    std::size_t asked = 0;        ///< rows that it is to have
-    std::optional<Error> stopped; ///< what ended it early
+    /// False if the run goes on or was stopped: `rows` are the rows so far.
+    bool complete = true;
+    std::size_t asked = 0;        ///< number of rows that were asked for
+    std::optional<Error> stopped; ///< the error that ended the run early
     DeviceFacts device;
     SceneFacts scene;
-    SetupFacts setup; ///< so far
+    SetupFacts setup; ///< set-up costs so far
     int width = 0, height = 0;
     int frames = 0, warmup = 0;
-    int rounds = 0;                          ///< that the frames were measured in
-    double load_start = NAN, load_end = NAN; ///< of the machine, runnable threads; NaN: not known
+    int rounds = 0; ///< number of rounds in which the frames were measured
+    /// Runnable threads of the machine; NaN if unknown.
+    double load_start = NAN, load_end = NAN;
     double time = 0, ambient = 0.05, exposure = 0;
     std::string timing = "isolated";
-    std::string model = "everything"; ///< or "required", or "both" of each row
-    bool together = false;            ///< all rows were one frame, one command buffer
+    std::string model = "everything"; ///< "everything", "required", or "both" for each row
+    bool together = false;            ///< whether one frame and one command buffer held all rows
     std::string reference_technique;
     std::string reference_label;
     std::vector<Setting> reference_settings;
     Summary reference_gpu_ms;
     Picture reference_display;
-    /// Clearing the cubes of all mirrors once and drawing nothing, at the default face size.
+    /// Time to clear the cubes of all mirrors once without drawing, at the default face size, ms.
     std::optional<Summary> clear_ms;
-    std::vector<View> views; ///< drawn, over which errors are known beside the one of the pictures
+    /// Drawn views, in which errors are known besides those of the pictures.
+    std::vector<View> views;
     std::vector<Row> rows;
-    /// Rows on the front of gpu_ms.median against error.flip: measure::front_of.
+    /// Indices of the rows on the front of time against FLIP over the mirrors, from
+    /// measure::front_of.
     std::vector<std::size_t> pareto;
-    std::optional<Lag> lag; ///< of the rows that remember, when it was asked for
+    std::optional<Lag> lag; ///< lag of the rows with history; empty if it was not asked for
     std::vector<std::string> warnings;
-    std::string images; ///< folder of its pictures below images/, "1-room/"; empty: that itself
+    /// Folder of the pictures below images/, such as "1-room/"; empty for images/ itself.
+    std::string images;
 };
 
 } // namespace catoptric::measure

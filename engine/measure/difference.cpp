@@ -109,13 +109,13 @@ const Registered kMeanClamped{
      .order = 281,
      .get = [](const Row& row) -> Value { return row.mean_clamped.rgb; }}};
 
-/// Differences of the pixels of a short run; `largest` is NaN where a pixel is not finite.
+/// Differences of the pixels of a short run. `largest` is NaN where a pixel is not finite.
 struct Run {
     static constexpr std::size_t kPixels = 256;
     std::array<double, kPixels> largest, square, absolute;
 };
 
-/// Fills `run` with the differences of `count` pixels, each of three values.
+/// Fills `run` with the differences of `count` pixels of three values each.
 CATOPTRIC_WIDE void take_apart(const float* __restrict a, const float* __restrict b,
                                std::size_t count, Run& run) {
     double* __restrict const largest = run.largest.data();
@@ -131,7 +131,7 @@ CATOPTRIC_WIDE void take_apart(const float* __restrict a, const float* __restric
         const double x = std::abs(one(p[0]) - one(q[0])), y = std::abs(one(p[1]) - one(q[1])),
                      z = std::abs(one(p[2]) - one(q[2]));
         const double two = x < y ? y : x;
-        // 0 times a value is not 0 where the value is not finite.
+        // 0 times a value that is not finite is NaN, so the sum marks such pixels.
         const float finite = 0 * p[0] + 0 * p[1] + 0 * p[2] + 0 * q[0] + 0 * q[1] + 0 * q[2];
         largest[i] = (two < z ? z : two) + static_cast<double>(finite);
         square[i] = x * x + y * y + z * z;
@@ -208,7 +208,7 @@ Difference difference(const Picture& a, const Picture& b, const Mask& mask,
 }
 
 void MeanSum::add(std::span<const vec3> pixels, std::span<const std::uint8_t> mask) {
-    dvec3 sum = sum_, clamped_sum = clamped_sum_; // stay in registers
+    dvec3 sum = sum_, clamped_sum = clamped_sum_; // local copies stay in registers
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         if (!mask.empty() && mask[i] == 0) continue;
         sum += dvec3(pixels[i]);

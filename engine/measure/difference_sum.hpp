@@ -7,21 +7,23 @@
 
 namespace catoptric::measure {
 
-/// Adds a difference up row by row, so that two pictures need not be in memory as a whole: 9 bytes
-/// a pixel are kept. What comes out does not depend on how many rows come at once.
+/// Sums the difference of two pictures row by row, so that neither picture needs to be in memory as
+/// a whole. Keeps 9 bytes a pixel. The result does not depend on how many rows each call adds.
 class DifferenceSum {
 public:
-    /// Takes memory for all pixels at once: growing step by step would take twice as much.
+    /// Reserves memory for all pixels at once, because growing step by step would take twice as
+    /// much.
     DifferenceSum(int width, std::size_t pixel_count) : width_(width) {
         off_.reserve(pixel_count), largest_.reserve(pixel_count);
     }
 
-    /// The next rows, linear RGB as exposed, with their FLIP. `mask` of as many pixels; empty: all
-    /// count.
+    /// Adds the next rows, in linear RGB after exposure, with their FLIP. `mask` has as many
+    /// entries as there are pixels; if it is empty, all pixels count.
     void add(std::span<const vec3> a, std::span<const vec3> b, std::span<const std::uint8_t> mask,
              std::span<const float> flip_map);
 
-    /// Of all rows, without the figures that others compute. Leaves nothing behind.
+    /// Returns the difference over all rows, without the metrics that are computed from pictures.
+    /// Resets the sum.
     Difference take();
 
 private:
@@ -30,16 +32,19 @@ private:
 
     int width_;
     Difference result_;
-    std::vector<double> largest_; ///< of each judged pixel
+    /// Largest channel difference of each finite pixel of the mask.
+    std::vector<double> largest_;
     Mask off_;
     std::size_t off_count_ = 0;
     double squares_ = 0, absolutes_ = 0, flips_ = 0;
 };
 
-/// Adds the means of a picture up row by row: of values as they are and of values clamped to [0,1].
+/// Sums the mean of a picture row by row, both of the values as they are and of the values clamped
+/// to [0,1].
 class MeanSum {
 public:
-    /// Adds the next rows. `mask` of as many pixels; empty: all count.
+    /// Adds the next rows. `mask` has as many entries as there are pixels; if it is empty, all
+    /// pixels count.
     void add(std::span<const vec3> pixels, std::span<const std::uint8_t> mask);
     Mean mean(Range range) const;
 

@@ -4,8 +4,9 @@
 
 namespace catoptric::measure {
 
-/// Writes to `display` what `to_display` returns or, if not `is_rounded`, `to_unrounded_display`.
-/// `display` keeps its memory, which saves the system's clearing of new memory.
+/// Writes the result of `to_display` to `display`, or that of `to_unrounded_display` if
+/// `is_rounded` is false. `display` keeps its memory, because the system would have to clear new
+/// memory.
 void write_display(const Picture& picture, double exposure_stops, bool is_rounded,
                    Picture& display);
 

@@ -15,14 +15,14 @@
 namespace catoptric::measure {
 namespace {
 
-constexpr int kBandPixels = 1 << 21; // and at least a row
+constexpr int kBandPixels = 1 << 21; // pixels of a band; a band has at least one row
 
-/// The rows of a picture that one band and what lies around it need.
+/// Window on a picture: the rows that one band and its surroundings need.
 class Window {
 public:
     explicit Window(PictureReader reader) : reader_(std::move(reader)) {}
 
-    /// Rows from `first` to before `end`, of which those that are there already are kept.
+    /// Returns the rows [first, end). Rows that the window already holds are not read again.
     const Picture& show(int first, int end) {
         const auto width = static_cast<std::size_t>(reader_.width());
         std::vector<vec3>& pixels = rows_.pixels;
@@ -42,14 +42,13 @@ private:
     Picture rows_;
 };
 
-/// FLIP of parts of two pictures, one after the other in the same memory.
+/// Computes FLIP of parts of two pictures, one after the other in the same memory.
 class FlipOfParts {
 public:
     FlipOfParts(double exposure_stops, bool is_of_bytes)
         : exposure_stops_(exposure_stops), is_of_bytes_(is_of_bytes) {}
 
-    /// Returns FLIP of the rows from `first` to before `end`; does not compute it of equal
-    /// pictures.
+    /// Returns FLIP of the rows [first, end). Equal pictures give 0 without computation.
     std::vector<float> of_rows(const Picture& a, const Picture& b, int first, int end) {
         if (a.pixels == b.pixels)
             return std::vector<float>(static_cast<std::size_t>(end - first) *
@@ -65,7 +64,8 @@ private:
     Picture display_a_, display_b_;
 };
 
-/// Returns nothing for pictures that are shown as they are.
+/// Returns the rows after exposure. Returns an empty list for 0 stops: the caller then uses the
+/// rows as they are.
 std::vector<vec3> exposed_rows(std::span<const vec3> rows, double exposure_stops) {
     if (exposure_stops == 0) return {};
     std::vector<vec3> result;

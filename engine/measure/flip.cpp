@@ -16,32 +16,33 @@
 #include <initializer_list>
 #include <numbers>
 
-// Section and symbol names follow the paper. Double throughout: the feature exponent 1/2 would turn
-// float's rounding of a flat area (1e-7) into 3e-4.
+// Section and symbol names follow the paper. All computation is in double: the feature exponent 1/2
+// would turn float's rounding of a flat area (1e-7) into 3e-4.
 namespace catoptric::measure {
 namespace {
 
 // --- colour spaces -------------------------------------------------------------------------------
 
-/// Columns are the XYZ of red, green and blue, the constants of the authors' program.
+/// Matrix whose columns are the XYZ of red, green and blue, with the constants of the authors'
+/// program.
 const dmat3 kXyzFromRgb = {{10135552.0 / 24577794, 2613072.0 / 12288897, 1425312.0 / 73733382},
                            {8788810.0 / 24577794, 8788810.0 / 12288897, 8788810.0 / 73733382},
                            {4435075.0 / 24577794, 887015.0 / 12288897, 70074185.0 / 73733382}};
 const dvec3 kWhite = kXyzFromRgb * dvec3(1);
 
-/// As `matrix * v`, written out: loops over it become vector code.
+/// Returns `matrix * v`. It is written out so that compilers vectorise loops over it.
 inline dvec3 product(const dmat3& matrix, const dvec3& v) {
     return {matrix[0].x * v.x + matrix[1].x * v.y + matrix[2].x * v.z,
             matrix[0].y * v.x + matrix[1].y * v.y + matrix[2].y * v.z,
             matrix[0].z * v.x + matrix[1].z * v.y + matrix[2].z * v.z};
 }
 
-/// XYZ of a colour by the XYZ of white.
+/// Matrix from linear RGB to XYZ divided by the XYZ of white.
 const dmat3 kRelativeFromRgb = {kXyzFromRgb[0] / kWhite, kXyzFromRgb[1] / kWhite,
                                 kXyzFromRgb[2] / kWhite};
 const dmat3 kRgbFromRelative = glm::inverse(kRelativeFromRgb);
 
-/// Opponent space: x achromatic, y red-green, z blue-yellow.
+/// Returns a colour in opponent space: x achromatic, y red-green, z blue-yellow.
 inline dvec3 ycxcz_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb) {
     const dvec3 n = product(relative_from_rgb, rgb);
     return {116 * n.y - 16, 500 * (n.x - n.y), 200 * (n.y - n.z)};
@@ -54,9 +55,9 @@ inline dvec3 rgb_from_ycxcz(const dvec3& ycxcz, const dmat3& rgb_from_relative) 
 
 inline double within_gamut(double value) { return std::min(std::max(value, 0.0), 1.0); }
 
-/// Returns the cube root of `t` within 2e-14 of it, for t from 1e-30 to 1e30, without a branch:
-/// loops over it become vector code. Two steps of Halley's method after a guess that divides the
-/// exponent by three.
+/// Returns the cube root of `t` within 2e-14 of it, for t from 1e-30 to 1e30. Uses two steps of
+/// Halley's method after a guess that divides the exponent by three. It has no branch, so compilers
+/// vectorise loops over it.
 inline double cube_root(double t) {
     constexpr std::int32_t kBias = 0x2a51'37a0; // makes the guess's largest error least, 3.5 %
     const auto bits = std::bit_cast<std::int32_t>(static_cast<float>(t));
@@ -68,9 +69,9 @@ inline double cube_root(double t) {
     return nearer(nearer(root));
 }
 
-/// CIELAB with the Hunt effect: colourfulness falls with lightness.
+/// Returns a colour in CIELAB with the Hunt effect: colourfulness falls with lightness.
 inline dvec3 hunt_lab_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb) {
-    // Its straight part meets the cube root at the same value and slope, so no branch is needed.
+    // CIELAB's linear part meets the cube root with equal value and slope, so no branch is needed.
     const auto f = [](double t) {
         constexpr double kDelta = 6.0 / 29, kLeast = kDelta * kDelta * kDelta;
         return cube_root(std::max(t, kLeast)) +
@@ -81,7 +82,8 @@ inline dvec3 hunt_lab_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb)
     return {l, 0.01 * l * 500 * (f(n.x) - f(n.y)), 0.01 * l * 200 * (f(n.y) - f(n.z))};
 }
 
-/// Of values that neither overflow nor underflow when squared, which std::hypot allows for.
+/// Returns the length of (x, y). Unlike std::hypot, it assumes that squares neither overflow nor
+/// underflow.
 inline double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 double hyab(const dvec3& a, const dvec3& b) {
@@ -90,13 +92,14 @@ double hyab(const dvec3& a, const dvec3& b) {
 
 // --- section 4.1: colour pipeline ----------------------------------------------------------------
 
-/// Gaussian of the contrast sensitivity functions, a * sqrt(pi / b) * exp(-pi^2 x^2 / b), x in
-/// degrees, as a factor of a separable two-dimensional kernel: its amplitude under a square root.
-/// Reaches as far as its weights matter, at most to `radius`.
+/// Returns a Gaussian of the contrast sensitivity functions, a * sqrt(pi / b) * exp(-pi^2 x^2 / b),
+/// with x in degrees. It is one factor of a separable two-dimensional kernel, so its amplitude is
+/// the square root. The kernel ends where weights become negligible, and at most at `radius`.
 Kernel sensitivity(double a, double b, int radius, double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi;
     const double amplitude = std::sqrt(a * std::sqrt(kPi / b));
-    constexpr double kNothing = 1e-10; // of the weight in the middle: below a float's rounding
+    // Share of the middle weight that is below float's rounding.
+    constexpr double kNothing = 1e-10;
     const auto weight = [&](int i) {
         const double degrees = i / pixels_per_degree;
         return amplitude * std::exp(-kPi * kPi * degrees * degrees / b);
@@ -114,26 +117,26 @@ int colour_radius(double pixels_per_degree) {
         std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixels_per_degree));
 }
 
-/// A picture by channel, opponent colours or others.
+/// Picture by channel, in opponent colours or another space.
 using Channels = std::array<Plane, 3>;
 
-/// Part of a picture, from `low` to before `high`.
+/// Part of a picture: pixels from `low` up to but excluding `high`.
 struct Part {
     ivec2 low, high;
 };
 
-/// Changes light of red, green and blue into opponent colours.
+/// Converts linear RGB to opponent colours in place.
 CATOPTRIC_WIDE void make_opponent(double* __restrict x, double* __restrict y, double* __restrict z,
                                   std::size_t count) {
-    const dmat3 relative_from_rgb = kRelativeFromRgb; // stays in registers
+    const dmat3 relative_from_rgb = kRelativeFromRgb; // a local copy stays in registers
     for (std::size_t i = 0; i < count; ++i) {
         const dvec3 colour = ycxcz_from_rgb({x[i], y[i], z[i]}, relative_from_rgb);
         x[i] = colour.x, y[i] = colour.y, z[i] = colour.z;
     }
 }
 
-/// Writes opponent colours of a part of a picture as the screen shows it, with a border of `reach`
-/// pixels. Beyond the picture its outermost pixel goes on.
+/// Writes the opponent colours of a part of a displayed picture with a border of `reach` pixels.
+/// Beyond the picture, its outermost pixels are repeated.
 void find_opponent(const Picture& display, const Part& part, int reach, Channels& result) {
     const ivec2 size = part.high - part.low + 2 * reach, low = part.low - reach;
     const int first = std::max(0, -low.x), end = std::min(size.x, display.width - low.x);
@@ -157,10 +160,10 @@ void find_opponent(const Picture& display, const Part& part, int reach, Channels
     }
 }
 
-/// Clamps colours of opponent space into the gamut; writes them in the perceptually even space.
+/// Converts opponent colours to the perceptually uniform space in place, clamped to the gamut.
 CATOPTRIC_WIDE void make_even(double* __restrict x, double* __restrict y, double* __restrict z,
                               std::size_t count) {
-    // stay in registers
+    // local copies stay in registers
     const dmat3 rgb_from_relative = kRgbFromRelative, relative_from_rgb = kRelativeFromRgb;
     for (std::size_t i = 0; i < count; ++i) {
         const dvec3 rgb = rgb_from_ycxcz({x[i], y[i], z[i]}, rgb_from_relative);
@@ -170,8 +173,8 @@ CATOPTRIC_WIDE void make_even(double* __restrict x, double* __restrict y, double
     }
 }
 
-/// The eye's contrast sensitivity: a low pass for each opponent channel, which is a sum of
-/// separable Gaussians with a total weight of 1.
+/// Filters for the eye's contrast sensitivity: a low pass for each opponent channel. Each filter is
+/// a sum of separable Gaussians with a total weight of 1.
 struct ColourKernels {
     explicit ColourKernels(double pixels_per_degree)
         : achromatic(colour_gaussian(1, 0.0047, pixels_per_degree)),
@@ -201,10 +204,10 @@ private:
     }
 };
 
-/// Colour difference in [0,1] (eqs. 5 and 6): small differences get most of the range.
+/// Maps a colour distance to [0,1] (eqs. 5 and 6). Small distances get most of the range.
 class ColourDifference {
 public:
-    /// `distance`: of two colours, as `hyab`.
+    /// Returns the mapped difference. `distance` is that of two colours by `hyab`.
     float operator()(float distance) const {
         const float error = std::pow(distance, kExponent);
         const float knee = kKneeIn * largest_;
@@ -237,7 +240,8 @@ int feature_radius(double pixels_per_degree) {
     return static_cast<int>(std::ceil(3 * feature_deviation(pixels_per_degree)));
 }
 
-/// A Gaussian whose width is that of the eye's edge detector, 0.082 degrees, and its derivatives.
+/// Kernels of the feature detector: a Gaussian with the width of the eye's edge detector, 0.082
+/// degrees, and its first two derivatives.
 struct FeatureKernels {
     explicit FeatureKernels(double pixels_per_degree)
         : smooth(feature_radius(pixels_per_degree)), first(smooth.radius), second(smooth.radius) {
@@ -249,7 +253,7 @@ struct FeatureKernels {
             second[i] = (squared - 1) * smooth[i];
         }
         normalise(smooth), normalise(first), normalise(second);
-        // Luminance is (achromatic + 16) / 116, and derivatives do not see the 16.
+        // Luminance is (achromatic + 16) / 116, and the constant 16 vanishes in derivatives.
         for (Kernel* derivative : {&first, &second})
             for (double& weight : derivative->weights) weight /= 116;
     }
@@ -261,7 +265,7 @@ CATOPTRIC_WIDE void lengths(double* __restrict x, const double* __restrict y, st
     for (std::size_t i = 0; i < count; ++i) x[i] = length(x[i], y[i]);
 }
 
-/// Feature difference in [0,1] (eq. 7).
+/// Returns the feature difference in [0,1] (eq. 7).
 inline double feature_difference(double edge_a, double edge_b, double point_a, double point_b) {
     const double largest = std::max(std::abs(edge_a - edge_b), std::abs(point_a - point_b));
     return std::sqrt(largest / std::numbers::sqrt2); // q_f = 1/2
@@ -274,13 +278,13 @@ struct Kernels {
     int reach; ///< the largest radius
 };
 
-/// What FLIP compares of one picture.
+/// Data of one picture that FLIP compares.
 struct Seen {
-    Channels colour;   ///< filtered, clamped into the gamut, in the perceptually even space
-    Plane edge, point; ///< how strong an edge and a point are at a pixel
+    Channels colour;   ///< filtered, clamped to the gamut, in the perceptually uniform space
+    Plane edge, point; ///< strength of an edge and of a point at each pixel
 };
 
-/// Distances of colours and of features, pixel by pixel.
+/// Writes the distances of colours and of features, pixel by pixel.
 CATOPTRIC_WIDE void compare(const Seen& a, const Seen& b, float* __restrict colours,
                             float* __restrict features) {
     const std::size_t count = a.edge.values.size();
@@ -303,7 +307,7 @@ class PartOfMap {
 public:
     explicit PartOfMap(const Kernels& kernels) : kernels_(kernels) {}
 
-    /// Writes the map of `part`, whose rows begin `stride` values apart, from `to` on.
+    /// Writes the map of `part` to `to`. Its rows begin `stride` values apart.
     void write(const Picture& a, const Picture& b, const Part& part, float* to,
                std::ptrdiff_t stride) {
         see(a, part, a_);
@@ -337,7 +341,7 @@ private:
         find_gradient(kernels_.feature.second, seen.point);
     }
 
-    /// Writes the gradient magnitude of the luminance by a derivative of a Gaussian.
+    /// Writes the magnitude of the luminance's gradient by a derivative of a Gaussian.
     void find_gradient(const Kernel& derivative, Plane& magnitude) {
         along_x(opponent_[0], derivative, kernels_.reach, part_);
         sum_along_y({{part_, kernels_.feature.smooth}}, kernels_.reach, magnitude);
@@ -372,8 +376,8 @@ std::vector<float> flip_of_rows(const Picture& a, const Picture& b, int first, i
     check(0 <= first && first <= end && end <= a.height, Failure::internal,
           "FLIP wants rows of 0 to ", a.height, ", found ", first, " to ", end);
 
-    // Tiles whose planes stay in the cache. Each is computed with as much around it as filters
-    // reach, so no pixel depends on where tiles end.
+    // The planes of a tile stay in the cache. Each tile is computed with as many pixels around it
+    // as the filters reach, so no pixel depends on the tiling.
     constexpr int kTile = 128;
     const Kernels kernels{ColourKernels(pixels_per_degree), FeatureKernels(pixels_per_degree),
                           flip_reach(pixels_per_degree)};
@@ -409,7 +413,7 @@ double flip_mean(std::span<const float> map, const Mask& mask) {
         sum += static_cast<double>(map[i]);
         count += 1;
     }
-    return sum / count; // 0/0 is NaN: no pixel, no error
+    return sum / count; // 0/0 is NaN: without a pixel there is no mean
 }
 
 } // namespace catoptric::measure

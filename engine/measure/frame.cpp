@@ -1,4 +1,4 @@
-// Figures of the frames that a row rendered: what they cost and what they were made of.
+// Metrics of the frames that a row rendered: their cost and their contents.
 #include "measure/metric.hpp"
 
 #include <cmath>
@@ -16,7 +16,7 @@ Value times_of_passes(const Row& row) {
     return list;
 }
 
-/// A count of rays; nothing where none are traced.
+/// Returns a count of rays, or no value if the row traces none.
 template <std::uint64_t Rays::*Kind>
 Value count_of(const Row& row) {
     return row.rays ? static_cast<double>((*row.rays).*Kind) : NAN;

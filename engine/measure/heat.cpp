@@ -9,7 +9,7 @@
 namespace catoptric::measure {
 namespace {
 
-/// A colour, in eighths of the way up the map.
+/// Colours at multiples of one eighth of the map.
 constexpr std::size_t kSteps = 8;
 const std::array<vec3, kSteps + 1> kAnchors = {
     vec3(0.0F, 0.0F, 0.0F),       vec3(0.126F, 0.068F, 0.349F), vec3(0.353F, 0.088F, 0.49F),

@@ -1,4 +1,4 @@
-// What the processor does for a frame, which no time stamp of the device sees.
+// Metrics of the processor's work for a frame, which timestamps of the device do not see.
 #include "measure/metric.hpp"
 
 namespace catoptric::measure {

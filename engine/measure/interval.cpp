@@ -7,10 +7,11 @@ namespace catoptric::measure {
 
 namespace {
 
-/// The largest k, from 1, for which P(Binomial(n, 1/2) < k) <= 2.5 %; 0: none.
+/// Returns the largest k, from 1, for which P(Binomial(n, 1/2) < k) <= 2.5 %, or 0 if there is
+/// none.
 std::size_t rank_of(std::size_t n) {
     const auto count = static_cast<double>(n);
-    double log_term = -count * std::log(2.0); // of P(Binomial = k)
+    double log_term = -count * std::log(2.0); // logarithm of P(Binomial = k)
     double below = 0;                         // P(Binomial < k)
     std::size_t k = 0;
     for (; k < n; ++k) {

@@ -11,7 +11,7 @@ namespace catoptric::measure {
 
 namespace {
 
-/// The first row on the front that beats this one; null when none does.
+/// Returns the first row on the front that beats this row, or null if none does.
 const Row* winner_over(const std::vector<const Row*>& front, const Row& loser) {
     const auto found = std::ranges::find_if(front,
                                             [&](const Row* row) { return beats(*row, loser); });
@@ -35,7 +35,7 @@ bool judged(const Row* row) {
 
 namespace {
 
-/// Returns whether the row has what a choice is made by.
+/// Returns whether the row has the values that a choice needs: known FLIP and a time above 0.
 bool is_choice(const Row& row) {
     return is_candidate(row) && !std::isnan(row.error.flip) && row.time_ms().median > 0;
 }

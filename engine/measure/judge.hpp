@@ -4,71 +4,78 @@
 
 #include <vector>
 
-// What rows are worth beside each other. Whoever writes, shows or chooses asks here.
+// Judgement of rows against each other. All code that writes, shows or chooses rows uses these
+// rules.
 namespace catoptric::measure {
 
-/// It holds pixels that are no numbers: its figures leave them out and judge nothing.
+/// Returns whether the row's picture has pixels that are NaN or infinite. Its metrics leave these
+/// pixels out, so they are not judged.
 bool failed(const Row& row);
-/// Its error over the mirrors is known.
+/// Returns whether the row's error over the mirrors is known and the row has not failed. Null gives
+/// false.
 bool judged(const Row* row);
-/// Returns whether the row takes part in fastest, closest and front: it is judged and draws
-/// something in its mirrors. One with black mirrors is a floor for time.
+/// Returns whether the row takes part in fastest, closest and front. A candidate is judged and
+/// draws something in its mirrors. A row with black mirrors only gives a lower bound for time.
 bool is_candidate(const Row& row);
-/// Of the ratio of two rows' times, round by round: the rows are apart in time where it excludes 1.
-/// Unknown where they have too few rounds in common.
+/// Returns the interval of a's time divided by b's, round by round. The two times can be told apart
+/// if the interval excludes 1. It is unknown if the rows have too few rounds in common.
 Interval time_ratio(const Row& a, const Row& b);
-/// Whether a takes less time, and they are apart.
+/// Returns whether a takes less time than b with 95 % confidence.
 bool is_faster(const Row& a, const Row& b);
-/// Neither is faster.
+/// Returns whether neither row is faster than the other.
 bool is_tie(const Row& a, const Row& b);
-/// Whether a has less FLIP over the mirrors; where errors are known over views, whether the
-/// interval of the difference says so.
+/// Returns whether a has less FLIP over the mirrors than b. If errors over drawn views are known,
+/// the confidence interval of the difference decides.
 bool is_closer(const Row& a, const Row& b);
-/// Returns whether a is the better choice: faster and not farther off, or closer and not slower. A
-/// row that is no candidate or took no time beats no row and is beaten by none.
+/// Returns whether a is the better choice: faster and not farther from the reference, or closer and
+/// not slower. A row that is no candidate or took no time neither beats a row nor is beaten.
 bool beats(const Row& a, const Row& b);
 
-/// Indices of the rows that no other row beats, in order of time, then index: Comparison::pareto.
-/// Rows that tie stay on it together. Costs O(n^2).
+/// Returns the indices of the rows that no other row beats, in order of median time, then index.
+/// This list is Comparison::pareto. Rows that tie may all be on the front. Costs O(n^2).
 std::vector<std::size_t> front_of(const std::vector<Row>& rows);
 
-/// Places in the order of time, from 1: one more than the rows that are faster, to the rows that
-/// it is not faster than. Rows that tie share a place.
+/// Places of a row in the order of time, from 1. `first` is one more than the number of rows that
+/// are faster. `last` is the number of rows less those that this row is faster than. Rows that tie
+/// share places.
 struct Places {
     std::size_t first = 1, last = 1;
 };
 Places places_in_time(const Comparison& comparison, const Row& row);
 
-/// The rows whose threads waited for a processor: others were at work beside.
+/// Returns the rows whose threads waited for processors that other programs used.
 std::vector<const Row*> noisy_rows(const Comparison& comparison);
 
 bool on_front(const Comparison& comparison, const Row& row);
 
-/// Candidates that no other candidate is faster than: one, or several that are not told apart.
+/// Returns the candidates that no other candidate is faster than. Several are returned if their
+/// times cannot be told apart.
 std::vector<const Row*> fastest_rows(const Comparison& comparison);
-/// The candidate of least FLIP over the mirrors but for the reference itself; null where there is
-/// none.
+/// Returns the candidate with the least FLIP over the mirrors, other than the reference itself.
+/// Returns null if there is none.
 const Row* closest_row(const Comparison& comparison);
 
-/// Who beats whom.
+/// Ranking of the rows: which row beats which.
 struct Ranking {
     struct Win {
-        const Row* winner; ///< on the front
+        const Row* winner; ///< a row on the front
         std::vector<const Row*> losers;
     };
-    std::vector<const Row*> front; ///< in order of time
-    std::vector<Win> wins;         ///< each loser under the first on the front that beats it
+    std::vector<const Row*> front; ///< rows on the front, in order of time
+    /// Each loser is listed once, under the first row on the front that beats it.
+    std::vector<Win> wins;
     std::vector<const Row*> beaten_by_beaten;
     std::vector<const Row*> not_judged;
-    std::vector<const Row*> black; ///< judged, but no candidates: their mirrors are black
+    /// Judged rows that are no candidates because their mirrors are black.
+    std::vector<const Row*> black;
 };
 Ranking ranking_of(const Comparison& comparison);
 
-/// Whether tracing rays beats everything else.
+/// Answer to whether ray tracing beats all other rows.
 struct TracingVerdict {
     bool any_traced = false;
-    std::size_t others = 0;           ///< judged rows that trace none and draw their mirrors
-    std::vector<const Row*> unbeaten; ///< of these, by any ray-traced row
+    std::size_t others = 0;           ///< number of candidates that are not ray traced
+    std::vector<const Row*> unbeaten; ///< the candidates that no ray-traced row beats
 };
 TracingVerdict tracing_verdict(const Comparison& comparison);
 

@@ -9,7 +9,7 @@ namespace catoptric::measure {
 namespace {
 
 constexpr std::string_view kMirrors = "mirrors";
-constexpr int kBesideRmse = 104; // among the columns
+constexpr int kBesideRmse = 104; // order of columns that stand beside rmse
 
 template <double LightEdges::*Figure>
 Value figure(const Row& row) {
@@ -46,7 +46,8 @@ const Registered kPixels{
      .get = figure<&LightEdges::pixels>}};
 
 struct Sum {
-    double pixels = 0, squares = 0; ///< judged; mean square of a channel times them
+    /// Finite pixels, and the mean square of a channel times their number.
+    double pixels = 0, squares = 0;
 };
 
 Sum sum_of(const Difference& error) {

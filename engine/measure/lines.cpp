@@ -14,15 +14,16 @@ namespace catoptric::measure {
 namespace {
 
 constexpr int kPatch = 4; ///< edge of the square that makes a patch
-constexpr int kReach =
-    3; ///< two pixels dilated by 1 touch where their columns and rows are so near
+/// Pixels dilated by 1 touch if their columns and rows differ by at most this.
+constexpr int kReach = 3;
 
-/// Returns where a square of kPatch x kPatch pixels that count ends, at its lower right.
+/// Returns a mask of the lower right corners of squares of kPatch x kPatch pixels that all count.
 Mask patch_corners(const Mask& mask, std::size_t width) {
     Mask corners(mask.size());
     const std::size_t height = mask.size() / width;
     if (width < kPatch || height < kPatch) return corners;
-    // Of each of the last rows: whether kPatch pixels side by side count, the last at x.
+    // For each of the last kPatch rows: whether kPatch adjacent pixels count, the last of them at
+    // x.
     std::array<Mask, kPatch> runs;
     runs.fill(Mask(width));
     for (std::size_t y = 0; y < height; ++y) {
@@ -38,7 +39,7 @@ Mask patch_corners(const Mask& mask, std::size_t width) {
     return corners;
 }
 
-/// The pixels that are in no set yet, with a border of pixels that do not count.
+/// Pixels that belong to no set yet, with a border of pixels that do not count.
 class Remaining {
 public:
     Remaining(const Mask& mask, std::size_t width)
@@ -51,11 +52,12 @@ public:
 
     std::uint8_t& at(int x, int y) { return row(y)[x + kReach]; }
 
-    /// Takes the pixels out that (x, y) touches, and calls `found` with each, row by row.
+    /// Removes the pixels that (x, y) touches and calls `found` for each, row by row.
     template <typename Found>
     void take_around(int x, int y, Found&& found) {
         for (int v = y - kReach; v <= y + kReach; ++v) {
-            std::uint8_t* const around = row(v) + x; // x - kReach, as rows have a border
+            // Points to column x - kReach, because rows have a border.
+            std::uint8_t* const around = row(v) + x;
             if ((four(around) | four(around + kReach)) == 0) continue;
             for (int i = 0; i <= 2 * kReach; ++i) {
                 if (around[i] == 0) continue;
@@ -79,7 +81,7 @@ private:
     Mask pixels_;
 };
 
-/// Pixels that belong together.
+/// Bounding box of a set of connected pixels.
 struct Set {
     int low_x, high_x, low_y, high_y;
     bool is_patch = false;
@@ -87,11 +89,11 @@ struct Set {
     int length() const { return std::max(high_x - low_x, high_y - low_y) + 1; }
 };
 
-/// Takes the set of pixel (x, y) out of `remaining`.
+/// Removes the set of pixel (x, y) from `remaining` and returns it.
 Set take_set(const Mask& corners, std::size_t width, Remaining& remaining, int x, int y) {
     Set set{x, x, y, y};
-    // From the outline inwards: as many wait as the set's edge is long, where the last found first
-    // would let most of a large set wait.
+    // Breadth first: only as many pixels wait as the set's edge is long. Depth first, most of a
+    // large set would wait.
     std::vector<std::pair<int, int>> open{{x, y}}, next;
     remaining.at(x, y) = 0;
     for (std::size_t i = 0; !open.empty(); ++i) {

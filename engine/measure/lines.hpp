@@ -2,17 +2,19 @@
 
 #include "measure/picture.hpp"
 
-// Wrong pixels that stand in a line, which the eye finds at once and no mean shows.
+// Detection of wrong pixels that form a line. A viewer notices such a line at once, but no mean
+// shows it.
 namespace catoptric::measure {
 
-/// A pixel is off when its largest channel difference, linear, both clamped to [0,1], exceeds this.
+/// Threshold of a pixel that is off. A pixel is off if its largest channel difference exceeds this
+/// value, in linear RGB with both pictures clamped to [0,1].
 inline constexpr double kOff = .02;
 
-/// Length in pixels of the longest line of `off`, a mask of whole rows of `width` pixels; 0 without
-/// one. Pixels belong together where no more than two others lie between them (each dilated by 1,
-/// they touch, corners included). A set without a 4x4 square of its own pixels is a line, and as
-/// long as the longest side of its box; any other is a patch, which FLIP sees. Costs a few passes
-/// over the mask.
+/// Returns the length in pixels of the longest line in `off`, or 0 without a line. `off` is a mask
+/// of whole rows of `width` pixels. Pixels form one set if at most two others lie between them:
+/// dilated by 1 they touch, corners included. A set without a 4x4 square of its own pixels is a
+/// line. Its length is the longer side of its bounding box. Any other set is a patch, which FLIP
+/// measures. Costs a few passes over the mask.
 int longest_line(const Mask& off, int width);
 
 } // namespace catoptric::measure

@@ -8,28 +8,29 @@
 
 namespace catoptric::measure {
 
-/// Where one mirror pixel looked and where it should have, for first-order pixels.
+/// Direction error of one first-order mirror pixel: where it looked in the capture, compared with
+/// where it should have looked.
 struct LookedUp {
-    double angle_degrees = 0;  ///< between the two directions, 0..180
+    double angle_degrees = 0;  ///< angle between the two directions, 0..180
     bool wrong_object = false; ///< the capture shows another object in the looked-up direction
     int state = 0;             ///< 0 hit, 1 unknown, 2 miss
-    double residual =
-        0; ///< relative distance between what the search found and what was captured there
+    /// Relative difference between the distance that the search found and the captured one.
+    double residual = 0;
 };
 
-/// How well a search found its directions.
+/// Summary of the direction errors of a search.
 struct LookupError {
     std::size_t pixels = 0;
     double mean_degrees = 0, p95_degrees = 0, p99_degrees = 0;
     double wrong_object = 0, unknown = 0, miss = 0; ///< shares of the pixels, 0..1
-    double p95_residual = 0;                        ///< of hits
+    double p95_residual = 0;                        ///< 95th percentile over hits
 };
 
-/// All zero for an empty list.
+/// Returns the summary of the pixels. All values are 0 for an empty list.
 CATOPTRIC_API LookupError lookup_error(std::span<const LookedUp> pixels);
 
-/// Angle between two directions in degrees; exact for small angles too (no acos of a cosine near
-/// 1).
+/// Returns the angle between two directions in degrees. Small angles are exact too, because the
+/// acos of a cosine near 1 is avoided.
 CATOPTRIC_API double angle_degrees(const dvec3& a, const dvec3& b);
 
 } // namespace catoptric::measure

@@ -6,32 +6,34 @@
 #include <cstdint>
 #include <span>
 
-// Which pixels count, from what the reference's camera rays met: one word a pixel, row-major; low
-// 16 bits: number of the mirror hit first, from 1, or 0 for none; high 16 bits: number of the
-// mirror that the ray reflected there meets next, or 0. Where the first is 0 and the second is not,
-// the surface that was hit first reflects, but is no numbered mirror: a smooth dielectric.
+// Masks of pixels, made from the first hits of the reference's camera rays. A hit is one word a
+// pixel, row-major. The low 16 bits hold the number of the mirror that was hit first, from 1, or 0
+// for none. The high 16 bits hold the number of the mirror that the reflected ray meets next, or 0.
+// If the low bits are 0 and the high bits are not, the first surface is a smooth dielectric: it
+// reflects but is no numbered mirror.
 namespace catoptric::measure {
 
 constexpr MirrorId first_mirror(std::uint32_t hit) { return MirrorId(hit & 0xFFFFU); }
 constexpr MirrorId second_mirror(std::uint32_t hit) { return MirrorId(hit >> 16); }
 
-/// Every mask has one entry (0 or 255) for each hit; with nothing chosen it is all 0, which is not
-/// the empty mask "every pixel".
+/// Returns a mask of all pixels. Each mask here has one entry (0 or 255) per hit. A mask without
+/// any pixel is all 0, which differs from the empty mask: that means "all pixels".
 Mask all_pixels(std::span<const std::uint32_t> hits);
-/// First hit a mirror.
+/// Returns the pixels whose first hit is a mirror.
 Mask mirrors(std::span<const std::uint32_t> hits);
-/// First hit a mirror whose reflected ray meets no second one.
+/// Returns the pixels whose first hit is a mirror and whose reflected ray meets no second mirror.
 Mask first_order(std::span<const std::uint32_t> hits);
-/// First hit a mirror whose reflected ray meets another, or the same again.
+/// Returns the pixels whose first hit is a mirror and whose reflected ray meets another mirror, or
+/// the same again.
 Mask mirror_in_mirror(std::span<const std::uint32_t> hits);
-/// First hit is this mirror; nothing for none.
+/// Returns the pixels whose first hit is this mirror. The mask is all 0 for no mirror.
 Mask of_mirror(std::span<const std::uint32_t> hits, MirrorId mirror);
-/// First hit no mirror, or nothing.
+/// Returns the pixels whose first hit is no mirror, or that hit nothing.
 Mask non_mirror(std::span<const std::uint32_t> hits);
-/// First hit reflects, but is no mirror.
+/// Returns the pixels whose first hit is a smooth dielectric.
 Mask dielectrics(std::span<const std::uint32_t> hits);
 
-/// How many pixels of a mask count.
+/// Returns how many pixels of a mask count.
 std::size_t pixel_count(const Mask& mask);
 
 } // namespace catoptric::measure

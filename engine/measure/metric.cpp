@@ -27,7 +27,7 @@ std::vector<Metric> in_order() {
     return rows;
 }
 
-/// Place of a quantity among those that are computed from pictures.
+/// Returns the index of a metric among those that are computed from pictures.
 std::size_t index_of(const Metric& quantity) {
     std::size_t index = 0;
     for (const Metric& row : metrics()) {

@@ -10,54 +10,54 @@
 #include <variant>
 #include <vector>
 
-/// The table of figures. A figure is one row: what it is called, what it means and how it is got,
-/// in the one .cpp where it is computed, which registers itself; nothing else lists it. JSON, CSV,
-/// tables, `diff` and `list metrics` read this table.
+/// Table of metrics. A metric is one row: its name, its meaning and the function that computes it.
+/// The .cpp that computes a metric registers it, so no other file lists it. JSON, CSV, tables,
+/// `diff` and `list metrics` read this table.
 namespace catoptric::measure {
 
-/// A pixel, from the upper left; x below 0: none.
+/// Position of a pixel, counted from the upper left. A negative x means none.
 struct Place {
     int x = -1, y = -1;
 };
 
 struct Parts;
 
-/// What a quantity comes to. A double that is not finite, times never measured and a place that is
-/// none are there and say nothing.
+/// Value of a metric. A double that is not finite, a time that was never measured and an invalid
+/// place count as no value (see is_nothing).
 using Value = std::variant<std::monostate, bool, double, dvec3, Place, Summary, std::vector<double>,
                            std::vector<Parts>>;
 
-/// One of several things of one kind: a pass, a cause.
+/// One of several entries of one kind, such as a pass or a cause, with its values.
 struct Parts {
-    std::string_view kind; ///< "name": the field that holds its name
+    std::string_view kind; ///< the field that holds the entry's name, such as "name"
     std::string name;
     std::vector<std::pair<std::string_view, Value>> values;
 };
 
 enum class Better : std::uint8_t { neither, less, more };
 
-/// How a value reads in a table's cell.
+/// Format of a value in a table cell.
 enum class Style : std::uint8_t {
-    fixed,         ///< so many decimals
-    error,         ///< four decimals, a power of ten where that is 0
-    times,         ///< the median, at the decimals of the whole table
-    own_times,     ///< the median at three digits
-    time_interval, ///< of the median, with 95 % confidence
-    percent,       ///< of a share, so many decimals
+    fixed,         ///< a fixed number of decimals
+    error,         ///< four decimals, or a power of ten if these are all 0
+    times,         ///< the median, with the decimals of the whole table
+    own_times,     ///< the median with three significant digits
+    time_interval, ///< the interval of the median, with 95 % confidence
+    percent,       ///< a share in percent, with a fixed number of decimals
     mebibytes,
 };
 enum class InTable : std::uint8_t { rows, lookup };
 
-/// A column of the report's tables.
+/// Column of the report's tables.
 struct Column {
     std::string_view title;
     Style style = Style::error;
     int decimals = 0;
     InTable table = InTable::rows;
-    int order = 0; ///< among the table's columns; 0: as the quantity
+    int order = 0; ///< place among the table's columns; 0 means the metric's order
 };
 
-/// What figures of two pictures are computed from; `mask` empty: every pixel counts.
+/// Input of a metric of two pictures. If `mask` is empty, all pixels count.
 struct Compared {
     const Picture &a, &b;
     const Mask& mask;
@@ -65,56 +65,63 @@ struct Compared {
 };
 
 struct Metric {
-    /// "rmse"; "lookup/miss" is `miss` within the object `lookup` of JSON and `lookup_miss` in CSV.
+    /// Name such as "rmse". "lookup/miss" is the field `miss` of the object `lookup` in JSON, and
+    /// the column `lookup_miss` in CSV.
     std::string_view name;
-    std::string_view unit = {}; ///< "ms", "bytes"; empty: a plain number
+    std::string_view unit = {}; ///< "ms", "bytes"; empty for a plain number
     std::string_view help;
-    /// Pixels that it is over: a name of `masks()`; empty: it is of no pixels. A figure of a
-    /// difference stands once for each of them and for each mirror, and this becomes "each".
+    /// Pixels that the metric covers: a name of `masks()`, or empty if it is not about pixels. A
+    /// metric of a difference has a value for each mask and each mirror, and its `mask` becomes
+    /// "each".
     std::string_view mask = {};
     Better better = Better::neither;
-    int order = 1000;             ///< place in files and lists; then by name
-    bool only_where_true = false; ///< a mark that JSON leaves out where it is false
+    int order = 1000;             ///< place in files and lists; equal orders are sorted by name
+    bool only_where_true = false; ///< whether JSON leaves this mark out if it is false
     bool each_mask_in_table = false;
-    std::vector<Column> columns = {}; ///< of the report's tables; may be none
+    std::vector<Column> columns = {}; ///< columns in the report's tables; may be empty
 
     using OfRow = Value (*)(const Row&);
     using OfDifference = Value (*)(const Difference&);
-    /// Computed with every difference; finite or nothing. Costs what it costs for each mask.
+    /// Computed with each difference. The value is finite or counts as none. The cost arises again
+    /// for each mask.
     using OfPictures = double (*)(const Compared&);
     std::variant<OfRow, OfDifference, OfPictures> get;
 };
 
-/// A namespace-scope Registered puts its quantity into the table while the program starts.
+/// Registers a metric. Define it at namespace scope: the metric enters the table while the program
+/// starts.
 struct Registered {
     explicit Registered(Metric quantity);
 };
 
-/// Orders from 100 up to this one are of figures of differences.
+/// End of the orders of metrics of differences, which begin at 100.
 inline constexpr int kAfterDifferences = 200;
 
-/// Every quantity by `order`, then name. Two of one name are `Failure::internal`.
+/// Returns all metrics sorted by `order`, then name. Throws `internal` if two have the same name.
 const std::vector<Metric>& metrics();
-/// Those of a difference: mask "each".
+/// Returns the metrics of a difference, whose mask is "each".
 const std::vector<Metric>& difference_metrics();
 
-/// Throws `internal` for a quantity of a difference, and of a row.
+/// Return the value of a metric. The first overload throws `internal` for a metric of a difference,
+/// the second for a metric of a row.
 Value value_of(const Metric& quantity, const Row& row);
 Value value_of(const Metric& quantity, const Difference& difference);
-/// Whether there is nothing to say.
+/// Returns whether a value counts as none (see Value).
 bool is_nothing(const Value& value);
 
-/// The quantities that are computed from pictures, in the order of Difference::others.
+/// Returns the values of the metrics that are computed from pictures, in the order of
+/// Difference::others.
 std::vector<double> other_figures(const Compared& compared);
 
-/// A set of pixels over which each row has a difference.
+/// Set of pixels over which each row has a difference.
 struct RowMask {
-    std::string_view field; ///< of JSON: "error_first_order"
-    std::string_view name;  ///< "first_order"
-    std::string_view
-        title; ///< in tables; empty: the mirrors, of which all speaks unless it says so
+    std::string_view field; ///< field in JSON, such as "error_first_order"
+    std::string_view name;  ///< name of the mask, such as "first_order"
+    /// Title in tables. Empty for the mirrors, which a table means unless it names others.
+    std::string_view title;
     Difference Errors::*error;
-    bool only_where_some = false; ///< tables have columns of it only where a row has such pixels
+    /// Whether tables have its columns only if a row has such pixels.
+    bool only_where_some = false;
 };
 std::span<const RowMask> masks();
 /// Returns whether tables have columns of this mask.

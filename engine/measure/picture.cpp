@@ -19,7 +19,7 @@ Picture exposed(Picture picture, double exposure_stops) {
 
 namespace {
 
-/// `curve` gets values between 0 and 1.
+/// Writes the picture as displayed. `curve` gets values between 0 and 1.
 template <typename Curve>
 void write_displayed(const Picture& picture, double exposure_stops, Picture& display,
                      const Curve& curve) {

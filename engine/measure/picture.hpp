@@ -16,7 +16,7 @@ struct Picture {
     std::vector<vec3> pixels;
 
     Picture() = default;
-    /// Black.
+    /// Makes a black picture.
     Picture(int columns, int rows)
         : width(columns), height(rows),
           pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), vec3(0)) {}
@@ -30,18 +30,20 @@ private:
     }
 };
 
-/// One byte a pixel, row-major; non-zero counts. Empty means "every pixel".
+/// Mask with one byte a pixel, row-major. A pixel counts if its byte is not 0. An empty mask means
+/// "all pixels".
 using Mask = std::vector<std::uint8_t>;
 
-/// Times 2^stops: what errors are figured on. 0 stops leave every bit as it is.
+/// Return pixels multiplied by 2^stops. Errors are computed on these values. 0 stops leave each bit
+/// as it is.
 CATOPTRIC_API vec3 exposed(const vec3& pixel, double exposure_stops);
 CATOPTRIC_API Picture exposed(Picture picture, double exposure_stops);
 
-/// What the screen shows: `picture` times 2^exposure_stops, clamped to [0,1], sRGB curve, rounded
-/// to 8 bits; values in [0,1] again (multiples of 1/255). NaN becomes 0.
+/// Returns the picture as displayed: multiplied by 2^exposure_stops, clamped to [0,1], through the
+/// sRGB curve and rounded to 8 bits. Values are in [0,1] (multiples of 1/255). NaN becomes 0.
 CATOPTRIC_API Picture to_display(const Picture& picture, double exposure_stops = 0);
 
-/// The same without the rounding to 8 bits: what FLIP of two renderings is figured on.
+/// Returns the same without the rounding to 8 bits. FLIP of two renderings compares these values.
 CATOPTRIC_API Picture to_unrounded_display(const Picture& picture, double exposure_stops = 0);
 
 } // namespace catoptric::measure

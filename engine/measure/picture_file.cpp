@@ -15,7 +15,8 @@
 namespace catoptric::measure {
 namespace {
 
-/// Where R, G and B are; a picture without them is grey in its first channel.
+/// Returns the indices of the channels R, G and B. A picture without them is grey in its first
+/// channel.
 std::array<std::size_t, 3> find_rgb(const std::vector<std::string>& channels) {
     std::array<std::size_t, 3> rgb = {0, 0, 0};
     constexpr std::array<const char*, 3> kNames = {"R", "G", "B"};
@@ -27,7 +28,7 @@ std::array<std::size_t, 3> find_rgb(const std::vector<std::string>& channels) {
     return rgb;
 }
 
-/// By the first bytes, not by the name.
+/// Returns the format by the first bytes, not by the file name.
 std::string format_of(const ByteSource& bytes, const std::string& name) {
     std::array<char, 16> first{};
     const std::size_t count = bytes.read(0, first);
@@ -47,14 +48,16 @@ ImageReader::Judge judge_of(const std::string& name, const PictureReader::Judge&
     };
 }
 
-/// Light of what a PNG stores. Most have 8 bits, whose light is in a table.
+/// Decodes the stored values of a PNG to linear light. Most PNGs have 8 bits, whose light is in a
+/// table.
 class Decoded {
 public:
     Decoded() {
         for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = curve(stored(i));
     }
     float operator()(float value) const {
-        const float above = value * 255 + .5F; // not negative: the cast rounds it down, as floor
+        // Not negative, so the cast rounds down as floor does.
+        const float above = value * 255 + .5F;
         const auto i = static_cast<std::size_t>(static_cast<int>(above));
         return stored(i) == value ? table_[i] : curve(value);
     }
@@ -86,7 +89,8 @@ struct PictureReader::Open {
     std::unique_ptr<ByteSource> bytes;
     std::string format; ///< "openexr", "hdr" or "png"
     ImageReader reader;
-    std::array<std::size_t, 3> rgb; ///< which channels; the same one three times for grey
+    /// Indices of the channels; the same index three times for grey.
+    std::array<std::size_t, 3> rgb;
     std::vector<float> values;
 };
 
@@ -104,8 +108,9 @@ std::string PictureReader::format() const {
 
 void PictureReader::read_rows(int first, std::span<vec3> pixels) {
     static const Decoded kDecoded;
-    constexpr std::size_t kPixels = std::size_t{1} << 18; // at once, or a row
-    const bool is_stored = open_->format == "png";        // as sRGB
+    // Pixels that are read at once; at least a row.
+    constexpr std::size_t kPixels = std::size_t{1} << 18;
+    const bool is_stored = open_->format == "png"; // PNGs store sRGB values
     const std::size_t channel_count = open_->reader.shape().channel_count;
     const auto columns = static_cast<std::size_t>(width());
     const std::size_t most = std::max<std::size_t>(1, kPixels / columns) * columns;

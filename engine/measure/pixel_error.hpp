@@ -7,29 +7,30 @@
 #include <cmath>
 #include <limits>
 
-// How far two pixels are apart: linear RGB as exposed (measure/picture.hpp), both clamped to [0,1].
+// Differences of two pixels in linear RGB after exposure (measure/picture.hpp), both clamped to
+// [0,1].
 namespace catoptric::measure {
 
 inline bool is_finite(const vec3& pixel) {
     return std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z);
 }
 
-/// NaN stays NaN.
+/// Returns the pixel clamped to [0,1]. NaN stays NaN.
 inline dvec3 clamped(const vec3& pixel) {
     const auto one = [](float value) { return std::clamp(static_cast<double>(value), 0.0, 1.0); };
     return {one(pixel.x), one(pixel.y), one(pixel.z)};
 }
 
-/// By channel, 0..1.
+/// Returns the absolute difference of each channel, 0..1.
 inline dvec3 apart(const vec3& a, const vec3& b) { return glm::abs(clamped(a) - clamped(b)); }
 
-/// Of finite pixels.
+/// Returns whether a channel differs by more than kOff. Both pixels must be finite.
 inline bool is_off(const vec3& a, const vec3& b) {
     const dvec3 channels = apart(a, b);
     return std::max({channels.x, channels.y, channels.z}) > kOff;
 }
 
-/// Mean over channels, 0..1; NaN where one is not finite.
+/// Returns the mean squared difference over the channels, 0..1, or NaN if a pixel is not finite.
 inline double squared_error(const vec3& a, const vec3& b) {
     if (!is_finite(a) || !is_finite(b)) return std::numeric_limits<double>::quiet_NaN();
     const dvec3 difference = apart(a, b);

@@ -5,12 +5,12 @@
 namespace catoptric::measure {
 namespace {
 
-/// Four neighbours in a row.
+/// Four adjacent values of a row.
 using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-constexpr int kSums = 8; // that stay in registers
+constexpr int kSums = 8; // sums that stay in registers
 constexpr int kBlock = 4 * kSums;
 
-/// Writes the sum of `taps` rows, each times its weight, to `to`; each has `width` values.
+/// Writes the weighted sum of `taps` rows to `to`. Each row has `width` values.
 CATOPTRIC_WIDE void weigh(const double* const* rows, const double* weights, std::size_t taps,
                           int width, double* to) {
     int x = 0;

@@ -12,7 +12,7 @@ struct Plane {
     int height = 0;
     std::vector<double> values;
 
-    /// Sets the size. Keeps the memory, and leaves the values undefined.
+    /// Sets the size. Keeps the memory and leaves the values undefined.
     void resize(int columns, int rows) {
         width = columns, height = rows;
         values.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -23,7 +23,7 @@ struct Plane {
     }
 };
 
-/// Weights for offsets -radius .. radius.
+/// Filter kernel: weights for the offsets -radius .. radius.
 struct Kernel {
     int radius = 0;
     std::vector<double> weights;
@@ -35,19 +35,19 @@ struct Kernel {
     }
 };
 
-/// Writes the convolution of `in` along x to `out`, another plane, but for `border` columns on each
-/// side, at least as many as the kernel's radius. Costs 2 * radius + 1 multiplications a pixel, on
-/// one core.
+/// Writes the convolution of `in` along x to `out`, which must be another plane. `out` lacks
+/// `border` columns on each side. `border` is at least the kernel's radius. Costs 2 * radius + 1
+/// multiplications a pixel, on one core.
 void along_x(const Plane& in, const Kernel& kernel, int border, Plane& out);
 
-/// A plane and the kernel it is convolved with.
+/// Plane and the kernel with which it is convolved.
 struct Filtered {
     const Plane& plane;
     const Kernel& kernel;
 };
 
-/// Writes the sum of convolutions along y, of planes of one size, to `out`, but for `border` rows
-/// above and below.
+/// Writes the sum of convolutions along y to `out`. All planes have one size. `out` lacks `border`
+/// rows above and below.
 void sum_along_y(std::initializer_list<Filtered> parts, int border, Plane& out);
 
 } // namespace catoptric::measure

@@ -4,8 +4,8 @@
 
 namespace catoptric::measure {
 
-/// What was done otherwise than the row asks for, a sentence each: the comparison's warnings that
-/// begin with the row's label in quotes, without it.
+/// Returns notes on what was done otherwise than the row asks for, one sentence each. These are the
+/// comparison's warnings that begin with the row's label in quotes, without that label.
 std::vector<std::string> notes_of(const Comparison& comparison, const Row& row);
 
 } // namespace catoptric::measure

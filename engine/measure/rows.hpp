@@ -5,20 +5,21 @@
 #include <span>
 #include <string_view>
 
-// Finding rows.
+// Functions that find rows in a comparison.
 namespace catoptric::measure {
 
-/// A knob and the value it must have, as the user types it.
+/// Knob and the value it must have, as the user types it.
 struct Wanted {
     std::string_view knob;
     std::string_view text;
 };
 
-/// The first row of `technique` with the wanted values and every other knob at its default, or
-/// null.
+/// Returns the first row of `technique` with the wanted values and all other knobs at their
+/// defaults, or null.
 const Row* find_row(const Comparison& comparison, std::string_view technique,
                     std::span<const Wanted> wanted = {});
-/// Part one with so many inter-reflections, part three, ray tracing: each with its default knobs.
+/// Return the row of part one with `bounces` inter-reflections, of part three, and of ray tracing,
+/// each with its default knobs. Null if there is none.
 const Row* find_naive(const Comparison& comparison, int bounces);
 const Row* find_parallax(const Comparison& comparison);
 const Row* find_ray_traced(const Comparison& comparison);

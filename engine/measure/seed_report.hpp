@@ -7,9 +7,11 @@ namespace catoptric::measure {
 
 struct SeedRow {
     std::string_view implementation;
-    std::string_view technique; ///< ours for it
-    int inter_reflections;      ///< -1: the table has none
-    int scene_passes;           ///< its R, four reflectors: 4 i + 2, else one capture each; 0: none
+    std::string_view technique; ///< our technique for it
+    int inter_reflections;      ///< number of inter-reflections; -1 if the table gives none
+    /// The report's R for four reflectors: 4 i + 2 for part one, otherwise one capture each. 0
+    /// means none.
+    int scene_passes;
     double fps;
     double ms;
 };
@@ -32,9 +34,9 @@ inline constexpr SeedRow kSeedTable[] = {
     kSeedRayTrace,
 };
 
-/// What it puts down to clearing, milliseconds.
+/// Time that the seed report attributes to clearing, milliseconds.
 inline constexpr double kSeedClearMs = kSeedPartOne.ms - kSeedPartTwo.ms;
-/// How far its part one without inter-reflections is behind part two, as a share of that.
+/// Excess of its part one without inter-reflections over part two, as a share of part two's time.
 inline constexpr double kSeedClearGap = kSeedClearMs / kSeedPartTwo.ms;
 inline constexpr double kSeedRayTraceRatio = kSeedRayTrace.ms / kSeedPartThree.ms;
 

@@ -5,8 +5,8 @@
 
 namespace catoptric::measure {
 
-/// The smallest k, from 1, such that entry k and all that follow are at most `bound`; none when the
-/// last one is not, or when there is none. An entry that is NaN is not within.
+/// Returns the smallest k, from 1, such that entry k and all later entries are at most `bound`.
+/// Returns nothing if the list is empty or its last entry is larger. NaN counts as larger.
 std::optional<int> settled_from(std::span<const double> errors, double bound);
 
 } // namespace catoptric::measure

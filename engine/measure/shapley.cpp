@@ -9,8 +9,8 @@ namespace catoptric::measure {
 
 namespace {
 
-/// Share of the orders in which exactly so many players have come when the one in question comes,
-/// and they are certain ones: k! (n-1-k)! / n!.
+/// Returns the share of orders in which a player joins after exactly `before` given other players:
+/// k! (n-1-k)! / n!.
 double share_of_orders(std::size_t before, std::size_t players) {
     double share = 1 / static_cast<double>(players);
     for (std::size_t k = 1; k <= before; ++k)
@@ -36,7 +36,8 @@ void Shapley::add(std::uint32_t coalition, std::span<const double> values) {
     came_[coalition] = true;
     const auto size = static_cast<std::size_t>(std::popcount(coalition));
     for (std::size_t player = 0; player < worth_.size(); ++player) {
-        // With the player it is where a rise ends, without where it begins.
+        // A coalition with the player ends a rise in value, a coalition without the player begins
+        // one.
         const bool is_in = (coalition >> player & 1U) != 0;
         const double weight = is_in ? share_of_orders(size - 1, worth_.size())
                                     : -share_of_orders(size, worth_.size());

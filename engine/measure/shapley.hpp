@@ -7,27 +7,30 @@
 
 namespace catoptric::measure {
 
-/// What each of several players is worth in games that they can play together in any company: the
-/// mean, over all orders in which they can come, of what the game's value rises when the player
-/// comes (Shapley). The players' worths add up to the rise from none of them to all; who never
-/// changes a value is worth 0; who changes all alike are worth the same. Worths are sums over games
-/// as values are, so games can be added up before or after.
+/// Computes Shapley values. Several players can play a game together in any coalition. A player's
+/// worth is the mean rise of the game's value when the player joins, over all orders in which the
+/// players can join. The worths add up to the rise from no player to all. A player who never
+/// changes a value is worth 0. Players with the same effect are worth the same. Worths are linear
+/// in the values, so games can be added up before or after.
 class Shapley {
 public:
-    /// 1 to 16 players, as many games beside each other as one likes.
+    /// Prepares 1 to 16 players and any number of games that are evaluated together. Throws
+    /// `internal` for another number of players.
     Shapley(std::size_t players, std::size_t games);
 
-    /// Entry g: the value of game g when the players of `coalition` (bit i: player i) have come.
-    /// Each of the 2^players coalitions once, in any order; costs a product a player and game.
-    /// Throws `internal` for one that came before, or that has a player or a game too many.
+    /// Adds the values of a coalition. Bit i of `coalition` stands for player i, and entry g of
+    /// `values` is the value of game g. Each of the 2^players coalitions must be added once, in any
+    /// order. Costs one product a player and game. Throws `internal` if the coalition was added
+    /// before, has a player too many, or comes with a wrong number of games.
     void add(std::uint32_t coalition, std::span<const double> values);
-    /// Entry g: what the player is worth in game g. Throws `internal` before all coalitions came.
+    /// Returns the worth of the player in each game (entry g: game g). Throws `internal` before all
+    /// coalitions were added.
     const std::vector<double>& worth(std::size_t player) const;
 
 private:
     std::size_t games_;
-    std::vector<std::vector<double>> worth_; ///< by player, of the coalitions so far
-    std::vector<bool> came_;                 ///< by coalition
+    std::vector<std::vector<double>> worth_; ///< by player and game, for the coalitions so far
+    std::vector<bool> came_;                 ///< by coalition: whether it was added
 };
 
 } // namespace catoptric::measure

@@ -10,8 +10,8 @@ int code_by_formula(double linear) {
     return static_cast<int>(std::lround(srgb_from_linear(linear) * 255));
 }
 
-/// Returns the least value in [0,1] whose code is `code`. The curve rises, and the bits of positive
-/// numbers rise with them.
+/// Returns the least value in [0,1] with this code. Bisects the bits: the curve is increasing, and
+/// the bits of positive numbers are ordered as the numbers are.
 double least_with(int code) {
     std::uint64_t below = 0, there = std::bit_cast<std::uint64_t>(1.0);
     while (there - below > 1) {

@@ -9,7 +9,7 @@ namespace catoptric::measure {
 
 namespace {
 
-/// How much of its limit a case takes: above 1 it does not hold.
+/// Returns the measured value as a share of the limit. Above 1 the case does not hold.
 double load(const StressCase& one) {
     if (std::isnan(one.measured)) return std::numeric_limits<double>::infinity();
     if (one.limit > 0) return one.measured / one.limit;

@@ -7,59 +7,64 @@
 #include <string>
 #include <vector>
 
-/// What `stress` found: one row for each property of rendering at the extremes.
+/// Results of `stress`: one row for each property of rendering at the extremes.
 namespace catoptric::measure {
 
-/// unsupported: not judged, since the device does not allow what it needs; the remark says which.
+/// Verdict on a property. `unsupported` means not judged, because the device does not allow
+/// something the property needs; the remark names it.
 enum class Verdict { pass, fail, quality_warning, unsupported, waived };
 std::string name_of(Verdict verdict);
 
-/// What of a property could not be run, and why: it has no figure.
+/// Part of a property that could not be run, and the reason. It has no measured value.
 struct NotRun {
     std::string what, why;
 };
 
-/// One figure of a property; holds when `measured` is a number and at most `limit`.
+/// One measured value of a property. The case holds if `measured` is a number and at most `limit`.
 struct StressCase {
     std::string what;
     double measured = 0;
     double limit = 0;
-    bool is_quality = false; ///< beyond its limit it looks worse but is not wrong
+    bool is_quality = false; ///< beyond its limit the picture looks worse but is not wrong
     bool holds() const { return measured <= limit; }
 };
 
 struct StressPicture {
-    std::string name; ///< fit for a file
+    std::string name; ///< name that is valid as a file name
     int width = 0, height = 0;
-    std::string png; ///< the picture as shown, encoded once
+    std::string png; ///< the picture as displayed, encoded once
 };
 
 struct StressRow {
     std::string id, stimulus, property;
     Verdict verdict = Verdict::pass;
-    std::string remark; ///< why not, where it was not judged; else what is not covered, or empty
-    std::vector<StressCase> cases;       ///< none where it was not judged
-    std::vector<StressPicture> pictures; ///< of cases that do not hold
+    /// Reason if the property was not judged. Otherwise the part that is not covered, or empty.
+    std::string remark;
+    std::vector<StressCase> cases;       ///< empty if the property was not judged
+    std::vector<StressPicture> pictures; ///< pictures of cases that do not hold
     double seconds = 0;
     std::vector<NotRun> not_run;
-    std::string turned_red_by; ///< rule of tests/mutations for wrong code that it must notice
-    /// The case nearest to or furthest beyond its limit, one that is wrong before all that look
-    /// worse; null when there is none.
+    /// Rule of tests/mutations: the wrong code that this property must notice.
+    std::string turned_red_by;
+    /// Returns the case nearest to its limit or furthest beyond it. A case that is wrong precedes
+    /// all that only look worse. Returns null if there is none.
     const StressCase* worst() const;
 };
 
 struct Stress {
     std::string version, commit;
     std::vector<std::string> command;
-    bool complete = true;         ///< false: the rows so far, of a run that goes on or was stopped
-    std::size_t asked = 0;        ///< rows that it is to have
-    std::optional<Error> stopped; ///< what ended it early
+    /// False if the run goes on or was stopped: `rows` are the rows so far.
+    bool complete = true;
+    std::size_t asked = 0;        ///< number of rows that were asked for
+    std::optional<Error> stopped; ///< the error that ended the run early
     DeviceFacts device;
     int width = 0, height = 0;
     std::uint64_t seed = 1;
     std::vector<StressRow> rows;
-    bool failed() const; ///< some row did
-    /// "C9: why" for each row, and "L2, what: why" for each part of one, that could not be run.
+    bool failed() const; ///< Returns whether a row failed.
+    /// Returns "C9: why" for each row, and "L2, what: why" for each part of a row, that could not
+    /// be run.
     std::vector<std::string> not_run() const;
 };
 

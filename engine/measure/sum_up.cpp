@@ -8,18 +8,18 @@ namespace catoptric::measure {
 
 namespace {
 
-/// Sums over pixels of the classes.
+/// Sums of a value over the pixels of each class.
 struct Sums {
     double first_order = 0, mirror_in_mirror = 0;
     std::vector<double> per_mirror;
     double all() const { return first_order + mirror_in_mirror; }
 };
 
-/// The mirror pixels that count.
+/// Mirror pixels and which of them count.
 struct Pixels {
-    std::span<const std::uint32_t> hits; ///< of the whole picture
-    std::vector<std::size_t> places;     ///< of mirror pixels in it
-    std::vector<bool> counts;            ///< of `places`
+    std::span<const std::uint32_t> hits; ///< first hits of the whole picture
+    std::vector<std::size_t> places;     ///< indices of mirror pixels in the picture
+    std::vector<bool> counts;            ///< whether each of `places` counts
     std::size_t mirrors = 0;
 
     Sums sums(std::span<const double> values) const {
@@ -59,7 +59,7 @@ Pixels pixels_of(std::span<const std::uint32_t> hits, std::span<const double> wh
     return pixels;
 }
 
-/// Means over the pixels of each mirror; 0 where it has none.
+/// Returns the mean over the pixels of each mirror, 0 for a mirror without pixels.
 std::vector<double> means(const std::vector<double>& sums, const std::vector<double>& counts) {
     std::vector<double> means(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i)
@@ -112,7 +112,7 @@ Causes sum_up(std::span<const std::uint32_t> hits, const Mask& off, std::span<co
         summed.alone = mean(alone);
         summed.alone_per_mirror = means(alone.per_mirror, counts.per_mirror);
     }
-    // A rounding of nothing is nothing.
+    // Rounding may make a rest of 0 slightly negative.
     result.rest_rmse = std::sqrt(std::max(result.list.back().squared_error, 0.0));
     return result;
 }

@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
-/// What is better for a device: a variant of its shaders beside the default.
+/// Choice of shader variants for a device: each variant is measured against the default.
 namespace catoptric::measure {
 
-/// One variant beside the default, measured in the same rounds.
+/// One variant and the default, measured in the same rounds.
 struct Tried {
     std::string variant, choice, standard; ///< "groups", "in order", "scattered"
-    std::string benchmark;                 ///< what was measured
-    std::vector<double> ms, standard_ms;   ///< of each round, on the device
+    std::string benchmark;                 ///< name of the benchmark
+    std::vector<double> ms, standard_ms;   ///< milliseconds of each round, on the device
 
-    /// The variant over the default.
+    /// Returns the variant's time divided by the default's.
     Ratio ratio() const { return ratio_of(ms, standard_ms); }
-    /// Only what is told apart from the default, and is faster.
+    /// Returns whether the variant is faster than the default with 95 % confidence.
     bool is_taken() const { return ratio().is_below_one(); }
 };
 

@@ -32,7 +32,7 @@ double median_of(std::vector<double> values) {
     return values.empty() ? Difference::kNone : percentile(std::move(values), .5);
 }
 
-/// How many rows it is less than, less those that are less than it.
+/// Returns the number of rows that this row is less than, minus the number that are less than it.
 int standing_of(const Row& row, const std::vector<const Row*>& rows, std::string_view figure) {
     int standing = 0;
     for (const Row* other : rows)
@@ -87,7 +87,8 @@ Interval difference_over_views(const Row& a, const Row& b, std::string_view figu
 
 bool is_less(const Row& a, const Row& b, std::string_view figure) {
     if (!a.views.empty() || !b.views.empty())
-        return difference_over_views(a, b, figure).high < 0; // not where it is not known
+        // False if the interval is not known.
+        return difference_over_views(a, b, figure).high < 0;
     const Metric& quantity = figure_of(figure);
     return number_of(quantity, a.error) < number_of(quantity, b.error);
 }

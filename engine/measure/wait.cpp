@@ -1,4 +1,4 @@
-// How long the host stood still for the device, which is nobody's work.
+// Metric of the time that the host waits for the device, which is work of neither.
 #include "measure/metric.hpp"
 
 namespace catoptric::measure {

@@ -1,4 +1,4 @@
-// Benchmarks as JSON. Fields are only ever added.
+// Writes benchmarks as JSON. New versions add fields and never remove any.
 #include "report/benchmarks.hpp"
 
 #include "measure/statistics.hpp"

@@ -4,19 +4,19 @@
 
 #include <string>
 
-/// What `bench` measured and compared, written and read.
+/// Writing and reading of benchmark results of `bench`.
 namespace catoptric::report {
 
-/// In the shape of Google Benchmark's: `context`, and in `benchmarks` an entry a round
-/// ("run_type": "iteration") and one with the medians of each benchmark ("aggregate"). Schema
-/// "catoptric/bench/1" in the context.
+/// Returns a run in the format of Google Benchmark. `benchmarks` has one entry a round ("run_type":
+/// "iteration") and one entry with the medians of each benchmark ("aggregate"). `context` names the
+/// schema "catoptric/bench/1".
 std::string to_json(const measure::BenchmarkRun& run);
-/// What such a document says, ours or Google Benchmark's: rounds are the repetitions of one
-/// `run_name`; aggregates and entries that say they failed are left out. Throws `bad_data`, naming
-/// `file`, the place, what was wanted and found.
+/// Reads such a document, ours or Google Benchmark's. Rounds are the repetitions of one `run_name`.
+/// Aggregates and entries that report an error are left out. Throws `bad_data` with `file`, the
+/// place, the expected and the found value.
 measure::BenchmarkRun read_benchmarks(const std::string& text, const std::string& file);
 
-/// Schema "catoptric/bench-compare/1".
+/// Returns a comparison as JSON, schema "catoptric/bench-compare/1".
 std::string to_json(const measure::Changes& changes);
 
 } // namespace catoptric::report

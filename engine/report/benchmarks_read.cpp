@@ -1,4 +1,4 @@
-// Benchmarks from JSON that others may have written.
+// Reads benchmarks from JSON, which other programs may have written.
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
@@ -17,7 +17,7 @@ using measure::Benchmark;
 using measure::BenchmarkRound;
 using measure::BenchmarkRun;
 
-/// One entry of the list, and where it stands.
+/// One entry of the list and its place in the document.
 struct Entry {
     const Json& json;
     std::string place;
@@ -29,7 +29,7 @@ struct Entry {
               shown(value));
         return value.get<std::string>();
     }
-    /// Finite and at least 0.
+    /// Returns a member that must be a finite number of at least 0.
     double measured(const char* member) const {
         const Json value = at(member);
         const double found = value.is_number() ? value.get<double>() : NAN;
@@ -49,7 +49,7 @@ struct Entry {
         fail(Failure::bad_data, place, ".time_unit: wanted ns, us, ms or s, found ",
              in_quotes(unit));
     }
-    /// No aggregate, and it did not fail.
+    /// Returns whether the entry is a round: it is no aggregate and reports no error.
     bool is_round() const {
         const Json type = at("run_type"), failed = at("error_occurred");
         return (!type.is_string() || type == "iteration") && failed != true;

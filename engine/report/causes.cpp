@@ -24,7 +24,8 @@ const CauseColour kColours[] = {{"storage format", "sky blue", bytes(86, 180, 23
                                 {"silhouettes", "white", vec3(1)},
                                 {"rest", "light grey", bytes(190, 190, 190)}};
 
-/// One kind of line of the table: what each cell says of a cause, in parts of the row's error.
+/// Kind of line in the table: its name, and the function that computes its cells as shares of the
+/// row's error.
 struct CauseLine {
     const char* name;
     double (*part)(const Cause& cause, double squared_error);
@@ -38,7 +39,7 @@ constexpr CauseLine kLines[] = {
      true},
     {"bound", [](const Cause& cause, double whole) { return cause.alone / whole; }, false}};
 
-/// In %; no minus before nothing.
+/// Returns a share in percent, without a minus sign before 0.
 std::string percent_number(double part) {
     const std::string text = fixed(100 * part, 1);
     return text == "-0.0" ? "0.0" : text;

@@ -8,17 +8,18 @@
 
 namespace catoptric::report {
 
-/// What a cause is painted with.
+/// Colour in which pictures show a cause.
 struct CauseColour {
     std::string_view cause, name;
     vec3 colour; ///< display space
 };
 
-/// Of every cause, in the order of Causes::list. Told apart by the colour-blind, too (Okabe, Ito).
+/// Returns the colours of all causes, in the order of Causes::list. Colour-blind readers can tell
+/// them apart, too (Okabe, Ito).
 std::span<const CauseColour> cause_colours();
 
-/// The row's picture, dark and grey, with every mirror pixel that is off in the colour of the cause
-/// that has the largest part of its squared error. For rows with `causes`.
+/// Returns the row's picture, dark and grey. Each mirror pixel that is off has the colour of the
+/// cause with the largest part of its squared error. The row must have `causes`.
 measure::Picture cause_picture(const Row& row);
 
 } // namespace catoptric::report

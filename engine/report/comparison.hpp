@@ -2,7 +2,7 @@
 
 #include "../measure/comparison.hpp"
 
-// What `compare` found is data of measure/; this layer writes it and speaks of it by short names.
+// Short names for the data of measure/ that this layer writes.
 namespace catoptric::report {
 
 using catoptric::Setting;

@@ -1,4 +1,4 @@
-// rows.csv: RFC 4180, so lines end in CR LF. What is not there is empty.
+// Writes rows.csv by RFC 4180, so lines end in CR LF. A missing value is an empty field.
 #include "core/mirror_id.hpp"
 #include "core/text.hpp"
 #include "measure/judge.hpp"
@@ -17,13 +17,15 @@ namespace catoptric::report {
 
 namespace {
 
-/// Programs that open tables run a cell that begins with one of these. Numbers may.
+/// Returns whether a cell is a formula. Spreadsheet programs execute a cell that begins with one of
+/// these characters. Numbers may begin with them.
 bool is_formula(const std::string& text) {
     constexpr std::string_view kNumbers = "0123456789.eE+- ";
     return text.find_first_of("=+-@") == 0 && text.find_first_not_of(kNumbers) != text.npos;
 }
 
-/// A cell with text in it, whoever wrote that: the only way into the table.
+/// Returns a cell with escaped text from any source. All text enters the table through this
+/// function.
 std::string csv_field(const std::string& field) {
     std::string shown = printable(field, "\n");
     if (is_formula(shown)) shown.insert(0, "'");
@@ -33,15 +35,15 @@ std::string csv_field(const std::string& field) {
     return result + "\"";
 }
 
-/// The shortest text that reads back as the same number.
+/// Returns the shortest text that reads back as the same number.
 std::string text_of(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
-/// A field of a row, with the name of its column.
+/// Field of a row and the name of its column.
 struct Field {
     std::string name, text;
-    bool in_table = true; ///< CsvColumns::table has the column, too
+    bool in_table = true; ///< whether CsvColumns::table has the column, too
 };
 
 /// The fields of a row.
@@ -58,10 +60,11 @@ public:
     void add(const std::string& name, const measure::Value& value);
 
     std::vector<Field> fields;
-    bool in_table = true; ///< of the fields that are added next
+    bool in_table = true; ///< value of Field::in_table for the fields that are added next
 };
 
-/// Sets CsvLine::in_table until the end of a block; fields that are left out around it stay out.
+/// Sets CsvLine::in_table until the end of a block. Inside a block that is left out, fields stay
+/// left out.
 class InTable {
 public:
     InTable(CsvLine& line, bool shown) : line_(line), before_(line.in_table) {
@@ -76,14 +79,14 @@ private:
     bool before_;
 };
 
-/// A list of numbers is one field with spaces between them.
+/// Returns a list of numbers as one field, separated by spaces.
 std::string list_text(const std::vector<double>& list) {
     std::vector<std::string> texts;
     for (const double value : list) texts.push_back(text_of(value));
     return joined(texts, " ");
 }
 
-/// A value's fields: what has parts has a column for each.
+/// Adds the fields of a value: one column for each of its parts.
 struct Adds {
     CsvLine& line;
     const std::string& name;
@@ -126,14 +129,15 @@ void CsvLine::add(const std::string& name, const measure::Value& value) {
     std::visit(Adds{*this, name}, value);
 }
 
-/// Whether the report's table of rows has a column of this figure.
+/// Returns whether the report's table of rows has a column of this metric.
 bool is_in_rows_table(const measure::Metric& quantity) {
     return std::ranges::any_of(quantity.columns, [](const measure::Column& column) {
         return column.table == measure::InTable::rows;
     });
 }
 
-/// `is_main`: the mask is the one of which the table shows all figures of differences.
+/// Adds the metrics of a difference over one mask. `is_main` is true for the mask of which the
+/// table shows all metrics of differences.
 void add(CsvLine& line, const std::string& mask, const measure::Difference& error, bool is_main) {
     for (const measure::Metric& quantity : measure::difference_metrics()) {
         const InTable shown(line,
@@ -142,7 +146,8 @@ void add(CsvLine& line, const std::string& mask, const measure::Difference& erro
     }
 }
 
-/// `mirrors` columns of single mirrors, whatever the row has.
+/// Adds the errors over all masks and over single mirrors. Each line has columns of `mirrors`
+/// mirrors, even if its row has fewer.
 void add_errors(CsvLine& line, const Comparison& comparison, const Row& row, std::size_t mirrors) {
     for (const measure::RowMask& mask : measure::masks())
         if (measure::has_columns(mask, comparison))
@@ -168,7 +173,7 @@ void add_figures(CsvLine& line, const Comparison& comparison, const Row& row, st
     }
 }
 
-/// Errors over the mirrors, over the drawn views; no columns where none were drawn.
+/// Adds the errors over the mirrors in the drawn views. Adds no columns if no views were drawn.
 void add_views(CsvLine& line, const Comparison& comparison, const Row& row) {
     if (comparison.views.empty()) return;
     for (const measure::Metric& quantity : measure::difference_metrics()) {
@@ -193,7 +198,7 @@ void add_point(CsvLine& line, const std::string& name, const dvec3& point) {
     line.add(name + "_z", point.z);
 }
 
-/// Adds the fields that tell this run's rows from those of others.
+/// Adds the fields that distinguish the rows of this run from those of other runs.
 void add_identity(CsvLine& line, const Comparison& comparison, const Row& row) {
     line.add("scene", comparison.scene.name);
     line.add("device", comparison.device.name);
@@ -249,8 +254,8 @@ CsvLine line_of(const Comparison& comparison, const Row& row, std::size_t mirror
     return line;
 }
 
-/// Columns in the order of the lines' fields: one that only some lines have stands behind the one
-/// that it stands behind there.
+/// Ordered columns of all lines. A column that only some lines have comes after the column that
+/// precedes it there.
 class Columns {
 public:
     explicit Columns(CsvColumns which) : which_(which) {}
@@ -297,10 +302,11 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns
     std::vector<CsvLine> lines;
     Columns columns(which);
     for (const Comparison* comparison : comparisons) {
-        columns.add(line_of(*comparison, Row{}, mirrors)); // every column without parts
+        // An empty row gives all columns of values without parts.
+        columns.add(line_of(*comparison, Row{}, mirrors));
         for (const Row& row : comparison->rows) lines.push_back(line_of(*comparison, row, mirrors));
         if (comparison->complete || !comparison->rows.empty()) continue;
-        lines.emplace_back(); // one that says nothing else
+        lines.emplace_back(); // a line with only this field
         lines.back().add("incomplete", incomplete_text(*comparison));
     }
     for (const CsvLine& line : lines) columns.add(line);

@@ -8,29 +8,31 @@
 
 namespace catoptric::report {
 
-/// The pictures of a comparison as PNG, each encoded once however often the page is written.
+/// Pictures of a comparison as PNG. Each is encoded once, however often the page is written.
 struct EncodedPictures {
     struct OfRow {
-        int pictured = -1;   ///< Row::pictured of the row that it was encoded from
-        std::string picture; ///< as shown
-        std::string error;   ///< heat map of its FLIP error; empty: it has none
-        std::string causes;  ///< pixels by what is to blame; empty: not known
-        std::string worst;   ///< at its worst view so far; empty: none was drawn
+        int pictured = -1;   ///< Row::pictured at the time of encoding
+        std::string picture; ///< picture as displayed
+        std::string error;   ///< heat map of its FLIP error; empty if it has none
+        std::string causes;  ///< picture by cause; empty if causes are not known
+        std::string worst;   ///< picture at its worst view so far; empty if no view was drawn
         std::optional<std::size_t> worst_view;
     };
-    std::string reference; ///< empty: it was not rendered
+    std::string reference; ///< empty if the reference was not rendered
     std::vector<OfRow> rows;
 };
 
-/// Encodes what has come since the last time: rows are added, show a later frame, get causes, and
-/// their worst views may change.
+/// Encodes pictures that are new since the last call. Rows are added, show a later frame or get
+/// causes, and their worst views may change.
 void encode_new(EncodedPictures& pictures, const Comparison& comparison);
 
-/// report.html with these pictures: a page of one section.
+/// Return report.html with these pictures, the section of one comparison, and a page around
+/// sections.
 std::string to_html(const Comparison& comparison, const EncodedPictures& pictures);
 std::string html_section(const Comparison& comparison, const EncodedPictures& pictures);
 std::string html_page(const std::string& title, const std::string& content);
-/// What ids of the comparison's section begin with; empty where it is the page's only one.
+/// Returns the prefix of HTML ids in the comparison's section. It is empty if the page has no other
+/// section.
 std::string section_of(const Comparison& comparison);
 
 } // namespace catoptric::report

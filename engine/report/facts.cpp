@@ -1,4 +1,4 @@
-// What was measured where, and what to keep in mind.
+// Facts about the run, and cautions for the reader.
 #include "measure/judge.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
@@ -24,7 +24,7 @@ std::string settings_of(const Comparison& comparison) {
                        comparison.ambient, comparison.exposure, comparison.model);
 }
 
-/// "3 lights, environment studio"; with the gaps' ids.
+/// Returns "3 lights, environment studio", for example, with the ids of unsupported features.
 std::string light_text(const SceneFacts& scene) {
     std::string text = fmt::format("{} light{}", scene.lights.size(),
                                    scene.lights.size() == 1 ? "" : "s");

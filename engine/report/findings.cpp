@@ -23,10 +23,10 @@ std::string rmse_text(const Row& row) { return error_text(row.error.rmse); }
 std::string both_times(const Row& a, const Row& b) {
     return ms_text(a.time_ms().median) + " against " + ms_text(b.time_ms().median) + " ms";
 }
-/// Where no more can be said.
+/// Text for rows whose times cannot be told apart.
 constexpr const char* kTie = ": round by round neither is the faster, they are not told apart";
 
-/// " (95 %: 1.10 to 1.25)"; empty where it is not known.
+/// Returns " (95 %: 1.10 to 1.25)", for example, or an empty text if the interval is not known.
 std::string interval_text(const measure::Interval& ratio) {
     if (!ratio.is_known()) return "";
     return fmt::format(" (95 %: {:.3g} to {:.3g})", ratio.low, ratio.high);
@@ -171,7 +171,8 @@ std::string findings_title(const Comparison& comparison) {
 std::vector<std::string> findings(const Comparison& comparison) {
     struct Finding {
         Sentence (*say)(const Comparison&);
-        bool beside_the_report; ///< compares with its figures, so with its scene only
+        /// Compares with the seed report's numbers, so it applies to that report's scene only.
+        bool beside_the_report;
     };
     std::vector<std::string> list;
     for (const auto& [say, beside_the_report] : {Finding{not_drawn, false},

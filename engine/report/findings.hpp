@@ -5,19 +5,20 @@
 #include <string>
 #include <vector>
 
-// Sentences drawn from the figures; plain text. Each is there only when the rows it speaks of are.
+// Plain-text sentences that the metrics support. A sentence is left out if the comparison lacks the
+// rows it needs.
 namespace catoptric::report {
 
-/// What the run says; of the seed report's statements about its Table 1 and figures 5 and 7 where
-/// it is of that report's scene.
+/// Returns the findings of a run. For the seed report's scene they include its statements about its
+/// Table 1 and figures 5 and 7.
 std::vector<std::string> findings(const Comparison& comparison);
 std::string findings_title(const Comparison& comparison);
 
 /// Returns one sentence that names the device and says whether ray tracing beats the other rows on
-/// it; of rows of one kind alone, which is the fastest and which the closest.
+/// it. If all rows are of one kind, it names the fastest and the closest row.
 std::string verdict_in_words(const Comparison& comparison);
 
-/// The Pareto front in words: the rows on it, and who beats each of the others.
+/// Returns the Pareto front in words: the rows on it, and which row beats each of the others.
 std::vector<std::string> front_in_words(const Comparison& comparison);
 
 } // namespace catoptric::report

@@ -1,4 +1,4 @@
-// The Pareto front in words, without favour.
+// The Pareto front in words, by the same rules for all rows.
 #include "measure/judge.hpp"
 #include "report/findings.hpp"
 #include "report/text.hpp"
@@ -26,7 +26,7 @@ std::string labels_of(const std::vector<const Row*>& rows, std::string_view betw
     return joined(labels, between);
 }
 
-/// Returns whether ray tracing beats the other rows; nothing where only one of the two is there.
+/// Returns whether ray tracing beats the other rows. Empty if only one of the two kinds is there.
 std::string tracing_in_words(const measure::TracingVerdict& verdict) {
     if (verdict.others == 0 || !verdict.any_traced) return "";
     if (verdict.unbeaten.size() == verdict.others) return "no ray-traced row beats any other row";
@@ -38,7 +38,7 @@ std::string tracing_in_words(const measure::TracingVerdict& verdict) {
                        verdict.others);
 }
 
-/// Returns the fastest and the closest rows.
+/// Returns the fastest and the closest rows in words.
 std::string ends_in_words(const Comparison& comparison) {
     const std::vector<const Row*> fastest = measure::fastest_rows(comparison);
     if (fastest.empty()) return "no row could be judged";

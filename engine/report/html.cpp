@@ -1,4 +1,4 @@
-// report.html: one page that needs nothing else and runs nothing.
+// Writes report.html: one self-contained page without script.
 #include "measure/heat.hpp"
 #include "measure/judge.hpp"
 #include "report/causes.hpp"
@@ -26,12 +26,13 @@ std::string cell(const Column& column, const char* tag, const char* scope,
                        content, tag);
 }
 
-/// Where the pictures of a row stand in the page.
+/// Returns the anchor in the page at which the pictures of a row stand.
 std::string anchor_of(const Comparison& comparison, std::size_t row) {
     return fmt::format("{}row-{}", section_of(comparison), row);
 }
 
-/// `linked`: the first cell of row i leads to the pictures of row i of this comparison.
+/// Returns a table as HTML. If `linked` is given, the first cell of row i links to the pictures of
+/// its row i.
 std::string to_html(const Table& table, const std::string& look,
                     const Comparison* linked = nullptr) {
     if (table.rows.empty()) return "";
@@ -70,7 +71,8 @@ std::string headline(const std::string& name, const std::string& figure, const s
                        html_escaped(of));
 }
 
-/// Fastest, closest but for the reference itself, the front, the reference.
+/// Returns the headlines: the fastest row, the closest row other than the reference, the front, and
+/// the reference.
 std::string headlines(const Comparison& comparison) {
     std::string html = "<dl class=\"headline\">";
     if (const std::vector<const Row*> fastest = measure::fastest_rows(comparison);
@@ -154,7 +156,7 @@ std::string article(const Comparison& comparison, const EncodedPictures& encoded
     return html + "</div>" + numbers(row) + details(row) + "</article>\n";
 }
 
-/// The colours of the heat maps from 0 to 1.
+/// Returns the colour scale of the heat maps from 0 to 1.
 std::string heat_scale() {
     std::string stops;
     for (int i = 0; i <= 8; ++i) {
@@ -165,7 +167,7 @@ std::string heat_scale() {
            ")\"></div><div class=\"ends\"><span>FLIP 0: no difference</span><span>1</span></div>";
 }
 
-/// The colours of the pictures by cause; nothing where there are none.
+/// Returns the legend of the pictures by cause, or nothing if there are none.
 std::string cause_legend(const Comparison& comparison) {
     if (std::ranges::none_of(comparison.rows,
                              [](const Row& row) { return row.causes.has_value(); }))
@@ -193,7 +195,7 @@ std::string pictures(const Comparison& comparison, const EncodedPictures& encode
     return html + "</div></section>\n";
 }
 
-/// Every row where it is furthest from the reference; empty without drawn views.
+/// Returns each row at its worst view. Empty if no views were drawn.
 std::string over_views(const Comparison& comparison, const EncodedPictures& encoded) {
     const Table table = views_table(comparison);
     if (table.rows.empty()) return "";
@@ -264,7 +266,7 @@ std::string html_section(const Comparison& comparison, const EncodedPictures& en
                        html_escaped(verdict_in_words(comparison)) + "</p>";
     const std::vector<std::string> notes = cautions(comparison);
     if (!notes.empty()) html += "<aside class=\"caution\">" + html_list(notes) + "</aside>";
-    const bool is_page = section_of(comparison).empty(); // which has one <main>
+    const bool is_page = section_of(comparison).empty(); // a page has exactly one <main>
     html += headlines(comparison) + "</header>\n" + (is_page ? "<main>" : "<div class=\"main\">") +
             front(comparison) +
             (comparison.scene.is_seed ? to_html(seed_table(comparison), "seed") : "");

@@ -14,7 +14,7 @@ std::string base64(std::string_view bytes) {
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0; // three bytes, missing ones 0
+        std::uint32_t group = 0; // three bytes; missing bytes are 0
         for (std::size_t k = 0; k < 3; ++k)
             group = group << 8 |
                     (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
@@ -35,7 +35,7 @@ std::string html_escaped(std::string_view text) {
         case '>': result += "&gt;"; break;
         case '"': result += "&quot;"; break;
         case '\'': result += "&#39;"; break;
-        case '\n': result += ' '; break; // as a browser shows it
+        case '\n': result += ' '; break; // a browser shows a line break as a space
         default: result += c;
         }
     }

@@ -3,15 +3,15 @@
 #include <string>
 #include <string_view>
 
-// What a self-contained page is made of.
+// Building blocks of a self-contained HTML page.
 namespace catoptric::report {
 
-/// Text for between tags and inside quoted attributes.
+/// Returns text escaped for use between tags and inside quoted attributes.
 std::string html_escaped(std::string_view text);
-/// A picture for `src`.
+/// Returns a PNG as a data URI for `src`.
 std::string data_uri(std::string_view png);
 
-/// The page's style sheet.
+/// Style sheet of the page.
 extern const char* const kStyle;
 
 } // namespace catoptric::report

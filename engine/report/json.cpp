@@ -1,4 +1,5 @@
-// report.json. Only the files json*.cpp know the JSON library; fields are only ever added.
+// Writes report.json. Only the files json*.cpp include the JSON library. New versions add fields
+// and never remove any.
 #include "report/json.hpp"
 
 #include "core/mirror_id.hpp"
@@ -86,7 +87,7 @@ struct Writes {
     Json operator()(const std::vector<measure::Parts>& list) const { return to_json(list); }
 };
 
-/// The figures, without saying of which pixels.
+/// Adds all metrics of a difference, without naming the mask.
 void add(Json& json, const measure::Difference& error) {
     for (const measure::Metric& quantity : measure::difference_metrics())
         json[std::string(quantity.name)] = value_json(measure::value_of(quantity, error));
@@ -107,7 +108,8 @@ void add_errors(Json& json, const Row& row) {
     json["error_per_mirror"] = std::move(list);
 }
 
-/// A figure of an object of figures, which is null as long as none of them says anything.
+/// Adds a metric to an object of metrics. The object is null as long as none of its metrics has a
+/// value.
 void add_to_object(Json& json, const measure::Metric& quantity, const measure::Value& value) {
     const std::size_t slash = quantity.name.find('/');
     Json& object = json[std::string(quantity.name.substr(0, slash))];
@@ -126,7 +128,7 @@ void add_figure(Json& json, const measure::Metric& quantity, const Row& row) {
         json[std::string(quantity.name)] = value_json(value);
 }
 
-/// Every figure of the table, those of differences where their first stands.
+/// Adds all metrics of the table. Those of differences stand at the place of the first of them.
 void add_figures(Json& json, const Row& row) {
     for (const measure::Metric& quantity : measure::metrics()) {
         if (quantity.mask != "each")
@@ -245,7 +247,8 @@ Json document_of(const Comparison& comparison) {
 }
 
 std::string written(const Json& document) {
-    // Names from files may be any bytes. In ASCII no terminal finds an order in them.
+    // Names from files may contain any bytes. ASCII output cannot hold control sequences for a
+    // terminal.
     return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 

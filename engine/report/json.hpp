@@ -6,44 +6,44 @@
 
 #include <nlohmann/json.hpp>
 
-// The parts of JSON files; for those who write them only.
+// Parts of JSON files. Only the .cpp files that write JSON include this header.
 namespace catoptric::report {
 
 using Json = nlohmann::ordered_json;
 
-/// report.json of one scene.
+/// Returns report.json of one scene.
 Json document_of(const Comparison& comparison);
-/// In ASCII, with a newline at its end.
+/// Returns the document as ASCII text that ends with a newline.
 std::string written(const Json& document);
 
-/// Whole numbers without a fraction, null for what JSON has no number for.
+/// Returns a number: integers without a fraction, and null if JSON cannot hold the value.
 Json number(double value);
-/// Low and high; null where it is not known.
+/// Returns the list [low, high], or null if the interval is not known.
 Json interval_json(const measure::Interval& interval);
-/// A value that was read, for a message: "nothing", "a list", as JSON in quotes.
+/// Describes a value for a message: "nothing", "a list", or its JSON in quotes.
 std::string shown(const Json& value);
-/// The field "device".
+/// Returns the field "device".
 Json device_json(const DeviceFacts& device);
-/// What a row's frames took, milliseconds: its fields of that unit, as report.json has them.
+/// Returns all fields of a row with the unit milliseconds, as in report.json.
 Json times_json(const Row& row);
-/// What a quantity came to; null where it says nothing.
+/// Returns the value of a metric, or null if there is none.
 Json value_json(const measure::Value& value);
-/// The field "lag".
+/// Returns the field "lag".
 Json to_json(const Lag& lag);
 
-/// The field "views": of the comparison, a list; of a row, null where none were drawn.
+/// Return the field "views": a list for a comparison; for a row, null if no views were drawn.
 Json views_json(const Comparison& comparison);
 Json views_json(const Comparison& comparison, const Row& row);
 Json point_json(const dvec3& point);
 Json camera_json(const measure::CameraFacts& camera);
-/// Lists, and null for no environment.
+/// Return the lists of lights and unsupported features, and the environment or null.
 Json lights_json(const std::vector<LightFacts>& lights);
 Json environment_json(const std::optional<EnvironmentFacts>& environment);
 Json unsupported_json(const std::vector<UnsupportedFeatureFacts>& unsupported);
-/// The field "scene".
+/// Returns the field "scene".
 Json scene_json(const SceneFacts& scene);
 
-/// A list with an object for each mirror: mirror, name, technique, settings, why.
+/// Returns a list with one object a mirror: mirror, name, technique, settings, why.
 Json plan_json(const std::vector<PlanEntry>& plan);
 
 } // namespace catoptric::report

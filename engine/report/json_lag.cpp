@@ -1,4 +1,4 @@
-// The field "lag" of report.json.
+// Writes the field "lag" of report.json.
 #include "report/json.hpp"
 
 namespace catoptric::report {
@@ -20,7 +20,7 @@ Json to_json(const Settling& settling) {
             {"max", numbers(settling.max)}};
 }
 
-/// Each headline figure of every instant, and its mean; names begin with `prefix`.
+/// Adds each headline metric of each instant, and its mean. Names begin with `prefix`.
 void add_figures(Json& json, const std::string& prefix,
                  const std::vector<measure::Difference>& errors) {
     using measure::Difference;

@@ -1,4 +1,4 @@
-// The field "scene" of report.json.
+// Writes the field "scene" of report.json.
 #include "report/json.hpp"
 
 namespace catoptric::report {

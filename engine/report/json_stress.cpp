@@ -1,4 +1,4 @@
-// stress.json. Fields are only ever added.
+// Writes stress.json. New versions add fields and never remove any.
 #include "report/json.hpp"
 #include "report/stress.hpp"
 

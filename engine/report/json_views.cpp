@@ -1,4 +1,4 @@
-// The fields "views" of report.json.
+// Writes the fields "views" of report.json.
 #include "measure/views.hpp"
 #include "report/json.hpp"
 #include "report/text.hpp"
@@ -13,7 +13,7 @@ Json interval_json(const measure::Interval& interval) {
     return Json::array({number(interval.low), number(interval.high)});
 }
 
-/// Every figure that is a number, over one mask.
+/// Returns all metrics that are one number, over one mask.
 Json figures_json(const Row& row, const measure::RowMask& mask) {
     Json figures = Json::object();
     for (const measure::Metric& quantity : measure::difference_metrics()) {

@@ -1,4 +1,4 @@
-// The lag as curves: along the path, against speed, after a cut.
+// Plots of the lag as curves: along the path, against speed, after a cut.
 #include "report/html_text.hpp"
 #include "report/lag_tables.hpp"
 #include "report/line_plot.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr auto kFlip = &measure::Difference::flip;
 
-/// The k-th of n lines, the last the strongest.
+/// Returns the opacity of the k-th of n lines. The last line is the strongest.
 double strength(std::size_t k, std::size_t n) {
     return 0.3 + 0.7 * static_cast<double>(k + 1) / static_cast<double>(n);
 }
@@ -51,7 +51,7 @@ std::string against_speed(const Lag& lag) {
 }
 
 std::string after_jump(const Lag& lag) {
-    constexpr std::size_t kShown = 10; // frames
+    constexpr std::size_t kShown = 10; // number of frames shown
     LinePlot plot{.x_name = "frame after a jump of half the path",
                   .y_name = "rmse to the still picture",
                   .says = "Error of the frames after a jump, one line a row"};

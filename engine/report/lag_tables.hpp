@@ -5,17 +5,18 @@
 #include <optional>
 #include <string>
 
-// What the lag of moving pictures reads like. Without a measured lag there is nothing of it.
+// Tables, sentences and plots of the lag. Each is empty if no lag was measured.
 namespace catoptric::report {
 
-/// Every row at every speed.
+/// Returns the table of each row at each speed.
 Table lag_table(const Comparison& comparison);
-/// Frames after a cut until the picture is the still one.
+/// Returns the table of how many frames after a cut pass until the picture equals the still
+/// picture.
 Table settling_table(const Comparison& comparison);
-/// What the run says of the seed report's "no difference" between its parts one and two, and which
-/// rows have no lag.
+/// Returns what the run says about the seed report's "no difference" between its parts one and two,
+/// and which rows have no lag.
 std::optional<std::string> lag_in_words(const Comparison& comparison);
-/// The curves as a section of a page; empty when there are none.
+/// Returns the curves as a section of a page, or an empty string without curves.
 std::string lag_plots(const Comparison& comparison);
 
 } // namespace catoptric::report

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kChartWidth = 500, kChartHeight = 300;
 constexpr double kChartLeft = 66, kChartRight = 340, kChartTop = 12, kChartLane = 226,
-                 kChartBottom = 250; // lane: 0
+                 kChartBottom = 250; // the lane holds values of 0
 constexpr double kChartZero = (kChartLane + kChartBottom) / 2;
 constexpr std::size_t kMostTicks = 8;
 
@@ -33,7 +33,7 @@ double y_place(const Scale& scale, double y) { return y > 0 ? scale(y) : kChartZ
 
 std::vector<double> y_ticks(const Scale& scale) {
     std::vector<double> values = svg::ticks(scale);
-    if (values.size() > kMostTicks) // powers of ten alone
+    if (values.size() > kMostTicks) // too many ticks: keep only powers of ten
         std::erase_if(values, [](double value) {
             const double place = std::log10(value);
             return std::abs(place - std::round(place)) > 0.01;
@@ -71,7 +71,7 @@ std::string path_of(const LinePlot& plot, const PlotLine& line, const Scale& y) 
                        path);
 }
 
-/// Names right of the lines' ends, moved up where they would lie on one another.
+/// Returns the names at the right ends of the lines. A name moves up if it would overlap another.
 std::string names(const LinePlot& plot, const Scale& y) {
     std::vector<std::pair<double, std::string>> places;
     for (const PlotLine& line : plot.lines)

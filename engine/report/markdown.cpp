@@ -12,7 +12,7 @@ namespace catoptric::report {
 
 namespace {
 
-/// Text that Markdown leaves as it is, on one line.
+/// Returns text escaped for Markdown, on one line.
 std::string escaped(const std::string& text) {
     std::string result;
     for (const char c : printable(text, "\n")) {
@@ -22,7 +22,7 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-/// Characters, not bytes.
+/// Returns the number of characters, not bytes.
 std::size_t width_of(const std::string& text) {
     return static_cast<std::size_t>(
         std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -47,7 +47,7 @@ std::string markdown_list(const std::vector<std::string>& sentences) {
     return text + "\n";
 }
 
-/// Nothing without drawn views.
+/// Returns the section on drawn views, or nothing if none were drawn.
 std::string over_views(const Comparison& comparison) {
     const std::string table = to_markdown(views_table(comparison));
     return table.empty() ? "" : table + markdown_list(views_in_words(comparison));

@@ -1,4 +1,4 @@
-// Which technique draws which mirror, for rows that are plans.
+// Table of which technique draws which mirror, for rows that are plans.
 #include "report/tables.hpp"
 #include "report/text.hpp"
 
@@ -6,7 +6,7 @@ namespace catoptric::report {
 
 namespace {
 
-/// As it would be asked for: knobs that nobody set are left out.
+/// Returns the technique as the user would write it. Knobs with default values are left out.
 std::string technique_text(const PlanEntry& entry) {
     std::vector<std::string> changed;
     for (const Setting& setting : entry.settings)

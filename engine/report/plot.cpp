@@ -18,11 +18,12 @@ using svg::grid_line, svg::kLetter, svg::kLine, svg::Scale, svg::text, svg::tick
 namespace {
 
 constexpr double kWidth = 860, kHeight = 470;
-constexpr double kLeft = 64, kRight = 836, kTop = 16, kLane = 380, kBottom = 424; // lane: error 0
+// The lane holds error 0.
+constexpr double kLeft = 64, kRight = 836, kTop = 16, kLane = 380, kBottom = 424;
 
 struct Point {
     double x, y;
-    double low, high; ///< ends of the time's interval; not beyond the axes
+    double low, high; ///< ends of the time's interval, clamped to the axes
     const Row* row;
     bool front;
 };
@@ -38,7 +39,7 @@ bool can_be_placed(const Row& row) {
     return row.time_ms().median > 0 && std::isfinite(row.error.flip);
 }
 
-/// `moves`: time is the host's too.
+/// Returns the axes. If `moves` is true, times include host work.
 std::string axes(const Scale& x, const Scale& y, bool has_errors, bool moves) {
     constexpr double kMiddle = (kLane + kBottom) / 2;
     std::string svg = fmt::format(R"(<rect class="lane" x="{}" y="{}" width="{}" height="{}"/>)",
@@ -57,7 +58,7 @@ std::string axes(const Scale& x, const Scale& y, bool has_errors, bool moves) {
     return svg + text(0, 0, "middle", "FLIP over the mirrors") + "</g>";
 }
 
-/// The front as stairs: what a given time buys.
+/// Returns the front as a staircase: the least error for each time.
 std::string stairs(std::vector<Point> points) {
     std::erase_if(points, [](const Point& point) { return !point.front; });
     std::ranges::sort(
@@ -68,14 +69,15 @@ std::string stairs(std::vector<Point> points) {
     return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kRight) + "\"/>";
 }
 
-/// How far the time is known.
+/// Returns the interval of a row's time as a line.
 std::string interval(const Point& point) {
     if (!point.row->time_ms().ci95.is_known()) return "";
     return fmt::format(R"(<path class="interval" d="M{:.1f} {:.1f}H{:.1f}"/>)", point.low, point.y,
                        point.high);
 }
 
-/// Ray-traced rows are squares, all others discs; what one says on hover.
+/// Returns a row's mark: a square for ray tracing, otherwise a disc. Hovering shows the row's
+/// values.
 std::string mark(const Point& point) {
     const char* kind = point.front ? "mark front" : "mark";
     const std::string title = fmt::format(
@@ -89,8 +91,8 @@ std::string mark(const Point& point) {
                        point.x, point.y, title);
 }
 
-/// The first of some places around the point where the label meets nothing placed before; if there
-/// is none, the last. Left of the front there are no stairs to cross.
+/// Returns the first of several places around the point where the label overlaps no earlier label,
+/// or the last place. Points on the front try the left side first, because no stairs lie there.
 Box place_label(const Point& point, const std::vector<Box>& taken) {
     const double width = kLetter * static_cast<double>(point.row->label.size());
     Box box{};

@@ -6,8 +6,8 @@
 
 namespace catoptric::report {
 
-/// The rows as an SVG for inside a page: median ms against FLIP, both logarithmic, error 0 in a
-/// lane of its own, the Pareto front drawn. Empty when no row can be placed.
+/// Returns the rows as an SVG to embed in a page: median ms against FLIP, both logarithmic. Error 0
+/// has a separate lane and the Pareto front is drawn. Empty if no row can be placed.
 std::string plot(const Comparison& comparison);
 
 } // namespace catoptric::report

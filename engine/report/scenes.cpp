@@ -1,4 +1,4 @@
-// One report of several scenes.
+// Writes one report on several scenes.
 #include "report/encoded.hpp"
 #include "report/html_text.hpp"
 #include "report/json.hpp"

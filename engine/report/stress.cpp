@@ -14,7 +14,8 @@ namespace {
 
 std::string figure(double value) { return fmt::format("{:.3g}", value); }
 
-/// The worst case, what is not covered and what could not be run; why not, where nothing was.
+/// Returns the worst case, the parts that are not covered and those that could not be run. If
+/// nothing was run, returns the reason.
 std::string words_of(const StressRow& row) {
     const StressCase* worst = row.worst();
     std::string words = worst ? worst->what : "";
@@ -26,7 +27,7 @@ std::string words_of(const StressRow& row) {
     return words;
 }
 
-/// One line a property: its worst case beside the threshold.
+/// Returns the table with one line a property: its worst case and the threshold.
 Table table_of(const Stress& stress) {
     Table table{"Properties",
                 {{"Id", false},

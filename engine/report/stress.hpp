@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// What `stress` found, written.
+/// Reports of the results of `stress`.
 namespace catoptric::report {
 
 using measure::name_of;
@@ -17,26 +17,28 @@ using measure::StressPicture;
 using measure::StressRow;
 using measure::Verdict;
 
-/// Schema "catoptric/stress/1".
+/// Returns the results as JSON, schema "catoptric/stress/1".
 std::string to_json(const Stress& stress);
-/// One self-contained page.
+/// Returns the results as one self-contained HTML page.
 std::string to_html(const Stress& stress);
-/// The same table as Markdown.
+/// Returns the same table as Markdown.
 std::string to_markdown(const Stress& stress);
-/// "2 of 27 rows: ..." for a run that goes on or was stopped; empty when it is complete.
+/// Returns "2 of 27 rows: ..." for a run that goes on or was stopped, or an empty text if it is
+/// complete.
 std::string incomplete_text(const Stress& stress);
 
-/// Puts what there is into a folder, made as for a comparison: stress.json, stress.html, stress.md
-/// and images/ID-*.png. Written again and again as rows are added, each picture once.
+/// Writes the results so far into a folder, which is made as for a comparison. Files: stress.json,
+/// stress.html, stress.md and images/ID-*.png. `write` is called again as rows are added and writes
+/// each picture once.
 class StressWriter {
 public:
     explicit StressWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
-    /// Throws `cannot_create`, `io`.
+    /// Writes all files. Throws `cannot_create`, `io`.
     void write(const Stress& stress);
 
 private:
     std::filesystem::path folder_;
-    std::size_t rows_ = 0; ///< whose pictures are there
+    std::size_t rows_ = 0; ///< number of rows whose pictures are written
 };
 
 } // namespace catoptric::report

@@ -17,20 +17,20 @@ namespace {
 
 std::string nothing() { return std::string(kNothing); }
 
-/// Of the median.
+/// Returns the interval of the median.
 std::string interval_text(const measure::Summary& times, int decimals) {
     if (!times.ci95.is_known()) return nothing();
     return fixed(times.ci95.low, decimals) + "–" + fixed(times.ci95.high, decimals);
 }
 
-/// Returns the device's name without what drivers add in brackets: "llvmpipe" of "llvmpipe (LLVM
-/// 15.0.6, 256 bits)".
+/// Returns the device's name without the driver's additions in brackets: "llvmpipe" for "llvmpipe
+/// (LLVM 15.0.6, 256 bits)".
 std::string short_device_name(const Comparison& comparison) {
     const std::string& name = comparison.device.name;
     return name.substr(0, name.find(" ("));
 }
 
-/// "3" or "3–5".
+/// Returns places as "3" or "3–5".
 std::string places_text(const measure::Places& places) {
     const std::string first = std::to_string(places.first);
     return places.first == places.last ? first : first + "–" + std::to_string(places.last);
@@ -94,7 +94,7 @@ std::string remark(const Comparison& comparison, const Row& row) {
     return joined(remarks, ", ");
 }
 
-/// A cell of a quantity's column; `decimals`: of times in the whole table.
+/// Returns a cell of a metric's column. `decimals` is that of times in the whole table.
 std::string cell(const measure::Column& column, const measure::Value& value, int decimals) {
     using measure::Style;
     if (measure::is_nothing(value)) return nothing();
@@ -105,7 +105,7 @@ std::string cell(const measure::Column& column, const measure::Value& value, int
     }
     if (const auto* mark = std::get_if<bool>(&value)) return *mark ? "yes" : "no";
     const auto* number = std::get_if<double>(&value);
-    if (number == nullptr) return nothing(); // has more than one
+    if (number == nullptr) return nothing(); // the value is more than one number
     switch (column.style) {
     case Style::fixed: return fixed(*number, column.decimals);
     case Style::percent: return fixed(100 * *number, column.decimals);
@@ -116,7 +116,7 @@ std::string cell(const measure::Column& column, const measure::Value& value, int
     }
 }
 
-/// A column of the table of quantities; of a difference, over one mask.
+/// Column of a metric. For metrics of a difference, `mask` is the mask of the column.
 struct FigureColumn {
     const measure::Metric* quantity;
     measure::Column column;
@@ -134,11 +134,11 @@ struct FigureColumn {
     }
 };
 
-/// The columns that quantities have in a table, by order; those over other masks than the mirrors
-/// after all that are over these.
+/// Returns the columns of the metrics in a table, by order. Columns over other masks follow all
+/// columns over the mirrors.
 std::vector<FigureColumn> figure_columns(measure::InTable table, const Comparison& comparison) {
     std::vector<FigureColumn> columns;
-    int last = 0; // of differences
+    int last = 0; // the last order of a metric of differences
     for (const measure::Metric& quantity : measure::difference_metrics())
         if (quantity.order < measure::kAfterDifferences) last = quantity.order;
     for (const measure::Metric& quantity : measure::metrics())

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-// The report's tables as text, before Markdown or HTML gives them a look.
+// Tables of the report as text, before they become Markdown or HTML.
 namespace catoptric::report {
 
 struct Column {
@@ -17,39 +17,42 @@ struct Table {
     std::string title;
     std::vector<Column> columns;
     std::vector<std::vector<std::string>> rows;
-    std::vector<bool> marked; ///< rows to stand out; empty or one entry a row
-    std::string note;         ///< what the columns mean; may be empty
+    std::vector<bool> marked; ///< rows to highlight; empty or one entry a row
+    std::string note;         ///< meaning of the columns; may be empty
 };
 
-/// Under its title, a pipe table whose columns line up as plain text, too; empty without rows.
+/// Returns a pipe table under its title. Its columns also line up as plain text. Empty if the table
+/// has no rows.
 std::string to_markdown(const Table& table);
 
-/// The seed report's Table 1 beside what was measured here.
+/// Returns the seed report's Table 1 beside our measurements.
 Table seed_table(const Comparison& comparison);
-/// Every row, every figure; the rows on the Pareto front are marked.
+/// Returns the table of all rows with all its metrics. Rows on the Pareto front are marked.
 Table rows_table(const Comparison& comparison);
-/// What draws each mirror, for rows that are plans; no rows when none is.
+/// Returns the technique of each mirror, for rows that are plans. Without such rows the table is
+/// empty.
 Table plan_table(const Comparison& comparison);
-/// FLIP by mirror.
+/// Returns FLIP of each mirror.
 Table mirror_table(const Comparison& comparison);
-/// Where mirrors looked, for rows that search; no rows when none does.
+/// Returns the errors of looked-up directions, for rows that search. Without such rows the table is
+/// empty.
 Table lookup_table(const Comparison& comparison);
-/// What of the scene is not shown as its file says; no rows where all is.
+/// Returns the unsupported features of the scene. Empty if there are none.
 Table unsupported_table(const SceneFacts& scene);
-/// What is done instead; empty for an id that is not known.
+/// Returns what is done instead of a feature. Empty for an unknown id.
 std::string gap_in_words(const std::string& id);
-/// Error by cause, four lines a row; no rows when nothing was split.
+/// Returns the error by cause with four lines a row. Empty if no row has causes.
 Table cause_table(const Comparison& comparison);
 
-/// What was measured where: name and value.
+/// Fact about the run: name and value.
 struct Fact {
     std::string name;
     std::string value;
 };
 std::vector<Fact> facts(const Comparison& comparison);
-/// What was needed once, in a line; stands above the rows.
+/// Returns the set-up costs in one line, which stands above the rows.
 std::string setup_text(const SetupFacts& setup);
-/// What to keep in mind while reading: a processor as device, a run cut short, rows together,
+/// Returns cautions for the reader: a processor as device, a run cut short, rows measured together,
 /// warnings.
 std::vector<std::string> cautions(const Comparison& comparison);
 

@@ -9,7 +9,7 @@ namespace catoptric::report {
 
 namespace {
 
-/// Decimals that give three significant digits, four at most.
+/// Returns the decimals that give three significant digits, at most four.
 int decimals_for(double value) {
     if (!(value > 0)) return 0;
     return std::clamp(2 - static_cast<int>(std::floor(std::log10(value))), 0, 4);
@@ -21,7 +21,7 @@ std::string fixed(double value, int decimals) {
     if (!std::isfinite(value)) return std::string(kNothing);
     std::string text = fmt::format("{:.{}f}", value, decimals);
     if (text.find_first_of("123456789") == std::string::npos && text.front() == '-')
-        text.erase(0, 1); // no -0.0
+        text.erase(0, 1); // avoids -0.0
     return text;
 }
 
@@ -68,7 +68,7 @@ std::string incomplete_text(const Comparison& comparison) {
     if (comparison.complete) return "";
     const bool in_lag = comparison.lag && !comparison.lag->complete;
     const bool has_all = comparison.rows.size() == comparison.asked;
-    std::size_t measured = 0; // rounds that every row has
+    std::size_t measured = 0; // number of rounds that all rows have
     for (const Row& row : comparison.rows)
         if (&row == &comparison.rows.front() || row.gpu_ms.rounds.size() < measured)
             measured = row.gpu_ms.rounds.size();

@@ -1,4 +1,4 @@
-// What a scene says that is not shown so, or what was added to it.
+// Table of the unsupported features of a scene.
 #include "report/tables.hpp"
 #include "report/text.hpp"
 

@@ -14,7 +14,7 @@ struct Figure {
     const measure::Column* column;
 };
 
-/// Figures of differences that the table of rows shows, too.
+/// Returns the metrics of differences that the table of rows shows, too.
 std::vector<Figure> figures() {
     std::vector<Figure> list;
     for (const measure::Metric& quantity : measure::difference_metrics())
@@ -41,7 +41,7 @@ std::string cell(const Row& row, const Figure& figure) {
                        number_text(over.ci95.high, column));
 }
 
-/// Of its column, without the unit.
+/// Returns the title of the metric's column without the unit.
 std::string_view title_of(const measure::Metric& quantity) {
     const std::string_view title = quantity.columns.front().title;
     return title.substr(0, title.find(','));

@@ -16,14 +16,14 @@ namespace fs = std::filesystem;
 
 void create_folder(const fs::path& folder) {
     std::error_code error;
-    fs::create_directories(folder, error); // what is there already is no error
+    fs::create_directories(folder, error); // an existing folder is no error
     const bool is_file = fs::exists(folder) && !fs::is_directory(folder);
     check(!is_file, Failure::cannot_create, folder.string(),
           ": the folder cannot be created: wanted a folder or nothing, found a file");
     check(!error, Failure::cannot_create, folder.string(),
           ": the folder cannot be created: ", error.message());
     const bool writable = ::access(folder.c_str(), W_OK | X_OK) == 0;
-    const int reason = errno; // before anything else is called
+    const int reason = errno; // saved before another call changes errno
     check(writable, Failure::cannot_create, folder.string(),
           ": files cannot be created there: ", std::generic_category().message(reason));
 }
@@ -66,7 +66,7 @@ void Writer::write(const Comparison& comparison) {
     write_file(folder_ / "rows.csv", to_csv(comparison, csv_));
     write_file(folder_ / "report.md", to_markdown(comparison));
     write_file(folder_ / "report.html", to_html(comparison, pictures_));
-    // Last: who sees it sees the files that it names.
+    // Written last, so that all files it names exist when a reader sees it.
     write_file(folder_ / "report.json", to_json(comparison));
 }
 

@@ -7,32 +7,33 @@
 #include <filesystem>
 #include <string>
 
-/// What `compare` found, as files and as their text.
+/// Results of `compare` as files and as their text.
 namespace catoptric::report {
 
-/// report.json: schema "catoptric/compare/1".
+/// Returns report.json, schema "catoptric/compare/1".
 CATOPTRIC_API std::string to_json(const Comparison& comparison);
-/// Which columns rows.csv has.
+/// Columns of rows.csv.
 enum class CsvColumns : std::uint8_t {
-    table, ///< the figures of the report's table of rows, and what tells runs apart
-    all,   ///< every figure over every mask, each mirror, pass and round
+    table, ///< metrics of the report's table of rows, and fields that tell runs apart
+    all,   ///< each metric over each mask, mirror, pass and round
 };
-/// Returns rows.csv: one line a row, header first (RFC 4180). The last field of each says what an
-/// incomplete run lacks; without a row one line holds nothing else.
+/// Returns rows.csv: a header and one line a row (RFC 4180). The last field of each line says what
+/// an incomplete run lacks. If the run has no row, one line holds only that field.
 CATOPTRIC_API std::string to_csv(const Comparison& comparison,
                                  CsvColumns which = CsvColumns::table);
-/// report.md: the seed report's Table 1 beside ours, errors, what is dominated, and what to make of
-/// its guesses.
+/// Returns report.md: the seed report's Table 1 beside ours, errors, dominated rows, and a
+/// judgement of the report's guesses.
 CATOPTRIC_API std::string to_markdown(const Comparison& comparison);
-/// report.html: one self-contained page, table and pictures (data: URIs) side by side, no script.
+/// Returns report.html: one self-contained page with table and pictures (data: URIs) side by side,
+/// without script.
 CATOPTRIC_API std::string to_html(const Comparison& comparison);
 
-/// Makes `folder` with its parents; folders that are there are taken. To be called before long
-/// work, whose results would have no place. Throws `cannot_create` where it is a file, or no file
-/// can be made in it.
+/// Makes `folder` with its parents. Existing folders are accepted. Call it before long work, so
+/// that the results have a place. Throws `cannot_create` if it is a file or if no file can be made
+/// in it.
 CATOPTRIC_API void create_folder(const std::filesystem::path& folder);
 
-/// All of it once: the files that Writer (report.hpp) puts into a folder.
+/// Writes all files that Writer (report.hpp) puts into a folder, once.
 CATOPTRIC_API void write(const Comparison& comparison, const std::filesystem::path& folder,
                          CsvColumns csv = CsvColumns::table);
 

@@ -12,7 +12,7 @@ namespace catoptric::stress {
 
 namespace {
 
-/// Letters, digits and single hyphens.
+/// Returns the text as a file name of letters, digits and single hyphens.
 std::string as_file_name(const std::string& text) {
     std::string name;
     for (const char c : text)

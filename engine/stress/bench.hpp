@@ -9,61 +9,60 @@
 
 namespace catoptric::stress {
 
-/// What a property judges with: pictures of scenes, and the row that its figures go to.
+/// Test bench of a property: renders pictures of scenes and adds results to the property's row.
 class Bench {
 public:
     Bench(app::Engine& engine, const app::Watcher& watcher, uvec2 size, std::uint64_t seed,
           report::StressRow& row)
         : engine_(engine), watcher_(watcher), size_(size), random_(seed), row_(row) {}
 
-    /// Seen by the scene's first camera; the picture after `frames` frames at rest. Fields of
-    /// `request` that a property needs otherwise are set by it: `asked` is this bench's default for
-    /// it.
+    /// Returns a request for the scene as its first camera sees it, for the picture after `frames`
+    /// frames at rest. These are defaults: a property may change any field.
     app::Request asked(const scene::Scene& scene, const std::string& technique,
                        int frames = 4) const;
     app::Part render(const app::Request& request);
-    /// One frame of a property's own loop.
+    /// Renders one frame of a property's own loop. Throws if the user stopped the run.
     app::Frame frame(app::Session& session, const app::FrameSpec& spec) {
         watcher_.check_stopped();
         return session.frame(spec);
     }
-    /// Compiles the plan of the request's frame and renders nothing.
+    /// Compiles the plan of the request's frame without rendering.
     void plan(const app::Request& request);
     app::Part render(const scene::Scene& scene, const std::string& technique, int frames = 4) {
         return render(asked(scene, technique, frames));
     }
 
-    /// A figure and its limit.
+    /// Adds a measured value and its limit.
     void add(std::string what, double measured, double limit) {
         row_.cases.push_back({std::move(what), measured, limit, false});
     }
-    /// The same where more looks worse but is not wrong.
+    /// Adds a measured value that only looks worse beyond its limit and is not wrong.
     void add_quality(std::string what, double measured, double limit) {
         row_.cases.push_back({std::move(what), measured, limit, true});
     }
-    /// Mean FLIP of two pictures; both are kept where it is above the limit.
+    /// Adds the mean FLIP of two pictures. Keeps both pictures if it is above the limit.
     void add_flip(const std::string& what, const app::Part& found, const app::Part& wanted,
                   double limit, bool is_quality = false);
-    /// Pixels that are no numbers; limit 0.
+    /// Adds the number of pixels that are NaN or infinite, with limit 0.
     void add_nonfinite(const std::string& what, const app::Part& part);
-    /// What the device does not allow: it is told, and has no figure.
+    /// Adds a part that the device does not allow. It is reported and has no measured value.
     void add_not_run(std::string what, const Error& error) {
         row_.not_run.push_back({std::move(what), error.what()});
     }
-    /// That `work` is done (limit 0), or ends in an error that says what the device allows: then it
-    /// is not run. True when it was done.
+    /// Adds a case (limit 0) that `work` succeeds. If it ends in an error that says what the device
+    /// allows, the part counts as not run. Returns whether `work` succeeded.
     bool add_done_or_refused(const std::string& what, const std::function<void()>& work);
-    /// That `work` ends in an error of this kind whose text names `limit`; limit 0.
+    /// Adds a case (limit 0) that `work` ends in an error of this kind whose text contains `limit`.
     void add_refused(const std::string& what, Failure failure, const std::string& limit,
                      const std::function<void()>& work);
 
-    /// Whether an error is nothing that a property found: a signal came, the device is gone or
-    /// lacks something, or memory ran out below what the device allows.
+    /// Returns whether an error ends the run and is not a property's finding: a signal came, the
+    /// device is lost or lacks something, or memory ran out below what the device allows.
     bool ends_run(const Error& error) const;
 
     app::Engine& engine() { return engine_; }
     uvec2 size() const { return size_; }
-    /// In [low, high).
+    /// Returns a random number in [low, high).
     double random(double low, double high) {
         return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
     }
@@ -76,11 +75,12 @@ private:
     report::StressRow& row_;
 };
 
-/// Out of something, with a text that says how much of it the device allows.
+/// Returns whether an error reports an exhausted resource and its text says how much the device
+/// allows.
 bool is_refusal(const Error& error);
-/// Pixels with a NaN or infinity.
+/// Returns the number of pixels with a NaN or infinity.
 std::size_t nonfinite(const measure::Picture& picture);
-/// The largest channel of all; NaN where some pixel is no number.
+/// Returns the largest channel of all pixels, or NaN if a pixel is not finite.
 double brightest(const measure::Picture& picture);
 std::size_t different_pixels(const measure::Picture& a, const measure::Picture& b);
 

@@ -1,4 +1,4 @@
-// Mirrors where they touch, vanish, or are very many.
+// Properties of mirrors that touch, vanish or are very many.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -18,7 +18,7 @@ namespace catoptric::stress {
 
 namespace {
 
-/// Of a furnace: pixels darker than it, and how much brighter than it the brightest is.
+/// Measurements in a furnace: the share of pixels darker than 1, and the brightest value.
 struct Seen {
     double dark = 0, brightest = 0;
 };
@@ -69,7 +69,7 @@ void judge_vanishing(Bench& bench) {
             scene::Object gone = with.objects.back();
             gone.sphere.reset();
             for (int axis = 0; axis < 3; ++axis) gone.world_from_object[axis][axis] = size[axis];
-            // Before the others, whose numbers count it.
+            // The vanishing mirror comes first, so that it changes the numbers of the others.
             with.objects.pop_back();
             with.objects.insert(with.objects.begin(), gone);
             bench.add_flip(technique + ", " + what, bench.render(with, technique), without, .0002);
@@ -112,14 +112,14 @@ void judge_faces(Bench& bench) {
             const std::string text = technique + ":face=" + face;
             const app::Part part = bench.render(scene, text);
             bench.add_nonfinite(text, part);
-            // Of a few texels it is chance whether one of them looks at the lamp.
+            // With a few texels, chance decides whether one of them sees the lamp.
             const double mean = mean_of(part);
             bench.add(text + ": mirrors are black", mean > 0 ? 0 : 1, 0);
             bench.add_quality(text + ": factor between the mean of mirrors and that of ray tracing",
                               std::max(mean / wanted, wanted / mean), 4);
         }
-    // What one large capture shows is what a small one shows; whether the device has the memory,
-    // the plan says.
+    // A large capture must show the same as a small one. The plan says whether the device has the
+    // memory.
     const app::Part usual = bench.render(scene, "naive:bounces=1,face=1024", 1);
     for (const char* face : {"4096", "16384"})
         for (const std::string technique : {"naive:bounces=1,face=", "parallax:face="}) {
@@ -127,7 +127,7 @@ void judge_faces(Bench& bench) {
             if (!bench.add_done_or_refused(technique + face + " planned",
                                            [&] { bench.plan(request); }))
                 continue;
-            if (std::stoi(face) > 4096) continue; // 10 GiB and more
+            if (std::stoi(face) > 4096) continue; // needs 10 GiB or more
             const app::Part large = bench.render(request);
             if (technique.starts_with("naive"))
                 bench.add_flip(technique + face, large, usual, .01);
@@ -138,7 +138,7 @@ void judge_faces(Bench& bench) {
                       [] { app::parse_technique("parallax:face=32769"); });
 }
 
-/// Ball 4 through its whole path.
+/// Moves ball 4 through its whole path and compares adjacent frames.
 void judge_path(Bench& bench) {
     constexpr int kWarm = 8, kFrames = 120;
     constexpr double kPeriod = 4;
@@ -161,7 +161,7 @@ void judge_path(Bench& bench) {
 void judge_correction(Bench& bench) {
     const auto contract = [&](const std::string& technique, int frames) {
         app::Request request = bench.asked(scene::cornell_mirrors(), technique, frames);
-        request.size = {512, 512}; // ball 4 is some 30 pixels wide at half of it
+        request.size = {512, 512}; // ball 4 is only about 30 pixels wide at half this size
         return bench.render(request);
     };
     const app::Part truth = contract("raytrace:depth=16", 1), plain = contract("reuse", 8),

@@ -1,4 +1,5 @@
-// Light that arrives bounce by bounce: each adds less than the one before, and none takes away.
+// Properties of light that arrives bounce by bounce: each bounce adds less than the last one, and
+// none removes light.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -15,11 +16,11 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kMost = 6;      // bounces
-constexpr double kFall = 0.4; // a step is at most that share of the one before
+constexpr int kMost = 6;      // largest number of bounces
+constexpr double kFall = 0.4; // a step is at most this share of the step before
 
 struct Bounces {
-    std::vector<measure::Picture> pictures; ///< entry k with k bounces
+    std::vector<measure::Picture> pictures; ///< entry k: picture with k bounces
     measure::Mask mirrors;
 };
 
@@ -34,9 +35,9 @@ Bounces bounces_of(Bench& bench, app::Request request, int face = 128) {
     return bounces;
 }
 
-/// rmse between the pictures with k and k + 1 bounces over mirror pixels, k = 0..5. No pixel of any
-/// of them may get darker with a bounce more: from black on, a capture is a weighted mean of
-/// captures of the bounce before.
+/// Returns the rmse between the pictures with k and k + 1 bounces over mirror pixels, k = 0..5.
+/// Adds the case that no pixel gets darker with a further bounce. This holds because captures start
+/// black, and each capture is a weighted mean of captures of the bounce before.
 std::vector<double> steps_of(Bench& bench, const std::string& where, const Bounces& bounces) {
     const std::vector<float> no_flip(bounces.pictures.front().pixels.size());
     std::vector<double> steps;
@@ -67,9 +68,9 @@ void judge_report_room(Bench& bench) {
               steps_of(bench, "the report's room", bounces_of(bench, request)));
 }
 
-/// Balls of such a room are small, and a third image is one or two of some 4,000 pixels, lit by the
-/// lamp or not as their texels happen to lie: from step to step the fall is chance, and what is
-/// judged is how far it has come by bounce 4.
+/// Judges a room with small balls. A third image covers one or two of about 4,000 pixels, and
+/// chance decides whether their texels see the lamp. The fall from step to step is therefore
+/// random, so only the fall up to bounce 4 is judged.
 void judge_room(Bench& bench) {
     const std::vector<double> steps = steps_of(
         bench, "a room", bounces_of(bench, bench.asked(room(bench, 4), "naive", 1)));
@@ -77,10 +78,10 @@ void judge_room(Bench& bench) {
               std::pow(kFall, 3.0));
 }
 
-/// Two flat mirrors face to face in a box that emits 1, turned from each other by `angle`, with one
-/// `reflectance`. With k mirrors on its way a ray is turned by 2 k times the angle and leaves them:
-/// a captured path of k mirrors shows reflectance^k, and a bounce more makes of a black band, as
-/// wide as the last, the next power.
+/// Two flat mirrors that face each other in a box that emits 1, with an `angle` between them and
+/// one `reflectance`. After k mirrors a ray has turned by 2 k times the angle, until it leaves the
+/// mirrors. A captured path of k mirrors shows reflectance^k. A further bounce turns a black band,
+/// as wide as the last one, into the next power.
 struct Wedge {
     double reflectance, angle;
 
@@ -101,7 +102,7 @@ struct Wedge {
             .eye = eye, .target = {-1, eye.y, eye.z + 1.2}, .vertical_fov_degrees = 70};
         return scene;
     }
-    /// Whether a mirror shows nothing, or what up to `most` mirrors leave of 1.
+    /// Returns whether the radiance is 0 or what up to `most` mirrors leave of 1.
     bool explains(float radiance, int most) const {
         if (radiance == 0) return true;
         for (int k = 1; k <= most; ++k)
@@ -110,8 +111,9 @@ struct Wedge {
     }
 };
 
-/// Known of any seed: from the third bounce on a step is the reflectance times the one before, and
-/// a pixel that is not mixed from two bands shows a power of it.
+/// Judges the wedge, for which two facts hold with any seed. From the third bounce on, a step is
+/// the reflectance times the step before. A pixel that does not mix two bands shows a power of the
+/// reflectance.
 void judge_wedge(Bench& bench) {
     const Wedge wedge{bench.random(.2, .3), bench.random(.05, .08)};
     app::Request request = bench.asked(

@@ -1,4 +1,5 @@
-// What captures hold: distances, colours, the right walls the right way round.
+// Properties of the contents of captures: distances, colours, and the right walls in the right
+// orientation.
 #include "stress/double_tracer.hpp"
 #include "stress/glyph_room.hpp"
 #include "stress/property.hpp"
@@ -21,7 +22,7 @@ namespace catoptric::stress {
 
 namespace {
 
-/// The built-in room with one of its mirrors (from 0), or with none.
+/// Returns the built-in room with one of its mirrors (from 0), or with none.
 scene::Scene room_with(std::size_t mirror) {
     scene::Scene scene = scene::cornell_mirrors();
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
@@ -31,7 +32,8 @@ scene::Scene room_with(std::size_t mirror) {
     return scene;
 }
 
-/// Every mirror's cubes, without shadows and ambient light; other mirrors are black.
+/// Returns the cubes of all mirrors, without shadows and ambient light. Other mirrors are black in
+/// them.
 render::Captured captured(Bench& bench, const scene::Scene& scene, std::uint32_t edge,
                           Format format) {
     app::Request request = bench.asked(
@@ -45,7 +47,7 @@ render::Captured captured(Bench& bench, const scene::Scene& scene, std::uint32_t
 
 void judge_distances(Bench& bench) {
     constexpr std::uint32_t kEdge = 128;
-    constexpr double kClamp = 200; // of the report's eight bits
+    constexpr double kClamp = 200; // largest distance of the seed report's 8-bit storage
     const std::size_t mirrors = scene::mirrors(scene::cornell_mirrors()).size();
     const scene::Scene walls = room_with(mirrors);
     const DoubleTracer tracer(walls, 0);
@@ -73,7 +75,8 @@ void judge_distances(Bench& bench) {
         }
 }
 
-/// A wall beside the ball in each direction in turn; the middle of the face that looks at it.
+/// Judges a wall beside the ball, in each direction in turn, by the centre texel of the face that
+/// looks at it.
 void judge_near_wall(Bench& bench) {
     constexpr std::uint32_t kEdge = 65;
     constexpr double kGap = .6;
@@ -95,13 +98,13 @@ void judge_near_wall(Bench& bench) {
 
 void judge_glyphs(Bench& bench) {
     constexpr std::uint32_t kEdge = 64;
-    constexpr double kSnap = .001; // of a wall: how far a rasteriser may move its edges
+    constexpr double kSnap = .001; // share of a wall by which a rasteriser may move its edges
     const GlyphRoom room;
     const render::Captured cubes = captured(bench, room.scene(), kEdge, Format::r32f);
     std::array<std::size_t, 6> wrong{}, judged{}, inked{};
     for_texels(kEdge, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
         const GlyphRoom::Seen seen = room.look(direction);
-        if (seen.margin < kSnap) return; // the texel's centre lies on an edge
+        if (seen.margin < kSnap) return; // the texel's centre may lie on an edge
         const auto wall = static_cast<std::size_t>(seen.face);
         ++judged[wall], inked[wall] += seen.glyph;
         wrong[wall] += cubes.colour(0, face, x, y) != GlyphRoom::colour(seen);
@@ -117,7 +120,7 @@ void judge_glyphs(Bench& bench) {
               .05);
 }
 
-/// A unit ball around 0, seen so that the middle of the picture reflects along `wanted`.
+/// Returns a camera on a unit ball around 0. The centre of its picture reflects along `wanted`.
 scene::Camera looking_along(dvec3 wanted) {
     const dvec3 n = normalize(wanted + .4 * normalize(cross(wanted, dvec3(.3, -.5, .8))));
     const dvec3 incoming = wanted - 2 * dot(wanted, n) * n;
@@ -127,7 +130,8 @@ scene::Camera looking_along(dvec3 wanted) {
             .vertical_fov_degrees = 1};
 }
 
-/// Pixels whose ray a unit ball around 0 sends within two texels of an edge of a cube.
+/// Returns the number of pixels whose ray a unit ball around 0 reflects to within two texels of a
+/// cube edge.
 std::size_t near_edges(const scene::Camera& camera, uvec2 size, double edge) {
     std::size_t near = 0;
     for (std::uint32_t y = 0; y < size.y; ++y)
@@ -146,7 +150,7 @@ std::size_t near_edges(const scene::Camera& camera, uvec2 size, double edge) {
 void judge_cube_edges(Bench& bench) {
     constexpr int kEdge = 64;
     constexpr uvec2 kSize{128, 128};
-    constexpr float kColour = .7f; // no number of a half
+    constexpr float kColour = .7f; // no exact half-float number
     scene::Scene scene = furnace({});
     scene.materials.front().emission = vec3(kColour);
     add_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}), {{0, 0, 0}, 1}, 5);

@@ -1,4 +1,4 @@
-// More mirrors than one array of captures holds: each shows what stands around itself.
+// Property of more mirrors than one array of captures holds: each shows its own surroundings.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -13,17 +13,17 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kEdge = 20; // balls along an edge: 400, where 341 fill an array of 2048 layers
+constexpr int kEdge = 20; // balls along an edge; an array of 2048 layers holds 341 of all 400
 constexpr uvec2 kSize{256, 256};
 
-/// No two within 3 % in every channel.
+/// Returns a ball's colour. Two colours differ by more than 3 % in a channel.
 vec3 colour_of(int ball) {
     const auto step = [](int i) { return .4f + .6f * float(i) / (kEdge - 1); };
     return {step(ball % kEdge), step(ball / kEdge), .7f};
 }
 
-/// Balls in cells of one colour each, open to the front and the back, without a light: with an
-/// ambient light of 1 a wall shows its colour.
+/// Returns balls in cells of one colour each, open to the front and the back. There is no light:
+/// with an ambient light of 1, a wall shows its colour.
 scene::Scene cells() {
     constexpr double kHalf = .48, kFront = -.3, kBack = .8;
     scene::Scene scene{.name = "cells"};
@@ -47,7 +47,7 @@ scene::Scene cells() {
     return scene;
 }
 
-/// Mirrors in which no pixel shows their own cell's colour, and mirrors with a pixel of another's.
+/// Adds the number of mirrors in which no pixel shows the colour of their own cell.
 void judge_cells(Bench& bench) {
     const scene::Scene scene = cells();
     std::vector<std::uint32_t> hits;

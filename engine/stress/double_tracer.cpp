@@ -7,7 +7,7 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr double kGap = 1e-9; // of scenes about 1 in size
+constexpr double kGap = 1e-9; // offset of rays, for scenes about 1 in size
 
 } // namespace
 
@@ -41,7 +41,7 @@ dvec3 DoubleTracer::pixel(const scene::Camera& camera, uvec2 size, std::uint32_t
     return radiance(camera.eye, pixel_direction(camera, size, x, y), depth);
 }
 
-/// One flat lamp: mean of its corners, its normal, its area.
+/// Adds one flat lamp: mean of its corners, normal, and area.
 void DoubleTracer::add_lamp(const scene::Object& object, const scene::Mesh& mesh) {
     Lamp lamp{dvec3(0), dvec3(0), dvec3(0)};
     std::vector<dvec3> corners;

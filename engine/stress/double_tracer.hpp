@@ -7,22 +7,23 @@
 
 namespace catoptric::stress {
 
-/// Of the ray through a place of the picture in pixels, whole numbers at their middles; unit
-/// length.
+/// Returns the unit direction of the ray through a place of the picture. `x` and `y` are in pixels;
+/// whole numbers are pixel centres.
 dvec3 pixel_direction(const scene::Camera& camera, uvec2 size, double x, double y);
 
-/// A ray tracer of a page in double precision, written from the formula in the documentation alone:
-/// it shares nothing with the rest of the engine but the scene's data. Mirrors must be exact
-/// spheres, scenes about 1 in size; lamps are flat and throw no shadow.
+/// Small reference ray tracer in double precision. It follows only the formula in the documentation
+/// and shares nothing with the engine but the scene's data. Mirrors must be exact spheres and
+/// scenes about 1 in size. Lamps are flat and cast no shadow.
 class DoubleTracer {
 public:
-    /// Keeps a reference to the scene.
+    /// Keeps a reference to the scene. `ambient` is the constant ambient light.
     DoubleTracer(const scene::Scene& scene, double ambient);
 
-    /// Radiance at the middle of a pixel.
+    /// Returns the radiance at the centre of a pixel.
     dvec3 pixel(const scene::Camera& camera, uvec2 size, std::uint32_t x, std::uint32_t y,
                 int depth) const;
-    /// To what the ray meets first, in lengths of `direction`; infinite where that is nothing.
+    /// Returns the distance to the first hit of the ray, in lengths of `direction`, or infinity if
+    /// there is none.
     double distance(dvec3 origin, dvec3 direction) const {
         return closest(origin, direction, std::numeric_limits<double>::infinity(), false).t;
     }

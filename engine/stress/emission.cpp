@@ -1,4 +1,4 @@
-// A light too bright for a half, and a surface too dark for a float.
+// Properties of a light too bright for a half float, and of a surface too dark for a float.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -12,14 +12,16 @@ namespace catoptric::stress {
 
 namespace {
 
-/// Texels of the captures of `technique` that are cut off at the largest half.
+/// Returns the number of texels in the captures of `technique` that are clipped at the largest
+/// half.
 double saturated(Bench& bench, const scene::Scene& scene, const std::string& technique) {
     app::Request request = bench.asked(scene, technique);
     request.with_lookup = true;
     return double(bench.render(request).saturated.value());
 }
 
-/// Frames from 1 while the lamp of 1e30 is there and after it has been taken away.
+/// Frame numbers, from 1: the last frame with the lamp of 1e30, and frames 2 and 20 after its
+/// removal.
 constexpr int kWith = 4, kSoon = kWith + 2, kLate = kWith + 20;
 
 void judge_removal(Bench& bench, const scene::Scene& lit, const scene::Scene& dark,
@@ -42,7 +44,7 @@ void judge_removal(Bench& bench, const scene::Scene& lit, const scene::Scene& da
               double(different_pixels(late.hdr, wanted)), 0);
     const std::string early = what + ", frame 2 without it: pixels unlike frame 20";
     const double unlike = double(different_pixels(soon.hdr, late.hdr));
-    // Between mirrors that look into last frame's captures light goes on for a frame a mirror.
+    // If mirrors use last frame's captures, light travels between them for one frame a mirror.
     if (late.remembers && scene::mirrors(dark).size() > 1)
         bench.add_quality(early, unlike, 0);
     else

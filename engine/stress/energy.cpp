@@ -1,4 +1,5 @@
-// What light may do between mirrors: never grow, fall by the reflectance, arrive bounce by bounce.
+// Properties of light between mirrors: it never grows, falls by the reflectance, and arrives bounce
+// by bounce.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -36,9 +37,9 @@ void judge_furnace(Bench& bench) {
     bench.add("raytrace:depth=16: missing from 1", 1 - darkest, .002);
 }
 
-/// What cubes cannot do: a capture sees the other mirror from one place only, so a pixel may show
-/// another k than ray tracing. That is told, and judged no error; light that is not there would be
-/// one.
+/// Judges techniques with captures in the corridor. A capture sees the other mirror from one place
+/// only, so a pixel may show another k than ray tracing. This counts as quality and not as an
+/// error. Additional light would be an error.
 void judge_captured_corridor(Bench& bench, const scene::Scene& scene) {
     const app::Part truth = render_dark(bench, scene, "raytrace:depth=16", 1);
     for (const std::string technique :
@@ -55,7 +56,7 @@ void judge_captured_corridor(Bench& bench, const scene::Scene& scene) {
     }
 }
 
-/// What k mirrors show, k up to `depth`; what shows more is black.
+/// Judges the pixels that show k mirrors, k up to `depth`. Pixels that would show more are black.
 void judge_corridor_to(Bench& bench, const scene::Scene& scene, const std::string& technique,
                        int depth) {
     double worst = 0;
@@ -75,7 +76,7 @@ void judge_corridor_to(Bench& bench, const scene::Scene& scene, const std::strin
         bench.add(technique + ": k that nobody shows", double(std::ranges::count(seen, 0u)), 0);
 }
 
-/// Two mirrors face to face in a box that emits 1: a path of k mirrors shows .8^k.
+/// Judges two mirrors that face each other in a box that emits 1. A path of k mirrors shows .8^k.
 void judge_corridor(Bench& bench) {
     scene::Scene scene = furnace({});
     const std::size_t mirror = add_material(

@@ -1,4 +1,5 @@
-// Things of very different size in one scene: what is looked at keeps its precision.
+// Properties of objects of very different size in one scene: the object in view keeps its
+// precision.
 #include "scene/shapes.hpp"
 #include "stress/double_tracer.hpp"
 #include "stress/property.hpp"
@@ -13,7 +14,7 @@ namespace {
 constexpr const char* kTechniques[] = {"raytrace", "parallax", "pyramid"};
 constexpr double kSame = .001; // FLIP
 
-/// A triangle of edge 1 far outside the room changes nothing that is seen.
+/// Judges a triangle of edge 1 far outside the room. The picture must not change.
 void judge_strays(Bench& bench) {
     const scene::Scene scene = room(bench, 3);
     for (const char* technique : kTechniques) {
@@ -33,7 +34,7 @@ void judge_strays(Bench& bench) {
     }
 }
 
-/// A grey sky is as grey at any distance: 100 or a million.
+/// Judges a grey sky, which must look the same at a distance of 100 and of a million.
 void judge_sky(Bench& bench) {
     const scene::Scene scene = room(bench, 3);
     const auto under = [&](double radius) {
@@ -50,9 +51,9 @@ void judge_sky(Bench& bench) {
                        bench.render(near, technique), kSame);
 }
 
-/// The room on a ground to the horizon: 1e6 wide as 1e3. Places on so large a triangle are rounded
-/// in proportion to its size, for rays that leave it as for what is drawn: that is told, not
-/// judged.
+/// Judges the room on a ground 1e6 wide against one 1e3 wide. Positions on such a large triangle
+/// are rounded in proportion to its size, for rays as for rasterisation. The difference therefore
+/// counts as quality.
 void judge_ground(Bench& bench) {
     const scene::Scene scene = room(bench, 3);
     const double y = scene::bounds(scene).lo.y - .01;
@@ -67,7 +68,7 @@ void judge_ground(Bench& bench) {
                        bench.render(narrow, technique), kSame, true);
 }
 
-/// A ball of 1e-3 in a room of 1e3, beside its middle, from near by.
+/// Judges a ball of 1e-3 off the centre of a room of 1e3, seen from close by.
 void judge_tiny(Bench& bench) {
     scene::Scene scene = through(room(bench, 0), scaled(250));
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});

@@ -1,4 +1,4 @@
-// Cameras where nobody would put them, against a reference in doubles.
+// Properties of cameras in extreme places, against a reference in doubles.
 #include "stress/double_tracer.hpp"
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
@@ -24,7 +24,7 @@ double largest_difference(const dvec3& a, const dvec3& b) {
     return std::max({difference.x, difference.y, difference.z});
 }
 
-/// Share of the pixels that are more than that off.
+/// Returns the share of pixels that differ from the double tracer by more than kOff.
 double against_doubles(const app::Part& part, const scene::Scene& scene,
                        const app::Request& request) {
     const DoubleTracer tracer(scene, request.ambient);
@@ -38,7 +38,7 @@ double against_doubles(const app::Part& part, const scene::Scene& scene,
     return double(off) / double(part.hdr.pixels.size());
 }
 
-/// How many of 32 rows of the reference show an edge.
+/// Returns how many of 32 rows of the reference show an edge.
 int rows_with_edge(const DoubleTracer& tracer, const scene::Camera& camera) {
     constexpr uvec2 kSize{32, 32};
     int rows = 0;
@@ -55,8 +55,10 @@ int rows_with_edge(const DoubleTracer& tracer, const scene::Camera& camera) {
     return rows;
 }
 
-/// At a ridge of the far wall, askew, where it is to be seen: a ball may hide it, and the walls may
-/// look the same. Rays that fell together would show its wrong side. `rows`: those of 32 with it.
+/// Returns a tilted, very narrow camera that looks at an edge of the far wall. Several places are
+/// tried, because a ball may hide the edge and the walls may look the same. If rays coincided, the
+/// picture would show the wrong side of the edge. `rows` gets the number of 32 rows that show the
+/// edge.
 scene::Camera narrow_camera(const scene::Scene& scene, double ambient, int& rows) {
     const Bounds<double> walls = scene::bounds(scene);
     const DoubleTracer tracer(scene, ambient);
@@ -72,7 +74,7 @@ scene::Camera narrow_camera(const scene::Scene& scene, double ambient, int& rows
     return camera;
 }
 
-/// Share of the pixels without a mirror in which two pictures differ.
+/// Returns the share of pixels without a mirror in which two pictures differ.
 double beside_mirrors(const app::Part& drawn, const app::Part& traced) {
     std::size_t off = 0, seen = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
@@ -108,7 +110,8 @@ void judge_eye(Bench& bench) {
                         eye.what),
             against_doubles(traced, scene, request), .005);
         bench.add_nonfinite(fmt::format("{}, pyramid", eye.what), render("pyramid"));
-        // A texel of the shadow map is wider than the narrow picture, so both worlds go without.
+        // A texel of the shadow map is wider than the narrow picture, so neither picture has
+        // shadows.
         bench.add(fmt::format("{}, pyramid: share of pixels beside mirrors more than .01 off ray "
                               "tracing, both without shadows",
                               eye.what),

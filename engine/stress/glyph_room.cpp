@@ -22,7 +22,8 @@ void add_cell(scene::Mesh& mesh, const GlyphRoom& room, int face, const GlyphRoo
     for (const uvec3& triangle : quad.triangles) mesh.triangles.push_back(triangle + first);
 }
 
-/// A grid of the strokes' edges: the cells that a stroke covers in one mesh, the others in another.
+/// Adds a wall as a grid along the edges of the strokes. Cells inside a stroke form one mesh, the
+/// others another.
 void add_wall(scene::Scene& scene, const GlyphRoom& room, int face) {
     const std::array<double, 6> us{0, .30, .40, .55, .70, 1};
     const std::array<double, 7> vs{0, .20, .45, .55, .70, .80, 1};

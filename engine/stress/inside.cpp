@@ -1,5 +1,5 @@
-// An eye inside a mirror (the rule is in docs/design.md): mirrors have two sides, so that nothing
-// from outside arrives in a closed one.
+// Properties of an eye inside a mirror (the rule is in docs/design.md). Mirrors have two sides, so
+// no light from outside reaches the inside of a closed one.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -47,8 +47,8 @@ void judge_places(Bench& bench, const scene::Scene& scene, const scene::Sphere& 
                            .03);
         const app::Part plain = render("reuse");
         if (place.inside) bench.add_flip(fmt::format("{}, reuse", place.what), plain, traced, .03);
-        // From outside an uncorrected look-up is off wherever the eye is, and most where the ball
-        // fills the picture.
+        // From outside, an uncorrected look-up is wrong for any eye, and most where the ball fills
+        // the picture.
         else
             bench.add_quality(fmt::format("{}, reuse", place.what),
                               measure::flip_mean(measure::flip(plain.display, traced.display)),
@@ -56,8 +56,7 @@ void judge_places(Bench& bench, const scene::Scene& scene, const scene::Sphere& 
     }
 }
 
-/// The ball moves over the eye and on: black in those frames, and in those only, in which the eye
-/// is inside.
+/// Judges a ball that moves over the eye. Frames must be black exactly while the eye is inside.
 void judge_motion(Bench& bench, scene::Scene scene) {
     constexpr int kFrames = 16;
     scene::Object& object = scene.objects.back();
@@ -76,7 +75,7 @@ void judge_motion(Bench& bench, scene::Scene scene) {
             const scene::Scene now = scene::at(scene, request.time);
             const double depth = 1 - length(camera.eye - now.objects.back().sphere->centre) /
                                          object.sphere->radius;
-            if (std::abs(depth) < .01) continue; // between the mesh and its sphere
+            if (std::abs(depth) < .01) continue; // the eye is between the mesh and its sphere
             inside += depth > 0;
             wrong += (brightest(frame.hdr()) == 0) != (depth > 0);
         }

@@ -1,4 +1,4 @@
-// Lights where nobody would put them, pictures and scenes of no or enormous size.
+// Properties of lights in extreme places, and of pictures and scenes of no or enormous size.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -12,7 +12,7 @@ namespace catoptric::stress {
 
 namespace {
 
-/// The room with its lamp's four corners moved by `place`.
+/// Returns the scene with the corners of its lamp moved by `place`.
 scene::Scene with_lamp(scene::Scene scene, const std::function<dvec3(dvec3)>& place) {
     for (const scene::Object& object : scene.objects)
         if (scene.materials[object.material].emission != vec3(0))
@@ -40,7 +40,7 @@ void judge_light(Bench& bench) {
         for (const std::string technique : {"raytrace", "parallax"})
             bench.add_nonfinite(std::string(what) + ", " + technique,
                                 bench.render(moved, technique));
-    // Above the ceiling and turned upwards: what is left is the ambient term alone.
+    // The lamp is above the ceiling and turned upwards, so only the ambient term is left.
     scene::Scene away = with_lamp(scene, [&](dvec3 p) { return flat(p, ceiling + 1); });
     for (const scene::Object& object : away.objects)
         if (away.materials[object.material].emission != vec3(0))
@@ -93,7 +93,7 @@ void judge_sizes(Bench& bench) {
     bench.add_nonfinite("4096x4096, raytrace", bench.render(large));
 }
 
-/// Black pixels in the middle ninth of a picture.
+/// Returns the number of black pixels in the middle ninth of a picture.
 double holes(const measure::Picture& picture) {
     std::size_t black = 0;
     for (int y = picture.height / 3; y < picture.height * 2 / 3; ++y)
@@ -102,7 +102,7 @@ double holes(const measure::Picture& picture) {
     return double(black);
 }
 
-/// A rippled square of 2 n^2 triangles around 0.
+/// Returns a rippled square of 2 n^2 triangles around 0.
 scene::Mesh grid(std::uint32_t n) {
     scene::Mesh mesh{.name = "grid"};
     for (std::uint32_t i = 0; i <= n; ++i)
@@ -131,7 +131,7 @@ void judge_triangles(Bench& bench) {
                           {{0, 1, 2}}});
     one.objects.push_back({.name = "triangle", .mesh = 0, .material = hot});
     add_ball(many, add_material(many, {.name = "hot", .emission = vec3(1)}), {{0, 0, 0}, 1},
-             9); // 4^10
+             9); // 4^10 triangles
     for (const std::string technique : {"raytrace", "parallax"}) {
         const auto sum = [&](const scene::Scene& scene, const std::string& what) {
             const app::Part part = bench.render(scene, technique, 2);

@@ -1,4 +1,4 @@
-// Where the scene lies, how large it is and how it is turned: none of that is to be seen.
+// Properties of a scene's position, size and rotation: none of them may be visible.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -12,7 +12,8 @@ namespace {
 
 constexpr const char* kCubeTechniques[] = {"reuse", "parallax", "pyramid", "hybrid"};
 
-/// The scene through each root beside the scene as it is; limits of ray tracing and of the others.
+/// Compares the scene under each root transform with the original. `traced` is the limit for ray
+/// tracing, `cubes` that for the other techniques.
 void compare_through(Bench& bench, const std::vector<std::pair<std::string, dmat4>>& roots,
                      double traced, double cubes) {
     const scene::Scene scene = room(bench, 3);
@@ -50,7 +51,7 @@ void judge_turn(Bench& bench) {
                     .0005, .005);
 }
 
-/// Mirrored at the root, seen by the mirrored camera: the picture is mirrored.
+/// Judges the scene and camera mirrored at the root: the picture must be mirrored.
 void judge_negative(Bench& bench) {
     const scene::Scene scene = room(bench, 3);
     dmat4 root(1);
@@ -65,7 +66,8 @@ void judge_negative(Bench& bench) {
     }
 }
 
-/// Walls so far off that a ball is a point: the correction has nothing left to correct.
+/// Judges walls so far away that the ball is a point in comparison. Parallax correction must then
+/// have no effect.
 void judge_wide(Bench& bench) {
     for (const double width : {1e5, 1e6}) {
         scene::Scene scene = through(room(bench, 0), scaled(width / 4));

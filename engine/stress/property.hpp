@@ -6,27 +6,28 @@
 #include <span>
 #include <string_view>
 
-/// The table of properties that pictures must have at the extremes of what a scene or a user may
-/// ask. A property is one row that registers itself; nothing else lists it.
+/// Table of the properties that pictures must have at the extremes of scenes and requests. A
+/// property is one row that registers itself, so no other file lists it.
 namespace catoptric::stress {
 
 struct Property {
     std::string_view id, stimulus, property;
     /// Renders its scenes and adds cases to the row.
     void (*judge)(Bench& bench) = nullptr;
-    /// Name of the rule in tests/mutations/rules.toml: wrong code that turns this row red.
+    /// Name of the rule in tests/mutations/rules.toml whose wrong code makes this row fail.
     std::string_view turned_red_by = {};
-    std::string_view not_covered = {}; ///< what of the property this does not look at
+    std::string_view not_covered = {}; ///< part of the property that `judge` does not check
 };
 
-/// A namespace-scope Registered puts its property into the table while the program starts.
+/// Registers a property. Define it at namespace scope: the property enters the table while the
+/// program starts.
 struct Registered {
     explicit Registered(const Property& property);
 };
 
-/// Every property in the order of its id: letter, then number.
+/// Returns all properties in the order of their ids: letter, then number.
 std::vector<const Property*> properties();
-/// Throws `Failure::usage` with the nearest id.
+/// Returns the property with this id. Throws `Failure::usage` with the nearest id if there is none.
 const Property& find_property(std::string_view id);
 
 } // namespace catoptric::stress

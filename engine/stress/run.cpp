@@ -46,7 +46,7 @@ report::StressRow judged(app::Engine& engine, const StressRequest& request,
     } catch (const Error& error) {
         if (bench.ends_run(error)) throw;
         row.remark = error.what();
-        // What was found wrong before the device ran out stays found.
+        // Errors that were found before the device ran out stay errors.
         if (is_refusal(error) && verdict_of(row) != report::Verdict::fail) {
             row.verdict = report::Verdict::unsupported;
             row.cases.clear(), row.pictures.clear(), row.not_run.clear();

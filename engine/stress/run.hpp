@@ -7,20 +7,20 @@
 namespace catoptric::stress {
 
 struct StressRequest {
-    std::vector<std::string> only; ///< ids; empty = every property
+    std::vector<std::string> only; ///< ids; empty means all properties
     uvec2 size{256, 256};
-    std::uint64_t seed = 1; ///< of the scenes, which are made for the run
+    std::uint64_t seed = 1; ///< seed of the scenes, which are made for the run
     std::vector<std::string> command;
-    app::Watcher watcher; ///< a property is a row
-    /// Called after each with what there is so far, not `complete`; may be empty.
+    app::Watcher watcher; ///< receives progress; a property counts as a row
+    /// Called after each property with the results so far, which are not `complete`. May be empty.
     std::function<void(const report::Stress&)> on_finished_row;
 };
 
-/// Judges every property, in minutes at 256x256. An error that a property did not ask for makes its
-/// row fail, with the error's text; one that says what the device allows makes it unsupported, with
-/// that text and no figure. What ends the run itself (a signal, the device is gone, no
-/// memory, `on_finished_row`) is in `stopped` of the rows so far, or thrown where there is none and
-/// it was no signal. Throws `usage` for an unknown id.
+/// Judges the properties, in minutes at 256x256. An unexpected error makes its row fail and gives
+/// it the error's text. An error that says what the device allows makes the row unsupported, with
+/// that text and no measured value. An error that ends the run (a signal, a lost device, no memory,
+/// `on_finished_row`) is stored in `stopped` of the rows so far. Without any row such an error is
+/// thrown unless it was a signal. Throws `usage` for an unknown id.
 report::Stress run(app::Engine& engine, const StressRequest& request);
 
 } // namespace catoptric::stress

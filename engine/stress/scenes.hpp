@@ -3,7 +3,7 @@
 #include "scene/build.hpp"
 #include "stress/bench.hpp"
 
-/// Scenes that are made for a run from its seed, so that nothing can be known of them beforehand.
+/// Scenes that are made from the run's seed, so that code cannot be fitted to them beforehand.
 namespace catoptric::stress {
 
 struct Ball {
@@ -11,30 +11,31 @@ struct Ball {
     double radius = 1;
 };
 
-/// A room about 4 units wide with an open front, coloured walls, a lamp under the ceiling and
-/// mirror balls on the floor, up to 8, that do not touch. The camera stands before it.
+/// Returns a room about 4 units wide with an open front, coloured walls and a lamp under the
+/// ceiling. Up to 8 mirror balls, which do not touch, are on the floor. The camera is in front of
+/// the room.
 scene::Scene room(Bench& bench, int balls);
 
-/// A closed box about 8 units wide, every point of which emits exactly 1 and reflects nothing, with
-/// mirror balls.
+/// Returns a closed box about 8 units wide with mirror balls. Each point of the box emits exactly 1
+/// and reflects nothing.
 scene::Scene furnace(const std::vector<Ball>& balls);
 
-/// A plane of 20 by 20 units at y = 0 with a small lamp 4 above it, seen at a slant; nothing throws
-/// a shadow.
+/// Returns a plane of 20 by 20 units at y = 0 with a small lamp 4 units above it. The camera sees
+/// it at a slant. No object casts a shadow.
 scene::Scene plane();
 
 using scene::add_material, scene::add_mesh;
 void add_quad(scene::Scene& scene, std::size_t material, dvec3 a, dvec3 b, dvec3 c, dvec3 d);
-/// 4^(levels+1) triangles that stand for an exact sphere.
+/// Adds an exact sphere that is represented by 4^(levels+1) triangles.
 void add_ball(scene::Scene& scene, std::size_t material, const Ball& ball, int levels = 4);
 
-/// The whole scene, cameras and motions included, through a root transform. Exact spheres stay
-/// spheres: no shear.
+/// Returns the scene, including cameras and motions, under a root transform. The transform must not
+/// shear, so that exact spheres stay spheres.
 scene::Scene through(const scene::Scene& scene, const dmat4& root);
 
 dmat4 scaled(double factor);
 dmat4 moved(dvec3 by);
-/// About an axis of any length.
+/// Returns the rotation about an axis of any length.
 dmat4 turned(double radians, dvec3 axis);
 
 } // namespace catoptric::stress

@@ -1,4 +1,4 @@
-// Shadows on an open plane, whose edges are known, and of two lights.
+// Properties of shadows on an open plane, whose edges are known, and of shadows of two lights.
 #include "stress/double_tracer.hpp"
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
@@ -13,9 +13,10 @@ namespace catoptric::stress {
 
 namespace {
 
-const dvec3 kLamp(0, 4, 0); // of plane()
+const dvec3 kLamp(0, 4, 0); // position of the lamp of plane()
 
-/// Stands on the plane between the lamp and the eye, so that its whole shadow is seen.
+/// Board that stands on the plane between the lamp and the eye, so that its whole shadow is
+/// visible.
 struct Board {
     double half_width = 1.5, height = 2.5, z = -1.5;
 
@@ -23,7 +24,7 @@ struct Board {
         add_quad(scene, 0, {-half_width, 0, z}, {half_width, 0, z}, {half_width, height, z},
                  {-half_width, height, z});
     }
-    /// Whether it stands between two points.
+    /// Returns whether the board lies between two points.
     bool hides(const dvec3& a, const dvec3& b) const {
         const double t = (z - a.z) / (b.z - a.z);
         if (!(t > 0 && t < 1)) return false;
@@ -32,9 +33,10 @@ struct Board {
     }
 };
 
-/// What a pixel's centre sees of the plane, and whether the board hides the lamp there.
+/// Point of the plane at a pixel's centre, and whether the board hides the lamp there.
 struct Spot {
-    bool on_plane = false; ///< and nowhere near the board's outline
+    /// Whether the pixel shows the plane and is not near the board's outline.
+    bool on_plane = false;
     dvec3 place{0};
     bool in_shadow = false;
 };
@@ -60,7 +62,8 @@ std::vector<Spot> spots_of(const scene::Camera& camera, uvec2 size, const Board&
     return spots;
 }
 
-/// How far from `place` the shadow's edge is, in steps of a quarter of `unit`; at most 64 units.
+/// Returns the distance from `place` to the shadow's edge in multiples of `unit`, rounded up to a
+/// quarter, at most 64.
 double edge_distance(const Board& board, const dvec3& place, double unit) {
     constexpr int kAngles = 16;
     const bool in_shadow = board.hides(place, kLamp);
@@ -74,8 +77,8 @@ double edge_distance(const Board& board, const dvec3& place, double unit) {
     return 64;
 }
 
-/// How far a texel of a shadow map, `edge` wide, reaches on the plane at a place, at its longest: a
-/// cube of faces around the lamp, turned anyhow.
+/// Returns the largest length on the plane that a shadow map texel covers at a place. The map is a
+/// cube around the lamp with faces of `edge` texels, in any rotation.
 double texel_on_plane(const dvec3& place, int edge) {
     const double distance = length(place - kLamp);
     return 2 * distance / edge * distance / kLamp.y;
@@ -85,8 +88,8 @@ struct Shown {
     measure::Picture with, without;
 };
 
-/// Of the pixels that are lit where they should not be, or dark, the farthest from the edge, in
-/// texels. Half lit is lit.
+/// Returns the distance to the shadow's edge of the farthest wrong pixel, in texels. A wrong pixel
+/// is lit where it should be dark, or the reverse. A half-lit pixel counts as lit.
 double farthest_wrong(const std::vector<Spot>& spots, const Shown& shown, const Board& board,
                       const std::function<double(const dvec3&)>& unit) {
     double most = 0;
@@ -104,13 +107,13 @@ Shown show(Bench& bench, const scene::Scene& scene, const std::string& with,
            const std::string& without) {
     const auto render = [&](const std::string& technique) {
         app::Request request = bench.asked(scene, technique, 1);
-        request.ambient = 0; // what is not black is lit by the lamp
+        request.ambient = 0; // then only the lamp lights the plane
         return bench.render(request).hdr;
     };
     return {render(with), render(without)};
 }
 
-/// The largest edge that this device has the memory for.
+/// Returns the largest edge of a shadow map for which this device has memory.
 int largest_shadow_map(Bench& bench, const scene::Scene& scene) {
     int edge = 16384;
     while (edge > 1 && !bench.add_done_or_refused(fmt::format("edge {} planned", edge), [&] {
@@ -120,7 +123,7 @@ int largest_shadow_map(Bench& bench, const scene::Scene& scene) {
     return edge;
 }
 
-/// An open plane shades nothing of itself.
+/// Judges an open plane, which must not shadow itself.
 void judge_open_plane(Bench& bench, double factor, int edge) {
     const Shown shown = show(bench, through(plane(), scaled(factor)),
                              fmt::format("reuse:shadow_map={}", edge), "reuse:shadow=none");
@@ -137,8 +140,8 @@ void judge_open_plane(Bench& bench, double factor, int edge) {
               1 - double(lit) / double(judged), .005);
 }
 
-/// A plane with a board under a lamp that is turned to it: across a face of its shadow map no plane
-/// would be lifted off its shadow.
+/// Returns a plane with a board under a lamp that is turned to it. With a face of its shadow map
+/// straight across, no plane would be lifted off its shadow.
 scene::Scene board_under_lamp(const Board& board) {
     constexpr double kTurn = .6, kHalf = .2;
     scene::Scene scene = plane();
@@ -150,8 +153,8 @@ scene::Scene board_under_lamp(const Board& board) {
     return scene;
 }
 
-/// The shadow of a board that stands on the plane begins at its foot and ends where it must, for
-/// shadow maps to some texels, for rays to a thousandth of the board.
+/// Judges the shadow of a board on the plane, which must begin at the board's foot and end at the
+/// known edge. The tolerance is some texels for shadow maps and a thousandth of the board for rays.
 void judge_board(Bench& bench, double factor, const std::vector<int>& edges) {
     const Board board;
     const scene::Scene scene = board_under_lamp(board);
@@ -184,7 +187,7 @@ void judge_shadow_map(Bench& bench) {
     }
 }
 
-/// Two lamps of different colour over a plane with a board and a ball on it; either or both.
+/// Returns a plane with a board and a ball, lit by either or both of two lamps of different colour.
 scene::Scene lit_by(bool first, bool second) {
     scene::Scene scene{.name = "two lights"};
     add_quad(scene, add_material(scene, {.name = "grey", .albedo = vec3(.7f)}), {-10, 0, -10},
@@ -201,8 +204,8 @@ scene::Scene lit_by(bool first, bool second) {
     return scene;
 }
 
-/// Light adds up: both lamps show what each shows alone, in the plane, in both shadows and in what
-/// the ball mirrors of them.
+/// Judges that light adds up: both lamps together give the sum of each alone. This covers the
+/// plane, both shadows and their reflections in the ball.
 void judge_two_lights(Bench& bench) {
     const auto render = [&](const scene::Scene& scene, const std::string& technique) {
         app::Request request = bench.asked(scene, technique, 2);

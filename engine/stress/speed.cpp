@@ -1,4 +1,4 @@
-// A mirror that is somewhere else in every frame: what is remembered of it settles once it rests.
+// Properties of a mirror that jumps in each frame: its history settles once it rests.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -8,10 +8,10 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kMoving = 6, kResting = 10; // frames
-constexpr double kLampOfRoom = 6;         // the brightest there is in it
+constexpr int kMoving = 6, kResting = 10; // numbers of frames
+constexpr double kLampOfRoom = 6;         // brightest value of the room
 
-/// The room whose last ball goes `distance` away, and back, twice a second.
+/// Returns the room whose last ball moves `distance` away and back, twice a second.
 scene::Scene with_motion(scene::Scene scene, double distance) {
     scene.objects.back().motion = scene::Harmonic{dvec3(-.6, .7, .4) * distance / 2.0, .5};
     return scene;
@@ -19,10 +19,10 @@ scene::Scene with_motion(scene::Scene scene, double distance) {
 
 struct Seen {
     measure::Picture last;
-    double brightest = 0; ///< of any frame; NaN where a pixel was no number
+    double brightest = 0; ///< of all frames; NaN if a pixel is not finite
 };
 
-/// `moving` frames at instants far from whole periods, then some at rest.
+/// Renders `moving` frames at instants far from whole periods, then `resting` frames at rest.
 Seen watch(Bench& bench, const scene::Scene& scene, const std::string& technique, int moving,
            int resting) {
     app::Request request = bench.asked(scene, technique, 1);
@@ -37,8 +37,8 @@ Seen watch(Bench& bench, const scene::Scene& scene, const std::string& technique
     return seen;
 }
 
-/// Where mirrors see each other, light goes on for some frames; else the first at rest is as if
-/// nothing had ever moved.
+/// Judges one technique. If mirrors see each other, light travels on for some frames. Otherwise the
+/// first frame at rest must be as if nothing had moved.
 void judge_speed(Bench& bench, const scene::Scene& scene, int balls, const std::string& technique) {
     const int resting = technique == "raytrace" || balls == 1 ? 1 : kResting;
     const Seen wanted = watch(bench, scene, technique, 0, resting);

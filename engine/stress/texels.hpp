@@ -6,8 +6,8 @@
 
 namespace catoptric::stress {
 
-/// Calls look(direction, face, x, y) for the centre of each texel of cubes with an edge of `edge`
-/// texels; the direction's largest component is 1.
+/// Calls look(direction, face, x, y) for the centre of each texel of a cube map with faces of
+/// `edge` texels. The largest component of the direction is 1.
 template <typename Look>
 void for_texels(std::uint32_t edge, const Look& look) {
     for (int face = 0; face < 6; ++face)
