@@ -6,23 +6,26 @@
 #include <cstdint>
 #include <string_view>
 
-/// What a file has asked for so far, of what it may.
+/// Totals of the memory and work that a scene file asks for, each checked against its limit in
+/// `Budget`.
 namespace catoptric::scene {
 
-/// One of the totals while a file is loaded.
+/// Running sum of one quantity while a scene is loaded, and the largest sum that is allowed.
 class Total {
 public:
-    /// `remedy`: what allows more, said last; may be empty.
+    /// `what`: the quantity that error messages name. `remedy`: end of the message, which names the
+    /// option that raises the limit; may be empty.
     Total(std::string_view what, std::uint64_t budget, std::string_view remedy = {})
         : what_(what), remedy_(remedy), budget_(budget) {}
 
-    /// Throws `bad_data` with the parts of `place` when the sum would go over the budget.
+    /// Adds `amount`. Throws `bad_data`, with the parts of `place` first in the message, if the sum
+    /// would exceed the budget.
     template <typename... Parts>
     void add(std::uint64_t amount, const Parts&... place) {
         require(amount, place...);
         spent_ += amount;
     }
-    /// The same, and adds nothing.
+    /// Checks that `amount` more fits into the budget, without adding it. Throws as `add`.
     template <typename... Parts>
     void require(std::uint64_t amount, const Parts&... place) const {
         if (amount > budget_ - spent_)
@@ -37,7 +40,7 @@ private:
     std::uint64_t spent_ = 0; ///< at most `budget_`
 };
 
-/// All of them.
+/// Every total of one scene file.
 struct Account {
     explicit Account(const Budget& of) : budget(of) {}
 

@@ -1,4 +1,4 @@
-// Of many lights the strongest.
+// Keeps the strongest lights of a scene.
 #include "scene/scene_overrides.hpp"
 
 #include "core/luminance.hpp"
@@ -13,7 +13,7 @@ namespace catoptric::scene {
 
 namespace {
 
-/// What one light does to a surface at the point that faces it, without shadows.
+/// Returns how strongly one light lights a surface at `point` that faces it, without shadows.
 double strength_at(const dvec3& point, const PointLight& light) {
     const double emitted = luminance(dvec3(light.emission)) * light.area;
     if (light.directional) return emitted;
@@ -33,16 +33,16 @@ double strength_at(const dvec3& point, const PointLight& light) {
     return emitted * facing * window * cone / square;
 }
 
-/// One of the points that a thing lights as.
+/// One of the points from which an object, or a light without a surface, lights the scene.
 struct Source {
-    std::size_t index = 0; ///< of the object, or after them of the light without a surface
-    std::size_t point = 0; ///< of its own
+    std::size_t index = 0; ///< of the object; lights without a surface follow the objects
+    std::size_t point = 0; ///< number among the points of this index
     double strength = 0;
 };
 
 std::vector<Source> sources_of(const Scene& scene) {
     const dvec3 centre = bounds(scene).centre();
-    Scene one; // source by source
+    Scene one; // scratch scene that holds one source at a time
     one.meshes = scene.meshes, one.materials = scene.materials;
     std::vector<Source> sources;
     const auto add = [&](std::size_t index) {
@@ -62,7 +62,7 @@ std::vector<Source> sources_of(const Scene& scene) {
     return sources;
 }
 
-/// The object lights nothing any more.
+/// Gives the object a material that lights nothing.
 void darken(Scene& scene, Object& object) {
     Material dark = scene.materials[object.material];
     dark.light = vec3(0);
@@ -71,8 +71,7 @@ void darken(Scene& scene, Object& object) {
     if (known == scene.materials.end()) scene.materials.push_back(std::move(dark));
 }
 
-/// Those of the object's triangles that make other points become an object of their own, which
-/// lights nothing.
+/// Moves the triangles of all points but the `kept` ones into a new object that lights nothing.
 void split_off(Scene& scene, std::size_t index, const std::vector<std::size_t>& kept) {
     Object rest = scene.objects[index];
     Mesh bright = scene.meshes[rest.mesh], dark = bright;

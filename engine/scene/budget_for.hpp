@@ -7,25 +7,25 @@
 
 namespace catoptric::scene {
 
-/// Memory that a triangle takes while it is rendered, with three vertices of its own, in bytes
-/// (measured: docs/extremes.md).
+/// Memory that rendering takes for a triangle with three vertices of its own, in bytes (measured:
+/// docs/extremes.md).
 inline constexpr std::uint64_t kBytesPerTriangle = 800;
 
-/// What the user allows, in place of what fits into memory.
+/// Limits that the user set. They replace the limits computed from the free memory.
 struct BudgetOverride {
-    std::optional<std::uint64_t> bytes;     ///< of all files of the scene
-    std::optional<std::uint64_t> triangles; ///< in meshes, with up to three vertices each
+    std::optional<std::uint64_t> bytes;     ///< bytes of all files of the scene
+    std::optional<std::uint64_t> triangles; ///< triangles in meshes, with up to three vertices each
 };
 
-/// Returns how much the scene in this file may ask for. Files may take an eighth of
-/// `free_bytes`, triangles all of it. A file may have more triangles than `Budget` says only as
-/// far as it stores them, in at least 6 bytes each: a small file that asks for much is refused
-/// however much memory there is.
+/// Returns the budget for loading the scene file `scene`. Files may take an eighth of `free_bytes`,
+/// triangles all of it. Computed limits are never below the defaults of `Budget`. A file may exceed
+/// `Budget::triangles` only if it stores at least 6 bytes per triangle. A small file that asks for
+/// many triangles is therefore refused, however much memory is free.
 Budget budget_for(const std::filesystem::path& scene, const BudgetOverride& wish,
                   std::uint64_t free_bytes);
 
-/// Bytes of memory that this process can still take without swapping, as Linux estimates it, and
-/// within the limit of its address space.
+/// Returns the memory that this process can still take without swapping, in bytes. It is Linux's
+/// estimate, at most the limit of the address space.
 std::uint64_t free_memory();
 
 } // namespace catoptric::scene

@@ -3,20 +3,20 @@
 #include "../core/export.hpp"
 #include "scene.hpp"
 
-/// Scenes put together in code.
+/// Functions that build scenes in code.
 namespace catoptric::scene {
 
-/// Index of a new material.
+/// Appends a material to Scene::materials. Returns its index.
 CATOPTRIC_API std::size_t add_material(Scene& scene, Material material);
 
-/// An object of this mesh alone, with the mesh's name.
+/// Appends the mesh and an object that shows it, named after the mesh.
 CATOPTRIC_API void add_mesh(Scene& scene, Mesh mesh, std::size_t material);
 
-/// Two triangles (a b c) (a c d).
+/// Adds an object of two triangles, (a b c) and (a c d).
 CATOPTRIC_API void add_quad(Scene& scene, const std::string& name, std::size_t material, dvec3 a,
                             dvec3 b, dvec3 c, dvec3 d);
 
-/// A ball of 4^(levels+1) triangles that stands for an exact sphere.
+/// Adds an object that stands for an exact sphere. Its mesh has 4^(levels+1) triangles.
 CATOPTRIC_API void add_ball(Scene& scene, const std::string& name, std::size_t material,
                             dvec3 centre, double radius, int levels = 3);
 

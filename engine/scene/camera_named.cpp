@@ -46,7 +46,7 @@ Camera placed(const std::string& text, const SaidBy& by) {
     check(camera.eye != camera.target, by.failure, by.where,
           ": wanted a target away from the eye, found both at ", parts[0]);
     const dvec3 along = camera.target - camera.eye;
-    if (along.x == 0 && along.z == 0) camera.up = dvec3(0, 0, 1); // straight up or down
+    if (along.x == 0 && along.z == 0) camera.up = dvec3(0, 0, 1); // +y is parallel to the view
     return camera;
 }
 

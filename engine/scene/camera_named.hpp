@@ -7,13 +7,15 @@
 
 namespace catoptric::scene {
 
-/// The camera that a user named: a name, an index from 0, or in numbers "EX,EY,EZ:TX,TY,TZ:FOV"
-/// (eye, target, vertical degrees), "EX,EY,EZ:TX,TY,TZ:h=HEIGHT" (orthographic, so many world units
-/// high). Throws with the scene's own names.
+/// Returns the camera that a user named. `text` is a camera's name, an index from 0, or numbers.
+/// "EX,EY,EZ:TX,TY,TZ:FOV" is a perspective camera: eye, target and vertical field of view in
+/// degrees. "EX,EY,EZ:TX,TY,TZ:h=HEIGHT" is an orthographic camera whose picture is HEIGHT world
+/// units high. For any other text throws `by.failure`, with the names of the scene's cameras.
 Camera camera_named(const std::string& text, const Scene& scene,
                     const SaidBy& by = {.where = "--camera"});
 
-/// The same camera in numbers, to be typed; up is +y.
+/// Returns the camera as numbers that `camera_named` reads. The text holds no up vector: the camera
+/// read from it has +y up, or +z if it looks straight up or down.
 std::string camera_text(const Camera& camera);
 
 } // namespace catoptric::scene

@@ -22,7 +22,7 @@ constexpr const char* kSpecular = "specular-left-out";
 constexpr const char* kIndirect = "indirect-left-out";
 constexpr const char* kUnshadowed = "environment-unshadowed";
 
-/// What a material is at one place.
+/// Values of a material at one place.
 struct Spot {
     vec4 colour{1}; ///< base colour and alpha
     float metallic = 0, roughness = 1;
@@ -60,7 +60,8 @@ struct AreaSums {
     }
 };
 
-/// Whether what counts may differ from place to place: F0 of a dielectric has no colour.
+/// Returns whether the values that decide the kind of surface may differ between places. The base
+/// colour matters only for metals, because F0 of a dielectric has no colour.
 bool varies(const Scene& scene, const Material& material, const Mesh& mesh) {
     if (material.roughness_texture) return true;
     const bool has_colour = material.roughness <= scene.mirror_max_roughness &&
@@ -89,7 +90,8 @@ Spot spot_at(const Material& material, const Mesh& mesh, const uvec3& t, const v
     return spot;
 }
 
-/// A point of the unit triangle, evenly spread: the plastic number's sequence (Roberts 2018).
+/// Returns barycentric weights of the sample, spread evenly over a triangle by the plastic number's
+/// sequence (Roberts 2018).
 vec3 weights_of(std::size_t sample) {
     constexpr double kX = .7548776662466927, kY = .5698402909980532;
     double x = .5 + kX * static_cast<double>(sample), y = .5 + kY * static_cast<double>(sample);
@@ -110,7 +112,7 @@ std::vector<double> areas_so_far(const Mesh& mesh, const dmat3& linear) {
     return sums;
 }
 
-/// Places in equal steps of area, so that each triangle has its part.
+/// Sums samples of the surface in equal steps of area, so that each triangle has its share.
 AreaSums sampled(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
     const Mesh& mesh = scene.meshes[object.mesh];
@@ -133,7 +135,8 @@ AreaSums sampled(const Scene& scene, const Object& object) {
     return sums;
 }
 
-/// Whether lengths in all directions grow alike, so that shares of areas are the mesh's own.
+/// Returns whether the matrix scales all directions alike. Shares of areas are then those of the
+/// mesh itself.
 bool is_similarity(const dmat3& m) {
     constexpr double kSimilar = 1e-9;
     const dmat3 square = glm::transpose(m) * m;
@@ -152,7 +155,8 @@ void add_unsupported_materials(Scene& scene, const char* id,
                                  gltf::label_of("materials", i, scene.materials[i].name), i);
 }
 
-/// Whether some of the material throws back light of the surfaces around it in all directions.
+/// Returns whether part of the material reflects the light of surrounding surfaces in all
+/// directions.
 bool is_diffuse(const Scene& scene, const Material& material) {
     if (material.unlit || material.albedo == vec3(0)) return false;
     const bool is_sharp_metal = !material.mirror && material.metallic == 1 &&
@@ -227,7 +231,8 @@ void settle_unsupported(Scene& scene) {
             surface_of(scene, object).rough_dielectric > 0)
             without_lobe.insert(object.material);
     }
-    // Where shares of the picture are equal these stand first: they cost most.
+    // Features with equal shares of the picture keep this order. These come first because they cost
+    // most.
     const std::vector<UnsupportedFeature> others = std::exchange(scene.unsupported, {});
     if (is_lit(scene)) add_unsupported_materials(scene, kIndirect, diffuse);
     add_unsupported_materials(scene, kSpecular, without_lobe);

@@ -2,44 +2,46 @@
 
 #include "scene/scene.hpp"
 
-/// What surfaces are: mirrors, smooth dielectrics, rough metals.
+/// Classification of surfaces: mirrors, smooth dielectrics, rough metals.
 namespace catoptric::scene {
 
-/// What is sharp and reflects less than this straight on is a smooth dielectric.
+/// Least F0 of a mirror, in its largest channel. A sharp surface with a lower F0 is a smooth
+/// dielectric.
 inline constexpr float kLeastMirrorF0 = .2f;
-/// An object is what so much of its area is.
+/// Least share of an object's area that makes the object a mirror or a smooth dielectric.
 inline constexpr double kLeastMirrorShare = .05;
 
-/// Reflectance straight on, by channel, where base colour and metallic are these.
+/// Returns F0, the reflectance seen head-on, by channel, for this base colour and metallic value.
 vec3 f0_of(const Material& material, const vec3& colour, float metallic);
-/// Where one number is needed: the largest channel.
+/// Returns the largest channel, for comparisons that need one number.
 float largest_channel(const vec3& colour);
 
-/// Shares of an object's area, 0..1. Texels are sampled at some 4000 places, the same ones each
-/// time; what an alpha mask cuts out is no area.
+/// Shares of an object's area by kind of surface, 0 to 1. Textures are sampled at about 4000
+/// places, the same ones each time. Area that an alpha mask cuts out does not count.
 struct Surface {
     double mirror = 0;            ///< sharp, F0 at least kLeastMirrorF0
     double smooth_dielectric = 0; ///< sharp, F0 below that
     double rough_metal = 0;       ///< not sharp, metallic above 0
     double rough_dielectric = 0;  ///< not sharp, metallic below 1
-    vec3 mirror_f0{0};            ///< mean over what is `mirror`
-    float smoothest = 1;          ///< the lowest roughness that was found
+    vec3 mirror_f0{0};            ///< mean F0 of the `mirror` part
+    float smoothest = 1;          ///< lowest roughness found
 };
 Surface surface_of(const Scene& scene, const Object& object);
 
-/// Sets Object::mirror of every object whose material is no mirror by itself (Material::mirror),
-/// and the gaps "smooth-dielectric" (not where `dielectric_mirrors` makes mirrors of them, too) and
-/// "rough-metal", a material counted once; then finds which mirrors are spheres (find_spheres). May
-/// be called again.
+/// Sets Object::mirror of every object whose material is no mirror by itself (Material::mirror).
+/// Adds the unsupported features "smooth-dielectric" and "rough-metal", counted once per material.
+/// With `dielectric_mirrors`, smooth dielectrics become mirrors and are not listed. Then finds
+/// which mirrors are spheres (find_spheres). May be called again.
 void classify(Scene& scene, bool dielectric_mirrors = false);
 
-/// Puts first the gaps of the light that no technique computes, a material counted once:
-/// "indirect-left-out" (light from one diffuse surface to another, where anything lights the
-/// scene), "environment-unshadowed" (light of the environment on diffuse surfaces, which nothing
-/// blocks) and "specular-left-out": of the materials that a loader listed there since their file
-/// gives them a specular lobe, those that are rough, where the lobe is not drawn. Scenes built in
-/// code list none: their rough surfaces are Lambertian. Called once sharpness, lights and
-/// environment are settled.
+/// Puts first the unsupported features of light that no technique computes, counted once per
+/// material:
+///   - "indirect-left-out": light from one diffuse surface to another, if the scene has light.
+///   - "environment-unshadowed": the environment's light on diffuse surfaces, which nothing blocks.
+///   - "specular-left-out": specular lobes of rough surfaces, which are not drawn.
+/// A loader lists a material under "specular-left-out" if its file gives it a specular lobe. This
+/// function keeps only the rough ones of these materials. Scenes built in code list none: their
+/// rough surfaces are Lambertian. Call it after sharpness, lights and environment are settled.
 void settle_unsupported(Scene& scene);
 
 } // namespace catoptric::scene

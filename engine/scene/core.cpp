@@ -9,7 +9,7 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr double kGap = 8; // between the core and what is far outside of it
+constexpr double kGap = 8; // factor between the core's reach and the nearest object outside
 constexpr std::size_t kMostTriangles = 20'000, kMostOfAnObject = 64;
 
 struct Corner {
@@ -18,8 +18,8 @@ struct Corner {
     std::size_t object = 0;
 };
 
-/// Corners of some triangles of every object, spread over its list; the weights of an object add up
-/// to 1.
+/// Returns corners of some triangles of every object, spread over its list. The weights of each
+/// object's corners add up to 1.
 std::vector<Corner> sample(const Scene& scene) {
     std::vector<Corner> corners;
     const std::size_t share = std::clamp(kMostTriangles /
@@ -40,7 +40,7 @@ std::vector<Corner> sample(const Scene& scene) {
     return corners;
 }
 
-/// Sorts by a number of each corner; returns the first index at which half of the weight is
+/// Sorts the corners by `number(corner)`. Returns the first index at which half of the weight is
 /// reached.
 template <typename Number>
 std::size_t sort_to_half(std::vector<Corner>& corners, Number&& number) {
@@ -50,7 +50,7 @@ std::size_t sort_to_half(std::vector<Corner>& corners, Number&& number) {
         [](double sum, const Corner& corner) { return sum + corner.weight; });
     double sum = 0;
     std::size_t i = 0;
-    // Weights are rounded: a half within a millionth is a half.
+    // The weights are rounded, so the limit is a millionth below one half.
     while ((sum += corners[i].weight) < whole * (.5 - 1e-6)) ++i;
     return i;
 }

@@ -4,19 +4,21 @@
 
 namespace catoptric::scene {
 
-/// The bounds of where a scene is at rest, world units: of everything, unless single things lie so
-/// far outside (a stray triangle, a sky dome, a ground plane to the horizon) that units made for
-/// them would serve nothing else. Each object counts the same, however many triangles it has: from
-/// the half of the corners that lie nearest to their median the core grows as long as the next ones
-/// are no more than eight times as far from there; what is farther than eight times that again is
-/// left out. Looks at no more than some 60,000 corners. Empty for a scene without triangles.
+/// Returns the bounds of the core of a scene at rest, in world units. The core is everything,
+/// unless single objects lie very far outside. Examples are a stray triangle, a sky dome, or a
+/// ground plane to the horizon. Scene units that fit such objects would not suit the rest.
+/// The core starts as the half of the corners that lie nearest to their median. It grows as long as
+/// the next corner is at most eight times as far from the median. Corners farther than eight times
+/// the last distance are left out. Each object has the same weight, however many triangles it has.
+/// Looks at about 60,000 corners at most; with more than 20,000 objects, at one triangle of each.
+/// Empty for a scene without triangles.
 Bounds<double> core_bounds(const Scene& scene);
 
-/// In sizes of the core, how far out things can be rendered: the square of a distance must stay a
-/// float.
+/// Largest distance from the core at which objects can be rendered, in sizes of the core. The
+/// square of a distance must stay a finite float.
 inline constexpr double kFarthestReach = 1e18;
 
-/// Removes objects that reach farther from the core than that, and returns their names.
+/// Removes the objects that reach farther from the core than kFarthestReach. Returns their names.
 std::vector<std::string> leave_out_unreachable(Scene& scene);
 
 } // namespace catoptric::scene

@@ -32,7 +32,8 @@ void add_unit_ball(Scene& scene, const std::string& name, std::size_t mesh, dvec
                              .sphere = Sphere{centre, radius}});
 }
 
-/// The measured box; its left wall is 3.2 off the plane at the floor's back corner, as published.
+/// Adds the walls of the measured box. The left wall is 3.2 units off the plane at the floor's back
+/// corner, as published.
 void add_walls(Scene& scene) {
     add_wall(scene, "floor", kWhite, //
              {552.8, 0, 0}, {0, 0, 0}, {0, 0, 559.2}, {549.6, 0, 559.2});

@@ -14,7 +14,7 @@ namespace {
 
 const dvec3 kToSun = glm::normalize(dvec3(-.5, .75, .45));
 
-/// Blue above, haze at the horizon, ground below; without the sun, which is a light of its own.
+/// Returns the sky: blue above, haze at the horizon, ground below. The sun is a separate light.
 std::shared_ptr<const Environment> sky() {
     auto sky = std::make_shared<Environment>();
     sky->name = "sky";
@@ -61,7 +61,7 @@ void add_columns(Scene& scene, std::size_t stone) {
     scene.meshes.push_back(column);
 }
 
-/// Hollow side up and to the front, its back stone.
+/// Adds the dish. Its hollow side, up and to the front, is the mirror; its back is stone.
 void add_dish(Scene& scene, std::size_t mirror, std::size_t stone) {
     std::vector<dvec2> hollow, back;
     for (int k = 16; k >= 0; --k) {

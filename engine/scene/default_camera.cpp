@@ -7,7 +7,7 @@ namespace catoptric::scene {
 
 namespace {
 
-/// Rounded to about a millionth of `distance`.
+/// Returns the point rounded to about a millionth of `distance`.
 dvec3 short_to_type(const dvec3& point, double distance) {
     const double digits = 6 - std::floor(std::log10(distance)),
                  unit = std::pow(10, std::abs(digits));
@@ -28,7 +28,7 @@ Camera default_camera(const Scene& scene, double aspect) {
     const dvec3 upward = glm::cross(right, -to_eye);
 
     const double slope = kShare * std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
-    double distance = 0; // at which each corner lies on the edge that it is nearest to, or within
+    double distance = 0; // least distance at which all corners lie within the margin
     for (int i = 0; i < 8; ++i) {
         const dvec3 sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
         const dvec3 corner = box.extent() * .5 * sign;

@@ -9,7 +9,7 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr double kSimilar = 1e-9; // of a squared length: what may be a rounding of a similarity
+constexpr double kSimilar = 1e-9; // rounding error of a similarity, share of a squared length
 
 void check_index(const char* what, std::size_t index, std::size_t count) {
     check(index < count, Failure::usage, what, " ", index, ": wanted one of the scene's ", count,
@@ -24,7 +24,8 @@ bool is_place(const dmat4& matrix) {
            glm::determinant(dmat3(matrix)) != 0;
 }
 
-/// How much longer the matrix makes every vector; none where it depends on the vector.
+/// Returns the factor by which the matrix lengthens every vector; nothing if it depends on the
+/// vector.
 std::optional<double> scale_of(const dmat3& matrix) {
     const dmat3 square = glm::transpose(matrix) * matrix;
     const double scale = (square[0][0] + square[1][1] + square[2][2]) / 3;

@@ -5,21 +5,23 @@
 
 #include <variant>
 
-/// Changes of a scene that is being shown. Indices into Scene::objects and Scene::materials.
+/// Edits of a scene that is being shown. Indices refer to Scene::objects and Scene::materials.
 namespace catoptric::scene {
 
-/// Another place at rest; motion goes on from there. An exact sphere goes along where the change is
-/// a similarity, else the object is its mesh from then on.
+/// New transform of an object at rest, from which its motion goes on. The object's exact sphere
+/// moves along if the change is a similarity. Otherwise the object loses the sphere and is drawn as
+/// its mesh.
 struct Placing {
     std::size_t object = 0;
     dmat4 world_from_object{1};
 };
-/// Another of the scene's materials for one object.
+/// Assignment of another of the scene's materials to one object.
 struct Painting {
     std::size_t object = 0;
     std::size_t material = 0;
 };
-/// Another material for all objects that have this one; one that emits makes them lights.
+/// Replacement of a material, for all objects that have it. A material that emits makes them
+/// lights.
 struct Mixing {
     std::size_t material = 0;
     Material value;
@@ -35,8 +37,8 @@ inline Edit set_material(std::size_t material, Material value) {
     return Mixing{material, std::move(value)};
 }
 
-/// Throws `Failure::usage` naming an index that is not there or a transform that is no place, and
-/// then leaves the scene as it was.
+/// Applies an edit. Throws `Failure::usage` for an index out of range, or for a transform that is
+/// not finite, affine and invertible. The scene is then unchanged.
 CATOPTRIC_API void apply(Scene& scene, const Edit& edit);
 
 } // namespace catoptric::scene

@@ -24,14 +24,15 @@ bool lies_below(const fs::path& real, const fs::path& folder) {
                folder.end();
 }
 
-/// Empty when nothing is there or can be reached; errno says why.
+/// Returns a path with all links resolved. Returns an empty path, and sets errno, if the path does
+/// not exist or cannot be reached.
 fs::path real_path(const fs::path& path) {
     const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
                                                            std::free);
     return real ? fs::path(real.get()) : fs::path();
 }
 
-/// A descriptor that is closed.
+/// A file descriptor that its destructor closes.
 struct Descriptor {
     ~Descriptor() {
         if (number >= 0) ::close(number);
@@ -39,7 +40,8 @@ struct Descriptor {
     const int number;
 };
 
-/// Waits for no pipe and follows no last link: what is opened is what was named.
+/// Reads a regular file. Opening a pipe does not block. A link as the last step is not followed, so
+/// the file opened is the file named. Throws `missing_input` or `io`.
 std::string read_regular(const fs::path& path, const std::string& place, Total& budget) {
     const Descriptor file{
         ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | O_NOFOLLOW)};
@@ -58,7 +60,7 @@ std::string read_regular(const fs::path& path, const std::string& place, Total& 
         const ssize_t more = ::read(file.number, content.data() + count, size - count);
         if (more < 0 && errno == EINTR) continue;
         check(more >= 0, Failure::io, place, ": reading failed after ", count, " bytes");
-        if (more == 0) break; // it has become shorter
+        if (more == 0) break; // the file has become shorter
         count += static_cast<std::size_t>(more);
     }
     content.resize(count);
@@ -121,7 +123,7 @@ fs::path Files::find(const std::string& name, const std::string& place) {
 
 fs::path Files::get(const std::string& name, const std::string& place) {
     fs::path real = find(name, place);
-    const int error = errno; // of realpath(3), where it found nothing
+    const int error = errno; // from realpath(3), if the path was not found
     check(!real.empty(), Failure::missing_input, place, ": ", in_quotes(name),
           error == ENOENT || error == ENOTDIR
               ? " is not there"

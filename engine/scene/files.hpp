@@ -9,31 +9,36 @@
 
 namespace catoptric::scene {
 
-/// The files that one scene is made of. What a scene names is opened by its real path, links
-/// followed, and only if that lies below the real folder in which the scene was named, or below
-/// `root`. Hard links cannot be told from files.
+/// Opens the files of one scene. A file that the scene names is opened by its real path, with links
+/// resolved. The real path must lie below the real folder of the scene's path, or below `root`.
+/// Hard links cannot be told from other files.
 class Files {
 public:
-    static constexpr std::size_t kLongestName = 1024; ///< bytes; every step of a path costs a call
+    /// Longest file name in bytes. Names are limited because each step of a path costs a system
+    /// call.
+    static constexpr std::size_t kLongestName = 1024;
 
-    /// Throws `missing_input` for a `root` that is no folder; empty: none.
+    /// Takes the path of the scene, and a second folder or an empty path. Throws `missing_input` if
+    /// `root` is not a folder.
     Files(const std::filesystem::path& scene, const std::filesystem::path& root, Account& account);
 
-    /// The scene itself, wherever it lies. Throws `missing_input`, or `io` when reading fails.
+    /// Returns the bytes of the scene file, which may lie anywhere. Throws `missing_input`, or `io`
+    /// if reading fails.
     std::string read_scene();
 
-    /// The real path of a file that the scene names; empty when nothing is there. Throws `bad_data`
-    /// beginning with `place` for one that lies elsewhere, is no regular file, or has a name of
-    /// more than 1024 bytes.
+    /// Returns the real path of a file that the scene names, or an empty path if it does not exist.
+    /// Throws `bad_data` beginning with `place` for a file outside the allowed folders, a file that
+    /// is not regular, or a name longer than 1024 bytes.
     std::filesystem::path find(const std::string& name, const std::string& place);
 
-    /// As `find`; throws `missing_input` when nothing is there.
+    /// Does the same as `find`, but throws `missing_input` if the file does not exist.
     std::filesystem::path get(const std::string& name, const std::string& place);
 
-    /// The bytes of what `find` has found. Throws `missing_input` or `io`.
+    /// Returns the bytes of a file that `find` has found. Throws `missing_input` or `io`.
     std::string read(const std::filesystem::path& real, const std::string& place);
 
-    /// Real paths of the scene and of everything found, in the order in which that happened.
+    /// Returns the real paths of the scene and of all files found, each once, in order of the
+    /// calls.
     const std::vector<std::filesystem::path>& found() const { return found_; }
 
 private:
@@ -44,7 +49,7 @@ private:
     std::filesystem::path scene_, folder_, root_;
     Account& account_;
     std::vector<std::filesystem::path> found_;
-    std::unordered_set<std::string> known_; ///< the same
+    std::unordered_set<std::string> known_; ///< the paths in `found_`, for lookup
 };
 
 } // namespace catoptric::scene

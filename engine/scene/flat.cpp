@@ -1,4 +1,4 @@
-// A closed room with one flat mirror: the commonest mirror there is.
+// A closed room with one flat mirror, the commonest kind of mirror.
 #include "scene/build.hpp"
 #include "scene/load.hpp"
 #include "scene/shapes.hpp"

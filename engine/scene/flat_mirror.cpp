@@ -13,7 +13,7 @@ namespace catoptric::scene {
 
 namespace {
 
-/// Of the largest triangle, unit; zero where none has an area.
+/// Returns the unit normal of the largest triangle; zero if no triangle has an area.
 dvec3 largest_normal(const Mesh& mesh, const dmat4& world_from_object) {
     dvec3 largest(0);
     for (const uvec3& triangle : mesh.triangles) {
@@ -27,10 +27,10 @@ dvec3 largest_normal(const Mesh& mesh, const dmat4& world_from_object) {
     return size > 0 ? largest / size : dvec3(0);
 }
 
-/// Angle between two lines along unit vectors; the sine, where it is small.
+/// Returns the sine of the angle between two unit vectors. For small angles it is about the angle.
 double angle_between(const dvec3& a, const dvec3& b) { return length(cross(a, b)); }
 
-/// Corners of the convex hull of points of the plane (Andrew 1979).
+/// Returns the corners of the convex hull of points in a plane (Andrew 1979).
 std::vector<dvec3> hull(std::vector<dvec3> points, const dvec3& normal) {
     const dvec3 size = abs(normal), other = size.x <= size.y && size.x <= size.z ? dvec3(1, 0, 0)
                                             : size.y <= size.z                   ? dvec3(0, 1, 0)
@@ -49,7 +49,7 @@ std::vector<dvec3> hull(std::vector<dvec3> points, const dvec3& normal) {
             while (corners.size() >= first + 2 && turns_right()) corners.pop_back();
             corners.push_back(p);
         }
-        corners.pop_back(); // the other half begins there
+        corners.pop_back(); // the other half begins with this corner
     };
     add_half(points);
     add_half(std::views::reverse(points));
@@ -57,12 +57,12 @@ std::vector<dvec3> hull(std::vector<dvec3> points, const dvec3& normal) {
 }
 
 constexpr std::size_t kMostPlanes = 64, kMostFlatTriangles = 65536;
-constexpr double kSamePlane = 1e-4; // radian; and of the extent
+constexpr double kSamePlane = 1e-4; // radians between normals; share of the extent for distances
 
-/// A mesh's triangles in the world.
+/// Triangles of a mesh in the world.
 struct Triangles {
     const Mesh& mesh;
-    std::vector<dvec3> places, normals; ///< of its vertices
+    std::vector<dvec3> places, normals; ///< of the mesh's vertices
 
     Triangles(const Mesh& of, const dmat4& world_from_object) : mesh(of) {
         const dmat3 turns = normal_matrix(world_from_object);
@@ -71,12 +71,12 @@ struct Triangles {
             normals.push_back(world_normal(turns, dvec3(mesh.normals[i])));
         }
     }
-    /// Along the normal, as long as twice the area.
+    /// Returns a vector along the normal, as long as twice the triangle's area.
     dvec3 cross_of(std::size_t i) const {
         const uvec3& t = mesh.triangles[i];
         return cross(places[t.y] - places[t.x], places[t.z] - places[t.x]);
     }
-    /// How far the corners' normals are from this one at most, radians.
+    /// Returns the largest angle between `normal` and a corner's normal, in radians.
     double off(std::size_t i, const dvec3& normal) const {
         double most = 0;
         for (int corner = 0; corner < 3; ++corner)
@@ -85,14 +85,15 @@ struct Triangles {
     }
 };
 
-/// A face in the making.
+/// Face while its triangles are collected.
 struct Plane {
     dvec3 point{0}, normal{0};
-    double area = 0; ///< twice
+    double area = 0; ///< twice the area
     std::vector<std::uint32_t> triangles;
 };
 
-/// Planes that hold triangles whose normals agree; nothing where there are too many.
+/// Returns the planes of the triangles whose normals agree; nothing if there are more than
+/// kMostPlanes.
 std::optional<std::vector<Plane>> planes_of(const Triangles& triangles, double extent) {
     std::vector<Plane> planes;
     for (std::uint32_t i = 0; i < triangles.mesh.triangles.size(); ++i) {
@@ -131,7 +132,7 @@ std::vector<TriangleRun> runs_of(const std::vector<std::uint32_t>& ascending) {
     return runs;
 }
 
-/// Every edge has two triangles.
+/// Returns whether every edge has two triangles.
 bool is_closed(const Mesh& mesh) {
     const std::vector<std::size_t> first = first_at_place(mesh.positions);
     std::vector<Corners> triangles;
@@ -195,7 +196,8 @@ FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     std::ranges::stable_sort(*planes, std::ranges::greater(), &Plane::area);
     if (planes->size() > kMostFaces) planes->resize(kMostFaces);
     if (planes->empty()) return found;
-    // Faces of a body that is inside out look inwards: their triangles' order says nothing then.
+    // The normals of a closed body with negative volume point inwards: it is inside out. They are
+    // turned below.
     const dvec3 centre = box.centre();
     const bool is_body = is_closed(mesh);
     double volume = 0;
@@ -215,7 +217,7 @@ FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
 }
 
 std::optional<Flat> flat(const Mesh& mesh, const dmat4& world_from_object) {
-    // Most curved things are told by the first normals, before all triangles are looked at.
+    // Most curved meshes are rejected by their first normals, before the whole mesh is tested.
     const dmat3 turns = normal_matrix(world_from_object);
     const auto normal_of = [&](std::size_t vertex) {
         return world_normal(turns, dvec3(mesh.normals[vertex]));
@@ -241,7 +243,7 @@ std::optional<Flat> flat(const Mesh& mesh, const dmat4& world_from_object) {
         size = std::max(size, distance(corner, found.corners.front()));
     for (const dvec3& p : points)
         found.off = std::max(found.off, std::abs(dot(p - found.point, found.normal)) / size);
-    // Written so that a NaN is refused too.
+    // This form of the comparison also rejects NaN.
     return found.off <= kFarFromFlat ? std::optional(found) : std::nullopt;
 }
 

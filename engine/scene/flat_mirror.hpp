@@ -5,64 +5,66 @@
 #include <optional>
 #include <vector>
 
-/// Mirrors with flat faces, which show what a camera behind them would see.
+/// Flat faces of mirrors. A flat face shows the view of a camera mirrored behind it.
 namespace catoptric::scene {
 
-/// Triangles of a mesh, from the first to before `end`.
+/// Consecutive triangles of a mesh, from `first` to before `end`.
 struct TriangleRun {
     std::uint32_t first = 0, end = 0;
     bool operator==(const TriangleRun&) const = default;
 };
 
-/// A surface, or a face of one, that lies in a plane, or nearly so; world units.
+/// Surface, or a face of a surface, that lies nearly in a plane; world units.
 struct Flat {
-    dvec3 point{0};  ///< in the plane
-    dvec3 normal{0}; ///< unit; to which side it points means nothing without is_one_sided
-    std::vector<dvec3> corners; ///< of the surface's convex hull, in order
-    /// How far it is from flat: the largest angle, in radians, between the plane's normal and a
-    /// vertex's, or a vertex's distance from the plane as a part of the surface's size if that is
-    /// more.
+    dvec3 point{0};             ///< a point in the plane
+    dvec3 normal{0};            ///< unit length; its sign means nothing unless `is_one_sided`
+    std::vector<dvec3> corners; ///< corners of the surface's convex hull, in order
+    /// Deviation from flat, the larger of two numbers. The first is the largest angle, in radians,
+    /// between the plane's normal and a vertex normal. The second is the largest distance of a
+    /// vertex from the plane, as a part of the surface's size.
     double off = 0;
-    double share = 1; ///< of the surface's area
-    /// A face of a closed body: it can only be seen from where the normal points.
+    double share = 1; ///< share of the surface's area, 0 to 1
+    /// True for a face of a closed body, which can be seen only from the side of the normal.
     bool is_one_sided = false;
-    std::vector<TriangleRun> triangles; ///< that lie in it, ascending
+    std::vector<TriangleRun> triangles; ///< triangles of this face, ascending
 };
 
-/// The flat faces of a surface.
+/// Flat faces of a surface.
 struct FlatFaces {
-    std::vector<Flat> faces;       ///< the largest first, kMostFaces at most
-    std::vector<TriangleRun> bent; ///< the triangles that lie in none of them, ascending
-    /// Share of the area in faces that are off by at most `tolerance`.
+    std::vector<Flat> faces;       ///< largest first, at most kMostFaces
+    std::vector<TriangleRun> bent; ///< triangles that lie in no face, ascending
+    /// Returns the share of the area in faces whose `off` is at most `tolerance`.
     double share(double tolerance) const;
-    /// The whole surface lies in one plane.
+    /// Returns whether the whole surface lies in one plane.
     bool is_one() const { return faces.size() == 1 && bent.empty(); }
 };
 
-/// The most faces that a surface is given, and the least share of its area that is one.
+/// Largest number of faces of a surface, and least share of the surface's area that is a face.
 inline constexpr std::size_t kMostFaces = 8;
 inline constexpr double kLeastFace = 1e-3;
-/// A surface of which this share of the area lies in flat faces can be drawn by their planes.
+/// Least share of a surface's area that must lie in flat faces before planes may draw the surface.
 inline constexpr double kFlatEnough = .5;
 
-/// What is further from flat than this is no Flat, whatever the picture.
+/// Largest `Flat::off`. A surface with more is not flat, whatever the picture's size.
 inline constexpr double kFarFromFlat = .01;
 
-/// Nothing where some vertex is too far off, or without a triangle that has an area. O(vertices),
-/// and O(1) for most that are curved: it ends at the first vertex that is off.
+/// Returns the plane of a mesh. Returns nothing if a vertex is off by more than kFarFromFlat, or if
+/// no triangle has an area. O(vertices). O(1) for most curved meshes, because the test ends at the
+/// first vertex that is off.
 std::optional<Flat> flat(const Mesh& mesh, const dmat4& world_from_object);
 
-/// The faces of a mirror that a plane can stand for: the whole where it is `flat`; else each set of
-/// triangles that lie in one plane within 1e-4 of the extent, whose corners' normals are the
-/// plane's within kFarFromFlat. A board modelled as a thin closed box has six. None where there are
-/// more than 64 such planes or 65,536 triangles: nobody draws those one by one. O(triangles), with
-/// O(n log n) for a surface that has faces.
+/// Returns the flat faces of a mirror, each of which a plane can replace. If the mesh is `flat`,
+/// the whole mesh is one face. Otherwise a face is a set of triangles that lie in one plane within
+/// 1e-4 of the extent. The normals at their corners differ from the plane's by at most
+/// kFarFromFlat. A board modelled as a thin closed box has six faces.
+/// Returns no faces for more than 64 such planes or 65,536 triangles, because so many planes are
+/// never drawn one by one. O(triangles), plus O(n log n) for a surface that has faces.
 FlatFaces flat_faces(const Mesh& mesh, const dmat4& world_from_object);
 
-/// How far from flat a mirror may be that shows what a plane would, in a picture so many pixels
-/// high: a sixteenth of the angle of a pixel in the picture's middle. A normal that is off by so
-/// much turns a reflected ray by an eighth of a pixel; an orthographic picture's pixels are those
-/// of an angle whose tangent is 2 / height.
+/// Returns the largest `Flat::off` at which a mirror shows what a plane would, in a picture of
+/// `size` pixels. It is a sixteenth of the angle of a pixel in the picture's middle. A normal that
+/// is off by this angle turns a reflected ray by an eighth of a pixel. For an orthographic camera,
+/// a pixel counts as the angle whose tangent is 2 / height.
 double flat_tolerance(const Camera& camera, uvec2 size);
 
 } // namespace catoptric::scene

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kLength = 14;
 
-/// A mesh or a ball on a plinth of that height.
+/// Mirror on a plinth of height `plinth`: a mesh or a ball.
 struct Exhibit {
     const char* name;
-    dvec3 at; ///< of the plinth's foot
+    dvec3 at; ///< position of the plinth's foot
     double plinth, size;
     enum { ball, box, vase, ring, bell, drum } shape;
 };
@@ -78,7 +78,7 @@ void add_exhibit(Scene& scene, const Exhibit& exhibit, std::size_t stone, std::s
                       exhibit.at + dvec3(half, exhibit.plinth, half));
     for (vec2& uv : plinth.uv[0]) uv *= 2;
     add_mesh(scene, std::move(plinth), stone);
-    // Just above it, so that nothing touches.
+    // The exhibit stands just above the plinth, so that no surfaces touch.
     const double low = exhibit.shape == Exhibit::ring ? .35 : 1;
     const dvec3 centre = exhibit.at + dvec3(0, exhibit.plinth + exhibit.size * low + .01, 0);
     if (exhibit.shape == Exhibit::ball)
@@ -89,7 +89,7 @@ void add_exhibit(Scene& scene, const Exhibit& exhibit, std::size_t stone, std::s
     scene.objects.back().world_from_object = place;
 }
 
-/// On the walls: two panels, a tall one, and a dish that looks down the hall.
+/// Adds the mirrors on the walls: two panels, a tall panel, and a dish that faces down the hall.
 void add_on_walls(Scene& scene, std::size_t mirror) {
     add_quad(scene, "left panel", mirror, {-2.48, .8, 4.2}, {-2.48, .8, 2.2}, {-2.48, 2.4, 2.2},
              {-2.48, 2.4, 4.2});
@@ -97,15 +97,15 @@ void add_on_walls(Scene& scene, std::size_t mirror) {
              {2.48, 2.4, 6.8});
     add_quad(scene, "tall panel", mirror, {-2.48, .1, 10.6}, {-2.48, .1, 9.8}, {-2.48, 2.8, 9.8},
              {-2.48, 2.8, 10.6});
-    std::vector<dvec2> bowl; // hollow: the outside of its profile is the inside of the bowl
+    std::vector<dvec2> bowl; // the outside of the profile is the inside of the bowl
     for (int k = 12; k >= 0; --k) bowl.push_back({k / 12.0, .35 * (k / 12.0) * (k / 12.0)});
     add_mesh(scene, lathe("dish", bowl, 48), mirror);
-    // Its axis, +y, turns to -z.
+    // The dish's axis, +y, turns to -z.
     scene.objects.back().world_from_object = dmat4(
         dvec4(1, 0, 0, 0), dvec4(0, 0, -1, 0), dvec4(0, 1, 0, 0), dvec4(0, 1.7, kLength - .05, 1));
 }
 
-/// To the far end and back within twelve seconds, slow where it turns.
+/// Returns a walk to the far end and back in twelve seconds, slow at the turns.
 Follows walk() {
     Rig rig{.repeats = true};
     const Keys keys{.interpolation = Interpolation::cubic,

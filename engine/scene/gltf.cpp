@@ -14,12 +14,13 @@ namespace catoptric::scene {
 
 namespace {
 
-/// A mirrored node turns triangles inside out; glTF wants them turned back.
+/// Returns whether the node's transform mirrors its mesh. The mirrored triangles are inside out,
+/// and glTF requires us to reverse their winding.
 bool turns_inside_out(const dmat4& world_from_node) {
     return glm::determinant(dmat3(world_from_node)) < 0;
 }
 
-/// How a camera follows one track: carried by what a node has moved that does nothing else.
+/// Returns how a camera follows a single track of translations, as a rig of one node.
 Follows sliding(const Keyframes& frames) {
     Rig rig{.nodes = {{.translations = frames.keys}}, .repeats = frames.repeats};
     rig.nodes[0].parent_from_space = dmat4(frames.world_from_keys);
@@ -31,12 +32,13 @@ Follows sliding(const Keyframes& frames) {
     return follows;
 }
 
-/// The exact sphere in world space, if the mesh lies on it and the node scales it uniformly.
+/// Returns the exact sphere in world space. Returns none unless the mesh's vertices lie on it and
+/// the node scales it uniformly.
 std::optional<Sphere> world_sphere(const Sphere& sphere, const Mesh& mesh,
                                    const dmat4& world_from_node) {
     const dmat3 axes(world_from_node);
     const dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
-    // glTF's floats: 4 ulp of the largest number that took part
+    // glTF stores floats. The tolerance is 4 ulp of the largest number in the computation.
     const double relative = 4 * std::ldexp(1.0, -23);
     const double reach = glm::length(sphere.centre) + sphere.radius;
     for (const dvec3& position : mesh.positions)
@@ -50,16 +52,16 @@ std::optional<Sphere> world_sphere(const Sphere& sphere, const Mesh& mesh,
     return Sphere{transform_point(world_from_node, sphere.centre), sphere.radius * scale.x};
 }
 
-/// Makes objects of nodes; a mesh that several nodes share stays one.
+/// Turns nodes into objects. Nodes that share a mesh share it in the scene, too.
 struct GltfBuilder {
     gltf::Context context;
     Scene scene;
-    std::vector<dmat4> at_rest;                 ///< world from each node
-    std::vector<std::vector<gltf::Part>> parts; ///< of each mesh
+    std::vector<dmat4> at_rest;                 ///< transform from each node to world space
+    std::vector<std::vector<gltf::Part>> parts; ///< for each mesh
     std::vector<Camera> cameras;
     struct Key {
         std::size_t mesh, part;
-        int skin; ///< -1: none
+        int skin; ///< -1 if the node has none
         bool inside_out;
         std::vector<double> weights; ///< of morph targets
         auto operator<=>(const Key&) const = default;
@@ -90,7 +92,8 @@ Mesh GltfBuilder::repaired(const Key& key) {
                                       mesh_place(context.document, key.mesh));
     const std::size_t dropped = repair(mesh);
     context.notes.add("triangles without area, left out", "in " + in_quotes(mesh.name), dropped);
-    if (key.inside_out) // after the normals that were missing: they belong to the file's winding
+    // This follows `repair`, because normals that it adds are those of the file's winding.
+    if (key.inside_out)
         for (uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
     return mesh;
 }
@@ -101,7 +104,8 @@ std::size_t GltfBuilder::mesh_for(const Key& key) {
     return entry->second;
 }
 
-/// The node's name, or its mesh's; with the material where the mesh has several.
+/// Returns the node's name, or its mesh's if it has none. Appends the material's name if the mesh
+/// has several parts.
 std::string GltfBuilder::object_name(std::size_t node, std::size_t mesh, std::size_t part) {
     const tinygltf::Model& model = context.document.model;
     const std::string& name = model.nodes[node].name;
@@ -122,7 +126,7 @@ void GltfBuilder::add_object(std::size_t node, const gltf::Placed& placed, std::
                   .material = parts[its_mesh][part].material,
                   .seen_by_camera = marks.seen_by_camera};
     const int skin = context.document.model.nodes[node].skin;
-    if (skin < 0) // what has one stands where its joints are
+    if (skin < 0) // joints place a skinned mesh, not its node
         object.world_from_object = placed.world_from_node, object.motion = placed.motion;
     const std::vector<double>& weights = context.document.node_weights[node];
     object.mesh = mesh_for({its_mesh, part, skin, turns_inside_out(object.world_from_object),
@@ -139,7 +143,7 @@ void GltfBuilder::add_object(std::size_t node, const gltf::Placed& placed, std::
     scene.objects.push_back(std::move(object));
 }
 
-/// A glTF camera looks along -z with +y up.
+/// Adds the camera of a node. A glTF camera looks along -z with +y up.
 void GltfBuilder::add_camera(std::size_t node, const gltf::Placed& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     const std::string place = node_place(node);
@@ -191,7 +195,7 @@ void GltfBuilder::add_node(std::size_t node, const gltf::Placed& placed) {
     }
 }
 
-/// What no node shows is read all the same: a file is right or it is not.
+/// Reads the meshes that no node shows, so that an invalid file fails whichever nodes are shown.
 void GltfBuilder::check_unshown() {
     std::vector<bool> is_shown(parts.size(), false);
     for (const auto& [key, mesh] : meshes) is_shown[key.mesh] = true;
@@ -200,7 +204,7 @@ void GltfBuilder::check_unshown() {
             mesh_of(mesh, parts[mesh][part], context.document.weights[mesh], context);
 }
 
-/// Returns whether glTF gives it a specular lobe beside its diffuse part.
+/// Returns whether glTF gives the material a specular lobe beside its diffuse part.
 bool has_lobe(const Material& material) {
     const bool is_metal = material.metallic == 1 && !material.roughness_texture;
     return !material.mirror && !material.unlit && !is_metal &&

@@ -11,11 +11,11 @@ namespace {
 
 std::string name_of(int type) {
     if (type == TINYGLTF_TYPE_SCALAR) return "SCALAR";
-    const int size = type & 15; // 2, 3, 4 are vectors
+    const int size = type & 15; // tinygltf: 2, 3 and 4 are vectors, 32 more are matrices
     return (type == size ? "VEC" : "MAT") + std::to_string(size);
 }
 
-/// glTF and every machine that we run on are little-endian.
+/// Reads one component as it is stored. glTF and all supported machines are little-endian.
 template <typename Stored>
 Stored stored_at(const Elements& elements, std::size_t index, int component) {
     Stored value;
@@ -25,7 +25,8 @@ Stored stored_at(const Elements& elements, std::size_t index, int component) {
     return value;
 }
 
-/// As glTF wants it: of signed numbers the lowest two are both -1.
+/// Reads one integer component, normalised as glTF defines it. The two lowest signed integers both
+/// become -1.
 template <typename Stored>
 double whole_number_at(const Elements& elements, std::size_t index, int component) {
     const double value = stored_at<Stored>(elements, index, component);
@@ -39,7 +40,7 @@ Elements typed(const tinygltf::Model& model, int index, int type, const std::str
     return elements_of(model, index);
 }
 
-/// Of 8 or 16 bits.
+/// Returns whether the components are integers of 8 or 16 bits.
 bool is_short(const Elements& elements) {
     return elements.component >= TINYGLTF_COMPONENT_TYPE_BYTE &&
            elements.component <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
@@ -57,7 +58,7 @@ Elements elements_of(const tinygltf::Model& model, int index) {
     const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
     const tinygltf::BufferView& view = model.bufferViews[std::size_t(accessor.bufferView)];
     const std::vector<unsigned char>& bytes = model.buffers[std::size_t(view.buffer)].data;
-    // a stride that holds an element is right for us, whatever tinygltf says of its alignment
+    // Any stride that holds an element is valid here, even if tinygltf finds it misaligned.
     const int packed = accessor.ByteStride({});
     return {.first = bytes.data() + view.byteOffset + accessor.byteOffset,
             .stride = view.byteStride != 0 ? view.byteStride : std::size_t(packed),

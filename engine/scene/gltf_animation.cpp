@@ -21,7 +21,7 @@ std::vector<double> times_of(const Elements& input, const std::string& place) {
 Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler,
                                const std::string& place) {
     using enum Interpolation;
-    const std::string& kind = sampler.interpolation; // of tinygltf's own accord "LINEAR"
+    const std::string& kind = sampler.interpolation; // tinygltf's default is "LINEAR"
     if (kind == "LINEAR") return linear;
     if (kind == "STEP") return step;
     check(kind == "CUBICSPLINE", Failure::bad_data, place,
@@ -36,7 +36,8 @@ dvec4 value_of(const Elements& output, std::size_t index, const dvec4&) {
     return dvec4(vector_at(output, index), number_at(output, index, 3));
 }
 
-/// Cubic ones come as in-tangent, value, out-tangent.
+/// Reads one track. A cubic track stores in-tangent, value and out-tangent for each key. Throws
+/// `bad_data`.
 template <typename Value>
 Track<Value> track_of(const tinygltf::AnimationSampler& sampler, const std::string& place,
                       Context& context) {
@@ -66,7 +67,8 @@ Track<Value> track_of(const tinygltf::AnimationSampler& sampler, const std::stri
     return track;
 }
 
-/// Unit ones, each with its length: a quaternion may be a little off, but not nothing.
+/// Reads a track of rotations. Quaternions of step and linear tracks are normalised, since files
+/// may be a little off unit length. Throws `bad_data` for zero or infinite length.
 Turns turns_of(const tinygltf::AnimationSampler& sampler, const std::string& place,
                Context& context) {
     Turns turns = track_of<dvec4>(sampler, place, context);
@@ -79,7 +81,7 @@ Turns turns_of(const tinygltf::AnimationSampler& sampler, const std::string& pla
     return turns;
 }
 
-/// The tracks of one animation, each sampler read once for each kind of value.
+/// Reads the tracks of one animation. Reads each sampler once for vectors and once for rotations.
 class AnimationReader {
 public:
     AnimationReader(const tinygltf::Animation& from, std::string place, Context& context)
@@ -126,7 +128,8 @@ private:
     std::vector<std::shared_ptr<const Turns>> turns_;
 };
 
-/// Which one moves the nodes; none of none.
+/// Returns the index of the animation that moves the nodes, or none. Throws the failure of
+/// `LoadOptions::animation_by` for an unknown name.
 std::optional<std::size_t> chosen(const Context& context) {
     const std::vector<tinygltf::Animation>& all = context.document.model.animations;
     const std::string& name = context.options.animation;
@@ -155,7 +158,7 @@ Animation read_animation(Context& context) {
         const std::string label = label_of("animations", i, all[i].name);
         AnimationReader reader(all[i], document.file + ": " + label, context);
         std::vector<Tracks> elsewhere(i == shown ? 0 : document.model.nodes.size());
-        // those that are not shown are read all the same: a file is right or it is not
+        // Other animations are read, too, so that an invalid file fails whichever one is shown.
         for (const tinygltf::AnimationChannel& channel : all[i].channels)
             reader.add(channel, i == shown ? animation.nodes : elsewhere);
         if (i == shown)

@@ -9,10 +9,10 @@ namespace catoptric::scene::gltf {
 namespace {
 
 constexpr std::string_view kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
-constexpr std::size_t kWidths[] = {1, 2, 3, 4, 4, 9, 16}; // components of an element
+constexpr std::size_t kWidths[] = {1, 2, 3, 4, 4, 9, 16}; // components per element
 
 struct View {
-    std::uint64_t length, stride; ///< 0: tightly packed
+    std::uint64_t length, stride; ///< bytes; a stride of 0 means tightly packed
 };
 
 std::size_t component_bytes(const Item& item) {
@@ -37,7 +37,7 @@ View view_of(const Item& item, const std::vector<Buffer>& buffers) {
     return {length, stride};
 }
 
-/// `count` elements of `size` bytes lie in the view.
+/// Checks that `count` elements, at least 1, of `size` bytes lie in the item's view.
 void check_elements(const Item& item, const std::vector<View>& views, std::uint64_t count,
                     std::size_t size) {
     const auto& [length, given_stride] = views[item.needed_index("bufferView", views.size())];
@@ -48,7 +48,7 @@ void check_elements(const Item& item, const std::vector<View>& views, std::uint6
                  " elements, at least 1, found a buffer view that holds ", fit);
 }
 
-/// Values that stand in place of some: they and their places lie in their views.
+/// Checks that the values and the indices of a sparse accessor lie in their views.
 void check_sparse(const Item& sparse, const std::vector<View>& views, std::uint64_t count,
                   std::size_t element) {
     const std::uint64_t changed = sparse.whole("count", 0);

@@ -4,24 +4,28 @@
 #include "scene/json.hpp"
 #include "scene/notes.hpp"
 
-/// What stands in front of tinygltf: it is given a document of which every member has its kind,
-/// every index its object and every accessor its bytes, and in which nothing else is left.
+/// Checks a glTF document before tinygltf parses it. In the document that tinygltf gets, every
+/// member has the right type and every index names an existing object. Every accessor lies within
+/// its bytes, and members that we do not read are removed.
 namespace catoptric::scene::gltf {
 
 inline constexpr std::string_view kEmissiveStrength = "KHR_materials_emissive_strength";
 
-/// gltf_members.cpp: throws `bad_data` for a member of the wrong kind, an index of nothing, or
-/// lists over the budget; names what is not read. Says nothing of members that it does not know.
+/// Checks the type of every known member, and adds the notes of the member table. Unknown members
+/// are ignored. Throws `bad_data` for a member of the wrong type, an index of no object, or lists
+/// over the budget. Defined in gltf_members.cpp.
 void check_members(const Item& root, Account& account, Notes& notes);
-/// The members that are read, of a document that has been checked.
+/// Returns the members that are read, taken from a checked document. Members that tinygltf needs
+/// and the document lacks are added with placeholder values.
 Json what_is_read(Json document);
 
-/// gltf_bounds.cpp: throws `bad_data` unless each view lies in its buffer and each accessor in its
-/// view, those that nobody asks for too.
+/// Throws `bad_data` unless each view lies in its buffer and each accessor in its view. Unused
+/// views and accessors are checked, too. Defined in gltf_bounds.cpp.
 void check_bounds(const Item& root, const std::vector<Buffer>& buffers);
 
-/// gltf_unread.cpp: checks what depends on more than one member, and names the rest of what is not
-/// read. Images lie where a scene's files may.
+/// Checks rules that involve more than one member, and notes extensions and animation channels that
+/// are not read. Throws `bad_data`, also for an image file outside the folders that `files` allows.
+/// Defined in gltf_unread.cpp.
 void check_uses(const Item& root, Files& files, Notes& notes);
 
 } // namespace catoptric::scene::gltf

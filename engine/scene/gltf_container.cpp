@@ -17,11 +17,13 @@ namespace {
 
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
-/// What a file may require without its being refused: it is read, or says how surfaces look.
+/// Extensions that a file may require, besides KHR_materials_*. They are read, or the scene can be
+/// shown without them.
 constexpr std::string_view kWithout[] = {
     "KHR_mesh_quantization", "KHR_lights_punctual",  "KHR_texture_transform", "EXT_texture_webp",
     "KHR_xmp_json_ld",       "KHR_techniques_webgl", "KHR_technique_webgl"};
-/// Geometry or pictures in a form that is not read; without them the file is not what it says.
+/// Extensions that store geometry or images in a form that is not read. A file that requires one is
+/// refused, because its scene would be incomplete.
 struct Squeezed {
     std::string_view extension, sentence;
 };
@@ -38,16 +40,16 @@ constexpr Squeezed kSqueezed[] = {
 
 struct Chunks {
     std::string_view json;
-    std::string_view binary; ///< empty: none
+    std::string_view binary; ///< empty if there is none
 };
 
 std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
-    std::uint32_t word = 0; // glTF and every machine that we run on are little-endian
+    std::uint32_t word = 0; // glTF and all supported machines are little-endian
     std::memcpy(&word, bytes.data() + offset, sizeof word);
     return word;
 }
 
-/// The JSON and the first binary chunk of a GLB; of a .gltf the whole text.
+/// Returns the JSON and the first binary chunk of a GLB. Any other file is taken as JSON text.
 Chunks chunks_of(const std::string& file, std::string_view bytes, Notes& notes) {
     if (!bytes.starts_with("glTF")) return {bytes, {}};
     check(bytes.size() >= 20, Failure::bad_data, file, ": header: wanted 20 bytes, found ",

@@ -13,36 +13,41 @@ namespace catoptric::scene::gltf {
 
 using Bytes = std::vector<unsigned char>;
 
-/// Of one of the container's files the first `length` bytes, at least 1.
+/// The first `length` bytes, at least 1, of one of the container's files.
 struct Buffer {
-    std::size_t file = 0;
+    std::size_t file = 0; ///< index into `Container::files`
     std::uint64_t length = 0;
 };
 
-/// What a .gltf or .glb holds: its JSON, of version 2 and with no required extension that we lack,
-/// and the bytes of its buffers.
+/// The contents of a .gltf or .glb file: its JSON and the bytes of its buffers. The JSON has
+/// version 2 and requires no extension that we lack.
 struct Container {
     Json document;
     std::vector<Buffer> buffers;
-    std::vector<Bytes> files; ///< each once, however many buffers lie in it; data URIs too
+    /// The bytes of buffer files, data URIs and a GLB's binary chunk. A file that several buffers
+    /// use is stored once.
+    std::vector<Bytes> files;
 };
 
-/// Throws `bad_data`, or `missing_input` for a buffer that is not there.
+/// Reads a .gltf or .glb and the files of its buffers. Throws `bad_data`, or `missing_input` for a
+/// missing buffer file.
 Container read_container(const std::string& file, Files& files, Account& account, Notes& notes);
 
-/// gltf_sparse.cpp: gives each accessor that is sparse, or has no view, a view of what it stands
-/// for, of a checked document; what was around it stays. Throws `bad_data` for a place beyond it,
-/// or for more bytes than the budget.
+/// Gives each accessor that is sparse, or has no view, a new view with its dense elements. Other
+/// views and files of the container stay as they are. The document must have been checked. Throws
+/// `bad_data` for a sparse index beyond the accessor, or for more bytes than the budget. Defined in
+/// gltf_sparse.cpp.
 void expand_sparse(Container& container, const std::string& file, Account& account);
-/// Bytes of one element of an accessor that has been checked.
+/// Returns the size in bytes of one element of a checked accessor.
 std::size_t element_bytes(const Item& accessor);
 
-/// The name of a file that a URI stands for, percent-decoded once. Throws `bad_data` beginning with
-/// `place` for a scheme, an absolute path, a backslash or a NUL.
+/// Returns the file name that a URI stands for, percent-decoded once. Throws `bad_data` beginning
+/// with `place` for a scheme, an absolute path, a backslash, a NUL or an empty name.
 std::string file_name_of(const std::string& uri, const std::string& place);
 
 bool is_data_uri(std::string_view uri);
-/// The bytes of a base64 data: URI. Throws `bad_data` beginning with `place` for any other.
+/// Returns the bytes of a base64 `data:` URI. Throws `bad_data` beginning with `place` for any
+/// other URI.
 Bytes data_of(std::string_view uri, const std::string& place);
 
 } // namespace catoptric::scene::gltf

@@ -10,8 +10,8 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-/// tinygltf's only way to bytes: our files, which are called by their numbers. Each is asked for
-/// once and given away.
+/// Returns the callbacks through which tinygltf gets all bytes. Files are named by
+/// their index, in decimal. tinygltf asks for each file once, so its bytes are moved out.
 tinygltf::FsCallbacks callbacks_of(std::vector<Bytes>& files) {
     return {.FileExists = [](const std::string&, void*) { return true; },
             .ExpandFilePath = [](const std::string& name, void*) { return name; },
@@ -25,7 +25,8 @@ tinygltf::FsCallbacks callbacks_of(std::vector<Bytes>& files) {
             .user_data = &files};
 }
 
-/// The text of what is read of a checked document. Its buffers become whole files.
+/// Returns the JSON text of the members that are read. Each file of the container becomes one
+/// buffer.
 std::string text_of(Container& container) {
     Json document = what_is_read(std::move(container.document));
     for (Json& view : document["bufferViews"])
@@ -44,7 +45,7 @@ bool uses(const Item& root, std::string_view extension) {
     return false;
 }
 
-/// Of each mesh, or node, the weights of its morph targets, as they stand when nothing moves them.
+/// Reads the morph target weights of each object in the list `things`: "meshes" or "nodes".
 std::vector<std::vector<double>> read_weights(const Item& root, std::string_view things) {
     std::vector<std::vector<double>> weights;
     root.each(things, [&](const Item& thing) {
@@ -54,14 +55,14 @@ std::vector<std::vector<double>> read_weights(const Item& root, std::string_view
     return weights;
 }
 
-/// `{"catoptric": {...}}` of an object's `extras`, which may be of any kind.
+/// Returns the object "catoptric" of an object's `extras`, if any. `extras` may be of any type.
 std::optional<Item> ours_of(const Item& item) {
     const Json* extras = item.find("extras");
     if (extras == nullptr || !extras->is_object()) return std::nullopt;
     return item.object("extras")->object("catoptric");
 }
 
-/// Of the scene that is shown: {"exposure": stops}.
+/// Reads the exposure of the scene that is shown, from its `extras`: {"exposure": stops}.
 std::optional<double> read_exposure(const Item& root) {
     const std::size_t count = root.size("scenes");
     if (count == 0) return std::nullopt;
@@ -74,7 +75,7 @@ std::optional<double> read_exposure(const Item& root) {
     return stops;
 }
 
-/// Of each animation {"repeats": true}.
+/// Reads whether each animation repeats, from its `extras`: {"repeats": true}.
 std::vector<bool> read_repeats(const Item& root) {
     std::vector<bool> repeats;
     root.each("animations", [&](const Item& animation) {

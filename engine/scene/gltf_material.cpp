@@ -11,9 +11,11 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-/// What a material may have that is not drawn, and the gap that says so.
+/// A material extension that is not drawn, and the unsupported feature that reports it.
 struct Unread {
-    std::string_view extension, factor; ///< without the factor, or with 0 of it, it says nothing
+    /// The extension has no effect if its factor is absent or 0. An empty factor name means that
+    /// the extension always has an effect.
+    std::string_view extension, factor;
     std::string_view gap;
 };
 constexpr Unread kUnread[] = {{"KHR_materials_clearcoat", "clearcoatFactor", "clearcoat"},
@@ -21,7 +23,7 @@ constexpr Unread kUnread[] = {{"KHR_materials_clearcoat", "clearcoatFactor", "cl
                               {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
                               {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"}};
 constexpr std::string_view kTransmission = "KHR_materials_transmission";
-constexpr std::string_view kVolume = "KHR_materials_volume"; // says nothing without transmission
+constexpr std::string_view kVolume = "KHR_materials_volume"; // no effect without transmission
 constexpr std::string_view kMaterialExtensions[] = {kEmissiveStrength,
                                                     kTransmission,
                                                     "KHR_materials_ior",
@@ -39,10 +41,10 @@ float fraction(const Item& item, std::string_view key, double otherwise) {
     return static_cast<float>(std::clamp(item.number(key, otherwise), 0.0, 1.0));
 }
 
-/// One material on its way.
+/// Reads one material.
 class MaterialReader {
 public:
-    /// `has_colours`: vertices that show it have colours of their own.
+    /// `has_colours`: some primitive with this material has vertex colours.
     MaterialReader(const Item& from, std::size_t index, bool has_colours, const Source& source,
                    Textures& textures)
         : from_(from), index_(index), has_colours_(has_colours), source_(source),
@@ -98,7 +100,7 @@ void MaterialReader::metal(const Item& pbr) {
     material_.roughness_texture = texture(pbr, "metallicRoughnessTexture", false);
 }
 
-/// KHR_materials_pbrSpecularGlossiness, its factors.
+/// Reads the factors and the diffuse texture of KHR_materials_pbrSpecularGlossiness.
 void MaterialReader::glossy(const Item& glossiness) {
     base_colour(glossiness, "diffuseFactor", "diffuseTexture");
     material_.metallic = 0;
@@ -146,14 +148,15 @@ void MaterialReader::alpha() {
     gap("blend-as-mask");
 }
 
-/// Returns whether no place of the surface has a dielectric part.
+/// Returns whether the whole surface is metal, without any dielectric part.
 bool MaterialReader::is_metal_everywhere() const {
     if (material_.metallic < 1 || !material_.roughness_texture) return material_.metallic == 1;
     return std::ranges::all_of(material_.roughness_texture->image->texels,
                                [](std::uint32_t texel) { return (texel >> 16 & 0xff) == 0xff; });
 }
 
-/// Light goes through the dielectric part alone: a metal stays a metal.
+/// Reports transmission as unsupported. Only the dielectric part transmits light, so a material
+/// that is metal everywhere is not reported.
 void MaterialReader::transmission() {
     const std::optional<Item> glass = extension(kTransmission);
     if (!glass || glass->number("transmissionFactor", 0) == 0 || is_metal_everywhere()) return;
@@ -171,7 +174,7 @@ void MaterialReader::left_out() {
           {"occlusionTexture", "materials with an occlusionTexture, drawn without it",
            "occlusion-texture"}})
         if (from_.has(key)) source_.notes.add(note, from_.label()), gap(id);
-    // A draft's, KHR_technique_webgl, which kept shaders beside the materials.
+    // `technique` comes from the draft KHR_technique_webgl, which kept shaders beside materials.
     if (from_.has("technique")) gap("material-extension");
     if (!extensions_) return;
     for (const auto& [name, value] : extensions_->json().items()) {
@@ -186,17 +189,19 @@ void MaterialReader::left_out() {
     }
 }
 
-/// As a scene made in code would say it: nothing but what is reflected and what is diffuse.
+/// Makes the material a mirror, given only by reflectance and diffuse albedo, as scenes made in
+/// code do.
 void MaterialReader::be_mirror(const vec3& reflectance, const vec3& diffuse) {
     material_.mirror = true, material_.reflectance = reflectance, material_.albedo = diffuse;
     material_.metallic = 0, material_.roughness = 1;
 }
 
-/// What glTF has no word for, from `extras`: {"catoptric": {"reflectance": [r, g, b],
-/// "diffuse": [r, g, b], "fixed_normals": true}}: a mirror at any angle, over what is diffuse; a
-/// surface of two sides with one normal.
+/// Reads properties that glTF cannot express, from `extras`:
+///   {"catoptric": {"reflectance": [r, g, b], "diffuse": [r, g, b], "fixed_normals": true}}
+/// The first two make a mirror with the same reflectance at any angle, over a diffuse albedo.
+/// `fixed_normals` makes a surface with two sides but one normal.
 void MaterialReader::marks() {
-    const Json* extras = from_.find("extras"); // of any kind; ours is an object
+    const Json* extras = from_.find("extras"); // any type; only objects are ours
     const std::optional<Item> ours = extras && extras->is_object()
                                          ? from_.object("extras")->object("catoptric")
                                          : std::nullopt;
@@ -228,7 +233,7 @@ Material MaterialReader::read() {
         material_.unlit = true, material_.metallic = 0, material_.roughness = 1;
         material_.emission = vec3(0), material_.emission_texture.reset();
     }
-    // What reflects everything at every angle needs no angle.
+    // Such a metal reflects all light at every angle, so a mirror without Fresnel is the same.
     const bool is_perfect = material_.metallic == 1 && material_.roughness == 0 &&
                             material_.albedo == vec3(1) && !material_.albedo_texture &&
                             !material_.roughness_texture && !has_colours_;
@@ -237,7 +242,7 @@ Material MaterialReader::read() {
     return material_;
 }
 
-/// Which materials primitives with colours show.
+/// Returns for each material whether some primitive with it has vertex colours.
 std::vector<bool> coloured_materials(const Item& root) {
     std::vector<bool> coloured(root.size("materials"));
     root.each("meshes", [&](const Item& mesh) {

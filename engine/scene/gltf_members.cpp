@@ -7,7 +7,7 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-/// The objects of a glTF file that have something to say to us.
+/// The kinds of objects in a glTF file whose members are checked.
 // clang-format off
 enum class In {
     nothing, file, asset, view, accessor, sparse, sparse_part, material, texture_use, camera,
@@ -18,19 +18,19 @@ enum class In {
 
 enum class Kind { text, flag, number, numbers, whole, index, needed_index, indices, object, list };
 
-/// What a member of an object must be, and what becomes of it.
+/// One row of the member table: the type that a member must have, and how it is used.
 struct Member {
     In in;
     std::string_view key;
     Kind kind;
-    In is = In::nothing;        ///< the object, or each one of the list
-    std::string_view of = {};   ///< the list that an index is of
-    std::size_t count = 0;      ///< of numbers
-    bool unread = false;        ///< checked only
-    std::string_view note = {}; ///< what is said of it when it is there
-    bool made_up = false;       ///< where absent, since tinygltf wants it: -1 as an index, or 0
-    Total Account::*total = nullptr; ///< each one of the list counts here,
-    std::size_t bytes = 0;           ///< and takes so much memory
+    In is = In::nothing;             ///< kind of the object, or of each object of the list
+    std::string_view of = {};        ///< the list that the index refers to
+    std::size_t count = 0;           ///< how many numbers
+    bool unread = false;             ///< only checked, not passed to tinygltf
+    std::string_view note = {};      ///< the note to add if the member is present
+    bool made_up = false;            ///< if absent, set to -1 (index) or 0, since tinygltf needs it
+    Total Account::*total = nullptr; ///< counts the objects of the list
+    std::size_t bytes = 0;           ///< memory for each object of the list
 };
 
 constexpr Member vector(In in, std::string_view key, std::size_t count) {
@@ -196,12 +196,13 @@ private:
 
 Json read_members(Json& from, In in);
 
-/// What is there, as tinygltf understands it: of whole numbers it does not take 3.0.
+/// Converts a member to a form that tinygltf reads. For example, it does not accept 3.0 as an
+/// integer.
 Json read_member(Json& value, const Member& member) {
     if (member.kind == flag) return value.get<bool>();
     const auto counted = [](const Json& number) { return number.get<std::uint64_t>(); };
     if (member.kind == Kind::object) return read_members(value, member.is);
-    if (member.kind == Kind::number) return value.get<double>(); // and cuts others to 32 bits
+    if (member.kind == Kind::number) return value.get<double>(); // tinygltf cuts others to 32 bits
     if (member.kind == Kind::list)
         for (Json& one : value) one = read_members(one, member.is);
     else if (member.kind == Kind::indices)
@@ -211,7 +212,7 @@ Json read_member(Json& value, const Member& member) {
     return std::move(value);
 }
 
-/// Takes from an object what is read; what tinygltf wants beyond that is made up.
+/// Returns the members of an object that are read. Adds placeholders that tinygltf needs.
 Json read_members(Json& from, In in) {
     Json to = Json::object();
     for (const Member& member : kMembers) {

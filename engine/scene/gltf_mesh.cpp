@@ -14,8 +14,9 @@ std::string mesh_label(const Document& document, std::size_t mesh) {
     return label_of("meshes", mesh, document.model.meshes[mesh].name);
 }
 
-/// The positions that corners name, ascending: all of them, unless there are more than corners,
-/// as where primitives share a long list.
+/// Returns the indices of the vertices that a mesh keeps, ascending. Keeps all `count` positions if
+/// there are at most as many as corners. Otherwise keeps only those that corners use, because
+/// primitives may share a long list.
 std::vector<std::uint32_t> vertices_of(const std::vector<std::uint32_t>& corners,
                                        std::size_t count) {
     std::vector<std::uint32_t> vertices = corners;
@@ -29,8 +30,8 @@ std::vector<std::uint32_t> vertices_of(const std::vector<std::uint32_t>& corners
     return vertices;
 }
 
-/// A list of the mesh that has an element for each vertex, or none so far: then `otherwise` for
-/// those that are there already.
+/// Fills a per-vertex list with `otherwise` for the first `before` vertices. A list is empty until
+/// a primitive has values for it.
 template <typename Value>
 void extend(std::vector<Value>& list, std::size_t before, const Value& otherwise) {
     if (list.size() < before) list.resize(before, otherwise);
@@ -58,7 +59,7 @@ void append_vertices(Mesh& mesh, const std::vector<std::uint32_t>& used, const P
     for (const std::uint32_t vertex : used) mesh.colours.push_back(primitive.colour(vertex));
 }
 
-/// Adds the triangles and their vertices.
+/// Adds a primitive's triangles and their vertices to the mesh.
 void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Primitive& primitive,
             const std::vector<dmat4>* joints) {
     const std::vector<std::uint32_t> used = vertices_of(corners, primitive.positions.count);
@@ -73,7 +74,7 @@ void append(Mesh& mesh, std::vector<std::uint32_t> corners, const Primitive& pri
         mesh.triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
 }
 
-/// Whether it is one that is drawn; what is not is named.
+/// Returns whether the primitive is drawn. Adds a note if it is not.
 bool is_drawn(const tinygltf::Primitive& primitive, const std::string& label, Context& context) {
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
         context.notes.add("primitives of points or lines, left out", label);
@@ -88,7 +89,7 @@ bool is_drawn(const tinygltf::Primitive& primitive, const std::string& label, Co
 std::vector<Part> parts_of(std::size_t mesh, std::vector<Material>& materials, Context& context) {
     const Document& document = context.document;
     std::vector<Part> parts;
-    std::unordered_map<std::size_t, std::size_t> part_of; // by material
+    std::unordered_map<std::size_t, std::size_t> part_of; // part by material
     const std::vector<tinygltf::Primitive>& primitives = document.model.meshes[mesh].primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const std::string label = mesh_label(document, mesh) + ": " + label_of("primitives", i);
@@ -126,7 +127,7 @@ Mesh mesh_of(std::size_t index, const Part& part, const std::vector<double>& wei
     Account& account = context.account;
     std::vector<Primitive> primitives;
     std::size_t vertices = 0, triangles = 0;
-    for (const std::size_t i : part.primitives) { // before anything is made of it
+    for (const std::size_t i : part.primitives) { // count against the budget before allocating
         const Primitive& its = primitives.emplace_back(model, model.meshes[index].primitives[i],
                                                        weights);
         const std::size_t count = std::min(its.positions.count, 3 * its.triangle_count());

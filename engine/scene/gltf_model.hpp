@@ -12,14 +12,16 @@
 
 #include <tiny_gltf.h>
 
-/// A glTF 2.0 file as tinygltf has read it, behind our checks (gltf_check.hpp), on its way into a
-/// scene: what its values say is checked here. Indices that are -1 are absent, all others in range.
+/// Builds a scene from a glTF 2.0 file that our checks (gltf_check.hpp) have passed and tinygltf
+/// has parsed. These functions check the values of the file. An index of -1 means absent; all other
+/// indices are in range.
 namespace catoptric::scene::gltf {
 
-/// What glTF has no word for, from a node's `extras`:
+/// Properties of a node that glTF cannot express, read from the node's `extras`:
 ///   {"catoptric": {"sphere": true | [x, y, z, r], "seen_by_camera": false, "distance": d}}
-/// `sphere`: the mesh stands for this sphere in node space (true: [0, 0, 0, 1]), which a uniform
-/// scale carries exactly into the world. `distance`: from a camera to its target.
+/// `sphere`: centre and radius of the sphere, in node space, that the mesh approximates. `true`
+/// stands for [0, 0, 0, 1]. A node with a uniform scale keeps the sphere exact in world space.
+/// `distance`: distance from a camera to its target, in world units.
 struct Marks {
     std::optional<Sphere> sphere;
     std::optional<double> distance;
@@ -29,55 +31,61 @@ struct Marks {
 struct Document {
     std::string file; ///< begins every message
     tinygltf::Model model;
-    // Read before tinygltf, which has no word for some and would cut others to 32 bits.
-    std::vector<Marks> marks; ///< of each node
+    // These members are read before tinygltf parses the file. It has no members for some of them,
+    // and would cut others to 32 bits.
+    std::vector<Marks> marks; ///< for each node
     std::vector<Material> materials;
     Lights lights;
-    std::vector<std::vector<double>> weights; ///< of each mesh, of its morph targets
-    std::vector<std::vector<double>>
-        node_weights;          ///< of each node, in place of its mesh's; or none
-    std::vector<bool> repeats; ///< of each animation: {"catoptric": {"repeats": true}}
-    std::optional<double> exposure;
-    bool is_quantised = false; ///< KHR_mesh_quantization
+    /// Morph target weights of each mesh.
+    std::vector<std::vector<double>> weights;
+    /// Morph target weights of each node, which replace those of its mesh. Empty: the mesh's hold.
+    std::vector<std::vector<double>> node_weights;
+    /// Whether each animation repeats, from its `extras`: {"catoptric": {"repeats": true}}.
+    std::vector<bool> repeats;
+    std::optional<double> exposure; ///< stops
+    bool is_quantised = false;      ///< the file uses KHR_mesh_quantization
 
-    /// "nodes[3] 'lamp'".
+    /// Returns a node's name for messages, such as "nodes[3] 'lamp'".
     std::string label(std::size_t node) const;
 };
 
-/// Reads a .gltf or .glb. Throws as `load_gltf`.
+/// Reads a .gltf or .glb. Throws the same errors as `load_gltf`.
 Document read(const std::string& file, Files& files, Account& account, Notes& notes,
               std::vector<UnsupportedFeature>& unsupported);
 
 // ---- gltf_accessor.cpp
 
-/// Elements in a buffer.
+/// The elements of an accessor, as they lie in its buffer.
 struct Elements {
     const unsigned char* first;
-    std::size_t stride, count;
-    int component; ///< TINYGLTF_COMPONENT_TYPE_
-    int width;     ///< components of an element
+    std::size_t stride, count; ///< bytes from one element to the next; number of elements
+    int component;             ///< one of TINYGLTF_COMPONENT_TYPE_*
+    int width;                 ///< components per element
     bool normalised;
 };
 Elements elements_of(const tinygltf::Model& model, int accessor);
-/// One component; of whole numbers that are normalised within [-1,1].
+/// Returns one component of an element. Normalised integers become values in [-1, 1].
 double number_at(const Elements& elements, std::size_t index, int component);
 dvec3 vector_at(const Elements& elements, std::size_t index);
 std::uint32_t whole_at(const Elements& elements, std::size_t index, int component = 0);
-/// The whole number that means "begin anew" among indices.
+/// Returns the primitive restart index, the largest value of the component type.
 std::uint32_t restart_of(const Elements& elements);
 
-/// What reading needs beside the document.
+/// The document, the load options and the lists that functions add to while they build a scene.
 struct Context {
-    /// Which numbers an accessor may hold beside floats: none; whole ones that are normalised; with
-    /// KHR_mesh_quantization any of 8 or 16 bits.
+    /// Which integers an accessor may hold besides floats. `nothing`: none. `normalised`:
+    /// normalised ones of 8 or 16 bits. `quantised`: any of 8 or 16 bits, if the file uses
+    /// KHR_mesh_quantization.
     enum class Also { nothing, normalised, quantised };
 
-    /// The elements of an accessor of TINYGLTF_TYPE_ `type`. Throws `bad_data` beginning with
-    /// `place` for another. When it is first asked for, its elements are added to `total` and must
-    /// be finite.
+    /// Returns the elements of an accessor of floats, or of the integers that `also` allows. The
+    /// first request for an accessor adds its elements to `total` and checks that floats are
+    /// finite. Throws `bad_data` beginning with `place` for a float that is not finite, for other
+    /// components, or for a type other than `type` (TINYGLTF_TYPE_*).
     Elements floats(int accessor, int type, Total& total, const std::string& place,
                     Also also = Also::nothing);
-    /// The accessor of whole numbers, scalar and unsigned, or of another type.
+    /// Returns the elements of an accessor of unsigned integers, scalars unless `type` says
+    /// otherwise. Throws `bad_data` beginning with `place` for any other accessor.
     Elements whole(int accessor, const std::string& place, int type = TINYGLTF_TYPE_SCALAR) const;
 
     const Document& document;
@@ -85,75 +93,83 @@ struct Context {
     Account& account;
     Notes& notes;
     std::vector<UnsupportedFeature>& unsupported;
-    std::set<int> finite; ///< accessors known to be
+    std::set<int> finite; ///< accessors whose elements have been checked and counted
 };
 
 // ---- gltf_node.cpp
 
+/// Reads the marks of each node, from its `extras`. Throws `bad_data`.
 std::vector<Marks> read_marks(const Item& root);
-/// Throws `bad_data` for a rotation without a length.
+/// Returns a node's transform into its parent's space. Throws `bad_data` for a rotation of zero or
+/// infinite length.
 dmat4 parent_from_node(const Document& document, std::size_t node);
-/// The default scene's nodes, or the first one's, or every node that is no child.
+/// Returns the root nodes of the default scene, or of the first scene if there is no default. A
+/// file without scenes has every node without a parent as a root.
 std::vector<int> roots_of(const tinygltf::Model& model);
-/// Throws `bad_data` unless every node has one parent at most, none is its own ancestor, and there
-/// are at most 4096 above one another.
+/// Checks that the nodes form a forest: at most one parent each, no node its own ancestor, and at
+/// most 4096 levels. Throws `bad_data` if they do not.
 void check_forest(const Document& document);
 
-/// Name and field of view, or height.
+/// Reads the name of each camera and its field of view or, if orthographic, its height. Throws
+/// `bad_data`.
 std::vector<Camera> read_cameras(const Document& document);
 
 // ---- gltf_mesh.cpp
 
-/// The primitives of a mesh that share a material: one mesh of ours, since a mirror is a node,
-/// however many primitives an exporter cut it into.
+/// The primitives of a glTF mesh that share a material. They become one mesh of the scene, because
+/// a mirror is a node and exporters may split its mesh into any number of primitives.
 struct Part {
     std::size_t material = 0;
     std::vector<std::size_t> primitives;
 };
 
-/// The parts of each mesh, in the order in which their materials come. For primitives without a
-/// material there is one more, white.
+/// Returns the parts of each mesh, ordered by the first use of their materials. Appends a white
+/// material to `materials` if a primitive has none.
 std::vector<std::vector<Part>> read_parts(std::vector<Material>& materials, Context& context);
-/// "FILE: meshes[0] 'm'".
+/// Returns a mesh's place for messages, such as "FILE: meshes[0] 'm'".
 std::string mesh_place(const Document& document, std::size_t mesh);
-/// One part's triangles, unused vertices left out; normals may be missing or have no length.
-/// `weights`: of its morph targets. With `joints`, the world from the space in which each was
-/// bound, as a skin of them stands.
+/// Builds the mesh of one part, without unused vertices. Normals may be missing or have zero
+/// length. `weights`: weights of the morph targets. `joints`: for each joint of the skin, the
+/// transform from its bind space to world space. With joints, the vertices are in world space.
+/// Throws `bad_data`.
 Mesh mesh_of(std::size_t mesh, const Part& part, const std::vector<double>& weights,
              const Context& context, const std::vector<dmat4>* joints = nullptr);
 
 // ---- gltf_animation.cpp
 
-/// How a node moves in its parent's space, not relative; where a track is null it does not.
+/// The motion of a node in its parent's space. Values of a track replace the node's own. A null
+/// track means that this part of the transform does not move.
 struct Tracks {
     std::shared_ptr<const Keys> translations, scales;
     std::shared_ptr<const Turns> rotations;
     bool is_any() const { return translations || scales || rotations; }
 };
+/// The animation that moves the nodes of the scene.
 struct Animation {
-    std::vector<Tracks> nodes;
+    std::vector<Tracks> nodes; ///< for each node
     bool repeats = false;
 };
-/// The one of the options. Each sampler is read once. Throws `usage` for a name that no animation
-/// has.
+/// Reads the animation that the options choose. The other animations are checked, too. Throws
+/// `bad_data`, or the failure of `LoadOptions::animation_by` for a name that no animation has.
 Animation read_animation(Context& context);
 
 // ---- gltf_rig.cpp
 
-/// Where a node stands, and how it moves in world space.
+/// The world transform of a node, and its motion in world space.
 struct Placed {
     dmat4 world_from_node{1};
     Motion motion;
-    bool reached = false;
+    bool reached = false; ///< the node belongs to the scene that is shown
 };
 
-/// World transforms of the nodes that the scene shows: at rest, or where they move by more than
-/// one translation at the first instant. Throws `bad_data` for a node with a second way to it.
+/// Returns the world transform and motion of each node. The transform is that at rest or, if the
+/// node follows a rig, that at time 0. Throws `bad_data` for a node that the scene reaches twice.
 std::vector<Placed> place(const Document& document, const Animation& animation);
 
-/// For a skin's joints, the world from the space in which they were bound, as `at_rest` they stand.
+/// Returns, for each joint of a skin, the transform from its bind space to world space. `at_rest`
+/// holds the world transform of each node. Throws `bad_data`.
 std::vector<dmat4> joints_of(int skin, const std::vector<dmat4>& at_rest, Context& context);
-/// World from each node, nothing moving.
+/// Returns the transform from each node to world space, with nothing animated.
 std::vector<dmat4> rest_of(const Document& document);
 
 } // namespace catoptric::scene::gltf

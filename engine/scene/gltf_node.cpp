@@ -11,7 +11,7 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-constexpr std::size_t kDeepest = 4096; // nodes above one another
+constexpr std::size_t kDeepest = 4096; // levels of nested nodes
 
 double positive(const Item& item, const Json& value, std::string_view what) {
     item.require(value.is_number() && value.get<double>() > 0, what,
@@ -32,7 +32,7 @@ std::optional<Sphere> sphere(const Item& ours) {
 
 Marks marks_of(const Item& node) {
     Marks marks;
-    const Json* extras = node.find("extras"); // of any kind; ours is an object
+    const Json* extras = node.find("extras"); // any type; only objects are ours
     if (extras == nullptr || !extras->is_object()) return marks;
     const std::optional<Item> ours = node.object("extras")->object("catoptric");
     if (!ours) return marks;
@@ -60,7 +60,7 @@ std::vector<Camera> read_cameras(const Document& document) {
         };
         Camera camera{.name = from.name};
         if (from.type == "orthographic") {
-            // a negative one turns the picture around in some exporters' words
+            // Some exporters write a negative ymag for a picture that is turned around.
             camera.orthographic_height = 2 * std::abs(from.orthographic.ymag);
             require(camera.orthographic_height > 0 && std::isfinite(camera.orthographic_height),
                     ": orthographic: ymag: wanted a number above 0, found ",
@@ -109,7 +109,7 @@ void check_forest(const Document& document) {
                         document.label(its), " and ", document.label(i));
             its = i;
         }
-    std::vector<std::size_t> waiting; // with their depth known
+    std::vector<std::size_t> waiting; // nodes with known depth, children not yet visited
     for (std::size_t i = 0; i < nodes.size(); ++i)
         if (parent[i] == kNone) depth[i] = 1, waiting.push_back(i);
     while (!waiting.empty()) {
@@ -120,7 +120,8 @@ void check_forest(const Document& document) {
         for (const int child : nodes[i].children)
             depth[std::size_t(child)] = depth[i] + 1, waiting.push_back(std::size_t(child));
     }
-    for (std::size_t i = 0; i < nodes.size(); ++i) // who has no first ancestor is its own
+    // A node that no root reaches is part of a cycle or below one.
+    for (std::size_t i = 0; i < nodes.size(); ++i)
         require(depth[i] > 0, i, ": wanted a tree, found a node within itself");
 }
 

@@ -22,7 +22,7 @@ std::optional<Elements> elements(const tinygltf::Model& model, const Attributes&
     return accessor < 0 ? std::nullopt : std::optional(elements_of(model, accessor));
 }
 
-/// What each vertex may have beside its position.
+/// A vertex attribute besides the position, with its allowed types and component types.
 struct Wanted {
     const char* name;
     std::string_view what;
@@ -50,7 +50,7 @@ void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
         const int accessor = attribute(primitive.attributes, name);
         if (accessor < 0) continue;
         const int its = context.document.model.accessors[std::size_t(accessor)].type;
-        // normalised texture coordinates need no extension, normals and positions do
+        // Normalised texture coordinates need no extension; normals and positions need one.
         const bool is_uv = type == TINYGLTF_TYPE_VEC2;
         const Context::Also allowed = is_uv && !context.document.is_quantised
                                           ? Context::Also::normalised
@@ -142,8 +142,8 @@ void Primitive::pose(std::size_t index, const std::vector<dmat4>& world_from_bou
         world += weight * world_from_bound[joint];
         sum += weight;
     }
-    if (!(sum > 0)) return; // bound to nothing: stays
-    world /= sum;           // quantised weights add up to nearly 1
+    if (!(sum > 0)) return; // no joint has weight, so the vertex stays
+    world /= sum;           // the sum of quantised weights is not exactly 1
     position = transform_point(world, position);
     normal = normal_matrix(world) * normal;
 }
@@ -168,7 +168,7 @@ std::vector<std::uint32_t> corners_of(const Primitive& primitive, const std::str
     for (std::uint32_t i = 0; i < primitive.triangle_count(); ++i) {
         if (primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN)
             corners.insert(corners.end(), {named[i + 1], named[i + 2], named[0]});
-        else // every second one of a strip is turned
+        else // in a strip, every second triangle has the opposite winding
             corners.insert(corners.end(), {named[i], named[i + 1 + i % 2], named[i + 2 - i % 2]});
     }
     return corners;

@@ -9,24 +9,26 @@
 
 namespace catoptric::scene::gltf {
 
-/// Throws `bad_data` beginning with `place` for attributes or indices that cannot be drawn.
+/// Checks a primitive's attributes, morph targets and indices. Throws `bad_data` beginning with
+/// `place` if they cannot be drawn.
 void check_primitive(const tinygltf::Primitive& primitive, const std::string& place,
                      Context& context);
 
 struct Vertex {
-    dvec3 position, normal; ///< zero: none
+    dvec3 position, normal; ///< a normal of zero means none
 };
 
-/// The elements that a primitive is made of, which has been checked.
+/// The elements of a checked primitive.
 struct Primitive {
     Primitive(const tinygltf::Model& model, const tinygltf::Primitive& from,
               const std::vector<double>& weights);
 
     std::size_t triangle_count() const;
-    /// With the morph targets of its mesh at their weights.
+    /// Returns a vertex, moved by the morph targets at their weights.
     Vertex vertex(std::size_t index) const;
     vec4 colour(std::size_t index) const;
-    /// Moves a vertex with its joints, of which there are enough.
+    /// Moves a vertex into world space by the weighted mean of its joints. Joints beyond the list
+    /// are ignored. A vertex whose weights add up to zero stays. Needs `joints` and `weights`.
     void pose(std::size_t index, const std::vector<dmat4>& world_from_bound, dvec3& position,
               dvec3& normal) const;
 
@@ -38,11 +40,11 @@ struct Primitive {
         double weight;
         std::optional<Elements> positions, normals;
     };
-    std::vector<Morph> morphs; ///< those whose weight is not 0
+    std::vector<Morph> morphs; ///< only targets with a weight other than 0
 };
 
-/// The corners of its triangles, as numbers of its positions. Throws `bad_data` for an index of
-/// none.
+/// Returns indices into the positions, three for each triangle. Throws `bad_data` beginning with
+/// `place` for an index of no position, or for a restart index.
 std::vector<std::uint32_t> corners_of(const Primitive& primitive, const std::string& place);
 
 } // namespace catoptric::scene::gltf

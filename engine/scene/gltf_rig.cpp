@@ -11,32 +11,33 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-/// How a node goes with what is above it.
+/// How a node moves, given its own tracks and those of the nodes above it.
 enum class Going {
     still,
-    slides, ///< it or one above it goes along one track of translations, and nothing else moves
-    turns   ///< any other way
+    slides, ///< only by one track of translations, on this node or one above it
+    turns   ///< in any other way
 };
 
+/// The state of a node that its children continue from.
 struct Way {
     Placed placed;
     Going going = Going::still;
-    std::optional<std::size_t> rig_node; ///< of the last one that moves, or is below one that does
-    dmat4 below{1};                      ///< from that node's space
+    std::optional<std::size_t> rig_node; ///< the nearest animated node, itself or above it
+    dmat4 below{1};                      ///< transform from this node to the rig node
 };
 
-/// Goes over the nodes from the roots down, without recursion. They are a forest; but a scene may
-/// name a node twice, or beside its parent.
+/// Visits the nodes from the roots down, without recursion. The nodes form a forest, but a scene
+/// may list a node twice, or list both a node and its parent.
 class Placer {
 public:
     Placer(const Document& document, const Animation& animation)
         : document_(document), animation_(animation), placed_(document.model.nodes.size()) {
-        for (std::size_t i = 0; i < placed_.size(); ++i) // of those that nothing reaches, too
+        for (std::size_t i = 0; i < placed_.size(); ++i) // unreached nodes are checked, too
             rest_.push_back(parent_from_node(document, i));
     }
 
     std::vector<Placed> run() {
-        std::vector<std::pair<std::size_t, Way>> waiting; // node and its parent's way
+        std::vector<std::pair<std::size_t, Way>> waiting; // node, and state of its parent
         for (const int root : roots_of(document_.model)) waiting.push_back({std::size_t(root), {}});
         while (!waiting.empty()) {
             const auto [index, parent] = std::move(waiting.back());
@@ -64,7 +65,8 @@ private:
     Rig rig_;
 };
 
-/// A node that moves; what has no track of its own is as it is at rest.
+/// Adds an animated node to the rig and returns its index. Parts of its transform without a track
+/// keep their values at rest.
 std::size_t Placer::add_to_rig(std::size_t index, const Way& parent) {
     const tinygltf::Node& node = document_.model.nodes[index];
     const Tracks& tracks = animation_.nodes[index];
@@ -108,7 +110,7 @@ Way Placer::way_of(std::size_t index, const Way& parent) {
     return way;
 }
 
-/// Gives those that follow it the rig, and the place of the first instant.
+/// Gives the rig to all nodes that follow it, and sets their transforms at time 0.
 void Placer::finish() {
     const bool is_used = std::ranges::any_of(placed_, [](const Placed& placed) {
         return std::holds_alternative<Follows>(placed.motion);

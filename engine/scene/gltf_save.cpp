@@ -34,7 +34,7 @@ int indices(Writer& writer, const Mesh& mesh, bool inside_out) {
     std::vector<std::uint32_t> wide;
     for (const uvec3& t : mesh.triangles)
         wide.insert(wide.end(), {t.x, inside_out ? t.z : t.y, inside_out ? t.y : t.z});
-    if (mesh.positions.size() >= 65535) // the highest 16-bit index means "restart"
+    if (mesh.positions.size() >= 65535) // index 65535 would mean primitive restart
         writer.append(wide, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
     else
         writer.append(std::vector<std::uint16_t>(wide.begin(), wide.end()), TINYGLTF_TYPE_SCALAR,
@@ -42,7 +42,8 @@ int indices(Writer& writer, const Mesh& mesh, bool inside_out) {
     return size_of(writer.model.accessors) - 1;
 }
 
-/// glTF keeps the material with the triangles, and turns those of a mirrored node inside out.
+/// Returns the glTF mesh of an object, and adds it if it is new. glTF stores the material with the
+/// triangles. Objects with a mirrored transform get a mesh with reversed winding.
 int mesh_for(Writer& writer, const Object& object) {
     const bool inside_out = glm::determinant(dmat3(object.world_from_object)) < 0;
     tinygltf::Model& model = writer.model;
@@ -66,7 +67,8 @@ int mesh_for(Writer& writer, const Object& object) {
     return entry->second;
 }
 
-/// Our marks (gltf_model.hpp), the sphere in node space; nothing when there is nothing to say.
+/// Returns the marks of an object (gltf_model.hpp), with the sphere in node space. Returns an empty
+/// value if all marks have their defaults.
 Value extras(const Object& object) {
     Value::Object ours;
     const dmat4& world = object.world_from_object;
@@ -81,7 +83,7 @@ Value extras(const Object& object) {
     return ours.empty() ? Value() : marked(std::move(ours));
 }
 
-/// Puts a node where nothing moves it: below the scene, or below a node of a rig.
+/// Adds a node that has no motion of its own, as a root of the scene or as a child of a rig's node.
 void add_below(Writer& writer, const Follows* follows, tinygltf::Node node) {
     const int parent = follows ? writer.node_of(*follows) : -1;
     const int index = size_of(writer.model.nodes);
@@ -92,8 +94,8 @@ void add_below(Writer& writer, const Follows* follows, tinygltf::Node node) {
         writer.model.nodes[std::size_t(parent)].children.push_back(index);
 }
 
-/// A node that moves holds its translation apart; where the rest is more than a scale, that goes
-/// into a child.
+/// Adds a node with its transform and motion. A moving node stores its translation separately. If
+/// the rest of its transform is more than a scale, a child node gets the rest.
 void place(Writer& writer, const dmat4& world, const Motion& motion, tinygltf::Node node) {
     tinygltf::Model& model = writer.model;
     if (const Follows* follows = followed(motion)) {
@@ -128,7 +130,7 @@ void add_object(Writer& writer, const Object& object) {
     place(writer, object.world_from_object, object.motion, std::move(node));
 }
 
-/// glTF cameras look along -z with +y up.
+/// Adds a camera and its node. glTF cameras look along -z with +y up.
 void add_camera(Writer& writer, const Camera& camera) {
     const double distance = glm::distance(camera.eye, camera.target);
     const dvec3 forward = normalized_or_zero(camera.target - camera.eye);
@@ -145,7 +147,7 @@ void add_camera(Writer& writer, const Camera& camera) {
     add_below(writer, follows, std::move(node));
     tinygltf::Camera& to = writer.model.cameras.emplace_back();
     to.name = camera.name;
-    // we clip nothing
+    // We do not clip; these planes lie a factor of 1000 nearer and farther than the target.
     const double nearest = distance / 1000, farthest = distance * 1000;
     if (camera.orthographic_height > 0) {
         to.type = "orthographic";
@@ -178,7 +180,7 @@ void add_light(Writer& writer, const Punctual& light) {
     place(writer, light.world_from_light, light.motion, std::move(node));
 }
 
-/// The GLB container of what the writer holds.
+/// Returns the bytes of a GLB file with the writer's contents. Throws `io` above 4 GiB.
 std::string packed(Writer& writer) {
     tinygltf::Model& model = writer.model;
     if (!writer.bytes.empty()) model.buffers.emplace_back().data = std::move(writer.bytes);

@@ -22,7 +22,7 @@ int wrap_of(Texture::Wrap wrap) {
                                            : TINYGLTF_TEXTURE_WRAP_REPEAT;
 }
 
-/// KHR_texture_transform, whose axes stay at right angles.
+/// Returns the value of KHR_texture_transform. The texture's axes must be at right angles.
 Value transform_of(const Texture& texture) {
     const dvec3 u(texture.u_row), v(texture.v_row);
     const double angle = std::atan2(-v.x, u.x), c = std::cos(angle), s = std::sin(angle);
@@ -32,8 +32,9 @@ Value transform_of(const Texture& texture) {
                                {"scale", listed({scale_u, scale_v})}});
 }
 
-/// Radiance above 1 needs the extension: the largest component is the strength; and so does what
-/// tinygltf takes for black.
+/// Writes the emission. If its largest component is above 1, that component is written as the
+/// strength of KHR_materials_emissive_strength. A largest component of at most 1e-6 needs the
+/// extension, too, because tinygltf treats it as black.
 void write_emission(Writer& writer, const Material& material, tinygltf::Material& to) {
     const dvec3 emission(material.emission);
     const double largest = std::max({emission.x, emission.y, emission.z});
@@ -47,13 +48,14 @@ void write_emission(Writer& writer, const Material& material, tinygltf::Material
     writer.use(extension);
 }
 
-/// What is no default as KHR_materials_specular says it, with the ior that nobody gave.
+/// Writes F0 and F90 by KHR_materials_specular if they differ from the defaults. The index of
+/// refraction keeps its default, 1.5.
 void write_dielectric(Writer& writer, const Material& material, tinygltf::Material& to) {
     const Material usual;
     if (material.dielectric_f0 == usual.dielectric_f0 &&
         material.dielectric_f90 == usual.dielectric_f90)
         return;
-    constexpr double kUsual = .04; // of ior 1.5
+    constexpr double kUsual = .04; // F0 of the default index of refraction, 1.5
     const double strength = material.dielectric_f90.x;
     const dvec3 colour = strength > 0 ? dvec3(material.dielectric_f0) / (kUsual * strength)
                                       : dvec3(0);

@@ -8,8 +8,8 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-/// One period as 64 Hermite pieces with the true derivative at each key: the error is below
-/// (2 pi / 64)^4 / 384 = 2.5e-7 of the amplitude.
+/// Returns one period as 64 Hermite pieces with the exact derivative at each key. The error is
+/// below (2 pi / 64)^4 / 384 = 2.5e-7 of the amplitude.
 Keys keys_of(const Harmonic& motion) {
     constexpr int kPieces = 64;
     Keys keys{.interpolation = Interpolation::cubic};

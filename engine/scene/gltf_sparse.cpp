@@ -10,7 +10,7 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-/// The bytes of a view from an offset of its own on.
+/// Returns the bytes of the view that `part` names, from the offset of `part` on.
 const unsigned char* bytes_at(const Container& container, const Item& root, const Item& part) {
     const Item view = root.at("bufferViews", part.whole("bufferView", 0));
     const Buffer& buffer = container.buffers[view.whole("buffer", 0)];
@@ -19,12 +19,13 @@ const unsigned char* bytes_at(const Container& container, const Item& root, cons
 }
 
 std::uint64_t place_at(const unsigned char* bytes, std::size_t size, std::size_t index) {
-    std::uint64_t place = 0; // little-endian
+    std::uint64_t place = 0; // glTF and all supported machines are little-endian
     std::memcpy(&place, bytes + index * size, size);
     return place;
 }
 
-/// What stands where the sparse part says, packed as values and places always are.
+/// Copies the sparse values to their indices in `dense`. Sparse values and indices are always
+/// tightly packed. Throws `bad_data` for an invalid index.
 void put(const Container& container, const Item& root, const Item& sparse, std::size_t size,
          std::uint64_t count, Bytes& dense) {
     const Item indices = *sparse.object("indices"), values = *sparse.object("values");

@@ -27,7 +27,8 @@ void read_sampler(const Item& sampler, Texture& texture) {
     texture.nearest = sampler.whole("magFilter", 0) == kNearest;
 }
 
-/// KHR_texture_transform: scaled, turned, moved (as Khronos' TextureTransformTest shows it).
+/// Reads KHR_texture_transform: scale, then rotation, then translation, as in Khronos'
+/// TextureTransformTest.
 void read_transform(const Item& transform, Texture& texture) {
     const auto pair = [&](std::string_view key, double otherwise) {
         std::vector<double> list = transform.numbers(key, 2);
@@ -45,7 +46,7 @@ void read_transform(const Item& transform, Texture& texture) {
                       "wanted numbers that fit a float, found another");
 }
 
-/// The picture of a texture, by an extension that names another kind of file where there is one.
+/// Returns the index of a texture's image. The WebP image of EXT_texture_webp is preferred.
 std::optional<std::size_t> source_of(const Item& texture, std::size_t count) {
     if (const auto extensions = texture.object("extensions"))
         if (const auto webp = extensions->object("EXT_texture_webp"))

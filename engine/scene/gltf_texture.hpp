@@ -13,7 +13,8 @@
 
 namespace catoptric::scene::gltf {
 
-/// What a document's materials and lights are read with, before tinygltf has it.
+/// The inputs and lists that readers of materials and lights use. They run before tinygltf parses
+/// the document.
 struct Source {
     const Item& root;
     const Container& container;
@@ -23,14 +24,16 @@ struct Source {
     std::vector<UnsupportedFeature>& unsupported;
 };
 
-/// The pictures and textures of a document whose members and views have been checked.
+/// Reads the images and textures of a document whose members and views have been checked. Decodes
+/// each image once.
 class Textures {
 public:
     explicit Textures(const Source& source) : source_(source) {}
 
-    /// The texture that `use`, one of a material's, names. None where there is no such picture, or
-    /// not one of a kind that is read: a note and a gap say so. Throws `bad_data` for one that
-    /// cannot be decoded, or a sampler that cannot be.
+    /// Returns the texture that `use`, a texture reference of a material, names. Returns none if
+    /// the image is missing or has an unsupported format, or if `use` names a third set of texture
+    /// coordinates. Then adds a note and an unsupported feature. Throws `bad_data` for an image
+    /// that cannot be decoded, or for an invalid sampler.
     std::optional<Texture> of(const Item& use, bool srgb);
 
 private:
@@ -45,14 +48,16 @@ private:
     std::map<std::string, std::shared_ptr<const Image>> files_; ///< by real path
 };
 
-/// All materials. `bad_data` as `Textures`, and for factors that cannot be.
+/// Reads all materials. Throws the same errors as `Textures`, and `bad_data` for invalid factors.
 std::vector<Material> read_materials(const Source& source);
 
-/// The lights of KHR_lights_punctual, in the space of a node, and each node's, if it has one.
+/// The lights of KHR_lights_punctual in the space of their nodes, and the light of each node, if
+/// any.
 struct Lights {
     std::vector<Punctual> lights;
-    std::vector<std::optional<std::size_t>> of_node;
+    std::vector<std::optional<std::size_t>> of_node; ///< index into `lights`
 };
+/// Reads all lights. Throws `bad_data`.
 Lights read_lights(const Source& source);
 
 } // namespace catoptric::scene::gltf

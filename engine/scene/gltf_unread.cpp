@@ -7,20 +7,20 @@ namespace catoptric::scene::gltf {
 
 namespace {
 
-constexpr std::size_t kLongestName = 1024; // of an attribute, which messages say in full
-/// Extensions that are read, or say only how other things are written.
+constexpr std::size_t kLongestName = 1024; // attribute name in bytes; messages quote it in full
+/// Extensions that are read, or that only change how other members are stored.
 constexpr std::string_view kReadExtensions[] = {
     kEmissiveStrength, "KHR_lights_punctual", "KHR_materials_ior", "KHR_materials_specular",
     "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform",
     "KHR_mesh_quantization", "EXT_texture_webp",
-    // The reader of materials says whether these change anything.
+    // The material reader notes these two if they change the picture.
     "KHR_materials_transmission", "KHR_materials_volume"};
 
 bool is_read(std::string_view extension) {
     return std::ranges::find(kReadExtensions, extension) != std::end(kReadExtensions);
 }
 
-/// What glTF allows by the beginning of an attribute's name.
+/// The accessor types that glTF allows for attributes whose name starts with `name`.
 struct Semantic {
     std::string_view name, type, other_type;
 };
@@ -29,7 +29,8 @@ constexpr Semantic kSemantics[] = {{"POSITION", "VEC3", ""},    {"NORMAL", "VEC3
                                    {"COLOR_", "VEC3", "VEC4"},  {"JOINTS_", "VEC4", ""},
                                    {"WEIGHTS_", "VEC4", ""}};
 
-/// Extensions of `value` and of all within it, which nests less than 64 deep.
+/// Notes the unread extensions of `value` and of all values inside it. The recursion is at most 64
+/// deep, because `parse_json` limits nesting.
 void note_extensions(const Json& value, const Item& around, Notes& notes) {
     if (!value.is_structured()) return;
     for (const auto& [key, inner] : value.items()) {

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kBase64 =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// "%20" and kin become the bytes they stand for; a '%' without two digits stays.
+/// Decodes percent-encoded bytes such as "%20". A '%' without two hexadecimal digits stays.
 std::string decoded(std::string_view uri) {
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -50,7 +50,7 @@ Bytes data_of(std::string_view uri, const std::string& place) {
     check(comma != uri.npos && uri.substr(0, comma).ends_with(";base64"), Failure::bad_data, place,
           ": uri: wanted data in base64, found ", in_quotes(uri.substr(0, comma)));
     std::string_view text = uri.substr(comma + 1);
-    const int most = text.size() % 4 == 0 ? 2 : 0; // of padding
+    const int most = text.size() % 4 == 0 ? 2 : 0; // padding characters
     for (int i = 0; i < most && text.ends_with('='); ++i) text.remove_suffix(1);
     const std::size_t wrong = std::min(text.find_first_not_of(kBase64), text.size());
     check(wrong == text.size(), Failure::bad_data, place, ": uri: wanted digits of base64, found ",

@@ -16,28 +16,31 @@ int size_of(const auto& list) { return static_cast<int>(list.size()); }
 
 template <typename Vector>
 std::vector<double> numbers(const Vector& v) {
-    return {v.x + 0.0, v.y + 0.0, v.z + 0.0}; // + 0: no "-0.0"
+    return {v.x + 0.0, v.y + 0.0, v.z + 0.0}; // adding 0 turns -0.0 into 0.0
 }
+/// Returns the 16 numbers of a matrix, column by column.
 std::vector<double> numbers(const dmat4& matrix);
 
-/// `extras` of ours.
+/// Returns `extras` that hold `ours` under the key "catoptric".
 tinygltf::Value marked(tinygltf::Value::Object ours);
 tinygltf::Value listed(const std::vector<double>& list);
 
-/// A model and its one buffer, growing together.
+/// Builds a tinygltf model and the bytes of its single buffer.
 struct Writer {
     const Scene& scene;
     tinygltf::Model model;
     Bytes bytes;
     tinygltf::Animation motion;
+    /// glTF mesh by mesh, material and whether the winding is reversed.
     std::map<std::tuple<std::size_t, std::size_t, bool>, int> meshes;
     std::map<const Image*, int> images;
-    std::map<std::tuple<int, int, int>, int> samplers; ///< by filter and wraps
-    std::map<const Rig*, std::vector<int>> rigs;       ///< the node of each of its nodes
+    std::map<std::tuple<int, int, int>, int> samplers; ///< by filter and wrap modes
+    std::map<const Rig*, std::vector<int>> rigs;       ///< glTF node of each node of the rig
 
-    /// Puts the bytes into the buffer, with a view of them, the last one.
+    /// Appends the bytes to the buffer, pads it to a multiple of 4 bytes, and returns a new view of
+    /// them.
     tinygltf::BufferView& view(const void* first, std::size_t size);
-    /// Puts the elements into the buffer, with a view and an accessor for them, the last one.
+    /// Appends the elements to the buffer, with a new view, and returns a new accessor of them.
     template <typename Element>
     tinygltf::Accessor& append(const std::vector<Element>& list, int type, int component) {
         view(list.data(), list.size() * sizeof(Element));
@@ -46,8 +49,9 @@ struct Writer {
         accessor.type = type, accessor.componentType = component;
         return accessor;
     }
-    int vectors(const std::vector<vec3>& list); ///< with their bounds
-    /// Names an extension that is used, once.
+    /// Appends the vectors and returns the index of their accessor, which holds their bounds.
+    int vectors(const std::vector<vec3>& list);
+    /// Adds an extension to `extensionsUsed`, unless it is listed already.
     void use(const std::string& extension);
 
     // gltf_save_material.cpp
@@ -56,17 +60,22 @@ struct Writer {
     int image(const Image& image);
     int sampler(const Texture& texture);
 
-    // gltf_save_motion.cpp: animates `node`, whose own translation at rest is `rest`
+    // gltf_save_motion.cpp
+
+    /// Animates the translation of `node`. `keys` are relative to `rest`, its translation at rest.
     void add_motion(const Keys& keys, const dvec3& rest, int node);
     template <typename Value>
     void add_track(const Track<Value>& track, int node, const std::string& path);
-    /// The node that stands for one of a rig; all of the rig are there then.
+    /// Returns the glTF node of the rig node that `follows` names. The first call for a rig adds
+    /// all of its nodes.
     int node_of(const Follows& follows);
     int add_rig_node(const Rig::Node& node, int parent);
+    /// Moves the animation into the model, if it has channels.
     void finish_motion();
 };
 
-/// A motion's keys, relative to the place at rest; none of what stands still or follows a rig.
+/// Returns a motion's keys, relative to the place at rest. Returns none if the motion stands still
+/// or follows a rig.
 std::optional<Keys> keys_of(const Motion& motion);
 
 } // namespace catoptric::scene::gltf

@@ -9,7 +9,8 @@ namespace catoptric::scene {
 
 namespace {
 
-/// 64-bit FNV-1a. Lists and texts go in with their length, so that no two scenes run together.
+/// 64-bit FNV-1a hash. Lists and texts include their length, so that neighbouring values cannot run
+/// together.
 struct Hasher {
     std::uint64_t state = 14695981039346656037ull;
     std::unordered_map<const void*, std::uint64_t> known;
@@ -87,7 +88,8 @@ struct Hasher {
         add(state_of(motion.rig.get())), add(std::uint64_t(motion.node));
         add(motion.node_from_object);
     }
-    /// A hash of their own: many objects may follow the same keys, many materials show an image.
+    /// Returns the hash of a shared object, computed once. Many objects may follow the same keys,
+    /// and many materials may show the same image.
     template <typename Shared>
     std::uint64_t state_of(const Shared* shared) {
         const auto [entry, is_new] = known.try_emplace(shared, 0);

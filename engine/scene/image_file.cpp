@@ -18,10 +18,11 @@ bool is_targa(const std::string& file) {
     return end == ".tga";
 }
 
-/// Which of a pixel's values are red, green, blue and alpha; alpha of none is 255.
+/// Indices of red, green, blue and alpha among a pixel's values. Alpha is 255 if the picture has
+/// none.
 struct Layout {
     std::array<std::size_t, 3> rgb;
-    std::size_t alpha; ///< == channel_count: none
+    std::size_t alpha; ///< channel_count if the picture has no alpha
 };
 
 Layout layout_of(const ImageShape& shape) {
@@ -55,12 +56,12 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
     std::string format = image_format(bytes);
     if (format.empty() && is_targa(file)) format = "targa";
     if (format.empty()) return nullptr;
-    const auto texels = [](const ImageShape& shape) { // four values take the room of a texel
+    const auto texels = [](const ImageShape& shape) { // four values count as a texel
         return std::uint64_t(shape.size.x) * shape.size.y * ((shape.channel_count + 3) / 4);
     };
     const MemoryBytes source(bytes);
     ImageReader reader(source, format, place, [&](const ImageShape& shape) {
-        constexpr std::uint32_t kMostSide = 65535; // the renderer keeps a side in 16 bits
+        constexpr std::uint32_t kMostSide = 65535; // the renderer stores a side in 16 bits
         check(shape.size.x <= kMostSide && shape.size.y <= kMostSide, Failure::bad_data, place,
               ": wanted sides of at most ", kMostSide, " texels, found ", shape.size.x, "x",
               shape.size.y);

@@ -14,10 +14,10 @@ namespace {
 
 struct Met {
     double distance = 0;   ///< in lengths of the ray's direction
-    bool is_front = false; ///< its normal turns to the ray's origin
+    bool is_front = false; ///< the surface's normal points towards the ray's origin
 };
 
-/// Rays through a scene at rest. A ray costs a test of every triangle.
+/// Ray casts through a scene at rest. Each ray is tested against every triangle.
 class Rays {
 public:
     explicit Rays(const Scene& scene) : scene_(scene) {
@@ -25,11 +25,11 @@ public:
             object_from_world_.push_back(glm::inverse(object.world_from_object));
     }
 
-    /// Returns what a ray from a camera meets first.
+    /// Returns the first surface that a ray from a camera meets.
     std::optional<Met> first(const dvec3& origin, const dvec3& direction) const;
-    /// Returns whether something lies between the places.
+    /// Returns whether a surface lies between the two places.
     bool is_blocked(const dvec3& from, const dvec3& to) const {
-        constexpr double kShort = 1 - 1e-6; // not the surface itself
+        constexpr double kShort = 1 - 1e-6; // excludes the surface at `to`
         const auto met = first(from, to - from);
         return met && met->distance < kShort;
     }
@@ -39,7 +39,8 @@ private:
     std::vector<dmat4> object_from_world_;
 };
 
-/// Moeller and Trumbore 1997, either side; none behind the origin.
+/// Returns the distance along the ray to a triangle, met from either side (Moeller and Trumbore
+/// 1997). Returns nothing for a triangle behind the origin.
 std::optional<double> distance_to(const dvec3& a, const dvec3& b, const dvec3& c,
                                   const dvec3& origin, const dvec3& direction) {
     const dvec3 ab = b - a, ac = c - a, p = cross(direction, ac);
@@ -75,7 +76,7 @@ std::optional<Met> Rays::first(const dvec3& origin, const dvec3& direction) cons
     return nearest;
 }
 
-/// Evenly over the sphere, on a spiral with golden angles.
+/// Returns directions spread evenly over the sphere, on a spiral with golden angles.
 std::vector<dvec3> directions(int count) {
     std::vector<dvec3> all;
     for (int i = 0; i < count; ++i) {
@@ -95,7 +96,8 @@ bool is_closed(const Rays& rays, const dvec3& centre) {
     return true;
 }
 
-/// Whether nearly all that the camera sees turns its back, over a grid of its picture.
+/// Returns whether nearly all surfaces that the camera sees turn their backs, over a grid of its
+/// picture.
 bool sees_backs(const Rays& rays, const Camera& camera) {
     constexpr int kSide = 12;
     constexpr double kMost = .9;
@@ -112,7 +114,7 @@ bool sees_backs(const Rays& rays, const Camera& camera) {
     return all > 0 && backs >= kMost * all;
 }
 
-/// Some places on what a scene is looked at for: its mirrors and its lamps.
+/// Returns some places on the objects that matter most in a picture: mirrors and lamps.
 std::vector<dvec3> places_of_interest(const Scene& scene) {
     constexpr std::size_t kMostObjects = 16, kMostPlaces = 8;
     std::vector<dvec3> places;
@@ -141,7 +143,8 @@ bool hides_what_is_of_interest(const Rays& rays, const std::vector<dvec3>& place
     return seen_from(centre) && !seen_from(eye);
 }
 
-/// Share of the places that an eye sees within its field of view.
+/// Returns the share of the places that the camera sees unhidden, within a cone as wide as its
+/// vertical field of view.
 double share_seen(const Rays& rays, const std::vector<dvec3>& places, const Camera& camera) {
     const dvec3 forward = normalize(camera.target - camera.eye);
     const double least = std::cos(glm::radians(camera.vertical_fov_degrees) / 2);
@@ -152,8 +155,8 @@ double share_seen(const Rays& rays, const std::vector<dvec3>& places, const Came
     return places.empty() ? 0 : static_cast<double>(seen) / static_cast<double>(places.size());
 }
 
-/// Returns the summed length of rays from a place to what they meet; one that meets nothing counts
-/// as 0.
+/// Returns the summed distance from a place to the surfaces that rays from it meet. A ray that
+/// meets nothing counts as 0.
 double freedom_of(const Rays& rays, const dvec3& place) {
     double sum = 0;
     for (const dvec3& direction : directions(24)) {
@@ -163,7 +166,8 @@ double freedom_of(const Rays& rays, const dvec3& place) {
     return sum;
 }
 
-/// A thousandth of the bounds' extent is exact enough to stand somewhere, and short to type.
+/// Returns the point rounded to about a thousandth of the extent. This is exact enough for an eye's
+/// position and short to type.
 dvec3 rounded_to_thousandth(const dvec3& point, double extent) {
     const double unit = std::pow(10, 3 - std::floor(std::log10(extent)));
     return glm::round(point * unit) / unit;
@@ -183,7 +187,7 @@ std::optional<Camera> inside_camera(const Scene& scene, const Camera& outside) {
         return std::nullopt;
     Camera camera{.name = "default", .target = centre, .vertical_fov_degrees = 60}, tried = camera;
     double best = -1;
-    constexpr double kAside = .35, kAbove = .15; // of the extents, from the centre
+    constexpr double kAside = .35, kAbove = .15; // offset from the centre, in extents of the bounds
     for (int i = 0; i < 8; ++i) {
         const dvec3 side(i & 1 ? -kAside : kAside, i & 4 ? 0 : kAbove, i & 2 ? -kAside : kAside);
         tried.eye = rounded_to_thousandth(centre + side * box.extent(), extent);

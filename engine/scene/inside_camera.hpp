@@ -6,15 +6,17 @@
 
 namespace catoptric::scene {
 
-/// Scenes of more triangles are not tested: each ray meets every triangle.
+/// Largest number of triangles of a scene that is tested. Each ray is tested against every
+/// triangle.
 inline constexpr std::size_t kMostTested = std::size_t{1} << 17;
 
 /// Returns a camera inside the scene at rest, if the scene is a closed room that `outside` does not
-/// show. Closed: nearly every ray from the centre of the bounds meets a surface. Not shown: what
-/// `outside` sees are the backs of surfaces, or every mirror and lamp is hidden from it while some
-/// of them can be seen from the centre. The eye is one of eight places around the centre: the
-/// freest, and the one that shows most of the mirrors and lamps. It looks at the centre, and its
-/// vertical field of view is 60 degrees.
+/// show. The room is closed if nearly every ray from the centre of the bounds meets a surface.
+/// `outside` does not show the room in two cases:
+///   - Nearly everything that it sees is the back of a surface.
+///   - Every mirror and lamp is hidden from it, although some can be seen from the centre.
+/// The eye is the best of eight places around the centre: much free space around it, and a view of
+/// most mirrors and lamps. It looks at the centre with a vertical field of view of 60 degrees.
 std::optional<Camera> inside_camera(const Scene& scene, const Camera& outside);
 
 } // namespace catoptric::scene

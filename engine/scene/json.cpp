@@ -33,7 +33,7 @@ std::string Item::label(std::string_view before, std::size_t steps) const {
     for (std::size_t i = 0; i < steps; ++i) {
         const auto& [key, index, json] = way_[i];
         text += i == 0 ? before : std::string_view(": ");
-        const auto name = json->find("name"); // of what is no object there is none
+        const auto name = json->find("name"); // `end` for values that are not objects
         const bool is_named = name != json->end() && name->is_string();
         text += index ? label_of(key, *index, is_named ? name->get<std::string>() : "") : key;
     }
@@ -87,7 +87,7 @@ Item Item::at(std::string_view key, std::size_t index) const {
 }
 
 std::uint64_t Item::whole_of(const Json& value, std::string_view key) const {
-    constexpr double kMost = 9007199254740992; // 2^53: of a double, all whole numbers up to it
+    constexpr double kMost = 9007199254740992; // 2^53: doubles hold every integer up to it
     const double number = value.is_number_float() ? value.get<double>() : -1;
     if (number >= 0 && number <= kMost && number == std::floor(number))
         return static_cast<std::uint64_t>(number);

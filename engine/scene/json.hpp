@@ -12,32 +12,33 @@
 
 #include <nlohmann/json.hpp>
 
-/// glTF's JSON, read with suspicion.
+/// Reads glTF's JSON and checks every value, because files are not trusted.
 namespace catoptric::scene::gltf {
 
 using Json = nlohmann::json;
 
-/// Throws `bad_data` naming `file` for what is no JSON, nests 64 deep or more, or is over the
-/// budget.
+/// Parses JSON. Throws `bad_data` naming `file` for invalid JSON, for values nested 64 deep or
+/// more, or for text over the budget.
 Json parse_json(const std::string& file, std::string_view text, Account& account);
 
-/// What a value is, short enough for a message: `"text"`, `3.5`, `an array`.
+/// Returns a short description of a value for messages: `"text"`, `3.5`, `an array`.
 std::string shown(const Json& value);
 
-/// "nodes[3] 'lamp'", or without a name "nodes[3]".
+/// Returns "nodes[3] 'lamp'", or "nodes[3]" without a name.
 std::string label_of(std::string_view list, std::size_t index, const std::string& name = {});
 
-/// An object of the document and the way to it. What is absent has a default; what is there but of
-/// the wrong kind throws `bad_data` with place, wanted and found. Valid as long as the
-/// document and the file's name.
+/// An object of the document and the path to it. An absent member gives a default. A member of the
+/// wrong type throws `bad_data` with its place, the expected type and the value found. Valid while
+/// the document and the file's name exist.
 class Item {
 public:
     Item(const Json& document, const std::string& file) : json_(&document), file_(&file) {}
 
-    /// "FILE: nodes[3] 'lamp': mesh"; `label` is the same without the file, and `entry` ends with
-    /// the last of a list: "nodes[3] 'lamp'".
+    /// Returns the object's place for messages: "FILE: nodes[3] 'lamp': mesh".
     std::string place() const { return *file_ + label(": ", steps_); }
+    /// Returns the place without the file: "nodes[3] 'lamp': mesh".
     std::string label() const { return label("", steps_); }
+    /// Returns the label up to its last list element: "nodes[3] 'lamp'".
     std::string entry() const;
     template <typename... Parts>
     void require(bool ok, const Parts&... parts) const {
@@ -45,41 +46,46 @@ public:
     }
 
     bool has(std::string_view key) const { return find(key) != nullptr; }
-    /// Null when there is none.
+    /// Returns the member `key`, or null if it is absent.
     const Json* find(std::string_view key) const;
     const Json& json() const { return *json_; }
 
     std::optional<Item> object(std::string_view key) const;
-    /// Number of objects in the list `key`, and one of them.
+    /// Returns the number of objects in the list `key`, 0 if it is absent.
     std::size_t size(std::string_view key) const;
+    /// Returns one object of the list `key`, which must exist and be longer than `index`.
     Item at(std::string_view key, std::size_t index) const;
     /// Calls `body` with each object of the list.
     template <typename Body>
     void each(std::string_view key, Body&& body) const {
         for (std::size_t i = 0, count = size(key); i < count; ++i) body(at(key, i));
     }
+    /// Returns this object's index in the list that holds it, or 0 if no list does.
     std::size_t number_in_list() const { return way_[steps_ - 1].index.value_or(0); }
 
-    /// A whole number below `count`.
+    /// Returns an integer from 0 to `count` - 1, or none if it is absent.
     std::optional<std::size_t> index(std::string_view key, std::size_t count) const;
+    /// The same, but throws `bad_data` if it is absent.
     std::size_t needed_index(std::string_view key, std::size_t count) const;
+    /// Returns a list of integers from 0 to `count` - 1, empty if it is absent.
     std::vector<std::size_t> indices(std::string_view key, std::size_t count) const;
+    /// Returns an integer of at least 0, or `otherwise` if it is absent. Accepts 3.0.
     std::uint64_t whole(std::string_view key, std::uint64_t otherwise) const;
     double number(std::string_view key, double otherwise) const;
     bool flag(std::string_view key, bool otherwise) const;
     std::string text(std::string_view key, std::string_view otherwise = {}) const;
     std::string name() const { return text("name"); }
-    /// Exactly `count` numbers; empty when absent.
+    /// Returns exactly `count` numbers, or an empty list if the member is absent.
     std::vector<double> numbers(std::string_view key, std::size_t count) const;
 
 private:
-    /// Of the way: `key`, or with an index one of the list `key`.
+    /// One step of the path: the member `key` or, with an index, one element of the list `key`.
     struct Step {
         std::string_view key;
         std::optional<std::size_t> index;
-        const Json* json = nullptr; ///< what is there
+        const Json* json = nullptr; ///< the value that the step leads to
     };
-    static constexpr std::size_t kMostSteps = 8; // extensions within extensions lie no deeper
+    static constexpr std::size_t kMostSteps = 8; // nested extensions need no more steps
 
     Item to(const Step& step) const;
     std::string label(std::string_view before, std::size_t steps) const;
@@ -90,7 +96,7 @@ private:
     const Json* json_;
     const std::string* file_;
     std::array<Step, kMostSteps> way_{};
-    std::size_t steps_ = 0; ///< 0: the document
+    std::size_t steps_ = 0; ///< 0 for the document itself
 };
 
 } // namespace catoptric::scene::gltf

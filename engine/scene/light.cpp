@@ -15,7 +15,7 @@ namespace catoptric::scene {
 
 namespace {
 
-/// Sets of vertices that triangles connect; each vertex starts alone.
+/// Sets of vertices that triangles connect. At first, each vertex is a set of its own.
 class Islands {
 public:
     explicit Islands(std::size_t count) : parent_(count) {
@@ -43,16 +43,17 @@ struct LightSums {
     }
 };
 
-/// The mean of float unit normals that cancel in truth is not zero but within their rounding,
-/// 2^-24 for each component; 16 times that is still far below any real mean.
+/// Returns whether the mean normal is zero. The mean of float unit normals that should cancel
+/// differs from zero by their rounding, 2^-24 for each component. The limit is 16 times this
+/// rounding, still far below any real mean.
 bool vanishes(const LightSums& sums) {
     const double rounding = 16 * std::ldexp(1.0, -24);
     return !(glm::length(sums.normals) > rounding * sums.normal_count);
 }
 
-/// Turns columns of `axes` until the symmetric `matrix` is diagonal along them (Jacobi 1846).
+/// Rotates the columns of `axes` until the symmetric `matrix` is diagonal along them (Jacobi 1846).
 void diagonalise(dmat3& matrix, dmat3& axes) {
-    constexpr int kSweeps = 12; // each squares what is left; a float's digits take four
+    constexpr int kSweeps = 12; // each sweep squares the error; a float's precision takes four
     for (int turn = 0; turn < 3 * kSweeps; ++turn) {
         const int i = turn % 3, j = (i + 1) % 3;
         if (matrix[i][j] == 0) continue;
@@ -66,9 +67,9 @@ void diagonalise(dmat3& matrix, dmat3& axes) {
     }
 }
 
-/// Mean over all directions of the length of `cosines * direction`.
+/// Returns the mean over all directions of the length of `cosines * direction`.
 double mean_length(const dvec3& cosines) {
-    constexpr int kSteps = 64; // of an octant, either way
+    constexpr int kSteps = 64; // steps across an octant, in each direction
     double sum = 0;
     for (int i = 0; i < kSteps; ++i)
         for (int j = 0; j < kSteps; ++j) {
@@ -79,16 +80,17 @@ double mean_length(const dvec3& cosines) {
     return sum / (kSteps * kSteps);
 }
 
-/// The mean |cosine| of facets to a direction d is near the root of the mean square, which is a
-/// quadratic form of d. That is exact for a board, and a constant times the truth for a tube and a
-/// ball; the constant follows from the mean over all directions, a half of any surface.
+/// Sets `axes` and `cosines` of an open two-sided lamp. The mean |cosine| of its facets to a
+/// direction d is near the root of their mean square cosine, a quadratic form of d. The root is
+/// exact for a board. For a tube and a ball it is the true mean times a constant. The constant
+/// follows from the mean over all directions, which is a half for any surface.
 void set_both_sides(PointLight& light, const LightSums& sums) {
     dmat3 squares = sums.facets / sums.area;
     light.axes = dmat3(1);
     diagonalise(squares, light.axes);
     dvec3 cosines(squares[0][0], squares[1][1], squares[2][2]);
     cosines = glm::sqrt(glm::max(cosines, 0.0));
-    // The axis of the largest last: shadow maps look along it.
+    // The axis with the largest cosine comes last, because shadow maps look along it.
     const int last = cosines.x >= cosines.y && cosines.x >= cosines.z ? 0
                      : cosines.y >= cosines.z                         ? 1
                                                                       : 2;
@@ -120,8 +122,8 @@ double area_of(const std::vector<dvec3>& world, const uvec3& t) {
     return 0.5 * glm::length(cross_of(world, t));
 }
 
-/// The sums of each connected component, in the order of their first vertices; and which of them
-/// each triangle with an area belongs to.
+/// Sums of each connected component, in the order of their first vertices, and the component of
+/// each triangle with an area.
 struct Components {
     std::vector<LightSums> sums;
     std::vector<std::optional<std::size_t>> of_triangles;
@@ -133,7 +135,7 @@ Components components_of(const Mesh& mesh, const dmat4& world_from_object) {
     const std::vector<std::size_t> first = first_at_place(mesh.positions);
 
     Islands islands(world.size());
-    std::vector<double> area(world.size(), 0); // of the triangles that begin at the vertex
+    std::vector<double> area(world.size(), 0); // of the triangles whose first corner is the vertex
     std::vector<dmat3> facets(world.size(), dmat3(0));
     std::vector<bool> used(world.size(), false);
     std::vector<Corners> corners;

@@ -7,8 +7,8 @@
 
 namespace catoptric::scene {
 
-/// Which of the lights that `lights` makes of a mesh alone each triangle belongs to, counted from
-/// the mesh's first; none of a triangle without area.
+/// Returns for each triangle the index of its light; nothing for a triangle without area. The index
+/// counts the lights that `lights` makes of this mesh alone, from 0.
 std::vector<std::optional<std::size_t>> light_of_triangles(const Mesh& mesh,
                                                            const dmat4& world_from_object);
 

@@ -26,11 +26,11 @@ std::string lower_case_extension(const std::filesystem::path& path) {
 
 Scene classified(Scene scene) {
     classify(scene);
-    scene.meshes.shrink_to_fit(), scene.objects.shrink_to_fit(); // no file adds to them later
+    scene.meshes.shrink_to_fit(), scene.objects.shrink_to_fit(); // no more are added
     return scene;
 }
 
-/// Of a scene that has no animation to choose.
+/// Throws if the options choose an animation of a scene that has none.
 void refuse_animation(const std::string& scene, const LoadOptions& options) {
     check(options.animation.empty() || options.animation == "none", options.animation_by.failure,
           options.animation_by.where, ": ", scene, " has no animation ",

@@ -11,13 +11,14 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr double kFlatTolerance = 1e-4; // of the extent
-constexpr double kRound = 1e-3;         // of the radius: vertices
-constexpr double kMostly = .95;         // of all that bends
-constexpr double kFacets = .1;          // the same: facets
-constexpr double kTurned = .01;         // radian: normals
+constexpr double kFlatTolerance = 1e-4; // share of the extent
+constexpr double kRound = 1e-3;         // vertices: share of the radius
+constexpr double kMostly = .95;         // share of all bending (angle times length)
+constexpr double kFacets = .1;          // facets: share of the radius
+constexpr double kTurned = .01;         // normals: radians
 
-/// An object's triangles in the world, about the centre of its bounds; places are numbered once.
+/// Triangles of an object in the world, relative to the centre of its bounds. Each place has one
+/// number.
 struct Soup {
     std::vector<dvec3> places;
     std::vector<Corners> triangles;
@@ -69,8 +70,8 @@ bool is_flat(const Soup& soup) {
     });
 }
 
-/// Least squares: |p|^2 = 2 c.p + (r^2 - |c|^2), linear in c and the bracket; in units of the
-/// extent.
+/// Returns the sphere that fits the places best by least squares. |p|^2 = 2 c.p + (r^2 - |c|^2) is
+/// linear in c and in the bracket. Solved in units of the extent.
 std::optional<Sphere> fitted(const Soup& soup) {
     dmat4 matrix(0);
     dvec4 wanted(0);
@@ -81,14 +82,15 @@ std::optional<Sphere> fitted(const Soup& soup) {
         wanted += row * glm::dot(p, p);
     }
     const double determinant = glm::determinant(matrix);
-    if (!(std::abs(determinant) > 1e-12)) return std::nullopt; // all in a plane, or few
+    if (!(std::abs(determinant) > 1e-12)) return std::nullopt; // flat, or too few places
     const dvec4 found = glm::inverse(matrix) * wanted;
     const double square = found.w + glm::dot(dvec3(found), dvec3(found));
     if (!(square > 0)) return std::nullopt;
     return Sphere{dvec3(found) * soup.extent, std::sqrt(square) * soup.extent};
 }
 
-/// Of the vertices, in radii; 1 where facets cut off so much that it is a cube rather than a ball.
+/// Returns the largest distance of a vertex from the sphere, in radii. Returns 1 if facets cut off
+/// so much that the mesh is a cube rather than a ball.
 double farthest_from(const Sphere& sphere, const Soup& soup) {
     double farthest = 0;
     for (const dvec3& place : soup.places)
@@ -101,8 +103,8 @@ double farthest_from(const Sphere& sphere, const Soup& soup) {
     return farthest / sphere.radius;
 }
 
-/// Whether the corners' normals lie along the sphere's radii, outwards or inwards: a ball of flat
-/// facets mirrors as these do.
+/// Returns whether the corners' normals lie along the sphere's radii, outwards or inwards. A ball
+/// with flat-shaded facets reflects as its facets do, not as a sphere.
 bool has_normals_of(const Sphere& sphere, const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     const dmat3 turns = normal_matrix(object.world_from_object);
@@ -117,7 +119,8 @@ bool has_normals_of(const Sphere& sphere, const Scene& scene, const Object& obje
     });
 }
 
-/// Told without numbering its places: all lie about as far from the centre of the bounds.
+/// Returns whether all vertices lie about equally far from the centre of the bounds. This quick
+/// test numbers no places.
 bool may_be_ball(const Scene& scene, const Object& object) {
     const Bounds<double> box = bounds(scene, object);
     if (box.empty()) return false;
@@ -129,15 +132,16 @@ bool may_be_ball(const Scene& scene, const Object& object) {
     });
 }
 
-/// How the triangles meet.
+/// Sums over the edges at which triangles meet.
 struct Edges {
     bool closed = true;
-    double outwards = 0, inwards = 0; ///< angles by which they bend, times the edges' lengths
+    double outwards = 0, inwards = 0; ///< bend angles times lengths of the edges
 
     bool is_mostly(double bends) const { return bends >= kMostly * (outwards + inwards); }
 };
 
-/// The tip of a triangle over the plane of its neighbour says which way their edge bends.
+/// Returns how the edges bend. An edge bends inwards if the tip of a triangle lies above the plane
+/// of its neighbour.
 Edges edges_of(const Soup& soup) {
     Edges edges;
     const auto add = [&](const Side& here, const Side& there) {
@@ -157,7 +161,7 @@ Edges edges_of(const Soup& soup) {
     return edges;
 }
 
-/// Whether most of its area faces away from a point.
+/// Returns whether most of the area faces away from a point.
 bool faces_out(const Soup& soup, const dvec3& point) {
     double area = 0;
     for (const Corners& t : soup.triangles) {
@@ -187,7 +191,8 @@ Shape shape_of(const Scene& scene, const Object& object) {
         if (off <= kRound) shape.fit = fit, shape.tolerance = off;
     }
     if (object.sphere) {
-        if (!shape.fit) shape.tolerance = 0; // it stands for the sphere, whatever its vertices do
+        // The mesh stands for the sphere, whatever its vertices are.
+        if (!shape.fit) shape.tolerance = 0;
         shape.fit = object.sphere;
     }
     if (shape.fit && edges.closed && (object.sphere || has_normals_of(*shape.fit, scene, object)))

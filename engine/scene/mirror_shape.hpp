@@ -4,29 +4,32 @@
 
 namespace catoptric::scene {
 
-/// What kind of surface an object is, whatever it is made of.
+/// Kind of surface of an object, independent of its material.
 struct Shape {
     enum class Kind { flat, sphere, convex, concave, other };
     Kind kind = Kind::other;
-    bool is_closed = false; ///< every edge is one of two triangles
-    /// Of a sphere, closed or not: the fit, and how far a vertex is from it at most, in radii. Its
-    /// facets may lie farther inside.
+    bool is_closed = false; ///< every edge belongs to two triangles
+    /// Sphere that fits the vertices, also of an open surface. `tolerance` is the largest distance
+    /// of a vertex from this sphere, in radii. Facets may lie farther inside.
     std::optional<Sphere> fit;
     double tolerance = 0;
 };
 
-/// Of the object's triangles in the world, at rest; vertices at one place are one. Flat: all lie in
-/// a plane and face one way, within 1e-4 of their extent. Sphere: closed, vertices within 1e-3
-/// radii of one, facets within .1 and normals within .01 radian of its radii. Convex, concave:
-/// every edge bends that way, seen from the front. O(n log n).
+/// Returns the shape of the object's triangles in the world, at rest. Vertices at one place count
+/// as one. O(n log n).
+///   - Flat: all triangles lie in a plane and face one way, within 1e-4 of their extent.
+///   - Sphere: closed; vertices within 1e-3 radii of the sphere, facets within .1 radii, normals
+///     within .01 radian of the sphere's radii.
+///   - Convex, concave: a part of a sphere, or at least 95 % of the edges' bending (angle times
+///     length) goes that way, seen from the front.
 Shape shape_of(const Scene& scene, const Object& object);
 
-/// Gives each mirror that shape_of calls a sphere Object::sphere, by which rays are followed
-/// exactly; those that have one keep it. Not a mirror that a rig moves, whose scale may change.
-/// What is no ball is told in O(vertices) at most.
+/// Sets Object::sphere of each mirror that shape_of calls a sphere. Rays then intersect the exact
+/// sphere. Mirrors that have a sphere keep it. A mirror that a rig moves gets none, because its
+/// scale may change. A mirror that is no ball is rejected in O(vertices) at most.
 void find_spheres(Scene& scene);
 
-/// "flat", "sphere", "convex", "concave" or "other".
+/// Returns "flat", "sphere", "convex", "concave" or "other".
 const char* name_of(Shape::Kind kind);
 
 } // namespace catoptric::scene

@@ -16,15 +16,17 @@ namespace catoptric::scene {
 
 namespace {
 
-/// Time within [0, end]: after the end everything starts again at 0.
+/// Returns the time wrapped into [0, end]. After the end, the motion starts again at 0.
 double wrapped(double seconds, double end) {
     if (!(end > 0) || (seconds >= 0 && seconds <= end)) return seconds;
     const double rest = std::fmod(seconds, end);
     return rest < 0 ? rest + end : rest;
 }
 
-/// glTF 2.0 appendix C, with s from 0 to 1 in an interval of td seconds: p = (2s^3 - 3s^2 + 1) v_k
-/// + td (s^3 - 2s^2 + s) b_k + (-2s^3 + 3s^2) v_k+1 + td (s^3 - s^2) a_k+1
+/// Returns the cubic Hermite value of glTF 2.0, appendix C, with s from 0 to 1 in an interval of td
+/// seconds:
+///   p = (2s^3 - 3s^2 + 1) v_k + td (s^3 - 2s^2 + s) b_k
+///     + (-2s^3 + 3s^2) v_k+1 + td (s^3 - s^2) a_k+1
 template <typename Value>
 Value hermite(const Value& value, const Value& out_tangent, const Value& next,
               const Value& in_tangent, double s, double interval) {
@@ -34,14 +36,15 @@ Value hermite(const Value& value, const Value& out_tangent, const Value& next,
 }
 
 dvec3 between(const dvec3& a, const dvec3& b, double s) { return glm::mix(a, b, s); }
-/// Along the shorter arc.
+/// Interpolates along the shorter arc.
 dvec4 between(const dvec4& a, const dvec4& b, double s) {
     const glm::dquat q = glm::slerp(glm::dquat(a.w, a.x, a.y, a.z), glm::dquat(b.w, b.x, b.y, b.z),
                                     s);
     return {q.x, q.y, q.z, q.w};
 }
 
-/// At a time before, between or after its keys, of which there is one at least.
+/// Returns the track's value at any time: before, between or after its keys. The track has at least
+/// one key.
 template <typename Value>
 Value value_at(const Track<Value>& track, double time) {
     const auto after = std::ranges::upper_bound(track.times, time);
@@ -77,14 +80,14 @@ dmat4 parent_from_node(const Rig::Node& node, double time) {
     const dvec4 turn = now(node.rotations, node.rotation);
     const dvec3 scale = now(node.scales, node.scale);
     const glm::dquat rotation(turn.w, turn.x, turn.y, turn.z);
-    const double length = glm::length(rotation); // a cubic one may pass through zero
+    const double length = glm::length(rotation); // a cubic rotation may pass through zero
     dmat4 result = length > 0 ? dmat4(glm::mat3_cast(rotation / length)) : dmat4(1);
     for (int i = 0; i < 3; ++i) result[i] *= scale[i];
     result[3] = dvec4(now(node.translations, node.translation), 1);
     return node.parent_from_space * result;
 }
 
-/// A rig's places at one instant, found once.
+/// Transforms of the nodes of rigs at one instant. Each rig is computed once.
 class Poses {
 public:
     explicit Poses(double seconds) : seconds_(seconds) {}
@@ -100,7 +103,7 @@ private:
 };
 
 dvec3 offset_at(const Harmonic& motion, double seconds) {
-    // 1 - cos(a) = 2 sin^2(a/2), which keeps its digits near zero; the remainder is exact
+    // 1 - cos(a) = 2 sin^2(a/2) keeps its digits near zero. The remainder is exact.
     const double phase = std::remainder(seconds, motion.period) / motion.period;
     const double sine = std::sin(std::numbers::pi * phase);
     return motion.amplitude * (2 * sine * sine);
@@ -113,14 +116,15 @@ dvec3 offset_at(const Keyframes& motion, double seconds) {
     return motion.world_from_keys * (value_at(keys, time) - motion.rest);
 }
 
-/// How far a thing has gone that keeps its other axes.
+/// Returns the translation of a motion that keeps the object's axes; zero for any other motion.
 dvec3 offset_of(const Motion& motion, double seconds) {
     if (const auto* harmonic = std::get_if<Harmonic>(&motion)) return offset_at(*harmonic, seconds);
     if (const auto* frames = std::get_if<Keyframes>(&motion)) return offset_at(*frames, seconds);
     return dvec3(0);
 }
 
-/// Keeps its distance to the target, however the node is scaled.
+/// Returns the camera carried by its node. It keeps its distance to the target, however the node is
+/// scaled.
 Camera carried(const Camera& camera, const dmat4& now_from_rest) {
     Camera result = camera;
     result.eye = transform_point(now_from_rest, camera.eye);
@@ -166,7 +170,7 @@ double period_of(const Motion& motion) {
 
 double period(const Scene& scene) {
     double longest = 0;
-    const Rig* last = nullptr; // things that follow one rig come together, and a rig may be long
+    const Rig* last = nullptr; // skips neighbours that follow the same rig, as a rig may be long
     const auto add = [&](const Motion& motion) {
         const auto* follows = std::get_if<Follows>(&motion);
         if (follows && follows->rig.get() == last) return;

@@ -9,7 +9,8 @@
 #include <variant>
 #include <vector>
 
-/// How things move. A time that is not within the keys is their first or last one.
+/// Motion of objects, lights and cameras. A time before or after all keys takes the first or last
+/// key.
 namespace catoptric::scene {
 
 /// translation(t) = amplitude * (1 - cos(2 pi t / period)), world units; 0 at t = 0.
@@ -20,7 +21,7 @@ struct Harmonic {
 
 enum class Interpolation { step, linear, cubic };
 
-/// Values in time, cubic Hermite as glTF's CUBICSPLINE (or linear or step).
+/// Values over time. Interpolation is step, linear, or cubic Hermite as in glTF's CUBICSPLINE.
 template <typename Value>
 struct Track {
     using Interpolation = scene::Interpolation;
@@ -29,35 +30,36 @@ struct Track {
     std::vector<Value> values;
     std::vector<Value> in_tangents, out_tangents; ///< only with `cubic`
 };
-using Keys = Track<dvec3>;  ///< places, or scales
-using Turns = Track<dvec4>; ///< unit quaternions, w last; `linear` goes along the sphere
+using Keys = Track<dvec3>;  ///< positions or scales
+using Turns = Track<dvec4>; ///< unit quaternions, w last; `linear` interpolates along the sphere
 
-/// World-space translation through keys, world_from_keys * (place - rest), relative to the object's
-/// place at rest. Objects share the keys that they follow.
+/// World-space translation through keys: world_from_keys * (position - rest), relative to the
+/// object's place at rest. Objects that follow the same keys share them.
 struct Keyframes {
-    std::shared_ptr<const Keys> keys; ///< none, or without a time: stands still
+    std::shared_ptr<const Keys> keys; ///< none, or keys without times: stands still
     dmat3 world_from_keys{1};
     dvec3 rest{0};
-    bool repeats = true; ///< after the last key; else it stays there
+    bool repeats = true; ///< starts again after the last key; false: stays there
 };
 
-/// Nodes that move within one another, those that stand still left out.
+/// Hierarchy of moving nodes. Nodes that stand still are left out.
 struct Rig {
     struct Node {
-        std::optional<std::size_t> parent; ///< comes before it
-        dmat4 parent_from_space{1};        ///< what stands still between its parent and its space
-        dvec3 translation{0};              ///< at rest, in that space: where no track is
+        std::optional<std::size_t> parent; ///< index of the parent, which comes earlier in `nodes`
+        dmat4 parent_from_space{1}; ///< still transforms between the parent and this node's space
+        dvec3 translation{0};       ///< at rest, in that space; used without a track
         dvec4 rotation{0, 0, 0, 1};
         dvec3 scale{1};
         std::shared_ptr<const Keys> translations, scales;
         std::shared_ptr<const Turns> rotations;
     };
     std::vector<Node> nodes;
-    bool repeats = false; ///< after the last key of all; else each track stays at its last
+    bool repeats = false; ///< starts again after the rig's last key; false: tracks stay there
 };
 
-/// The place of a node of a rig: world_from_node * node_from_object in place of the transform at
-/// rest, which is that of the first instant; of a camera it carries eye, target and up from there.
+/// Attachment to a node of a rig. The transform is world_from_node * node_from_object. It replaces
+/// the transform at rest, which is the transform of the first instant. For a camera, it carries
+/// eye, target and up from their values at rest.
 struct Follows {
     std::shared_ptr<const Rig> rig; ///< none: stands still
     std::size_t node = 0;
@@ -67,13 +69,15 @@ struct Follows {
 
 using Motion = std::variant<std::monostate, Harmonic, Keyframes, Follows>;
 
-/// The keys with their places and tangents as the world has them, relative to the object's rest.
+/// Returns the keys with positions and tangents in world space, relative to the object's place at
+/// rest.
 CATOPTRIC_API Keys in_the_world(const Keyframes& motion);
 
-/// World from each of the rig's nodes. Throws nothing; costs a few hundred operations a node.
+/// Returns the world transform of each node of the rig. Throws nothing; costs a few hundred
+/// operations a node.
 CATOPTRIC_API std::vector<dmat4> world_from_nodes(const Rig& rig, double seconds);
 
-/// Seconds: of a motion its period, or the time of its last key; 0: it stands still.
+/// Returns the period of a motion, or the time of its last key, in seconds; 0 if it stands still.
 CATOPTRIC_API double period_of(const Motion& motion);
 
 } // namespace catoptric::scene

@@ -4,7 +4,7 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr std::size_t kMostKinds = 40; // lines that somebody may still read
+constexpr std::size_t kMostKinds = 40; // as many lines as a user may still read
 
 } // namespace
 

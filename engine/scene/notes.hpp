@@ -8,15 +8,17 @@
 
 namespace catoptric::scene {
 
-/// What a loader left out, repaired or could not read: of each kind how often, and where first, so
-/// that a file of a hundred thousand oddities has a line for each kind.
+/// Summary of what a loader left out, repaired or could not read. It keeps the count and the first
+/// place of each kind. A file with a hundred thousand oddities therefore has one line for each
+/// kind.
 class Notes {
 public:
-    /// `first` says where it is, printable; shown for the first of its kind.
+    /// Adds `count` occurrences of `kind`. `first` is their place, printable; it is shown if they
+    /// are the first of their kind.
     void add(std::string_view kind, std::string_view first, std::uint64_t count = 1);
 
-    /// "FILE: KIND: COUNT (first: PLACE)" for each kind, in the order in which they came; what
-    /// comes after 40 kinds only as a number.
+    /// Returns "FILE: KIND: COUNT (first: PLACE)" for each kind, in order of first occurrence.
+    /// Occurrences beyond 40 kinds are given only as a number.
     std::vector<std::string> lines(const std::string& file) const;
 
 private:

@@ -29,7 +29,8 @@ std::optional<double> parse_number(std::string_view text) {
     const char* end = text.data() + text.size();
     const std::from_chars_result result = std::from_chars(text.data(), end, number);
     if (text.empty() || result.ptr != end) return std::nullopt;
-    // from_chars leaves the number alone when it is out of range; tiny ones are zero to us
+    // from_chars does not set a number that is out of range. We read a number too small for a
+    // double as zero.
     const bool tiny = result.ec == std::errc::result_out_of_range &&
                       std::abs(std::strtod(std::string(text).c_str(), nullptr)) < 1;
     if (tiny) return 0;

@@ -6,14 +6,16 @@
 
 namespace catoptric::scene {
 
-/// The shortest text that reads back as the same number; "0" for both zeros.
+/// Returns the shortest text that reads back as the same number; "0" for both zeros.
 std::string number_text(double number);
 std::string number_text(float number);
 
-/// The double whose shortest text is the float's: 0.1 for 0.1f. What a person would have typed.
+/// Returns the double with the same shortest text as the float, as a person would type it: 0.1 for
+/// 0.1f.
 double as_typed(float number);
 
-/// The finite number that `text` is as a whole, with an optional sign; nothing otherwise.
+/// Returns the finite number that the whole of `text` spells, with an optional sign; otherwise
+/// nothing.
 std::optional<double> parse_number(std::string_view text);
 
 } // namespace catoptric::scene

@@ -17,7 +17,7 @@ namespace catoptric::scene {
 
 namespace {
 
-/// Position, normal and texture coordinates of a vertex; -1: none.
+/// Indices of a vertex's position, normal and texture coordinates; -1 if absent.
 struct Triple {
     int position, normal, uv;
     auto operator<=>(const Triple&) const = default;
@@ -38,8 +38,8 @@ void add_vertex(Mesh& mesh, const Triple& vertex, const obj::Text& text, bool ha
     mesh.uv[0].emplace_back(upwards.x, 1 - upwards.y);
 }
 
-/// One vertex for each triple that is used, ascending, those without a normal first; the corners
-/// come three to a triangle.
+/// Builds a mesh with one vertex for each distinct triple among the corners. Each three corners are
+/// a triangle. Vertices are sorted by the index of position, then normal, then texture coordinates.
 Mesh mesh_of(const obj::Text& text, const std::vector<tinyobj::index_t>& corners, std::string name,
              Total& vertices, const std::string& place) {
     struct Use {
@@ -78,11 +78,12 @@ struct ObjBuilder {
     const obj::Text& text;
     obj::Context& context;
     Scene scene;
-    std::optional<std::size_t> without_material; ///< known once something needs it
+    /// Material of faces without one. Set on first use.
+    std::optional<std::size_t> without_material;
 
-    /// A shape's triangles of one material, -1: none.
+    /// The triangles of a shape with the same material.
     struct Part {
-        int material;
+        int material; ///< -1 if there is none
         std::vector<tinyobj::index_t> corners;
     };
     static std::vector<Part> parts_of(const tinyobj::mesh_t& mesh);
@@ -91,7 +92,7 @@ struct ObjBuilder {
     std::size_t material_index(int material);
 };
 
-/// In order of first use.
+/// Returns the parts of a shape, in the order of first use of their materials.
 std::vector<ObjBuilder::Part> ObjBuilder::parts_of(const tinyobj::mesh_t& mesh) {
     std::vector<Part> parts;
     std::unordered_map<int, std::size_t> part_of;
@@ -105,7 +106,8 @@ std::vector<ObjBuilder::Part> ObjBuilder::parts_of(const tinyobj::mesh_t& mesh) 
     return parts;
 }
 
-/// What has no material gets the first that is called "default", or a grey one.
+/// Returns the index of a material. Faces without a material get the first material named
+/// "default", or a new grey material.
 std::size_t ObjBuilder::material_index(int material) {
     if (material >= 0) return std::size_t(material);
     if (without_material) return *without_material;
@@ -158,7 +160,8 @@ void check_names(const obj::Text& text) {
                  in_quotes(name), did_you_mean(name, text.names));
 }
 
-/// A library in which tinyobjloader finds each material by its number, and nothing else.
+/// Returns a material library for tinyobjloader, in which each material is only named by its
+/// number.
 std::string names_of(const obj::Library& library) {
     std::string text;
     for (std::size_t i = 0; i < library.drafts.size(); ++i)
@@ -166,7 +169,7 @@ std::string names_of(const obj::Library& library) {
     return text;
 }
 
-/// What tinyobjloader makes of the statements, which are used up: they may be long.
+/// Parses the statements with tinyobjloader. Moves them out of `text`, because they may be long.
 struct Parsed {
     Parsed(obj::Text& text, const std::string& file) {
         std::istringstream statements(std::move(text.statements)), library(names_of(text.library));

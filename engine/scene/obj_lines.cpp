@@ -9,7 +9,7 @@ namespace catoptric::scene::obj {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\v\f";
-constexpr std::size_t kMostWords = 4096; // nothing that is kept as words has more
+constexpr std::size_t kMostWords = 4096; // no valid statement that is split into words has more
 
 std::string_view trimmed(std::string_view text) {
     const std::size_t first = text.find_first_not_of(kSpace);
@@ -17,8 +17,8 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kSpace) + 1 - first);
 }
 
-/// Takes one line off the front of `text`. Where it goes on after a backslash, all of it is put
-/// together in `joined`.
+/// Removes one line from the front of `text` and returns it, trimmed. Lines that end in a backslash
+/// are joined with the next in `joined`. Adds the number of lines read to `number`.
 std::string_view take_line(std::string_view& text, std::size_t& number, std::string& joined) {
     joined.clear();
     while (!text.empty()) {

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// "map_Kd", "bump", "norm", "refl" and the like.
+/// Returns whether a statement names a texture map, such as "map_Kd", "bump", "norm" or "refl".
 bool is_map(std::string_view keyword) {
     constexpr std::string_view kMaps[] = {"bump", "disp", "decal", "refl", "norm"};
     return keyword.starts_with("map_") || std::ranges::find(kMaps, keyword) != std::end(kMaps);
@@ -25,7 +25,8 @@ bool is_bump(std::string_view keyword) {
     return keyword == "norm" || keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump";
 }
 
-/// Three numbers, or one that stands for all; none of "Kd spectral FILE" and the like.
+/// Reads a colour from three numbers, or from one number for all channels. Returns none for the
+/// forms "spectral" and "xyz".
 std::optional<dvec3> colour_of(const Line& line) {
     std::string_view rest = line.rest;
     const std::string_view first = take_word(rest);
@@ -36,7 +37,8 @@ std::optional<dvec3> colour_of(const Line& line) {
 
 double number_in(const Line& line) { return numbers(line, words(line), 0, 1)[0]; }
 
-/// A map's options: `-s`, `-o` and `-clamp` change where it is read, others are passed over.
+/// Reads a map's options and file name. `-s`, `-o` and `-clamp` change the lookup; other options
+/// are skipped.
 MapUse map_of(const Line& line) {
     MapUse map;
     std::string_view rest = line.rest;
@@ -65,8 +67,8 @@ MapUse map_of(const Line& line) {
     return map;
 }
 
-/// Where a map lies: as it is called, or as a path of another system would be here, or, where that
-/// leads nowhere or begins at the root of somebody's machine, beside the scene.
+/// Returns the real path of a map, or an empty path if it is missing. Backslashes are read as
+/// slashes. If the path is absolute or does not exist, the file name is looked up beside the scene.
 fs::path find_map(const std::string& name, const std::string& place, Files& files) {
     std::string slashed = name;
     std::ranges::replace(slashed, '\\', '/');
@@ -89,13 +91,13 @@ void add_map(const Line& line, Context& context, Library& library) {
         draft.colour = std::move(map);
     else if (line.keyword == "map_d")
         draft.cut = std::move(map);
-    else if (line.keyword != "map_Ka") // which no light here would show
+    else if (line.keyword != "map_Ka") // ambient, which no light of the engine shows
         add_unsupported_material(context.unsupported,
                                  is_bump(line.keyword) ? "normal-texture" : "material-extension",
                                  line.where(), library.drafts.size() - 1);
 }
 
-/// The members of a material that one number each is for.
+/// A statement with one number, and the member that it sets.
 struct Number {
     std::string_view keyword;
     std::optional<double> Draft::*member;
@@ -110,11 +112,11 @@ void add_radiance(const Line& line, const dvec3& radiance, Draft& draft) {
           ": 'Ke' wants radiance of at least 0 that fits a float, found ", in_quotes(line.rest));
 }
 
-/// Whether it is one of those that say how a surface looks.
+/// Reads a statement into a member of the draft. Returns false if the draft has none for it.
 bool add_member(const Line& line, Draft& draft) {
     const auto* const number = std::ranges::find(kNumbers, line.keyword, &Number::keyword);
     if (number != std::end(kNumbers)) {
-        // "d -halo .5"
+        // The number may follow an option: "d -halo .5".
         std::string_view rest = line.rest;
         const Line of{line.file, line.number, line.keyword,
                       take_word(rest) == "-halo" ? rest : line.rest};
@@ -151,7 +153,7 @@ void add_statement(Library& library, const Line& line, Unread& unread, Context& 
     }
 }
 
-/// The pictures that materials show, each decoded once.
+/// Reads the images of materials. Decodes each image once.
 class Maps {
 public:
     explicit Maps(Context& context) : context_(context) {}
@@ -167,7 +169,7 @@ public:
             return std::nullopt;
         }
         const Texture::Wrap wrap = map.is_clamped ? Texture::Wrap::clamp : Texture::Wrap::repeat;
-        // a mesh's v goes down: 1 - ((1 - v) scale + offset)
+        // Mesh v points down and .obj v up: v' = 1 - ((1 - v) scale + offset).
         const auto& [x, y] = map.scale;
         return Texture{.image = image,
                        .wrap_u = wrap,
@@ -193,7 +195,7 @@ private:
 
 vec3 fraction(const dvec3& colour) { return vec3(glm::clamp(colour, 0.0, 1.0)); }
 
-/// One material as the engine has it (scene.md, "Surface").
+/// Turns a draft into an engine material, as scene.md describes under "Surface".
 class Maker {
 public:
     Maker(const Draft& draft, std::size_t index, Maps& maps, Context& context)
@@ -202,7 +204,7 @@ public:
     Material make() {
         kind_ = static_cast<int>(draft_.kind.value_or(0));
         material_ = {.name = draft_.name, .emission = draft_.emission};
-        // what is not said is grey, but of what shines or mirrors black
+        // Without Kd the albedo is white under a map, black if emissive or illum 3, else grey.
         const bool shines = draft_.emission != vec3(0) || kind_ == 3;
         material_.albedo = fraction(draft_.diffuse.value_or(draft_.colour ? dvec3(1)
                                                             : shines      ? dvec3(0)
@@ -223,7 +225,7 @@ private:
         add_unsupported_material(context_.unsupported, id, draft_.place, index_);
     }
 
-    /// Whether it asks for a specular lobe: illum 0 and 1 have no highlight.
+    /// Returns whether the draft has a specular lobe. illum 0 and 1 have no highlight.
     bool has_lobe() const {
         const bool has_highlight = draft_.specular.value_or(dvec3(0)) != dvec3(0) &&
                                    draft_.kind.value_or(2) >= 2;
@@ -260,7 +262,8 @@ private:
             std::clamp(draft_.roughness.value_or(1), 0.0, 1.0));
     }
 
-    /// illum 3 and 8 reflect Ks at any angle, 5 as Schlick has it; others are diffuse.
+    /// Sets the reflection. illum 3 and 8 reflect Ks at any angle, illum 5 follows Schlick's
+    /// approximation. All others are diffuse.
     void reflection() {
         if (kind_ != 3 && kind_ != 5 && kind_ != 8) return;
         const vec3 f0 = fraction(draft_.specular.value_or(dvec3(0)));

@@ -8,11 +8,11 @@ namespace {
 
 using glm::dvec2;
 
-/// A polygon laid flat: its corners in the plane that its normal is longest across, in such a way
-/// that it runs counter-clockwise.
+/// Projects a polygon's corners to two dimensions, along the axis in which its normal is longest.
+/// The axes are ordered so that the result runs counter-clockwise.
 std::vector<dvec2> flattened(std::span<const Corner> polygon, const std::vector<dvec3>& positions) {
     const auto at = [&](std::size_t i) { return positions[polygon[i % polygon.size()].position]; };
-    dvec3 normal(0); // Newell's: twice the area, seen along each axis
+    dvec3 normal(0); // Newell's normal: twice the projected area, for each axis
     for (std::size_t i = 0; i < polygon.size(); ++i)
         normal += glm::cross(at(i) - at(0), at(i + 1) - at(0));
     const dvec3 size = glm::abs(normal);
@@ -24,12 +24,12 @@ std::vector<dvec2> flattened(std::span<const Corner> polygon, const std::vector<
     return points;
 }
 
-/// Above 0 where a, b, c turn to the left.
+/// Returns twice the signed area of the triangle a, b, c. It is above 0 if they turn left.
 double turn(const dvec2& a, const dvec2& b, const dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Takes off one corner after another that no other corner's notch reaches into.
+/// Triangulates by clipping ears: convex corners whose triangle holds no reflex corner (notch).
 class Ears {
 public:
     Ears(const std::vector<dvec2>& points, Total& comparisons, const Line& line)
@@ -45,7 +45,9 @@ public:
     /// Calls `body` with the three corners of each triangle.
     template <typename Body>
     void take(Body&& body) {
-        std::size_t corner = 0, refused = 0; // in a row: of what crosses itself any corner goes
+        // `refused` counts corners in a row that are no ears. If none is left in a polygon that
+        // crosses itself, any corner is clipped.
+        std::size_t corner = 0, refused = 0;
         while (left_ >= 3) {
             const std::size_t before = previous_[corner], after = next_[corner];
             if (refused < left_ && !is_ear(corner)) {

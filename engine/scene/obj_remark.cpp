@@ -39,7 +39,8 @@ Harmonic harmonic(const Line& line, const Words& words) {
     return {.amplitude = vector_at(n, 0), .period = n[3]};
 }
 
-/// "COUNT, then COUNT times: time and place". Read as it goes: a line may be as long as the file.
+/// Reads a key count, and then time and position of each key. Words are not stored in a list,
+/// because a line may be as long as the file. Throws `bad_data`.
 Keyframes keyframes(const Line& line, std::string_view name, std::string_view rest,
                     Keys::Interpolation interpolation, Account& account) {
     const bool is_cubic = interpolation == Keys::Interpolation::cubic;

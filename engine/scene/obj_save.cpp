@@ -18,7 +18,8 @@ std::string vector_text(const dvec3& v) {
     return number_text(v.x) + " " + number_text(v.y) + " " + number_text(v.z);
 }
 
-/// A word that no other has: spaces become '_', an empty name `fallback`, a second "x" "x-2".
+/// Returns a unique word for a name. Spaces become '_', an empty name becomes `fallback`, and a
+/// second "x" becomes "x-2".
 std::string unique_word(std::string name, const std::string& fallback,
                         std::set<std::string>& taken) {
     std::ranges::replace_if(
@@ -39,7 +40,7 @@ std::vector<std::string> unique_words(const std::vector<Item>& items, const std:
 
 std::string motion_text(const std::monostate&) { return {}; }
 
-/// .obj has no nodes: what follows one stays where it is at the first instant.
+/// Returns no motion. .obj has no nodes, so an object that follows one keeps its place at time 0.
 std::string motion_text(const Follows&) { return {}; }
 
 std::string motion_text(const Harmonic& motion) {
@@ -79,7 +80,8 @@ std::string camera_text(const Camera& camera, const std::string& name) {
            number_text(camera.vertical_fov_degrees) + "\n";
 }
 
-/// World-space vertices and faces; `first` counts the vertices written so far.
+/// Returns the vertices, in world space, and the faces of a mesh. `first` counts the vertices
+/// written so far.
 std::string geometry(const Mesh& mesh, const dmat4& world_from_object, std::size_t& first) {
     std::string text;
     for (const dvec3& position : mesh.positions)
@@ -137,7 +139,8 @@ void save_obj(const Scene& scene, const std::filesystem::path& path) {
                 remarks(object, object_names[i]) +
                 geometry(scene.meshes[object.mesh], object.world_from_object, first);
     }
-    write_file(library, materials_text(scene.materials, material_names)); // the .obj wants it there
+    // The library is written first, because the .obj needs it.
+    write_file(library, materials_text(scene.materials, material_names));
     write_file(path, text);
 }
 

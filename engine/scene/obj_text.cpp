@@ -15,15 +15,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Goes over the file twice: faces and uses may come before what they name.
+/// Reads an .obj file in two passes, because faces and `usemtl` may precede the definitions that
+/// they refer to.
 class ObjReader {
 public:
     ObjReader(const std::string& file, Context& context) : file_(file), context_(context) {}
 
-    /// Everything but faces, groups and uses of materials.
+    /// Reads one line of the first pass: everything but faces, groups and uses of materials.
     void definition(const Line& line);
     void name_materials();
-    /// These.
+    /// Reads one line of the second pass: faces, groups and uses of materials.
     void use(const Line& line);
     Text finish();
 
@@ -41,12 +42,12 @@ private:
     Context& context_;
     Text text_;
     Unread unread_;
-    std::unordered_set<std::string> libraries_; ///< real paths of those that have been read
+    std::unordered_set<std::string> libraries_; ///< real paths of the libraries read so far
     std::unordered_map<std::string, std::size_t> material_of_;
-    std::optional<std::size_t> material_;               ///< of the faces that come
-    std::size_t positions_ = 0, normals_ = 0, uvs_ = 0; ///< so far
-    bool has_faces_ = false;                            ///< the last shape
-    std::vector<Corner> polygon_, triangles_;           ///< of one face
+    std::optional<std::size_t> material_;               ///< of the next faces
+    std::size_t positions_ = 0, normals_ = 0, uvs_ = 0; ///< counts in the second pass so far
+    bool has_faces_ = false;                            ///< whether the last shape has faces
+    std::vector<Corner> polygon_, triangles_;           ///< of the current face
 };
 
 void ObjReader::library_file(const Line& line, const std::string& name) {
@@ -60,7 +61,7 @@ void ObjReader::library_file(const Line& line, const std::string& name) {
         read_materials(real, place, context_, text_.library);
 }
 
-/// One name with spaces, or several names.
+/// Reads `mtllib`. The line is one name with spaces if such a file exists, else several names.
 void ObjReader::library(const Line& line) {
     const std::vector<std::string_view> names = words(line);
     check(!names.empty(), Failure::bad_data, line.where(),
@@ -72,7 +73,7 @@ void ObjReader::library(const Line& line) {
     for (const std::string_view name : names) library_file(line, std::string(name));
 }
 
-/// Of materials with the same name the first is meant.
+/// Maps names to materials. If materials share a name, the first is used.
 void ObjReader::name_materials() {
     for (std::size_t i = 0; i < text_.library.drafts.size(); ++i)
         material_of_.try_emplace(text_.library.drafts[i].name, i);
@@ -82,7 +83,8 @@ void ObjReader::use_material(const Line& line) {
     const std::string name(line.rest);
     const auto found = material_of_.find(name);
     if (found == material_of_.end()) {
-        const bool has_any = !text_.library.drafts.empty(); // else the library has been named
+        // Without any material, the missing library has been noted already.
+        const bool has_any = !text_.library.drafts.empty();
         context_.notes.add("uses of materials that no library has, drawn grey",
                            line.where() + ": " + in_quotes(name), has_any ? 1 : 0);
         add_unsupported(context_.unsupported, "missing-material",
@@ -96,7 +98,8 @@ void ObjReader::use_material(const Line& line) {
     text_.statements += "usemtl " + std::to_string(*material_) + "\n";
 }
 
-/// `o` has one name, all of the line; `g` has several, of which one is made.
+/// Starts a shape. The rest of an `o` line is one name. `g` lists several names, which are joined
+/// by spaces.
 void ObjReader::group(const Line& line) {
     std::string name(line.rest);
     if (line.keyword == "g") {
@@ -111,7 +114,8 @@ void ObjReader::group(const Line& line) {
     text_.names.back() = std::move(name);
 }
 
-/// From 0; negative ones count from the last one so far.
+/// Parses an index and returns it from 0. A negative index counts back from the last of the
+/// `so_far` elements before the line. Throws `bad_data` if no element has the index.
 std::uint32_t index_of(const Line& line, std::string_view digits, std::size_t so_far,
                        std::size_t count, std::string_view what) {
     std::int64_t value = 0;
@@ -129,7 +133,7 @@ std::uint32_t index_of(const Line& line, std::string_view digits, std::size_t so
     return static_cast<std::uint32_t>(value > 0 ? value - 1 : std::int64_t(so_far) + value);
 }
 
-/// "v", "v/vt", "v//vn" or "v/vt/vn".
+/// Parses a face corner: "v", "v/vt", "v//vn" or "v/vt/vn".
 Corner ObjReader::corner(const Line& line, std::string_view word) const {
     const std::size_t slash = word.find('/'), last = word.rfind('/');
     Corner corner{
@@ -167,7 +171,7 @@ void ObjReader::face(const Line& line) {
     has_faces_ = true;
 }
 
-/// x y z, then nothing, w, r g b, or w r g b.
+/// Reads a position: x y z, optionally followed by w, r g b, or w r g b. w is ignored.
 void ObjReader::position(const Line& line) {
     context_.account.positions.add(1, *line.file, ":", line.number);
     text_.positions.push_back(vector_of(line));

@@ -19,44 +19,46 @@
 
 namespace catoptric::scene::obj {
 
-/// A line that says something. The views end with the call that gets it.
+/// A line with a statement or a `# catoptric` comment. The views are valid only during the call
+/// that receives the line.
 struct Line {
     std::string where() const { return *file + ":" + std::to_string(number); }
 
     const std::string* file;
-    std::size_t number;
+    std::size_t number;       ///< from 1
     std::string_view keyword; ///< first word; "#word" for a `# catoptric word` comment
-    std::string_view rest;    ///< everything after it, trimmed
+    std::string_view rest;    ///< the text after the keyword, trimmed
 };
 
-/// Calls `body` for each line that is neither empty nor another comment; a backslash at the end of
-/// a line joins it with the next.
+/// Calls `body` for each statement and each `# catoptric` comment. Empty lines and other comments
+/// are skipped. A backslash at the end of a line joins it with the next line.
 void for_each_line(const std::string& file, std::string_view text,
                    const std::function<void(const Line&)>& body);
 
-/// Takes the first word off the front of `text`.
+/// Removes the first word from the front of `text` and returns it.
 std::string_view take_word(std::string_view& text);
 
-/// The words of `line.rest` up to a comment, at most 4096 of them.
+/// Returns the words of `line.rest` up to a comment, at most 4096 words.
 std::vector<std::string_view> words(const Line& line);
-/// How many words there are up to a comment.
+/// Returns the number of words up to a comment.
 std::size_t count_words(std::string_view text);
 
-/// The finite number that a word is. Throws `bad_data` naming the line.
+/// Parses a word as a finite number. Throws `bad_data` naming the line.
 double number_of(const Line& line, std::string_view word);
 
-/// Words [first, first + count) as finite numbers. Throws `bad_data` naming the line.
+/// Parses the words [first, first + count) as finite numbers. Throws `bad_data` naming the line.
 std::vector<double> numbers(const Line& line, const std::vector<std::string_view>& words,
                             std::size_t first, std::size_t count);
 
-/// The first three words as finite numbers. Throws as `numbers`.
+/// Parses the first three words of `line.rest` as finite numbers. Throws `bad_data` naming the
+/// line.
 dvec3 vector_of(const Line& line);
 
-/// Statements that are not read, counted by keyword.
+/// Counts the statements that are not read, by keyword.
 class Unread {
 public:
     void add(const Line& line);
-    /// As notes; what comes after 40 keywords together.
+    /// Adds a note for each keyword. Keywords after the first 40 share one note.
     void tell(const std::string& file, Notes& notes) const;
 
 private:
@@ -67,30 +69,30 @@ private:
     std::map<std::string, Count, std::less<>> counts_;
 };
 
-/// A map of a material: `file` as it is called, and where it lies; empty: it is not there.
+/// A texture map of a material.
 struct MapUse {
-    std::string file, place;
-    std::filesystem::path real;
-    std::array<double, 2> scale{1, 1}, offset{0, 0}; ///< v upwards
+    std::string file, place;    ///< name in the library; "FILE:LINE" of the statement
+    std::filesystem::path real; ///< real path; empty if the file does not exist
+    std::array<double, 2> scale{1, 1}, offset{0, 0}; ///< of u and v, with v upwards
     bool is_clamped = false;
 };
 
-/// What a library says of a material.
+/// A material as its library defines it.
 struct Draft {
     std::string name, place;
     std::optional<dvec3> diffuse, specular;
     vec3 emission{0};
     std::optional<double> shininess, ior, roughness, metallic, kind, alpha;
-    std::optional<MapUse> colour, cut;
-    bool two_sided = false, fixed_normals = false; ///< `# catoptric` comments
+    std::optional<MapUse> colour, cut;             ///< map_Kd and map_d
+    bool two_sided = false, fixed_normals = false; ///< from `# catoptric` comments
 };
 
-/// Material libraries, all in one.
+/// The materials of all libraries of a file.
 struct Library {
     std::vector<Draft> drafts;
 };
 
-/// What reading needs beside the text.
+/// The inputs and lists that readers use besides the text.
 struct Context {
     Files& files;
     Account& account;
@@ -98,14 +100,15 @@ struct Context {
     std::vector<UnsupportedFeature>& unsupported;
 };
 
-/// Adds what one .mtl file says of materials.
+/// Reads one .mtl file and appends its materials to `library`. Throws `bad_data`, `missing_input`
+/// or `io`.
 void read_materials(const std::filesystem::path& real, const std::string& place, Context& context,
                     Library& library);
-/// In file order, as scene.md has them; their pictures are read. Throws `bad_data` for one that
-/// cannot be decoded.
+/// Builds the materials in file order, as scene.md describes them, and reads their images. Throws
+/// `bad_data` for an image that cannot be decoded.
 std::vector<Material> materials_of(const Library& library, Context& context);
 
-/// What the `# catoptric` comments say about objects, by name:
+/// The contents of the `# catoptric` comments, by object name:
 ///   # catoptric camera NAME ex ey ez tx ty tz ux uy uz fov
 ///   # catoptric motion OBJECT harmonic ax ay az period
 ///   # catoptric motion OBJECT step|linear|cubic N, then N times: t x y z
@@ -119,39 +122,39 @@ struct Remarks {
     std::map<std::string, Motion> motions;
     std::map<std::string, Sphere> spheres;
     std::map<std::string, bool> hidden;
-    std::map<std::string, std::string> named_at; ///< each object named, and the line that does
+    std::map<std::string, std::string> named_at; ///< object name to the first line that names it
 };
 
-/// Adds one comment line. Throws `bad_data` naming it for one that cannot be understood.
+/// Adds one comment line. Throws `bad_data` naming the line if it is invalid.
 void add_remark(Remarks& remarks, const Line& line, Account& account);
 
-/// A corner of a face: numbers from 0.
+/// A corner of a face, as indices from 0.
 struct Corner {
     std::uint32_t position;
-    std::uint32_t normal; ///< `kNone`: none
-    std::uint32_t uv;     ///< `kNone`: none
+    std::uint32_t normal; ///< `kNone` if absent
+    std::uint32_t uv;     ///< `kNone` if absent
 };
 inline constexpr std::uint32_t kNone = ~0u;
 
-/// An .obj file for tinyobjloader.
+/// An .obj file, rewritten for tinyobjloader.
 struct Text {
-    /// Nothing but `o NUMBER`, `usemtl NUMBER`, and triangles `f` with indices that exist.
+    /// Holds only `mtllib`, `o NUMBER`, `usemtl`, and triangles `f` with valid indices.
     std::string statements = "mtllib all\no 0\n";
-    std::vector<std::string> names{1};     ///< of shapes; the first has none
-    std::vector<dvec3> positions, normals; ///< exact; tinyobjloader's are floats
-    std::vector<vec3> colours;             ///< of positions, or none
-    std::vector<vec2> uv;                  ///< v upwards
+    std::vector<std::string> names{1};     ///< of shapes, by the number of `o`
+    std::vector<dvec3> positions, normals; ///< doubles, since tinyobjloader rounds to floats
+    std::vector<vec3> colours;             ///< one per position, or empty
+    std::vector<vec2> uv;                  ///< with v upwards
     Library library;
     Remarks remarks;
 };
 
-/// Throws `bad_data` with file and line.
+/// Reads an .obj file and its material libraries. Throws `bad_data` with file and line.
 Text read_text(const std::string& file, Context& context);
 
-/// Cuts a polygon into triangles and appends their corners: a convex quad along its shorter
-/// diagonal, other convex ones into a fan, concave ones by their ears. At most corners - 2.
-/// `comparisons` counts the work, which may grow with the cube of the corners; it throws `bad_data`
-/// naming the line over the budget.
+/// Cuts a polygon into triangles and appends their corners. A convex quad is cut along its shorter
+/// diagonal, any other convex polygon into a fan, and a concave polygon by clipping ears. There are
+/// at most corners - 2 triangles. The work may grow with the cube of the corners; `comparisons`
+/// counts it. Throws `bad_data` naming the line if the count exceeds the budget.
 void cut(std::span<const Corner> polygon, const std::vector<dvec3>& positions, Total& comparisons,
          const Line& line, std::vector<Corner>& triangles);
 

@@ -7,7 +7,7 @@ namespace catoptric::scene {
 
 namespace {
 
-/// Of an integer, the same on every machine: 0 to 1.
+/// Returns a pseudo-random number, 0 to 1, for two integers. It is the same on every machine.
 double noise(std::uint32_t x, std::uint32_t y) {
     std::uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u;
     h = (h ^ h >> 15) * 0x2c1b3c6du;
@@ -15,7 +15,7 @@ double noise(std::uint32_t x, std::uint32_t y) {
     return static_cast<double>(h >> 8) / (1 << 24);
 }
 
-/// `colour_of(x, y)`: 0 to 255.
+/// Makes a square sRGB texture. `colour_of(x, y)` returns the colour of a texel, 0 to 255.
 template <typename Colour>
 Texture texture(std::string name, std::uint32_t edge, Colour&& colour_of) {
     auto image = std::make_shared<Image>();

@@ -6,12 +6,13 @@
 
 namespace catoptric::scene {
 
-/// Makes `still`, a copy of the scene or what this made of one before, what `at` gives for the
-/// instant, without copying a mesh or a material. A time that is not finite is `Failure::usage`.
+/// Sets `still` to what `at` returns for this time, without copying a mesh or a material. `still`
+/// is a copy of the scene or an earlier result of this function. Throws `Failure::usage` for a time
+/// that is not finite.
 void pose(Scene& still, const Scene& scene, double seconds);
 
-/// The scene at an instant, for as long as `scene` lives. Only an animated scene is copied: `at`
-/// copies each mesh. Throws as `at`.
+/// Scene at an instant, valid as long as `scene` lives. Only an animated scene is copied, with each
+/// mesh. Throws as `at`.
 class SceneAt {
 public:
     SceneAt(const Scene& scene, double seconds);
@@ -22,7 +23,7 @@ private:
     std::optional<Scene> moved_;
 };
 
-/// Returns the node of a rig that the motion follows, or null where it follows none.
+/// Returns the node of a rig that the motion follows, or null if it follows none.
 const Follows* followed(const Motion& motion);
 
 /// Throws `usage` for a time that is not a finite number of seconds.

@@ -13,15 +13,15 @@ namespace catoptric::scene {
 
 namespace {
 
-/// The square of a length must be a double, and no zero.
+/// Range of lengths whose squares are finite, non-zero doubles.
 constexpr double kLongest = 1e150, kShortest = 1e-150;
 
 bool is_in_range(const dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kLongest && is_finite(v);
 }
 
-/// Along the normal, of any length; zero where the triangle has no area. Edges are scaled first, so
-/// that no size of a triangle over- or underflows.
+/// Returns a vector along the normal, of any length; zero if the triangle has no area. Edges are
+/// scaled first, so that no size of a triangle over- or underflows.
 dvec3 edge_cross(const dvec3& a, const dvec3& b, const dvec3& c) {
     const auto scaled = [](const dvec3& edge) {
         const double size = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
@@ -40,7 +40,7 @@ std::size_t drop_flat_triangles(Mesh& mesh) {
                          [&](const uvec3& t) { return normal_of(mesh, t) == dvec3(0); });
 }
 
-/// One element for each vertex, or none at all.
+/// Appends a copy of a vertex's element. A list without elements stays empty.
 template <typename Value>
 void repeat(std::vector<Value>& list, std::uint32_t vertex) {
     if (!list.empty()) list.push_back(Value(list[vertex]));
@@ -56,7 +56,7 @@ void shorten(std::vector<Value>& list, std::size_t count) {
     if (!list.empty()) list.resize(count);
 }
 
-/// Gives every corner without a normal a vertex of its own.
+/// Gives every corner without a normal a vertex of its own, with the triangle's normal.
 void complete_normals(Mesh& mesh) {
     mesh.normals.resize(mesh.positions.size(), vec3(0));
     for (vec3& normal : mesh.normals) normal = vec3(normalized_or_zero(dvec3(normal)));

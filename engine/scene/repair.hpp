@@ -7,24 +7,25 @@
 
 namespace catoptric::scene {
 
-// What every loader does with a mesh as the file gave it, so that it keeps Mesh's promises. Its
-// indices have their vertices and its numbers are finite.
+// Repairs that every loader makes to a mesh from a file, so that the mesh keeps the promises of
+// Mesh. The mesh passed in has indices within its vertices and finite numbers.
 
-/// Drops triangles without area and vertices that nothing uses; normals become unit length; where a
-/// normal is missing or has no direction, the triangle gets its own vertices with its geometric
-/// normal. Returns the number of triangles dropped.
+/// Drops triangles without area and vertices that no triangle uses. Normals become unit length.
+/// Where a normal is missing or has no direction, the corner gets a vertex of its own with the
+/// triangle's geometric normal. Returns the number of triangles dropped.
 std::size_t repair(Mesh& mesh);
 
-/// How many vertices `repair` may add: corners whose normal, one for each position, has no
-/// direction.
+/// Returns how many vertices `repair` may add: the number of corners whose normal has no direction.
+/// The mesh has one normal for each position.
 std::size_t corners_without_normal(const Mesh& mesh);
 
-/// True for an emission that can be: each component finite and at least 0.
+/// Returns whether an emission is valid: each component finite and at least 0.
 bool is_radiance(const vec3& emission);
 
-/// Drops objects that have no triangle with an area; turns notes into the scene's warnings,
-/// gaps into its gaps. Throws `bad_data` naming `file` when no object is left, or when one reaches
-/// beyond what double precision holds.
+/// Drops objects that have no triangle with an area, or that lie too far out
+/// (leave_out_unreachable). Turns `notes` into the scene's warnings and `unsupported` into its
+/// unsupported features. Throws `bad_data`, naming `file`, if no object is left or if coordinates
+/// exceed 1e150.
 void finish(Scene& scene, const std::string& file, Notes& notes,
             std::vector<UnsupportedFeature> unsupported = {});
 

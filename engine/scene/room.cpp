@@ -21,7 +21,7 @@ dmat4 placed(dvec3 at, double degrees = 0) {
     return world;
 }
 
-/// A wall whose texture is repeated `times` a metre, upright on the walls.
+/// Returns a wall whose texture repeats `times` a metre and stands upright on the vertical walls.
 Mesh papered(int face, dvec3 lo, dvec3 hi, float times) {
     Mesh mesh = wall(face, lo, hi);
     for (const dvec3& p : mesh.positions)
@@ -41,7 +41,7 @@ void add_copies(Scene& scene, Mesh mesh, std::size_t material, const std::vector
     scene.meshes.push_back(std::move(mesh));
 }
 
-/// Boxes as one mesh.
+/// Returns several boxes as one mesh.
 Mesh boxes(const std::string& name, const std::vector<std::pair<dvec3, dvec3>>& of) {
     Mesh all{.name = name};
     for (const auto& [lo, hi] : of) {

@@ -6,10 +6,11 @@
 
 namespace catoptric::scene {
 
-/// Who said something of a scene: an option, or a file and its key. Begins every message about it.
+/// Origin of a setting of a scene: an option, or a file and its key. Every error message about the
+/// setting begins with it.
 struct SaidBy {
     std::string where;
-    Failure failure = Failure::usage; ///< `bad_data` of a file
+    Failure failure = Failure::usage; ///< `bad_data` for a file
 };
 
 } // namespace catoptric::scene

@@ -28,7 +28,8 @@ std::vector<std::size_t> mirrors(const Scene& scene) {
 
 Bounds<double> bounds(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
-    std::vector<bool> is_used(mesh.positions.size(), false); // once each, however many share it
+    // Each vertex is transformed once, however many triangles share it.
+    std::vector<bool> is_used(mesh.positions.size(), false);
     for (const uvec3& triangle : mesh.triangles)
         is_used[triangle.x] = is_used[triangle.y] = is_used[triangle.z] = true;
     Bounds<double> box;

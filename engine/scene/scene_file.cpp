@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a key takes and how it is written; the table is the format.
+/// Key of the file: its name, its reader and its writer. The table of keys defines the format.
 struct Key {
     const char* name;
     void (*read)(const gltf::Item& file, const gltf::Json& value, SceneOverrides& overrides);
-    gltf::Json (*written)(const SceneOverrides& overrides); ///< null: was not said
+    gltf::Json (*written)(const SceneOverrides& overrides); ///< null: not set
 };
 
 using gltf::Item;
@@ -47,7 +47,8 @@ double number_of(const Item& file, const Json& value, const char* key, double lo
     return number;
 }
 
-/// Errors of what the command line reads, too, as errors of the file.
+/// Calls `read`, which is shared with the command line, and turns its errors into errors of the
+/// file.
 template <typename Read>
 auto as_data(const Item& file, Read&& read) {
     try {

@@ -17,14 +17,14 @@ namespace catoptric::scene {
 
 namespace {
 
-/// The last one where both say something.
+/// Replaces `value` if `stronger` is set.
 template <typename Value>
 void put_over(std::optional<Value>& value, const std::optional<Value>& stronger) {
     if (stronger) value = stronger;
 }
 
-/// The names that an object goes by: its own, its node's where the node has several materials
-/// ("NODE/MATERIAL"), and its material's.
+/// Returns the names by which patterns find an object: its own and its material's. If a node has
+/// several materials, its objects are named "NODE/MATERIAL", and the node's name counts, too.
 std::vector<std::string> names_of(const Scene& scene, const Object& object) {
     const std::string& material = scene.materials[object.material].name;
     std::vector<std::string> names{object.name, material};
@@ -33,7 +33,7 @@ std::vector<std::string> names_of(const Scene& scene, const Object& object) {
     return names;
 }
 
-/// Indices of the objects that a pattern means.
+/// Returns the indices of the objects that a pattern matches. Throws if there are none.
 std::vector<std::size_t> objects_of(const Scene& scene, const SaidBy& by,
                                     const std::string& pattern) {
     std::vector<std::size_t> found;
@@ -60,11 +60,11 @@ std::vector<std::size_t> objects_of(const Scene& scene, const SaidBy& by,
          nearest.empty() ? "" : " (did you mean " + in_quotes(nearest) + "?)");
 }
 
-/// Gives these objects a changed copy of their material, one for each that they share; materials
-/// keep their places.
+/// Gives these objects a changed copy of their material. Objects that share a material share its
+/// copy. Materials keep their indices.
 template <typename Change>
 void repaint(Scene& scene, const std::vector<std::size_t>& objects, Change&& change) {
-    std::map<std::size_t, std::size_t> copies; // of materials
+    std::map<std::size_t, std::size_t> copies; // new material by old material
     for (const std::size_t i : objects) {
         std::size_t& material = scene.objects[i].material;
         const auto [entry, is_new] = copies.try_emplace(material, scene.materials.size());
@@ -83,7 +83,7 @@ void make_mirrors(Scene& scene, const MirrorOverride& wish) {
     });
 }
 
-/// Those of them that emit light.
+/// Returns the objects that the pattern matches and that emit light. Throws if there are none.
 std::vector<std::size_t> glowing_of(const Scene& scene, const SaidBy& by,
                                     const std::string& pattern) {
     std::vector<std::size_t> objects = objects_of(scene, by, pattern);
@@ -162,10 +162,10 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
 }
 
 std::string pattern_of(const std::string& name) {
-    constexpr std::size_t kLongest = 60; // bytes; what is longer is named by its beginning
+    constexpr std::size_t kLongest = 60; // bytes; a longer name is reduced to its beginning
     std::size_t size = std::min(name.size(), kLongest);
     while (size > 0 && size < name.size() && (name[size] & 0xc0) == 0x80)
-        --size; // whole characters
+        --size; // keeps UTF-8 characters whole
     const bool is_plain = printable(name) == name;
     std::string pattern;
     for (const char c : name.substr(0, size)) {
@@ -179,7 +179,7 @@ std::string pattern_of(const std::string& name) {
     }
     if (size < name.size()) pattern += '*';
     if (pattern.find('=') != pattern.npos)
-        pattern += "=1"; // or its end might read as a reflectance
+        pattern += "=1"; // else the pattern's end might read as a reflectance
     return pattern;
 }
 

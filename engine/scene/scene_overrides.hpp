@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
-/// What a user says of a scene, on the command line or in a file beside it (scene_file.hpp).
+/// Scene overrides, which a user gives on the command line or in a file beside the scene
+/// (scene_file.hpp).
 namespace catoptric::scene {
 
-/// Reflects this constant share of all light; the rest of the surface is dropped.
+/// Mirror that reflects a constant share of all light. The rest of the object's material is
+/// dropped.
 struct MirrorOverride {
     std::string pattern; ///< as `matches` takes it
     vec3 reflectance{1}; ///< in [0,1]
@@ -25,14 +27,14 @@ struct ExposureOverride {
 
 enum class Up { y, z };
 
-inline constexpr double kMostStops = 64;   ///< of exposure, either way: 2^64 is finite
-inline constexpr double kMostTurn = 36000; ///< degrees that an environment is turned, either way
-inline constexpr double kMostScale = 1e30; ///< of what light is multiplied with
+inline constexpr double kMostStops = 64; ///< limit of exposure in either direction; 2^64 is finite
+inline constexpr double kMostTurn = 36000; ///< limit of an environment's rotation, degrees
+inline constexpr double kMostScale = 1e30; ///< limit of factors that scale light
 
-/// Each as the user gave it; what is empty was not said.
+/// Overrides as the user gave them. An empty member was not given.
 struct SceneOverrides {
-    std::vector<MirrorOverride> mirrors; ///< a later one wins
-    std::vector<std::string> lights;     ///< patterns
+    std::vector<MirrorOverride> mirrors; ///< a later override wins over an earlier one
+    std::vector<std::string> lights;     ///< patterns of objects that become lights
     std::optional<double> mirror_max_roughness;
     std::optional<bool> dielectric_mirrors;
     std::optional<std::string> environment; ///< "studio", "none", or a picture's file
@@ -45,37 +47,37 @@ struct SceneOverrides {
     bool operator==(const SceneOverrides&) const = default;
 };
 
-/// Both, `stronger` where both say something; its mirrors and lights come after the others,
-/// each pattern once.
+/// Returns both sets of overrides combined. `stronger` wins where both give a value. Its mirrors
+/// and lights come after those of `weaker`, each pattern once.
 SceneOverrides over(const SceneOverrides& stronger, const SceneOverrides& weaker);
 
-/// Whether a whole name is the pattern, or what the pattern (fnmatch: * ? [...]) stands for; case
-/// counts.
+/// Returns whether a whole name equals the pattern or matches it (fnmatch: * ? [...]); case counts.
 bool matches(const std::string& pattern, const std::string& name);
 
-/// "PATTERN" or "PATTERN=REFLECTANCE", a number or r,g,b in [0,1]; a name may hold a '=' as long as
-/// no number follows it. `option` begins the message. Throws `usage`.
+/// Reads "PATTERN" or "PATTERN=REFLECTANCE", where REFLECTANCE is a number or r,g,b in [0,1]. A
+/// name may contain '=' as long as no number follows it. `option` begins the error message. Throws
+/// `usage`.
 MirrorOverride read_mirror_override(const std::string& option, const std::string& text);
 
-/// The word of --mirror for what has this name: signs of patterns escaped, bytes that no terminal
-/// shows as '?', of a long one the first 60 bytes.
+/// Returns the value of --mirror that selects this name. Pattern characters are escaped. Bytes that
+/// a terminal does not show become '?'. A name longer than 60 bytes is reduced to its beginning.
 std::string pattern_of(const std::string& name);
 
-/// Throws as the file's, naming it and the key, for a pattern of mirrors or lights that `apply`
-/// would not take.
+/// Checks the patterns of mirrors and lights that come from a file. Throws `bad_data`, naming file
+/// and key, for a pattern that `apply` would not accept.
 void check_patterns(const Scene& scene, const SceneOverrides& overrides, const std::string& file);
 
-/// Applies mirrors, lights, roughness and dielectrics, turns the scene, and finds its mirrors anew
-/// (classify.hpp). What names a picture is left to app/resolved_scene.hpp. Throws `usage`, with the
-/// nearest names, for a pattern without a match.
+/// Applies the overrides of mirrors, lights, roughness and dielectrics, turns the scene if +z is
+/// up, and finds its mirrors again (classify.hpp). Overrides that name a picture are left to
+/// app/resolved_scene.hpp. Throws `usage`, with the nearest names, for a pattern without a match.
 void apply(Scene& scene, const SceneOverrides& overrides);
 
-/// Turns a scene whose up is +z so that it is +y: (x, y, z) becomes (x, z, -y), exactly.
+/// Turns a scene from +z up to +y up: (x, y, z) becomes (x, z, -y), exactly.
 void turn_z_up(Scene& scene);
 
-/// Leaves `most` lights, the strongest at the centre of the bounds, at rest, of a mesh that lights
-/// from several places some of them; what is left out is seen, but lights nothing. Adds the gap
-/// "lights-left-out".
+/// Keeps the `most` lights that are strongest at the centre of the bounds, at rest. A mesh that
+/// lights from several places may keep some of them. The other lights stay visible but light
+/// nothing. Adds the unsupported feature "lights-left-out".
 void leave_out_lights(Scene& scene, std::size_t most);
 
 } // namespace catoptric::scene

@@ -15,7 +15,8 @@ namespace {
 using Vertex = std::uint32_t;
 using Midpoints = std::map<std::pair<Vertex, Vertex>, Vertex>;
 
-/// The vertex on the sphere over the middle of the edge, made when first asked for.
+/// Returns the vertex on the sphere over the middle of the edge. The first call for an edge
+/// creates the vertex.
 Vertex midpoint(Mesh& mesh, Midpoints& known, Vertex a, Vertex b) {
     const auto [entry, is_new] = known.try_emplace(std::minmax(a, b),
                                                    static_cast<Vertex>(mesh.positions.size()));
@@ -49,7 +50,7 @@ Mesh quad(std::string name, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
 Mesh box(std::string name, dvec3 lo, dvec3 hi) {
     Mesh box{.name = std::move(name)};
     for (int face = 0; face < 6; ++face) {
-        const Mesh side = wall(face, hi, lo); // turned outwards: low and high exchanged
+        const Mesh side = wall(face, hi, lo); // faces outwards because low and high are exchanged
         const auto first = static_cast<Vertex>(box.positions.size());
         box.positions.insert(box.positions.end(), side.positions.begin(), side.positions.end());
         box.normals.insert(box.normals.end(), side.normals.begin(), side.normals.end());
@@ -61,10 +62,10 @@ Mesh box(std::string name, dvec3 lo, dvec3 hi) {
 
 Mesh lathe(std::string name, const std::vector<dvec2>& profile, int around) {
     Mesh mesh{.name = std::move(name)};
-    const auto along = [&](std::size_t i) { // zero where the point is given twice
+    const auto along = [&](std::size_t i) { // zero if the point is given twice
         return i + 1 < profile.size() ? profile[i + 1] - profile[i] : dvec2(0);
     };
-    const auto turned = [](const dvec2& way) { // the outside of a way
+    const auto turned = [](const dvec2& way) { // the outside of a step of the profile
         const double length = glm::length(way);
         return length > 0 ? dvec2(way.y, -way.x) / length : dvec2(0);
     };
@@ -102,7 +103,8 @@ Mesh torus(std::string name, double radius, double thickness, int around) {
         ring.push_back({radius + thickness * std::cos(angle), thickness * std::sin(angle)});
     }
     Mesh mesh = lathe(std::move(name), ring, around);
-    for (std::size_t i = 0; i < mesh.normals.size(); ++i) { // also where the ring closes
+    // The exact normals are smooth also where the ring closes.
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
         const dvec3 out = mesh.positions[i] * dvec3(1, 0, 1);
         mesh.normals[i] = vec3(glm::normalize(mesh.positions[i] - radius * glm::normalize(out)));
     }
@@ -117,7 +119,7 @@ Mesh wall(int face, dvec3 lo, dvec3 hi) {
         corners[i][u] = i == 1 || i == 2 ? hi[u] : lo[u];
         corners[i][v] = i >= 2 ? hi[v] : lo[v];
     }
-    // (a b c d) counter-clockwise seen from +axis: right for the wall on the low side.
+    // (a b c d) is counter-clockwise seen from +axis, as the wall on the low side needs.
     if (face % 2)
         return quad("wall" + std::to_string(face), corners[0], corners[1], corners[2], corners[3]);
     return quad("wall" + std::to_string(face), corners[3], corners[2], corners[1], corners[0]);

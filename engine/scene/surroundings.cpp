@@ -16,7 +16,7 @@ double angle_of(const Environment& environment) {
     return glm::radians(environment.rotation_degrees);
 }
 
-/// In the environment's own axes, not scaled.
+/// Returns the unscaled radiance in a direction that is given in the environment's own axes.
 dvec3 shown(const Environment& environment, const dvec3& own) {
     if (environment.studio) return dvec3(f64::studio(own));
     const f64::MapPlace at = f64::map_place(own, environment.size.x, environment.size.y);
@@ -28,7 +28,7 @@ dvec3 shown(const Environment& environment, const dvec3& own) {
                     at.down);
 }
 
-/// The polynomials of the nine harmonics.
+/// Returns the polynomials of the nine spherical harmonics.
 std::array<double, 9> harmonics(const dvec3& d) {
     return {1,
             d.y,
@@ -41,8 +41,8 @@ std::array<double, 9> harmonics(const dvec3& d) {
             d.x * d.x - d.y * d.y};
 }
 
-/// Each harmonic's factor, squared, times what a cosine lobe keeps of its band: pi, 2 pi / 3, pi /
-/// 4.
+/// For each harmonic, its squared normalisation factor times the share of its band that a cosine
+/// lobe keeps: pi, 2 pi / 3, pi / 4.
 constexpr std::array<double, 9> kFactors{1. / 4,   1. / 2,  1. / 2,   1. / 2,  15. / 16,
                                          15. / 16, 5. / 64, 15. / 16, 15. / 64};
 

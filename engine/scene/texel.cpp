@@ -18,7 +18,7 @@ vec4 decoded(const Texture& texture, std::uint32_t texel) {
     return value;
 }
 
-/// Index along one side.
+/// Returns the texel's index along one side of the image.
 std::uint32_t wrapped(Texture::Wrap wrap, double coordinate, std::uint32_t size) {
     const double whole = std::floor(coordinate * size), n = size;
     if (!std::isfinite(whole)) return 0;

@@ -2,17 +2,17 @@
 
 #include "scene/texture.hpp"
 
-/// Texels on the processor, where a scene is judged before anything is drawn.
+/// Texture lookups on the processor, for scenes that are classified before anything is drawn.
 namespace catoptric::scene {
 
-/// One 8-bit value of the sRGB curve as linear light, 0..1.
+/// Returns an 8-bit sRGB value as linear light, 0 to 1.
 float linear_from_srgb(std::uint32_t byte);
 
-/// The texel that the point of the mesh's texture space falls into, wrapped as the texture says:
-/// red, green, blue and alpha in 0..1, decoded where it is sRGB. Not filtered.
+/// Returns the texel at a point of the mesh's texture space, wrapped as the texture says and not
+/// filtered. Red, green, blue and alpha are in 0 to 1, decoded if the texture is sRGB.
 vec4 texel_at(const Texture& texture, const vec2& uv);
 
-/// The mean of all texels, decoded; alpha is left out.
+/// Returns the mean of all texels, decoded, without alpha.
 vec3 mean_texel(const Texture& texture);
 
 } // namespace catoptric::scene

@@ -11,7 +11,7 @@ namespace catoptric::scene {
 
 namespace {
 
-/// Vertices by cubes of space, from which the first one at a place is found.
+/// Grid of cubes that holds vertices, to find the first vertex at a place.
 class Places {
 public:
     explicit Places(std::span<const dvec3> positions) : positions_(positions) {
@@ -20,7 +20,7 @@ public:
         if (scale_ == 0) scale_ = 1;
         next_.resize(positions.size(), kNone);
     }
-    /// The first vertex at this one's place; itself where none was there before.
+    /// Returns the first vertex at the same place, or `vertex` if there was none before.
     std::size_t first_at(std::size_t vertex) {
         const dvec3 p = positions_[vertex] / scale_;
         const glm::i64vec3 low = cube_of(p - kNear), high = cube_of(p + kNear);
@@ -61,8 +61,8 @@ private:
 
     std::span<const dvec3> positions_;
     double scale_ = 0;
-    std::unordered_map<std::uint64_t, std::size_t> newest_; ///< vertex of a cube
-    std::vector<std::size_t> next_;                         ///< the one before it there
+    std::unordered_map<std::uint64_t, std::size_t> newest_; ///< last vertex added to each cube
+    std::vector<std::size_t> next_; ///< vertex added to the same cube before
 };
 
 } // namespace

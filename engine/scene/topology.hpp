@@ -7,22 +7,22 @@
 #include <span>
 #include <vector>
 
-/// How the triangles of a mesh meet.
+/// Topology of a mesh: the vertices and edges at which its triangles meet.
 namespace catoptric::scene {
 
-/// A triangle's corners, by number.
+/// Vertex numbers of a triangle's corners.
 using Corners = std::array<std::size_t, 3>;
 
 inline bool has_three_places(const Corners& t) {
     return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
 }
 
-/// Returns for each vertex the first vertex at its place. Places are one where no coordinate
-/// differs by more than 2^-21 of the largest coordinate, four roundings of a float: files compute
-/// the two ends of a seam apart. O(n).
+/// Returns for each vertex the first vertex at the same place. Two places are the same if no
+/// coordinate differs by more than 2^-21 of the largest coordinate, four roundings of a float. The
+/// tolerance is needed because files compute the two ends of a seam apart. O(n).
 std::vector<std::size_t> first_at_place(std::span<const dvec3> positions);
 
-/// One edge of one triangle.
+/// Edge of one triangle.
 struct Side {
     std::size_t low, high; ///< ends of the edge
     std::size_t triangle;
@@ -30,11 +30,11 @@ struct Side {
 };
 
 /// Returns the sides of all triangles, ordered by edge, then by triangle. A triangle with two equal
-/// corners is none and has no side. O(n log n).
+/// corners is skipped. O(n log n).
 std::vector<Side> sides_of(std::span<const Corners> triangles);
 
 /// Calls `visit(std::span<const Side>)` for each edge with the sides that meet there. A surface is
-/// closed where every edge has two.
+/// closed if every edge has two sides.
 template <typename Visit>
 void for_each_edge(const std::vector<Side>& sides, Visit&& visit) {
     for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {

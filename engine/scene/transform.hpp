@@ -15,22 +15,22 @@ bool is_finite(const Vector& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// What normals are multiplied with: the inverse transpose times |determinant|, so it exists for a
-/// singular matrix too. The result is not normalised.
+/// Returns the matrix that transforms normals: the inverse transpose times |determinant|. It exists
+/// for a singular matrix, too. Transformed normals are not normalised.
 inline dmat3 normal_matrix(const dmat4& world_from_object) {
     const dmat3 m(world_from_object);
     const dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     return glm::dot(m[0], cofactors[0]) < 0 ? -cofactors : cofactors;
 }
 
-/// Unit vector along `v`, or zero where `v` has no direction (zero or not finite).
+/// Returns the unit vector along `v`, or zero if `v` has no direction (zero or not finite).
 inline dvec3 normalized_or_zero(const dvec3& v) {
     const double length = std::hypot(v.x, v.y, v.z);
     return length > 0 && std::isfinite(length) ? v / length : dvec3(0);
 }
 
-/// Unit normal in the world. Where a singular matrix leaves none of `normal`: that of the plane
-/// that everything lies in, or any where there is not even a plane.
+/// Returns the unit normal in the world. If a singular matrix maps `normal` to zero, returns the
+/// normal of the plane that contains the transformed object. If there is no such plane, returns +z.
 inline dvec3 world_normal(const dmat3& normal_to_world, const dvec3& normal) {
     const dvec3 turned = normalized_or_zero(normal_to_world * normal);
     if (turned != dvec3(0)) return turned;

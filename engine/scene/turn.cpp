@@ -1,4 +1,4 @@
-// Which way is up.
+// Turns scenes from +z up to +y up.
 #include "scene/scene_overrides.hpp"
 
 #include <map>
@@ -10,7 +10,7 @@ namespace catoptric::scene {
 
 namespace {
 
-/// y from z: columns are where x, y and z go.
+/// Rotation from z up to y up. Its columns are the images of the x, y and z axes.
 const dmat3 kTurn{dvec3(1, 0, 0), dvec3(0, 0, -1), dvec3(0, 1, 0)};
 
 dvec3 turned(const dvec3& v) { return {v.x, v.z, -v.y}; }
@@ -20,7 +20,7 @@ void turn(dmat4& world_from) {
         world_from[column] = dvec4(turned(dvec3(world_from[column])), world_from[column].w);
 }
 
-/// Turns motions; objects that share a rig share the turned one.
+/// Turns motions. Objects that share a rig share the turned rig.
 class Turner {
 public:
     void operator()(std::monostate&) {}
@@ -58,7 +58,7 @@ void turn_z_up(Scene& scene) {
         camera.eye = turned(camera.eye), camera.target = turned(camera.target);
         camera.up = turned(camera.up);
         turner(camera.follows);
-        // It is carried from where it stands, and that has turned.
+        // The camera's place at rest has turned, so the node must first undo this turn.
         camera.follows.node_from_object *= dmat4(glm::transpose(kTurn));
     }
     for (Punctual& light : scene.punctual) {

@@ -8,18 +8,18 @@
 
 namespace catoptric::scene {
 
-/// What a file says that is not shown as it says, or what was added to it. Ids are fixed words:
-/// "normal-texture", "rough-metal", "added-camera" ...
+/// Something in a scene file that is left out or approximated, or that was added to the scene. Ids
+/// are fixed words: "normal-texture", "rough-metal", "added-camera" ...
 struct UnsupportedFeature {
     std::string id;
     std::uint64_t count = 0;
-    std::string first; ///< where, printable
-    /// Indices into Scene::materials of those that have it, by which its pixels are told; empty
-    /// where it is not of materials.
+    std::string first; ///< first place, printable
+    /// Indices into Scene::materials of the materials with this feature; reports find its pixels by
+    /// them. Empty if the feature does not concern materials.
     std::vector<std::size_t> materials;
 };
 
-/// Adds to the scene's gap of this id, or a new one.
+/// Adds `count` to the feature of this id, or adds a new feature.
 CATOPTRIC_API void add_unsupported(std::vector<UnsupportedFeature>& unsupported,
                                    const std::string& id, const std::string& first,
                                    std::uint64_t count = 1);
