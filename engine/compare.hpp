@@ -1,5 +1,5 @@
 #pragma once
 
-/// Every technique's cost and error, measured.
+/// Compares the cost and the error of techniques.
 #include "app/compare.hpp"
 #include "app/watcher.hpp"

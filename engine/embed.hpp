@@ -1,4 +1,4 @@
 #pragma once
 
-/// Sessions on a Vulkan device of the caller's. Needs Vulkan's headers.
+/// Runs sessions on the caller's Vulkan device. Needs the Vulkan headers.
 #include "embed/embed.hpp"

@@ -1,4 +1,4 @@
 #pragma once
 
-/// What the library throws.
+/// Exceptions that the library throws.
 #include "core/error.hpp"

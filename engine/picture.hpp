@@ -1,6 +1,6 @@
 #pragma once
 
-/// Pictures, their files, and how far two are apart.
+/// Pictures, picture files and differences of two pictures.
 #include "measure/difference.hpp"
 #include "measure/flip.hpp"
 #include "measure/picture.hpp"

@@ -1,4 +1,4 @@
 #pragma once
 
-/// A comparison as JSON, CSV, Markdown, HTML and pictures.
+/// Writes a comparison as JSON, CSV, Markdown, HTML and pictures.
 #include "report/write.hpp"

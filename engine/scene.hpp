@@ -1,6 +1,6 @@
 #pragma once
 
-/// Scenes: made in memory, loaded, edited, saved.
+/// Builds, loads, edits and saves scenes.
 #include "scene/build.hpp"
 #include "scene/edit.hpp"
 #include "scene/load.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A device, a scene on it, frame after frame.
+/// Renders frames of a scene on a device.
 #include "app/engine.hpp"
 #include "app/run.hpp"
 #include "app/session.hpp"

@@ -1,4 +1,4 @@
 #pragma once
 
-/// Techniques of a program's own.
+/// Registers techniques that a program adds.
 #include "app/technique.hpp"

@@ -18,7 +18,7 @@ namespace {
 using measure::Benchmark;
 using measure::BenchmarkRound;
 
-/// What a round's iterations took together.
+/// Sums over the iterations of one round.
 struct Sums {
     double real_ms = 0, host_ms = 0;
     Usage process, caller;
@@ -63,7 +63,8 @@ public:
         const HeldThreads held;
         for (int round = 0; round < rounds_; ++round)
             for (std::size_t place = 0; place < subjects_.size(); ++place)
-                // There and back: none always follows the same one, whose work may still be felt.
+                // Reverses every second round. No subject then always follows the same other, whose
+                // work may still have an effect.
                 measure(round % 2 == 0 ? place : subjects_.size() - 1 - place, round);
         for (Benchmark& caller : callers_)
             if (!caller.name.empty()) list_.push_back(std::move(caller));

@@ -9,41 +9,44 @@
 #include <string>
 #include <vector>
 
-/// Measuring benchmarks in rounds, so that what slows the machine down for a while slows them all.
+/// Measures benchmarks in rounds. Each round visits all benchmarks, so that a slow moment of the
+/// machine meets all of them.
 namespace catoptric::app {
 
-/// What an iteration says of itself, averaged over a round's.
+/// Figures that one iteration reports. A round stores their mean.
 struct Iteration {
-    double host_ms = 0; ///< of Subject::caller: time on the clock
+    double host_ms = 0; ///< wall-clock time of the work that Subject::caller names
     std::map<std::string, double> counters;
 };
 
-/// What is done again and again.
+/// Work that a benchmark repeats.
 struct Subject {
     std::string name;
-    std::function<Iteration()> work; ///< one iteration; what it takes is measured
+    std::function<Iteration()> work; ///< runs one iteration; its costs are measured
     int warmup = 1;                  ///< iterations before the first round, not measured
-    std::function<void()> leave;     ///< after the warm-up and each round, not measured; or none
-    /// Name of a benchmark of its own: what the calling thread alone did for it. Empty: none.
+    /// Called after the warm-up and after each round, not measured; may be empty.
+    std::function<void()> leave;
+    /// Name of a second benchmark, which holds the work of the calling thread alone. Empty: none.
     std::string caller;
 };
 
-/// Of work that says nothing of itself.
+/// Makes a subject of work that reports no figures of its own.
 Subject subject_of(std::string name, std::function<void()> work, int warmup = 1);
 
 struct BenchOptions {
-    int iterations = 20; ///< of each subject in all rounds, shared out as frames_of_round does
-    int rounds = 6;      ///< at most one an iteration
+    int iterations = 20; ///< of each subject over all rounds; frames_of_round distributes them
+    int rounds = 6;      ///< at most one per iteration
     Watcher watcher;
 };
 
-/// Every subject's rounds: all warm up, then each round goes through them, there and back. Costs
-/// what the work does. `meter`: of the process.
+/// Measures every subject in rounds, after all subjects have warmed up. Every second round visits
+/// the subjects in reverse order. Costs what the work costs. `meter`: counts the whole process.
 std::vector<measure::Benchmark> measure_rounds(const std::vector<Subject>& subjects,
                                                const UsageMeter& meter,
                                                const BenchOptions& options);
 
-/// The same as a run of this program: version, device and circumstances. `command`: its line.
+/// Measures as measure_rounds does and adds the program's version, the device and the
+/// circumstances. `command`: the program's command line.
 measure::BenchmarkRun bench(const std::vector<Subject>& subjects, const UsageMeter& meter,
                             const BenchOptions& options, const measure::DeviceFacts& device,
                             std::vector<std::string> command);

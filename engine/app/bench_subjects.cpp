@@ -10,14 +10,16 @@ namespace catoptric::app {
 
 namespace {
 
-/// Frames of one technique, whose history goes on from round to round as if nothing ran between.
+/// Frames of one technique. Their history continues from round to round as if nothing ran in
+/// between.
 class FrameWork {
 public:
     FrameWork(std::shared_ptr<Session> session, Request request)
         : session_(std::move(session)), request_(std::move(request)) {}
 
     Iteration next() {
-        if (!frames_) frames_.emplace(*session_, request_); // a cut, so not before its turn
+        // Only now, because Frames begins with a cut.
+        if (!frames_) frames_.emplace(*session_, request_);
         check(frames_->next(), Failure::internal, "a benchmark went on after its last frame");
         const FrameTimes& times = frames_->frame().times();
         Iteration iteration{times.host.sum(),
@@ -71,7 +73,7 @@ Subject frame_subject(std::shared_ptr<Session> session, Request request, int ite
                               parse_technique(request.techniques.front()).label;
     const int warmup = request.warmup;
     request.frames = iterations;
-    request.scene = scene::Scene(); // the session has it
+    request.scene = scene::Scene(); // the session has its own copy
     const auto work = std::make_shared<FrameWork>(std::move(session), std::move(request));
     return {.name = "frame/" + place,
             .work = [work] { return work->next(); },

@@ -5,18 +5,20 @@
 
 #include <memory>
 
-/// What of the engine is measured.
+/// Benchmark subjects: the parts of the engine that are measured.
 namespace catoptric::app {
 
-/// "session/SCENE": a session of the scene, laid out and uploaded, without a frame. The engine must
-/// outlive the subject.
+/// Returns "session/SCENE": makes a session, which lays out and uploads the scene, and renders no
+/// frame. The engine must outlive the subject.
 Subject session_subject(Engine& engine, const scene::Scene& scene);
-/// "hierarchy/SCENE": the tree for tracing over all its triangles at rest; counter "triangles".
+/// Returns "hierarchy/SCENE": builds the BVH over all triangles of the scene at rest. Counter:
+/// "triangles".
 Subject hierarchy_subject(const scene::Scene& scene);
-/// "frame/SCENE/WxH/TECHNIQUE": a frame of the request's one technique, from its description until
-/// it is done; counters "gpu_ms", and of a tracer "rays". Beside it "host/..." of the same, what
-/// the calling thread does for it: update, compile, record, submit; counter "record_ms" of the
-/// frame. `session`: of the request's scene. In all `iterations` of them are measured.
+/// Returns "frame/SCENE/WxH/TECHNIQUE": renders a frame of the request's one technique, from its
+/// description until the device is done. Counters: "gpu_ms", "record_ms" and, for a tracer, "rays".
+/// Subject::caller is "host/SCENE/WxH/TECHNIQUE": the calling thread's work for the frame (update,
+/// compile, record, submit). `session`: shows the request's scene. `iterations`: number of frames
+/// measured in all.
 Subject frame_subject(std::shared_ptr<Session> session, Request request, int iterations);
 
 } // namespace catoptric::app

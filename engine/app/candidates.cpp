@@ -15,7 +15,7 @@ namespace {
 
 struct Candidate {
     float roughness = 1;
-    double area = 0; ///< of its bounds: cheap, and enough to tell a wall from a screw
+    double area = 0; ///< surface area of its bounds: cheap, and enough to tell a wall from a screw
     std::string name;
 };
 
@@ -33,14 +33,14 @@ std::string shell_word(const std::string& text) {
 }
 
 std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t most) {
-    constexpr std::size_t kMostObjects = 20'000; // looked at
+    constexpr std::size_t kMostObjects = 20'000; // objects that are examined
     std::vector<Candidate> candidates;
     std::map<std::pair<std::size_t, std::size_t>, float> smoothest; // by mesh and material
     for (std::size_t i = 0; i < std::min(scene.objects.size(), kMostObjects); ++i) {
         const scene::Object& object = scene.objects[i];
         const scene::Material& material = scene.materials[object.material];
         const std::string& name = object.name.empty() ? material.name : object.name;
-        // What a texture lets glow here and there may well be one.
+        // An object that emits light only in parts, by a texture, may still be a candidate.
         const bool lights = scene::light_of(material) != vec3(0);
         if (material.mirror || object.mirror || !object.seen_by_camera || lights) continue;
         const auto [entry, is_new] = smoothest.try_emplace({object.mesh, object.material}, 1.f);
@@ -55,7 +55,7 @@ std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t m
     for (const Candidate& candidate : candidates)
         if (options.size() < most && known.insert(candidate.name).second)
             options.push_back("--mirror " + shell_word(candidate.name.empty()
-                                                           ? "*" // and all others
+                                                           ? "*" // selects all other objects, too
                                                            : scene::pattern_of(candidate.name)));
     return options;
 }

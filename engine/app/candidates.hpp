@@ -8,12 +8,12 @@
 
 namespace catoptric::app {
 
-/// Options that make mirrors of a scene's smoothest surfaces, ready for a shell: "--mirror 'NAME'".
-/// At most `most`, the smoothest first, of these the largest; each gives others than those before
-/// it.
+/// Returns options that make mirrors of a scene's smoothest surfaces, ready for a shell: "--mirror
+/// 'NAME'". Returns at most `most` options, the smoothest surface first and, between equals, the
+/// largest first. Each option names other surfaces than those before it.
 std::vector<std::string> mirror_options(const scene::Scene& scene, std::size_t most = 5);
 
-/// A word for a POSIX shell, in single quotes.
+/// Returns the text as a word for a POSIX shell, in single quotes.
 std::string shell_word(const std::string& text);
 
 } // namespace catoptric::app

@@ -7,20 +7,23 @@
 
 namespace catoptric::app {
 
-/// What a frame did with captures of which it may not draw all (FrameSpec::most_captures,
+/// Outcome of a frame that may not draw all captures again (FrameSpec::most_captures,
 /// FrameSpec::budget_ms).
 struct CaptureBudget {
-    std::uint32_t mirrors = 0; ///< that are captured
-    std::uint32_t most = 0;    ///< of them are drawn again in a frame, 1 to `mirrors`
-    std::uint32_t drawn = 0;   ///< in this frame, those among them that came into view
-    std::uint32_t waiting = 0; ///< put off
-    std::uint32_t longest = 0; ///< frames for which one has been put off by now
+    std::uint32_t mirrors = 0; ///< number of captured mirrors
+    std::uint32_t most = 0;    ///< mirrors that a frame draws again at most, 1 to `mirrors`
+    /// Mirrors drawn in this frame, including those that came into view.
+    std::uint32_t drawn = 0;
+    std::uint32_t waiting = 0; ///< mirrors whose captures were put off
+    std::uint32_t longest = 0; ///< frames for which the oldest capture has been put off
 
-    /// Frames within which each that waits is drawn, for as long as `most` stays.
+    /// Returns the number of frames within which each waiting capture is drawn, as long as `most`
+    /// does not change.
     std::uint32_t round() const { return most > 0 ? (mirrors + most - 1) / most : 1; }
 };
 
-/// "captures: at most 3 of 16 mirrors a frame; ...": how old what they show can be, a sentence.
+/// Returns a sentence that says how old captured content can be: "captures: at most 3 of 16 mirrors
+/// a frame; ...".
 CATOPTRIC_API std::string to_text(const CaptureBudget& slices);
 
 } // namespace catoptric::app

@@ -9,7 +9,7 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr std::size_t kFrames = 9; // an odd number; few, since what moves changes what it takes
+constexpr std::size_t kFrames = 9; // odd, for the median; few, because motion changes the cost
 
 } // namespace
 
@@ -22,7 +22,7 @@ void CaptureCost::add(double ms, std::uint32_t mirrors) {
 std::uint32_t CaptureCost::fitting(double budget_ms, std::uint32_t mirrors) const {
     if (each_ms_.empty()) return mirrors;
     const double fit = std::floor(budget_ms / measure::percentile(each_ms_, .5));
-    // Where a mirror takes no time that a clock tells, any number fits.
+    // If a mirror's time is too short to measure, any number fits.
     if (!(fit < mirrors)) return mirrors;
     return std::max(1u, static_cast<std::uint32_t>(fit));
 }

@@ -5,18 +5,19 @@
 
 namespace catoptric::app {
 
-/// How long it takes to draw a mirror's capture, by the last frames that drew some.
+/// Estimate of the time that a mirror's capture takes to draw, from the last frames that drew
+/// captures.
 class CaptureCost {
 public:
-    /// A frame took so many milliseconds for the captures of so many mirrors; 0 mirrors say
-    /// nothing.
+    /// Adds a frame that took `ms` milliseconds to draw the captures of `mirrors` mirrors. A frame
+    /// with 0 mirrors is ignored.
     void add(double ms, std::uint32_t mirrors);
-    /// As many mirrors as fit into the budget by the median of what was added last, at least 1 and
-    /// at most `mirrors`; all where nothing was.
+    /// Returns how many of `mirrors` captures fit into the budget, by the median of the frames
+    /// added last. Returns at least 1, and `mirrors` if no frame was added.
     std::uint32_t fitting(double budget_ms, std::uint32_t mirrors) const;
 
 private:
-    std::vector<double> each_ms_; ///< milliseconds a mirror, the newest last
+    std::vector<double> each_ms_; ///< milliseconds per mirror, the newest last
 };
 
 } // namespace catoptric::app

@@ -18,10 +18,10 @@ namespace catoptric::app {
 
 namespace {
 
-/// A cause that is mended in the technique's own shader, with or without the others.
+/// A cause that the technique's own shader can ablate, with or without the others.
 struct Player {
     const char* name;
-    std::uint32_t mends; ///< sum of shared::kMend...
+    std::uint32_t mends; ///< sum of shared::kAblate...
 };
 
 constexpr Player kPlayers[] = {{"direction", shared::kAblateDistance | shared::kAblateDirection},
@@ -32,7 +32,7 @@ constexpr Player kPlayers[] = {{"direction", shared::kAblateDistance | shared::k
 constexpr std::size_t kPlayerCount = std::size(kPlayers);
 constexpr std::uint32_t kEveryPlayer = (1U << kPlayerCount) - 1;
 
-/// What a coalition mends; bit i: player i.
+/// Returns the causes that a coalition ablates, a sum of shared::kAblate...; bit i: player i.
 std::uint32_t ablated_by(std::uint32_t coalition) {
     std::uint32_t ablated = 0;
     for (std::size_t i = 0; i < kPlayerCount; ++i)
@@ -40,14 +40,14 @@ std::uint32_t ablated_by(std::uint32_t coalition) {
     return ablated;
 }
 
-/// The frames that pictures are taken beside: they have what these have left.
+/// The frames whose history a picture uses and leaves unchanged.
 struct History {
     std::string technique;
     bool is_settled = false; ///< history of this very instant: nothing is a frame late
     auto operator<=>(const History&) const = default;
 };
 
-/// The technique with distances stored as 32-bit floats.
+/// Returns the technique with distances stored as 32-bit floats.
 std::string with_full_distance(const std::string& technique) {
     const TechniqueChoice choice = parse_technique(technique);
     const bool is_full = std::ranges::none_of(choice.settings, [](const auto& setting) {
@@ -66,8 +66,8 @@ std::string with_full_distance(const std::string& technique) {
 
 constexpr int kSettled = 16; // frames; deeper bounces are below a rounding of the picture's halves
 
-/// The row's own frames, or those that are settled at its last picture's instant; the same where
-/// that is no difference.
+/// Returns the row's own frames, or frames that are settled at the instant of its last picture.
+/// Returns the settled ones if there is no difference.
 History history_of(const Request& base, const std::string& technique, bool is_settled) {
     const bool may_lag = base.animate || base.total() <= kSettled;
     return {technique, is_settled || !may_lag};
@@ -82,7 +82,7 @@ Request request_for(const Request& base, const History& history) {
     request.frames = 1;
     request.warmup = history.is_settled ? kSettled : base.total() - 1;
     request.techniques = {history.technique};
-    request.model = Modelling::required; // the same pictures, of which nobody asks the time
+    request.model = Modelling::required; // gives the same pictures, and their times are not used
     return request;
 }
 
@@ -94,14 +94,14 @@ Values minus(const Values& from, const Values& what) {
     return left;
 }
 
-/// Where `chosen` is as told, 0 elsewhere.
+/// Returns the values where `chosen` equals `told`, and 0 elsewhere.
 Values only_where(const std::vector<bool>& chosen, bool told, Values values) {
     for (std::size_t i = 0; i < values.size(); ++i)
         if (chosen[i] != told) values[i] = 0;
     return values;
 }
 
-/// That pictures of a row are taken beside; some may be the same.
+/// Histories that pictures of a row use; some may be equal.
 struct Histories {
     History row, row_settled;
     History stored, settled; ///< with distances stored as 32-bit floats
@@ -113,7 +113,7 @@ Histories histories_of(const Request& base, const std::string& technique) {
             history_of(base, full, false), history_of(base, full, true)};
 }
 
-/// Coalitions whose picture is wanted beside each.
+/// Returns the coalitions whose picture is needed with each history.
 std::map<History, std::vector<std::uint32_t>> wanted_of(const Histories& histories) {
     std::map<History, std::vector<std::uint32_t>> wanted;
     for (const History& history : {histories.row, histories.row_settled, histories.stored})
@@ -127,10 +127,10 @@ std::map<History, std::vector<std::uint32_t>> wanted_of(const Histories& histori
 
 /// Squared errors of the mirrors' pixels.
 struct Errors {
-    measure::Shapley shapley; ///< of `settled`
-    std::map<std::pair<History, std::uint32_t>, Values>
-        kept;          ///< of coalitions that are looked at by themselves
-    measure::Mask off; ///< of the row's own picture
+    measure::Shapley shapley; ///< with the history `settled`
+    /// Of coalitions that are read one by one.
+    std::map<std::pair<History, std::uint32_t>, Values> kept;
+    measure::Mask off; ///< pixels that are off in the row's own picture
 };
 
 std::vector<measure::PixelCause> parts_of(const Histories& histories, const Errors& errors,
@@ -175,7 +175,8 @@ CauseFinder::CauseFinder(Session& session, const Request& base, const measure::P
                          const std::vector<std::uint32_t>& hits, const Watcher& watcher)
     : session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
       pixels_(measure::mirror_pixels(hits)) {
-    // A technique that follows no ray through other mirrors names the one that it draws.
+    // This technique follows no ray through other mirrors. Its lookup therefore names the mirror
+    // that the rasteriser draws.
     Request request = request_for(base, {"naive:bounces=1,face=1,shadow=none", false});
     request.warmup = 0, request.time = base.instant(base.total()), request.animate = false;
     request.with_lookup = true;

@@ -31,13 +31,13 @@ bool same(const TechniqueChoice& a, const TechniqueChoice& b) {
     return a.technique == b.technique && a.settings == b.settings;
 }
 
-/// Bit by bit, so that a NaN equals itself.
+/// Compares the bits, so that a NaN equals itself.
 bool same_pixels(const measure::Picture& a, const measure::Picture& b) {
     return std::ranges::equal(std::as_bytes(std::span(a.pixels)),
                               std::as_bytes(std::span(b.pixels)));
 }
 
-/// Returns the clock's time, "2026-11-24T03:05:10Z".
+/// Returns the present time in UTC: "2026-11-24T03:05:10Z".
 std::string utc_now() {
     const std::time_t now = std::time(nullptr);
     std::tm utc{};
@@ -46,8 +46,8 @@ std::string utc_now() {
     return {text, std::strftime(text, sizeof text, "%FT%TZ", &utc)};
 }
 
-/// Measures rows in rounds, one by one or together in each frame, and judges each against the
-/// reference at its sample count.
+/// Measures rows in rounds, one by one or together in each frame. Judges each against the reference
+/// at its sample count.
 class Comparer {
 public:
     Comparer(Engine& engine, const CompareRequest& request)
@@ -57,7 +57,7 @@ public:
           judge_(session_, truths_, request_.base, request_.watcher) {
         if (request_.base.techniques.empty())
             request_.base.techniques = default_techniques(request_.base);
-        check_asked(request_); // before any work
+        check_asked(request_); // refuses a bad request before any work
         comparison_.views = drawn_views(request_.base, request_.views);
     }
 
@@ -121,11 +121,11 @@ private:
         comparison_.together = request_.together;
     }
 
-    /// What is known only while rows are measured.
+    /// Fills facts that are known only after rows were measured.
     void fill_circumstances() {
         const Setup setup = session_.setup();
         const Compiled compiled = engine_.compiled();
-        constexpr const char* kCacheUse[] = {"none", "made", "used"}; // by CacheUse
+        constexpr const char* kCacheUse[] = {"none", "made", "used"}; // indexed by CacheUse
         comparison_.setup = {request_.base.load_ms,
                              setup.upload_ms,
                              setup.hierarchy_ms,
@@ -140,8 +140,8 @@ private:
         comparison_.pareto = measure::front_of(comparison_.rows);
     }
 
-    /// What it costs to clear the cubes of all mirrors and draw nothing, as often as a row's
-    /// frames.
+    /// Measures the cost of clearing the cubes of all mirrors without drawing, for as many frames
+    /// as a row has.
     void measure_clear(int round) {
         const int warmup = round == 0 ? request_.base.warmup : 0;
         const int frames = frames_of_round(request_.base.frames, comparison_.rounds, round);
@@ -170,7 +170,7 @@ private:
 
     void add(const std::string& text, const Part& part) {
         report::Row row = make_row(text, part);
-        // Together the host's work is that of all rows, which none can be blamed for.
+        // If all rows share a frame, the host's work is that of all rows and belongs to none.
         row.moves = request_.base.animate && !request_.together &&
                     scene::is_animated(request_.base.scene);
         const std::string samples = sample_count(parse_technique(text));
@@ -190,7 +190,8 @@ private:
         if (request_.on_finished_row) request_.on_finished_row(comparison_);
     }
 
-    /// Rows whose frames are measured one by one; with `together` one of all of them.
+    /// Returns the rows whose frames are measured one by one; with `together` one group of all
+    /// rows.
     std::vector<std::vector<std::string>> lanes() const {
         const std::vector<std::string>& texts = request_.base.techniques;
         if (request_.together) return {texts};
@@ -203,13 +204,14 @@ private:
         const HeldThreads held;
         comparison_.device.held_threads = static_cast<int>(held.count());
         for (int round = 0; round < comparison_.rounds; ++round) measure_round(round);
-        runs_.clear(); // and the memory of the device that their histories take
+        runs_.clear(); // frees also the device memory of their histories
     }
 
     void measure_round(int round) {
         measure_clear(round);
         const std::vector<std::vector<std::string>> all = lanes();
-        // There and back: no row always follows the same one, whose work may still be felt.
+        // Reverses every second round. No row then always follows the same other, whose work may
+        // still have an effect.
         for (std::size_t place = 0; place < all.size(); ++place) {
             const std::size_t lane = round % 2 == 0 ? place : all.size() - 1 - place;
             const auto rounds = static_cast<std::size_t>(comparison_.rounds);
@@ -224,7 +226,8 @@ private:
         if (round > 0) tell();
     }
 
-    /// Rows are judged once they are there, and by their last picture where it is another one.
+    /// Measures a round. Judges rows after the first round, and again by their last picture if it
+    /// differs.
     void measure(std::size_t lane, const std::vector<std::string>& texts, int round) {
         const bool first = round == 0, last = round + 1 == comparison_.rounds;
         if (first) {
@@ -255,7 +258,8 @@ private:
         for (std::size_t i = 0; i < comparison_.rows.size(); ++i) {
             report::Row& row = comparison_.rows[i];
             const std::string& text = request_.base.techniques[i];
-            const bool is_plan = !read_plan(text).is_technique; // no one search is to blame
+            // A plan's error belongs to no single search.
+            const bool is_plan = !read_plan(text).is_technique;
             const bool is_twin = request_.both_models && models_[i] == Modelling::required;
             if (!row.lookup || is_plan || is_twin) continue;
             request_.watcher.row("causes of " + text, i, comparison_.rows.size());
@@ -288,13 +292,13 @@ private:
 
     Engine& engine_;
     CompareRequest request_;
-    Compiled compiled_before_; ///< by the engine, for others
-    Session session_;          ///< of all rows
+    Compiled compiled_before_; ///< by the engine before this comparison
+    Session session_;          ///< shared by all rows
     ReferenceCache truths_;
     RowJudge judge_;
-    std::vector<Modelling> models_;             ///< of rows
-    std::vector<std::unique_ptr<RowRun>> runs_; ///< of rows, or of all together
-    std::vector<std::string> prefixes_;         ///< of the rows' passes
+    std::vector<Modelling> models_;             ///< models of the rows
+    std::vector<std::unique_ptr<RowRun>> runs_; ///< one per row, or one for all rows together
+    std::vector<std::string> prefixes_;         ///< prefixes of the rows' passes
     std::vector<std::vector<double>> clear_ms_; ///< by round
     std::vector<std::vector<std::string>> row_warnings_;
     report::Comparison comparison_;

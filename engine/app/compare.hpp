@@ -8,50 +8,54 @@
 namespace catoptric::app {
 
 inline constexpr const char* kReference = "raytrace:depth=16";
-inline constexpr int kRounds = 6; ///< the fewest that bound a median
+inline constexpr int kRounds = 6; ///< fewest rounds that give a confidence interval of the median
 
 struct CompareRequest {
     Request base; ///< its `techniques` are the rows; empty = default_techniques(base)
     std::string reference = kReference;
-    bool together = false; ///< all rows in one frame
-    /// In which the rows' frames are measured, at least 6: one row's frames after another's. Fewer
-    /// frames than that are measured one a round.
+    bool together = false; ///< render all rows in one frame
+    /// Number of rounds, at least 6. Each round measures some frames of every row, one row after
+    /// another. If there are fewer frames than rounds, each round has one frame.
     int rounds = kRounds;
-    /// Each row with everything and with what is required, one after the other; `base.model` else.
+    /// Measure each row with the model `everything` and with `required`. False: with `base.model`.
     bool both_models = false;
     bool causes = false; ///< split each row's error by cause; only against the default reference
-    int views = 1; ///< beside the one of the pictures as many drawn ones (app/views.hpp); 1: none
-    bool lag = false; ///< also how far rows are behind a moving scene (app/lag.hpp): minutes a row
-    std::vector<std::string> command; ///< for the record
-    std::string images;               ///< Comparison::images
+    /// Number of drawn views (app/views.hpp) in addition to the base's view; 1: none.
+    int views = 1;
+    /// Also measure how far rows lag behind a moving scene (app/lag.hpp); minutes per row.
+    bool lag = false;
+    std::vector<std::string> command; ///< command line that the report quotes
+    std::string images;               ///< see report::Comparison::images
     Watcher watcher;
-    /// Called after each row of the first round, each later round, and each row or drawn view of
-    /// what follows, with what there is so far, not `complete`; may be empty.
+    /// Called with the unfinished comparison, whose `complete` is false; may be empty. The calls
+    /// follow each row of the first round, each later round, and each row or drawn view of the
+    /// later steps.
     std::function<void(const report::Comparison&)> on_finished_row;
 };
 
-/// The rows that each technique of the table names for itself (reflect::Technique::compared), and
-/// `auto`, but those that fit no mirror of the scene as `base` shows it.
+/// Returns the rows that each technique of the table proposes (reflect::Technique::compared), and
+/// `auto`. Leaves out rows that fit no mirror of the scene as `base` shows it.
 CATOPTRIC_API std::vector<std::string> default_techniques(const Request& base);
-/// Throws `bad_data`, saying how to make one, where a scene has no mirror.
+/// Throws `bad_data` if the scene has no mirror. The message says how to make one.
 CATOPTRIC_API void check_has_mirror(const scene::Scene& scene);
 
-/// Throws `usage` for fewer than bound a median.
+/// Throws `usage` if the rounds are too few for a confidence interval of the median.
 CATOPTRIC_API void check_rounds(int rounds);
-/// Throws `usage` for a reference other than the default one, by its settings: what is mended is
-/// its own.
+/// Throws `usage` for a reference whose settings differ from those of the default reference.
+/// Ablation removes a row's errors against the default reference only.
 CATOPTRIC_API void check_explains(const std::string& reference);
-/// Throws `usage` for rows that are unknown or, with the same settings, asked for twice.
+/// Throws `usage` for unknown rows, and for two rows with the same settings.
 CATOPTRIC_API void check_rows(const std::vector<std::string>& techniques);
 
-/// All of these, plans that do not fit the mirrors, and rows that are asked for in both models and
-/// in one frame.
+/// Applies all checks above. Also refuses plans that do not fit the mirrors, and rows that are
+/// asked for in both models and in one frame.
 CATOPTRIC_API void check_asked(const CompareRequest& request);
 
-/// Renders every row and the reference, measures speed in rounds and error. A row with `samples` is
-/// judged against the reference at as many samples. What ends the run early (a signal, a lost
-/// device, no memory, `on_finished_row`) is in `stopped` of the rows so far, or thrown where there
-/// is none and it was no signal.
+/// Renders every row and the reference, measures speed in rounds and error. A row with the knob
+/// `samples` is judged against the reference with as many samples. A run ends early by a signal, a
+/// lost device, missing memory or an exception of `on_finished_row`. The rows so far are then
+/// returned with the cause in `stopped`. If there are no rows and the cause is no signal, the cause
+/// is thrown instead.
 CATOPTRIC_API report::Comparison compare(Engine& engine, const CompareRequest& request);
 
 } // namespace catoptric::app

@@ -1,4 +1,4 @@
-// What may be asked of a comparison.
+// Checks the request of a comparison.
 #include "app/candidates.hpp"
 #include "app/compare.hpp"
 #include "app/plan_file.hpp"

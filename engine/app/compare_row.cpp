@@ -39,14 +39,15 @@ Rounds with_passes(Rounds rounds) {
     return rounds;
 }
 
-/// Every pass that some frame has, as they come: what is kept is not rendered in each.
+/// Returns the names of all passes that occur in some frame, in order of execution. Frames differ
+/// in their passes, because captures that are kept are not rendered again.
 std::vector<std::string> names_of_passes(const Rounds& rounds) {
     std::vector<std::string> names;
     for (const std::vector<FrameTimes>& round : rounds)
         for (const FrameTimes& frame : round)
             for (std::size_t i = 0; i < frame.passes.size(); ++i) {
                 if (std::ranges::find(names, frame.passes[i].name) != names.end()) continue;
-                // Behind the one that it stands behind here.
+                // Inserts the pass behind its predecessor in this frame.
                 const auto before = i == 0 ? names.begin()
                                            : std::next(std::ranges::find(names,
                                                                          frame.passes[i - 1].name));
@@ -55,7 +56,7 @@ std::vector<std::string> names_of_passes(const Rounds& rounds) {
     return names;
 }
 
-/// Whether a picture shows nothing in its mirrors, but for pixels at their outlines, where the
+/// Returns whether a picture's mirrors are black, except for pixels at their outlines, while the
 /// reference shows something.
 bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture& truth,
                          const std::vector<std::uint32_t>& hits) {
@@ -132,7 +133,7 @@ report::Row make_row(const std::string& text, const Part& part) {
     return row;
 }
 
-/// Alone, a frame counts from its first to its last stamp.
+/// If the row is alone in its frames, its time runs from the first to the last timestamp.
 void fill_times(report::Row& row, const Rounds& rounds, const std::string& prefix,
                 bool on_processor) {
     const auto mine = [&](const PassTime& pass) { return pass.name.starts_with(prefix); };

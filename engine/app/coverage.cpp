@@ -12,7 +12,7 @@ namespace catoptric::app {
 
 namespace {
 
-/// Pixels from `low` to before `high`.
+/// Pixels from `low` up to, but without, `high`.
 struct Box {
     ivec2 low{0}, high{0};
 
@@ -22,9 +22,9 @@ struct Box {
     }
 };
 
-/// Returns the pixels whose rays can meet a triangle: those whose centres lie within its bounds on
-/// the screen, or less than half a pixel beside them (roundings). All pixels if a corner lies
-/// behind the eye.
+/// Returns the pixels whose rays can meet a triangle. Their centres lie within the triangle's
+/// bounds on the screen, or less than half a pixel outside (for rounding errors). Returns all
+/// pixels if a corner lies behind the eye.
 Box bounds_on_screen(const shared::View& view, uvec2 size, const std::array<vec3, 3>& corners) {
     dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     int behind = 0;
@@ -39,8 +39,8 @@ Box bounds_on_screen(const shared::View& view, uvec2 size, const std::array<vec3
     if (behind == 3) return {};
     const dvec2 pixels(size);
     if (behind > 0) low = dvec2(-1), high = dvec2(1);
-    // The centre of pixel i is at i + .5, so it lies less than half a pixel beside [low, high]
-    // where low - 1 < i < high.
+    // The centre of pixel i is at i + .5. Pixels with low - 1 < i < high therefore lie less than
+    // half a pixel outside [low, high].
     const auto pixel = [&](const dvec2& ndc, double more) {
         return ivec2(glm::clamp(glm::floor((ndc + 1.0) * .5 * pixels) + more, dvec2(0), pixels));
     };
@@ -85,7 +85,7 @@ std::optional<std::vector<int>> objects_covering(const render::Geometry& geometr
                     if (range.one_sided && f32::is_from_behind(a, b, c, pixel.ray.direction))
                         continue;
                     if (!f32::triangle_test(a, b, c, pixel.ray.origin, pixel.shear, t, weights) ||
-                        !(t < pixel.t)) // of equals the first
+                        !(t < pixel.t)) // between equal distances the first triangle wins
                         continue;
                     pixel.t = t;
                     seen[i] = static_cast<int>(object);

@@ -9,10 +9,11 @@
 
 namespace catoptric::app {
 
-/// Returns the object that the ray through each pixel's centre meets first, row by row (-1: none),
-/// as the walk of a tree does, without one: each triangle is tested for the pixels of its bounds
-/// on the screen. Costs a projection for each triangle, and 32 bytes a pixel. None where that
-/// would take more than `most_tests` tests, as many large triangles behind each other do.
+/// Returns the object that the ray through each pixel's centre meets first, row by row (-1: none).
+/// The result equals that of tracing through a BVH, but no BVH is needed. Each triangle is tested
+/// for the pixels of its bounds on the screen. Costs a projection per triangle, and 32 bytes per
+/// pixel. Returns nothing if more than `most_tests` tests were needed, as for many large triangles
+/// behind each other.
 std::optional<std::vector<int>> objects_covering(const render::Geometry& geometry,
                                                  const shared::View& view, uvec2 size,
                                                  std::uint64_t most_tests);

@@ -9,9 +9,9 @@
 
 namespace catoptric::app {
 
-/// The way in for embed/: an engine on a given device, and frames with something added; and for
-/// tuning: another choice of shaders from the next frame on, which Engine::device does not say; and
-/// for what asks the device itself.
+/// Internal access to engines and sessions. embed/ makes an engine on a given device, and adds
+/// passes to frames. Tuning chooses other shaders from the next frame on; Engine::device does not
+/// report this choice. Other code reads the device itself.
 struct Embedding {
     static Engine make(const EngineOptions& options, const gpu::GivenDevice& given) {
         return Engine(options, given);

@@ -37,8 +37,8 @@ gpu::DeviceOptions to_options(const EngineOptions& options,
     return wanted;
 }
 
-/// catoptric's in the folder that the variable names, or in one of HOME; empty where neither is an
-/// absolute path.
+/// Returns catoptric's folder within the folder that `variable` names, or within a folder of HOME.
+/// Returns an empty path if neither is absolute.
 std::filesystem::path users_folder(const char* variable, const char* in_home) {
     const auto absolute = [](const char* name) {
         const char* text = std::getenv(name);

@@ -16,41 +16,45 @@ namespace catoptric::gpu {
 struct GivenDevice; // internal
 } // namespace catoptric::gpu
 
-/// The engine as a program or a library uses it. No Vulkan name is needed to include this.
+/// The engine, as programs and libraries use it. Including this header needs no Vulkan header.
 namespace catoptric::app {
 
-/// Choices among builds of shaders that change no byte of a picture, by name: {"groups", "in
-/// order"}.
+/// Chosen shader variants by name: {"groups", "in order"}. Variants are builds of shaders that
+/// change no byte of a picture.
 using Variants = std::vector<std::pair<std::string, std::string>>;
 
 struct EngineOptions {
     std::string device;    ///< index or part of a name; empty = discrete, else integrated, else cpu
-    bool validate = false; ///< the validation layer watches; any message makes the run fail
-    bool layered = true;   ///< false: render captures face by face even where the device can do six
+    bool validate = false; ///< turn on the validation layer; any message makes the run fail
+    /// False: render captures face by face even if the device can render six at once.
+    bool layered = true;
     /// Shader builds to use in place of others, for benchmarks: "raytrace.comp" ->
     /// "raytrace.comp#naive".
     std::map<std::string, std::string> shader_variants = {};
-    /// The profile of the device (docs/performance.md), as `catoptric bench --tune` writes it: a
-    /// file of this device and driver, else the engine throws `bad_data` or `missing_input`.
+    /// Device profile to use (docs/performance.md), as `catoptric bench --tune` writes it. The
+    /// engine throws `bad_data` or `missing_input` unless it is a file for this device and driver.
     std::filesystem::path profile = {};
-    /// A folder with profiles, where none is named: that of this device and driver is used if it is
-    /// there; DeviceInfo::warning says where it is no good. Empty: all is as by default.
+    /// Folder with profiles, searched if `profile` is empty. The profile for this device and driver
+    /// is used if the folder has it. DeviceInfo::warning says why a profile cannot be used. Empty:
+    /// all variants have their defaults.
     std::filesystem::path profiles = {};
-    /// What would be in a profile, in place of one.
+    /// Variants to use instead of a profile.
     Variants variants = {};
-    /// A folder where compiled pipelines are kept from process to process; empty: nowhere.
+    /// Folder that keeps compiled pipelines from process to process. Empty: they are not kept.
     std::filesystem::path cache = {};
-    /// For a window (app/screen.hpp): the instance extensions that its system wants, and what makes
-    /// the window's surface: it is handed Vulkan's instance and returns the handle of a surface,
-    /// which is the engine's from then on. The device is one that can show pictures there.
+    /// For a window (app/screen.hpp): instance extensions that the window system needs, and a
+    /// function that makes the window's surface. The function receives the Vulkan instance and
+    /// returns the handle of a surface, which the engine owns from then on. The chosen device can
+    /// show pictures on this surface.
     std::vector<std::string> instance_extensions = {};
     std::function<std::uint64_t(void* instance)> make_surface = {};
 };
 
-/// XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty where neither is an absolute path.
-CATOPTRIC_API std::filesystem::path cache_folder();
-/// XDG_CONFIG_HOME/catoptric/devices, or below HOME/.config; empty where neither is an absolute
+/// Returns XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty if neither is an absolute
 /// path.
+CATOPTRIC_API std::filesystem::path cache_folder();
+/// Returns XDG_CONFIG_HOME/catoptric/devices, or HOME/.config/catoptric/devices; empty if neither
+/// is an absolute path.
 CATOPTRIC_API std::filesystem::path profile_folder();
 
 struct KnobInfo {
@@ -64,10 +68,11 @@ struct TechniqueInfo {
     std::string name, summary;
     std::vector<KnobInfo> knobs;
 };
-/// Every technique in the table's order.
+/// Returns every technique, in the order of the technique table.
 CATOPTRIC_API std::vector<TechniqueInfo> techniques();
 
-/// Checks "name[:knob=value,...]"; throws `Failure::usage` with the nearest name.
+/// A technique with all its settings, as `parse_technique` reads it from "name[:knob=value,...]".
+/// For an unknown name, `parse_technique` throws `Failure::usage` with the nearest name.
 struct TechniqueChoice {
     std::string technique, label, file_name;
     std::vector<Setting> settings; ///< all knobs
@@ -77,55 +82,55 @@ CATOPTRIC_API TechniqueChoice parse_technique(const std::string& text);
 struct DeviceInfo {
     std::string name, driver, api, type;
     int threads = 0;
-    std::string missing;    ///< what the engine needs and it lacks; empty = usable
+    std::string missing;    ///< features that the engine needs and the device lacks; empty: usable
     std::string id;         ///< vendor and device in hexadecimal: "10de-2330"
-    std::string profile;    ///< file name of the profile that holds; empty: none
-    Variants variants = {}; ///< that hold, all
-    std::string warning;    ///< why a profile that is there does not hold; empty: it does
+    std::string profile;    ///< file name of the profile in effect; empty: none
+    Variants variants = {}; ///< all variants in effect
+    std::string warning;    ///< why an existing profile is not in effect; else empty
 };
-/// `profiles`: see EngineOptions.
+/// Returns the machine's devices. `profiles`: see EngineOptions.
 CATOPTRIC_API std::vector<DeviceInfo> devices(const std::filesystem::path& profiles = {});
 
 CATOPTRIC_API std::string version(); ///< "0.1.0"
 CATOPTRIC_API std::string commit();  ///< abbreviated, "unknown" outside a checkout
 
-/// Whether an Engine of this process had to give up its device (Engine::usable). Its driver's
-/// threads may still be at work, and to take the program down under them can crash: such a program
-/// ends with std::_Exit.
+/// Returns whether an Engine of this process had to give up its device (Engine::usable). Threads of
+/// the driver may then still run, and a normal exit under them can crash. Such a program must end
+/// with std::_Exit.
 CATOPTRIC_API bool any_abandoned();
 
-/// What an engine has compiled so far. A software driver compiles more of a pipeline within the
-/// frame that first uses it.
+/// Pipelines that an engine has compiled so far. A software driver compiles more of a pipeline in
+/// the first frame that uses it.
 struct Compiled {
     std::size_t pipelines = 0;
-    double ms = 0; ///< of the host, from the shader's words to the driver's pipeline
+    double ms = 0; ///< host time from the shader's words to the driver's pipeline
 };
 
-/// What became of the cache on disk: there is none; it is new or was not whole; the driver was
-/// given what it holds.
+/// State of the pipeline cache on disk. none: there is no cache. made: the cache is new, or its
+/// file was damaged. used: the driver received the cached data.
 enum class CacheUse { none, made, used };
 
-/// A device with what has been compiled for it. One thread at a time.
+/// A device with the pipelines compiled for it. Only one thread may use an engine at a time.
 ///
-/// Making one sets variables of this process's environment, before threads of the program should
-/// read it: NODEVICE_SELECT, unless somebody chose a device by Mesa's, and with `validate` what the
-/// validation layer is to watch.
+/// The constructor sets environment variables of this process, so call it before other threads read
+/// the environment. It sets NODEVICE_SELECT, unless the user chose a device by Mesa's variable.
+/// With `validate` it also sets what the validation layer checks.
 class Engine {
 public:
     CATOPTRIC_API explicit Engine(const EngineOptions& options);
     CATOPTRIC_API ~Engine();
 
-    /// False once the device was lost or could not be waited for, which threw `device_lost` or
-    /// `exhausted`. Then all that needs the device throws the same again, and what the driver may
-    /// still use is never freed. Another Engine can be made.
+    /// Returns false once the device was lost or could not be waited for, which threw `device_lost`
+    /// or `exhausted`. After that, each function that needs the device throws the same failure
+    /// again. Memory that the driver may still use is never freed. You can make another Engine.
     CATOPTRIC_API bool usable() const;
 
     CATOPTRIC_API const DeviceInfo& device() const;
-    /// What its user should know: a cache that cannot be used. Empty where all is well.
+    /// Returns a warning for the user, such as a cache that cannot be used. Empty: none.
     CATOPTRIC_API const std::string& warning() const;
     CATOPTRIC_API Compiled compiled() const;
     CATOPTRIC_API CacheUse cache_use() const;
-    /// Throws `internal` with the first message of the validation layer, when there is any.
+    /// Throws `internal` with the first message of the validation layer, if there is one.
     CATOPTRIC_API void check_validation() const;
 
 private:

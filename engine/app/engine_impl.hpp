@@ -8,7 +8,7 @@
 
 namespace catoptric::app {
 
-/// What sessions share.
+/// State of an engine that its sessions share.
 struct Engine::Impl {
     explicit Impl(const EngineOptions& options,
                   const std::optional<gpu::GivenDevice>& given = std::nullopt);

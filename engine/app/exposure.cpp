@@ -11,7 +11,7 @@
 namespace catoptric::app {
 
 double exposure_for(const measure::Picture& picture) {
-    constexpr double kPercentile = .95, kWanted = .8, kSteps = 3; // a stop
+    constexpr double kPercentile = .95, kWanted = .8, kSteps = 3; // kSteps: per stop
     std::vector<double> luminances;
     for (const vec3& pixel : picture.pixels) {
         const double its = luminance(dvec3(pixel));
@@ -21,7 +21,7 @@ double exposure_for(const measure::Picture& picture) {
     const double bright = measure::percentile(std::move(luminances), kPercentile);
     if (!(bright > 0)) return 0;
     const double stops = std::round(kSteps * std::log2(kWanted / bright)) / kSteps;
-    return std::clamp(stops, -scene::kMostStops, scene::kMostStops) + 0.0; // no -0
+    return std::clamp(stops, -scene::kMostStops, scene::kMostStops) + 0.0; // turns -0 into 0
 }
 
 double auto_exposure(Session& session, const Request& request) {

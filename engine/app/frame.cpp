@@ -1,4 +1,4 @@
-// A frame that a session has submitted, and what can be read of it.
+// Reads the results of a frame that a session has submitted.
 #include "app/session_impl.hpp"
 #include "render/captured.hpp"
 

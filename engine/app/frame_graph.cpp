@@ -1,4 +1,4 @@
-// What a frame's graph holds, and what is read of it.
+// Declares the graph of a frame, and reads its results.
 #include "app/frame_graph.hpp"
 
 #include "app/plan_file.hpp"
@@ -17,7 +17,7 @@ namespace catoptric::app {
 
 namespace {
 
-/// Scene passes and draws of the part whose passes begin with `prefix`.
+/// Counts scene passes and draws of the part whose passes begin with `prefix`.
 void count_scene_passes(const graph::Graph& graph, const graph::Plan& plan, Part& part) {
     for (const graph::PlannedPass& planned : plan.passes) {
         const graph::Pass& pass = graph.passes()[planned.pass];
@@ -49,7 +49,7 @@ std::vector<Value> values_of(const std::vector<std::byte>& bytes) {
     return values;
 }
 
-/// Of a traced picture's alpha: see Part::hits.
+/// Returns the mirrors that rays hit (Part::hits), from the alpha channel of a traced picture.
 std::vector<std::uint32_t> to_hits(const std::vector<std::byte>& texels) {
     std::vector<std::uint32_t> hits;
     hits.reserve(texels.size() / sizeof(vec4));
@@ -60,7 +60,7 @@ std::vector<std::uint32_t> to_hits(const std::vector<std::byte>& texels) {
     return hits;
 }
 
-/// Adds what one tracing counted.
+/// Adds the counters of one ray-tracing pass.
 void add_counters(const std::vector<std::byte>& bytes, Part& part) {
     shared::Counters counters;
     std::memcpy(&counters, bytes.data(), sizeof counters);
@@ -77,7 +77,7 @@ void add_counters(const std::vector<std::byte>& bytes, Part& part) {
                                static_cast<double>(counters.listed) / counters.mirror_pixels;
 }
 
-/// What became of captures that are kept under a limit.
+/// Returns the outcome of captures that are kept under a limit.
 std::optional<CaptureBudget> slices_of(const reflect::Outputs& outputs,
                                        const reflect::CaptureHistory& keeping) {
     if (!outputs.kept || keeping.most == 0) return std::nullopt;
@@ -93,7 +93,7 @@ std::optional<CaptureBudget> slices_of(const reflect::Outputs& outputs,
     return slices;
 }
 
-/// Of what is kept and the frame does not need.
+/// Returns the bytes of persistent images that the frame does not use.
 std::uint64_t idle_bytes(const graph::Runner& runner, const graph::Graph& graph) {
     std::uint64_t bytes = 0;
     for (const auto& [name, kept] : runner.history().persistent) {
@@ -104,7 +104,7 @@ std::uint64_t idle_bytes(const graph::Runner& runner, const graph::Graph& graph)
     return bytes;
 }
 
-/// Texels of four halves with a colour at or above the largest half.
+/// Counts texels of four halves with a colour at or above the largest half.
 std::size_t saturated_texels(const std::vector<std::byte>& bytes) {
     const std::vector<std::uint16_t> halves = values_of<std::uint16_t>(bytes);
     std::size_t count = 0;
@@ -176,7 +176,7 @@ measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Dec
     return to_picture(runner.read(ticket, declared.outputs.hdr), size, Format::rgba32f);
 }
 
-/// How each mirror was drawn, and which rule said so.
+/// Returns how each mirror was drawn, and which rule decided so.
 std::vector<PlanEntry> plan_of(const Declared& declared, const std::vector<std::string>& mirrors) {
     const auto& [choices, of_mirror, patterns, reasons, lacks] = declared.assignment;
     std::vector<PlanEntry> entries;
@@ -195,8 +195,8 @@ std::vector<PlanEntry> plan_of(const Declared& declared, const std::vector<std::
     return entries;
 }
 
-/// What mirrors lack that their technique cannot draw as asked: a sentence for all that lack the
-/// same, which names the first of them.
+/// Returns sentences about mirrors that their technique cannot draw as asked. Mirrors that lack the
+/// same share a sentence, which names the first of them.
 std::vector<std::string> shortfalls_of(const Declared& declared,
                                        const std::vector<std::string>& mirrors) {
     constexpr std::size_t kMostNamed = 3;

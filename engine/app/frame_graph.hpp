@@ -8,10 +8,10 @@
 #include <memory>
 #include <vector>
 
-/// A frame between its specification and what is read of it. Internal: names Vulkan.
+/// Builds the render graph of a frame and reads its results. Internal: uses Vulkan names.
 namespace catoptric::app {
 
-/// One technique's share of a frame's graph.
+/// The part of a frame's graph that belongs to one technique.
 struct Declared {
     reflect::Plan plan;
     reflect::Assignment assignment;
@@ -24,26 +24,27 @@ struct Declared {
 struct FrameGraph {
     graph::Graph graph;
     std::vector<Declared> parts;
-    std::shared_ptr<graph::Physical> target; ///< of an embedder; may be none
+    std::shared_ptr<graph::Physical> target; ///< image of an embedding program; may be null
 };
 
-/// Throws `usage` for none, for an unknown one and for one that is there twice.
+/// Parses the plans of all techniques. Throws `usage` for an empty list, an unknown technique, and
+/// a technique that is listed twice.
 std::vector<reflect::Plan> parse_plans(const std::vector<std::string>& techniques);
 
-/// Every technique's passes and its compose, and what is wanted of them.
-/// `mirrors`: their names; `keeping`: of each plan. Throws `usage` for a plan that does not fit
-/// them.
+/// Declares the passes of every technique, the pass that composes its picture, and its outputs.
+/// `mirrors`: names of the mirrors. `keeping`: capture history of each plan. Throws `usage` for a
+/// plan that does not fit the mirrors.
 FrameGraph declare(const FrameSpec& spec, const std::vector<reflect::Plan>& plans,
                    const std::vector<std::string>& mirrors, const render::GpuScene& scene,
                    graph::History history, const std::vector<reflect::CaptureHistory>& keeping);
 
-/// Whether captures are kept, or a pass of the part reads what the frame before left.
+/// Returns whether the part keeps captures, or one of its passes reads data of the frame before.
 bool remembers(const FrameGraph& frame, const graph::Plan& plan, const Declared& part);
 
 measure::Picture read_hdr(graph::Runner& runner, graph::Ticket ticket, const Declared& declared,
                           uvec2 size);
-/// `part`: index into the frame's parts; `mirrors`: their names. Throws `exhausted` where rays gave
-/// up.
+/// Reads the results of a part. `part`: index into the frame's parts. `mirrors`: names of the
+/// mirrors. Throws `exhausted` if rays took more steps than allowed.
 Part read_part(graph::Runner& runner, graph::Ticket ticket, const FrameGraph& frame,
                std::size_t part, const std::vector<std::string>& mirrors,
                const render::GpuScene& scene, const FrameSpec& spec);

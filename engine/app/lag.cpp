@@ -14,25 +14,26 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kFrameCap = 30;       // of a still, and of each side of a cut
-constexpr int kWarmup = 16;         // frames along the path before the first that counts
-constexpr double kLongestPath = 10; // seconds: a long animation is cut, or a run would take hours
+constexpr int kFrameCap = 30; // frames of a still, and of each side of a cut
+constexpr int kWarmup = 16;   // frames along the path before the first that counts
+// Seconds; a long animation is cut, because a run would take hours.
+constexpr double kLongestPath = 10;
 constexpr double kFramesASecond = 60;
 
-/// Instants along the scene's motion that frames of every speed meet.
+/// Instants along the scene's motion, on each of which every speed has a frame.
 struct Path {
     double start = 0;   ///< seconds
     double step = 0;    ///< seconds from one instant to the next
-    double fastest = 1; ///< speed
-    int stride = 1;     ///< its frames in a step
-    int count = 1;      ///< of instants
+    double fastest = 1; ///< fastest speed, as in LagRequest::speeds
+    int stride = 1;     ///< frames of the fastest speed in a step
+    int count = 1;      ///< number of instants
 
     double length() const { return step * count; }
     double instant(int i) const { return start + step * i; }
-    /// Frames of a speed in a step.
+    /// Returns the number of frames of a speed in a step.
     int frames(double speed) const { return stride * static_cast<int>(fastest / speed); }
-    /// Where frame f, from 0 at the start, of a speed stands: exactly on an instant at every
-    /// frames()-th.
+    /// Returns the instant of frame f (0 at the start) of a speed, in seconds. Every frames()-th
+    /// frame lies exactly on an instant of the path.
     double seconds(double speed, int f) const {
         return start + step * (static_cast<double>(f) / frames(speed));
     }
@@ -49,7 +50,8 @@ void check_speeds(const std::vector<double>& speeds) {
     }
 }
 
-/// As many instants as the fastest speed has frames, or as are allowed. One if nothing moves.
+/// Returns a path with as many instants as the fastest speed has frames, or as are allowed. Returns
+/// one instant if nothing moves.
 Path path_of(const LagRequest& request) {
     check_speeds(request.speeds);
     check(request.most_instants > 0, Failure::usage, "lag: wanted at least one instant, found ",
@@ -63,7 +65,7 @@ Path path_of(const LagRequest& request) {
     return path;
 }
 
-/// All figures. `exposure`: stops.
+/// Returns all figures of the difference. `exposure`: stops.
 measure::Difference apart(const measure::Picture& a, const measure::Picture& b,
                           const measure::Mask& mask, double exposure) {
     return measure::difference(measure::exposed(a, exposure), measure::exposed(b, exposure), mask,
@@ -71,7 +73,7 @@ measure::Difference apart(const measure::Picture& a, const measure::Picture& b,
                                              measure::to_unrounded_display(b, exposure)));
 }
 
-/// Without FLIP, which takes longer than all others.
+/// Returns the difference without FLIP, which takes longer than all other figures.
 measure::Difference apart_without_flip(const measure::Picture& a, const measure::Picture& b,
                                        const measure::Mask& mask, double exposure) {
     return measure::difference(measure::exposed(a, exposure), measure::exposed(b, exposure), mask,
@@ -83,11 +85,11 @@ bool same_bytes(const measure::Picture& a, const measure::Picture& b) {
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
 }
 
-/// A technique's picture of an instant once nothing changes any more.
+/// A technique's picture of an instant, after nothing changes any more.
 struct Still {
     Part part;
-    int frames = 0;     ///< that it took
-    bool rests = false; ///< false: it still changed at the cap
+    int frames = 0;     ///< frames until the picture stopped changing
+    bool rests = false; ///< false: the picture still changed at the cap
 };
 
 class LagMeter {
@@ -97,7 +99,7 @@ public:
           mirrors_(static_cast<int>(scene::mirrors(request.base.scene).size())) {
         check(!request_.base.techniques.empty(), Failure::usage, "lag: no technique was asked for");
         for (const std::string& text : request_.base.techniques)
-            parse_technique(text); // refused before any work
+            parse_technique(text); // throws before any work
     }
 
     void run() {
@@ -115,7 +117,7 @@ public:
     }
 
 private:
-    /// What is seen where mirrors are.
+    /// The mirrors' pixels and the reference at one instant.
     struct Instant {
         double seconds = 0;
         measure::Mask mirrors;
@@ -128,17 +130,17 @@ private:
         frames_expected_ = frames;
     }
 
-    /// Renders a frame of the row at hand.
+    /// Renders a frame of the current row.
     Frame frame(const std::string& technique, double seconds) {
         FrameSpec spec = request_.base;
         spec.techniques = {technique};
         spec.time = seconds;
-        spec.model = Modelling::required; // the same pictures, of which nobody asks the time
+        spec.model = Modelling::required; // gives the same pictures, and their times are not used
         const Frame made = session_.frame(spec);
         request_.watcher.frame(++frames_done_, frames_expected_);
         return made;
     }
-    /// From cold history; what the runs before may have taken less counts as done.
+    /// Begins with cold history. Counts frames that earlier runs saved as done.
     void begin_run(int frames_before) {
         session_.forget();
         frames_done_ = frames_before;
@@ -154,8 +156,8 @@ private:
             unchanged = same_bytes(part.hdr, still.part.hdr) ? unchanged + 1 : 0;
             still.part = std::move(part);
             still.frames = k - unchanged;
-            // What comes from one mirror to the next may be black on its way: equal for as many
-            // frames.
+            // Light that passes from mirror to mirror takes a frame per mirror. Until it arrives,
+            // pictures may be black and equal for as many frames as there are mirrors.
             still.rests = !still.part.remembers || unchanged >= mirrors_;
         }
         frames_done_ = before + kFrameCap;
@@ -183,7 +185,7 @@ private:
             if (!add_still(row, text, instant)) return lag_.without_history.push_back(label);
         row.after_black = settle(text, 0);
         row.after_jump = settle(text, kFrameCap);
-        lag_.rows.push_back(std::move(row)); // what there is, should a signal come
+        lag_.rows.push_back(std::move(row)); // keeps partial results if a signal comes
         for (const double speed : request_.speeds)
             lag_.rows.back().speeds.push_back(at_speed(text, speed));
     }
@@ -193,7 +195,7 @@ private:
         return apart(a, b, instant.mirrors, request_.base.exposure);
     }
 
-    /// False where the technique does not remember.
+    /// Returns false if the technique reads nothing of the frame before.
     bool add_still(report::LagRow& row, const std::string& text, const Instant& instant) {
         const Still found = still(text, instant.seconds);
         if (!found.part.remembers) return false;
@@ -204,7 +206,8 @@ private:
         return true;
     }
 
-    /// Frames at the first instant, after `before` of them elsewhere, against its still.
+    /// Compares frames at the first instant with its still, after `before` frames at another
+    /// instant.
     report::Settling settle(const std::string& text, int before) {
         report::Settling settling;
         begin_run(frames_done_);
@@ -239,7 +242,7 @@ private:
     int frames_at(double speed) const {
         return kWarmup + (path_.count - 1) * path_.frames(speed) + 1;
     }
-    /// With every still at the cap.
+    /// Counts every still with the largest number of frames.
     int frames_of_row() const {
         int frames = path_.count * kFrameCap + 3 * kFrameCap;
         for (const double speed : request_.speeds) frames += frames_at(speed);
@@ -252,8 +255,8 @@ private:
     Path path_;
     int mirrors_ = 0;
     std::vector<Instant> instants_;
-    std::vector<measure::Picture> stills_;      ///< of the technique at hand, one an instant
-    int frames_done_ = 0, frames_expected_ = 0; ///< of the row at hand
+    std::vector<measure::Picture> stills_;      ///< of the current technique, one per instant
+    int frames_done_ = 0, frames_expected_ = 0; ///< of the current row
 };
 
 } // namespace

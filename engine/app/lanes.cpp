@@ -1,4 +1,4 @@
-// How many lanes of a shader run together, and what the environment asks for.
+// Counts the lanes of a shader that run together, and compares them with the environment's setting.
 #include "app/lanes.hpp"
 
 #include "app/embedding.hpp"
@@ -15,7 +15,7 @@ namespace {
 constexpr int kLaneBits = 32;
 
 int count_lanes(gpu::Device& device) {
-    gpu::Pipelines pipelines(device); // apart from those that an engine counts
+    gpu::Pipelines pipelines(device); // separate, so that the engine's counts do not change
     graph::Runner runner(device, pipelines);
     graph::Graph graph;
     const graph::Buffer lanes = graph.buffer({"lanes", 16});

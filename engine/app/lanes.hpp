@@ -4,10 +4,11 @@
 
 namespace catoptric::app {
 
-/// Counts by a dispatch the lanes of a shader that run together, of 32 bits each.
+/// Returns how many 32-bit lanes of a shader run together. Counts them by a dispatch.
 int lanes_of(const Engine& engine);
-/// Says that a software driver computes with other vectors than LP_NATIVE_VECTOR_WIDTH asks for;
-/// empty where it does not, or nothing is asked for. Counts lanes where something is.
+/// Returns a warning if a software driver uses another vector width than LP_NATIVE_VECTOR_WIDTH
+/// asks for. Returns an empty text if the widths agree or the variable asks for none. Counts lanes
+/// if the variable asks for a width.
 std::string width_warning(const Engine& engine);
 
 } // namespace catoptric::app

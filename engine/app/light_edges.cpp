@@ -8,13 +8,13 @@ namespace catoptric::app {
 
 namespace {
 
-/// Texels along an edge of each mirror's capture; 0: it has none, and nobody looks into it.
+/// Returns the texels along an edge of each mirror's capture; 0: the mirror has no capture.
 std::vector<std::uint32_t> faces_of(const report::Row& row) {
     std::vector<std::uint32_t> faces;
     for (const PlanEntry& entry : row.plan) {
         const auto face = std::ranges::find(entry.settings, "face", &Setting::name);
         const bool has_captures = face != entry.settings.end();
-        // face=auto is one edge for all.
+        // face=auto gives all captures the same edge.
         const double edge = has_captures
                                 ? face->number.value_or(row.auto_face ? row.auto_face->edge : 0)
                                 : 0;

@@ -16,7 +16,8 @@ namespace {
 constexpr int kUnknown = 1, kMiss = 2; // Lookup::state
 constexpr float kFar = std::numeric_limits<float>::max();
 
-/// The ray that a mirror sends on from where `ray` met it, as shaders/lib/whitted.glsl does.
+/// Returns the ray that a mirror reflects from the point where `ray` met it, as
+/// shaders/lib/whitted.glsl does.
 f32::Ray reflected(const render::Geometry& geometry, const f32::Ray& ray,
                    const bvh::Hit<float>& hit) {
     const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& {
@@ -108,7 +109,7 @@ std::vector<measure::LookedUp> Oracle::judge(const std::vector<vec4>& lookup, bo
         const int state = code & 3;
         const bool second = (code & 4) != 0;
         const bool leaves = state == kMiss ||
-                            (state == kUnknown && second); // see kLeaves in shaders/lib/probe.glsl
+                            (state == kUnknown && second); // as kLeaves in shaders/lib/probe.glsl
         const int object = leaves ? kNothing
                                   : captured_object(capture, direction, second, left_out);
         const dvec3 wanted = target.object == kNothing ? target.place
@@ -128,7 +129,8 @@ measure::Mask Oracle::at_light_edges(const std::vector<vec4>& lookup,
         const float texel = 2.0f / static_cast<float>(faces.at(mirror));
         const vec3 size = abs(vec3(lookup[pixel]));
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const vec3 place = vec3(lookup[pixel]) / size[axis]; // on the face, whose edge is 2
+        // Position on the cube's face, whose edge is 2.
+        const vec3 place = vec3(lookup[pixel]) / size[axis];
         int lights = 0;
         for (int i = 0; i < 9; ++i) {
             vec3 beside = place;

@@ -32,7 +32,7 @@ const PlanJson& rules_of(const PlanJson& document, const std::string& file) {
     return list;
 }
 
-/// A member that must be text, or where `numbers` a whole number.
+/// Returns a member that must be text or, if `numbers` is true, a whole number.
 std::string text_of(const PlanJson& rule, const char* member, const std::string& place,
                     bool numbers) {
     const PlanJson value = rule.value(member, PlanJson());

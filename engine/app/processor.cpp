@@ -16,12 +16,12 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr double kMostWaiting = .05; ///< share of the time that threads wanted to run
-constexpr double kMostOthers = .25;  ///< processors
+constexpr double kMostWaiting = .05; ///< share of the time that threads ran or were ready
+constexpr double kMostOthers = .25;  ///< number of processors
 constexpr double kLoadMemory = 60;   ///< seconds after which a load counts 1/e
 constexpr double kNanosecond = 1e-9;
 
-/// That processors worked, for anyone.
+/// Returns the seconds that all processors worked, for any process.
 double busy_seconds() {
     std::ifstream file("/proc/stat");
     std::string name;
@@ -32,7 +32,7 @@ double busy_seconds() {
     return (user + nice + system + irq + softirq + stolen) / ticks;
 }
 
-/// Numbers of this process's threads whose name begins so, by name.
+/// Returns the numbers of this process's threads whose name begins with `prefix`, sorted by name.
 std::vector<int> threads_named(const std::string& prefix) {
     std::map<std::string, int> found;
     std::error_code error;
@@ -47,7 +47,7 @@ std::vector<int> threads_named(const std::string& prefix) {
     return threads;
 }
 
-/// Where this process's threads may run.
+/// Returns the processors that this process's threads may use.
 cpu_set_t allowed_processors() {
     cpu_set_t allowed;
     CPU_ZERO(&allowed);
@@ -73,9 +73,10 @@ std::optional<ProcessorUse> processor_use() {
     ProcessorUse use{{}, busy_seconds()};
     std::error_code error;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
-        std::ifstream file(task.path() / "schedstat"); // ns that it ran, ns that it waited
+        // The file begins with the nanoseconds that the thread ran, and those that it waited.
+        std::ifstream file(task.path() / "schedstat");
         ThreadTime time;
-        if (!(file >> time.ran >> time.waited)) continue; // it has ended
+        if (!(file >> time.ran >> time.waited)) continue; // the thread has ended
         time.ran *= kNanosecond, time.waited *= kNanosecond;
         use.threads.emplace(std::stoi(task.path().filename().string()), time);
     }
@@ -103,7 +104,7 @@ double waited_share(const Waiting& waiting) {
     if (!(waiting.waited > 0)) return 0;
     const double share = waiting.waited / (waiting.ran + waiting.waited);
     if (std::isnan(waiting.others)) return share;
-    // The system counts in hundredths of a second, so that others may seem to have less than none.
+    // The system counts in hundredths of a second, so the difference can be below 0.
     const double others = std::max(0.0, waiting.others);
     return others > 0 ? share * others / (waiting.ran + others) : 0;
 }

@@ -5,68 +5,72 @@
 #include <optional>
 #include <vector>
 
-/// What of the machine's processors this process had, and whether it had to wait for them.
+/// Measures the processor time of this process, and whether the process had to wait for processors.
 namespace catoptric::app {
 
-/// Seconds of processor time that all threads of this process have used.
+/// Returns the seconds of processor time that all threads of this process have used.
 double process_seconds();
 
-/// Runnable threads of the whole machine, mean of about the last minute; NaN where it is not told.
+/// Returns the number of runnable threads of the whole machine, a mean over about the last minute.
+/// NaN if the system does not report it.
 double machine_load();
 
-/// Seconds that a thread ran, and was ready but waited for a processor, since it began.
+/// Seconds that a thread ran, and seconds that it was ready but waited for a processor, since it
+/// began.
 struct ThreadTime {
     double ran = 0, waited = 0;
 };
 
-/// What processors did so far.
+/// Use of the machine's processors so far.
 struct ProcessorUse {
-    std::map<int, ThreadTime> threads; ///< of this process, by number
-    double busy = 0; ///< seconds of all processors, whoever had them; NaN where nobody tells
+    std::map<int, ThreadTime> threads; ///< threads of this process, by thread number
+    /// Seconds that all processors worked, for any process. NaN if the system does not report it.
+    double busy = 0;
 };
 
-/// From /proc/self/task/*/schedstat and /proc/stat. Nothing where the system does not tell of
+/// Reads /proc/self/task/*/schedstat and /proc/stat. Returns nothing if the system does not report
 /// waiting.
 std::optional<ProcessorUse> processor_use();
 
-/// Between two readings, or several pairs of them added up, seconds.
+/// Times between two readings, or sums over several pairs of readings, in seconds.
 struct Waiting {
     double ran = 0, waited = 0; ///< all threads of this process together
-    double others = 0;          ///< that others had processors; NaN: nobody tells
+    double others = 0;          ///< processor time of other processes; NaN: unknown
     void operator+=(const Waiting& more);
 };
-/// A thread that ended in between counts for nothing.
+/// Returns the times between two readings. Threads that ended in between are not counted.
 Waiting waiting_between(const ProcessorUse& before, const ProcessorUse& after);
 
-/// Share of the time that threads ran or were ready in which they waited for a processor that
-/// others had. A driver has more threads than there are processors and they wait for each other,
-/// too: the waiting counts as others' in the proportion in which these had the processors, and all
-/// of it where nobody tells.
+/// Returns the share of the time that threads ran or were ready in which they waited for a
+/// processor that others had. Threads of a driver also wait for each other if they outnumber the
+/// processors. Therefore the share of waiting that counts is the share of processor time that
+/// others had. If their time is unknown, all waiting counts.
 double waited_share(const Waiting& waiting);
 
-/// Whether threads waited so long that times say little: for more than 5 %.
+/// Returns whether threads waited for more than 5 % of the time, so that measured times say little.
 bool is_noisy(double waited_share);
 
-/// The same where nobody tells of waiting: whether others kept more than a quarter of a processor
-/// busy. `load`: see machine_load, in which `used_seconds` of this process count that it spread
-/// over the last `elapsed_seconds`.
+/// Returns whether others kept more than a quarter of a processor busy, for systems that do not
+/// report waiting. `load`: see machine_load. `used_seconds`: processor time of this process within
+/// the last `elapsed_seconds`, whose share is subtracted from the load.
 bool is_noisy(double load, double used_seconds, double elapsed_seconds);
 
-/// As long as it lives, the threads of a software driver that draw (llvmpipe's, by their name) stay
-/// on a processor each, as far as this process may use that many. Left alone they now and then
-/// share one for some milliseconds while another is idle: frames of two threads then take up to
-/// twice as long, and no median of a few frames is free of it.
+/// Pins each drawing thread of a software driver (llvmpipe's, by their name) to its own processor
+/// while this object exists. Pins none if this process may use fewer processors than there are such
+/// threads. Unpinned threads sometimes share a processor for some milliseconds while another is
+/// idle. Frames of two threads then take up to twice as long, and even the median of a few frames
+/// is affected.
 class HeldThreads {
 public:
     HeldThreads();
-    ~HeldThreads(); ///< they may go where they were allowed to before
+    ~HeldThreads(); ///< allows the threads all processors again
     HeldThreads(const HeldThreads&) = delete;
     HeldThreads& operator=(const HeldThreads&) = delete;
 
     std::size_t count() const { return threads_.size(); }
 
 private:
-    std::vector<int> threads_; ///< numbers
+    std::vector<int> threads_; ///< thread numbers
 };
 
 } // namespace catoptric::app

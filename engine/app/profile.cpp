@@ -19,12 +19,12 @@ namespace {
 constexpr const char* kSchema = "catoptric/device-profile/1";
 constexpr std::uintmax_t kMostProfileBytes = 1U << 20U;
 
-/// Text without the quotes of JSON.
+/// Returns the value as text for messages, without JSON's quotes.
 std::string shown(const Json& value) {
     return value.is_string() ? in_quotes(value.get<std::string>()) : report::shown(value);
 }
 
-/// Index of the variant, or throws `failure` with `place` in front.
+/// Returns the index of the variant, or throws `failure` with `place` in front.
 std::size_t find_variant(std::string_view name, Failure failure, const std::string& place) {
     std::string known;
     for (std::size_t i = 0; i < gpu::kVariants; ++i) {
@@ -35,7 +35,7 @@ std::size_t find_variant(std::string_view name, Failure failure, const std::stri
     fail(failure, place, ": wanted one of ", known, ", found ", in_quotes(name));
 }
 
-/// Index of the choice.
+/// Returns the index of the choice, or throws `failure` with `place` in front.
 std::uint8_t find_choice(const gpu::Variant& variant, const Json& choice, Failure failure,
                          const std::string& place) {
     for (std::size_t k = 0; k < variant.choices.size(); ++k)
@@ -48,7 +48,7 @@ Json device_json(const DeviceInfo& device) {
     return {{"name", device.name}, {"driver", device.driver}, {"id", device.id}};
 }
 
-/// Of a file that somebody names, too, which may be anything.
+/// Reads a small file. Users may name any file, so its type and size are checked first.
 std::string small_file(const fs::path& file) {
     std::error_code error;
     check(!fs::exists(file, error) || fs::is_regular_file(file, error), Failure::bad_data,
@@ -63,7 +63,7 @@ gpu::Choices read(const fs::path& file, const DeviceInfo& device) {
     return read_profile(small_file(file), file.string(), device);
 }
 
-/// That of the folder, where there is one that will do.
+/// Returns the choices of the folder's profile, or the defaults if there is no usable profile.
 gpu::Choices found_in(const fs::path& folder, DeviceInfo& device) {
     const fs::path file = folder / profile_name(device);
     std::error_code error;
@@ -83,7 +83,7 @@ gpu::Choices found_in(const fs::path& folder, DeviceInfo& device) {
 
 gpu::Choices default_choices(const DeviceInfo& device) {
     gpu::Choices choices{};
-    // Only a software driver gives each of its threads one contiguous run of work groups.
+    // Only a software driver gives each of its threads a contiguous run of work groups.
     const std::size_t groups = find_variant("groups", Failure::internal, "variants");
     choices[groups] = device.type == "cpu" ? 0 : 1;
     return choices;

@@ -5,13 +5,13 @@
 
 #include <cstddef>
 
-/// Rays on the CPU through what the device holds.
+/// Traces rays on the CPU through the geometry that the device holds.
 namespace catoptric::app {
 
-/// Hierarchy over all objects but one; `left_out` = number of objects: over all.
+/// Builds a BVH over all objects but `left_out`. `left_out` = number of objects: over all.
 bvh::Bvh hierarchy_without(const render::Geometry& geometry, std::size_t left_out);
 
-/// The camera's ray through the middle of a pixel, counted row by row.
+/// Returns the camera's ray through the centre of a pixel. Pixels count row by row.
 f32::Ray camera_ray(const shared::View& view, uvec2 size, std::size_t pixel);
 
 } // namespace catoptric::app

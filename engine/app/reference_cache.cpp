@@ -39,7 +39,7 @@ const ReferencePicture& ReferenceCache::at(const std::string& samples, int numbe
 const std::vector<std::uint32_t>& ReferenceCache::hits(int number) {
     const std::vector<std::uint32_t>& known = at("1", number).part.hits;
     if (!known.empty()) return known;
-    // For a reference that traces no rays of its own.
+    // A reference that traces no rays has no hits, so a ray-traced picture provides them.
     std::vector<std::uint32_t>& traced = hits_[frame_of(number)];
     if (traced.empty())
         traced = std::move(rendered("raytrace:depth=1", frame_of(number)).parts.front().hits);

@@ -10,37 +10,39 @@
 
 namespace catoptric::app {
 
-/// What a row is judged against: the reference at the row's own sample count.
+/// Picture that a row is judged against: the reference at the row's own sample count.
 struct ReferencePicture {
     Part part;
     std::vector<double> gpu_ms;
 };
 
-/// "1" for rows that do not count samples.
+/// Returns the sample count of a row as text; "1" for rows without the knob `samples`.
 std::string sample_count(const TechniqueChoice& choice);
-/// The text of the reference with `samples` set; text without that knob stays as it is.
+/// Returns the text of the reference with `samples` set, or the text unchanged if it has no such
+/// knob.
 std::string reference_at(const std::string& reference, const std::string& samples);
 
-/// The reference of a comparison, rendered once for each sample count and instant that is asked
-/// for.
+/// The reference of a comparison, rendered once for each sample count and instant on demand.
 class ReferenceCache {
 public:
-    /// All must outlive this; `base` shows the session's scene.
+    /// All objects passed by reference must outlive the cache. `base` shows the session's scene.
     ReferenceCache(Session& session, const Request& base, const std::string& reference,
                    const Watcher& watcher)
         : session_(session), base_(base), reference_(reference), watcher_(watcher) {}
 
-    /// Of a row's last frame. Valid as long as this. Throws as the watcher does.
+    /// Returns the reference of a row's last frame. Valid as long as the cache. Throws as the
+    /// watcher does.
     const ReferencePicture& at(const std::string& samples) { return at(samples, base_.total()); }
-    /// Of its frame `number`, from 1.
+    /// Returns the reference of a row's frame `number`, from 1.
     const ReferencePicture& at(const std::string& samples, int number);
-    /// What one ray through each pixel centre meets: first mirror | second mirror << 16. Valid as
-    /// long as this.
+    /// Returns what one ray through each pixel centre meets: first mirror | second mirror << 16.
+    /// Valid as long as the cache.
     const std::vector<std::uint32_t>& hits() { return hits(base_.total()); }
     const std::vector<std::uint32_t>& hits(int number);
 
 private:
-    /// The frame that stands for frame `number`: all of a still scene show the same.
+    /// Returns the frame that is rendered for frame `number`. All frames of a still scene show the
+    /// same, so the last one stands for them.
     int frame_of(int number) const { return base_.animate ? number : base_.total(); }
     Result rendered(const std::string& technique, int number) const;
 

@@ -17,8 +17,8 @@ reflect::Plan resolve_auto(reflect::Plan plan, const scene::Scene& scene, const 
     reflect::Plan made = reflect::parse_plan(suggestion.plan);
     plan.rules = std::move(made.rules);
     plan.reasons = suggestion.reasons;
-    // One technique for all is drawn as such, by its own picture if it has one, and needs no
-    // mirror.
+    // A plan with one technique for all mirrors is drawn as that technique: it may draw its own
+    // picture, and needs no mirror.
     plan.is_technique = made.is_technique;
     return plan;
 }

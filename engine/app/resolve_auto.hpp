@@ -3,11 +3,12 @@
 #include "app/session.hpp"
 #include "reflect/plan.hpp"
 
-/// The technique `auto`.
+/// Resolves the technique `auto`.
 namespace catoptric::app {
 
-/// A plan that is_auto as require::suggest has it for this picture, with a reason for each mirror;
-/// any other as it is. `scene`: at rest. Costs what require::suggest does.
+/// Replaces a plan with `is_auto` by the plan that require::suggest chooses for this picture, with
+/// a reason for each mirror. Returns any other plan unchanged. `scene`: at rest. Costs what
+/// require::suggest does.
 reflect::Plan resolve_auto(reflect::Plan plan, const scene::Scene& scene, const FrameSpec& spec);
 
 } // namespace catoptric::app

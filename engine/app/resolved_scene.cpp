@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMostLights = 16;
 constexpr std::size_t kMostTexels = std::size_t{1} << 25; // 8192 x 4096
-constexpr std::size_t kManyMirrors = 64;                  // more are announced
+constexpr std::size_t kManyMirrors = 64;                  // scenes with more mirrors get a message
 
 bool is_built_in(const std::string& name) {
     return std::ranges::any_of(scene::built_in_scenes(),
@@ -49,7 +49,7 @@ std::shared_ptr<scene::Environment> read_environment(const std::string& path) {
     return environment;
 }
 
-/// Null for "none".
+/// Returns the environment that `word` names; null for "none".
 std::shared_ptr<scene::Environment> environment_of(const std::string& word) {
     if (word == "none") return nullptr;
     if (word != "studio") return read_environment(word);
@@ -62,7 +62,8 @@ void add_file(scene::Scene& scene, const std::filesystem::path& real) {
     if (std::ranges::find(scene.files, real) == scene.files.end()) scene.files.push_back(real);
 }
 
-/// Where there is no environment. `remedy` ends the message.
+/// Throws if overrides change an environment that the scene does not have. `remedy` ends the
+/// message.
 void require_unchanged(const scene::SceneOverrides& overrides, const scene::SaidBy& scale,
                        const scene::SaidBy& rotation, const char* remedy) {
     for (const auto& [is_said, by] :
@@ -71,7 +72,7 @@ void require_unchanged(const scene::SceneOverrides& overrides, const scene::Said
         check(!is_said, by->failure, by->where, ": wanted an environment, found none; ", remedy);
 }
 
-/// `said`: on the command line.
+/// Applies the overrides of the environment. `said`: those of the command line.
 void surround(ResolvedScene& wanted, const scene::SceneOverrides& said) {
     scene::Scene& scene = wanted.scene;
     const scene::SceneOverrides& overrides = wanted.overrides;
@@ -92,7 +93,7 @@ void surround(ResolvedScene& wanted, const scene::SceneOverrides& said) {
     } else {
         require_unchanged(said, {"--environment-scale"}, {"--environment-rotate"},
                           "give --environment");
-        // What the command line takes away the file could not know of.
+        // The scene file cannot know that the command line removes the environment.
         if (wanted.scene_file && !said.environment) {
             const std::string file = wanted.scene_file->string();
             require_unchanged(overrides, {file + ": environment_scale", Failure::bad_data},
@@ -103,10 +104,10 @@ void surround(ResolvedScene& wanted, const scene::SceneOverrides& said) {
     scene.environment = std::move(environment);
 }
 
-/// Says what many mirrors cost.
+/// Adds a message about the cost of many mirrors.
 void announce_mirrors(scene::Scene& scene) {
-    // Six faces of 256 texels an edge, kept for the next frame too: half colour; with it distance
-    // and, of one frame, which surface is seen.
+    // Six faces of 256 texels an edge, kept for the next frame, too. Colour takes half floats. With
+    // it come distance and, for one frame, the number of the surface seen.
     constexpr std::size_t kTexels = 6 * 256 * 256, kMebibyte = 1 << 20, kColours = kTexels * 2 * 8,
                           kAll = kTexels * (2 * (8 + 4) + 8);
     const std::size_t count = scene::mirrors(scene).size();
@@ -127,14 +128,16 @@ bool is_seeded(const std::string& camera, const scene::Scene& scene) {
            std::ranges::find(scene.cameras, camera, &scene::Camera::name) == scene.cameras.end();
 }
 
-/// The camera that these wishes name; none: it is to be drawn, or nothing is said of it.
+/// Returns the camera that the overrides name. Returns nothing if it is to be drawn from a seed, or
+/// is not named.
 std::optional<scene::Camera> named_camera(const scene::SceneOverrides& overrides,
                                           const scene::Scene& scene, const scene::SaidBy& by) {
     if (!overrides.camera || is_seeded(*overrides.camera, scene)) return std::nullopt;
     return scene::camera_named(*overrides.camera, scene, by);
 }
 
-/// What the scene file says belongs to the scene, and so to its hash: its camera comes first.
+/// Copies exposure and camera of the scene file into the scene, and therefore into its hash. The
+/// camera comes first.
 void adopt(ResolvedScene& wanted, const scene::SceneFile& filed,
            const std::optional<scene::Camera>& camera) {
     scene::Scene& scene = wanted.scene;
@@ -146,14 +149,15 @@ void adopt(ResolvedScene& wanted, const scene::SceneFile& filed,
     for (const std::filesystem::path& file : filed.files) add_file(scene, file);
 }
 
-/// The scene as wished. `said`: on the command line.
+/// Applies all overrides to the scene. `said`: those of the command line.
 void apply(ResolvedScene& wanted, const scene::SceneOverrides& said,
            const std::optional<scene::SceneFile>& filed) {
     scene::Scene& scene = wanted.scene;
     const std::string file = filed ? filed->path.string() : "";
     if (filed) scene::check_patterns(scene, filed->overrides, file);
     scene::apply(scene, wanted.overrides);
-    // Before `adopt` gives the cameras another order: an index counts in the scene's own.
+    // Finds the camera before `adopt` changes the order of cameras, because an index counts in the
+    // scene's own order.
     std::optional<scene::Camera> camera;
     if (filed)
         camera = named_camera(filed->overrides, scene, {file + ": camera", Failure::bad_data});

@@ -10,37 +10,42 @@
 
 namespace catoptric::app {
 
-/// A scene as its user wants it, completed where its file says too little.
+/// A scene with the user's overrides applied, completed if its file lacks something.
 struct ResolvedScene {
     scene::Scene scene;
-    scene::SceneOverrides overrides;     ///< in effect, the scene file's among them
-    std::optional<scene::Camera> camera; ///< the wished one
-    bool is_camera_seeded = false;       ///< wished is one that is drawn (app/seeded_camera.hpp)
-    std::vector<std::string> said;       ///< what was read beside it or added, a sentence each
-    std::optional<std::filesystem::path> scene_file; ///< that was read
-    bool is_file = false;                            ///< else built in
+    /// Overrides in effect, those of `scene_file` included.
+    scene::SceneOverrides overrides;
+    std::optional<scene::Camera> camera; ///< camera that the user names
+    /// The user asks for a drawn camera (app/seeded_camera.hpp).
+    bool is_camera_seeded = false;
+    /// Messages about files read and parts added, a sentence each.
+    std::vector<std::string> said;
+    std::optional<std::filesystem::path> scene_file; ///< SCENE.catoptric.json, if it was read
+    bool is_file = false;                            ///< false: the scene is built in
 };
 
 struct ResolveOptions {
     scene::LoadOptions load;
-    scene::SceneOverrides overrides; ///< of the command line; they win
-    bool use_scene_file = true;      ///< SCENE.catoptric.json
+    /// Overrides of the command line; they win over those of SCENE.catoptric.json.
+    scene::SceneOverrides overrides;
+    bool use_scene_file = true; ///< read SCENE.catoptric.json
 };
 
-/// Loads a scene, reads the file beside it, applies what is wished and completes what a file leaves
-/// open: at most 16 lights; without a light and a word about it the environment `studio` (gap
-/// "added-studio"). Throws as scene::load, scene::read_scene_file, scene::apply and
-/// scene::camera_named do, and
-/// `bad_data` for a picture that cannot be an environment.
+/// Loads a scene, reads SCENE.catoptric.json beside it, applies all overrides and completes the
+/// scene. Keeps at most 16 lights of a scene file. A scene without a light gets the environment
+/// `studio` (gap "added-studio"), unless the user says something about it. Throws as scene::load,
+/// scene::read_scene_file, scene::apply and scene::camera_named do, and `bad_data` for a picture
+/// that cannot be an environment.
 ResolvedScene resolve_scene(const std::string& name, const ResolveOptions& options);
 
-/// Light that each surface gets anyway: as wished; else none in an environment, .05 elsewhere.
+/// Returns the ambient light: the user's value, else 0 with an environment and .05 without.
 double ambient_of(const ResolvedScene& wanted);
-/// As wished, or as the scene says; none: to be found (app/exposure.hpp), as files want it. Scenes
-/// built in code: 0.
+/// Returns the exposure in stops that the user or else the scene sets. If neither does, returns 0
+/// for scenes built in code, and nothing for scene files: app/exposure.hpp finds it then.
 std::optional<double> exposure_of(const ResolvedScene& wanted);
-/// The wished camera, or the scene's first; else one is added (scene::inside_camera of a closed
-/// room, else scene::default_camera; gap "added-camera") and said.
+/// Returns the user's camera, or else the scene's first. If there is none, adds a camera (gap
+/// "added-camera") and reports it in `said`: scene::inside_camera for a closed room, else
+/// scene::default_camera.
 scene::Camera camera_of(ResolvedScene& wanted, double aspect);
 
 } // namespace catoptric::app

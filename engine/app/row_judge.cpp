@@ -18,7 +18,7 @@ bool is_set(const report::Row& row, std::string_view knob, std::string_view text
 
 } // namespace
 
-/// What frame `number` shows, standing still.
+/// Returns a request for what frame `number` shows, with the scene still.
 Request RowJudge::still(int number) const {
     Request request = base_;
     request.time = base_.instant(number);
@@ -26,8 +26,8 @@ Request RowJudge::still(int number) const {
     return request;
 }
 
-/// Where the row's mirrors looked and what its captures cut off: a run of its own, since saying so
-/// costs time. No lookup for rows that do not look into captures.
+/// Renders where the row's mirrors looked, and what its captures cut off. This is a run of its own,
+/// because recording costs time. The lookup is empty for rows that do not look into captures.
 Part RowJudge::looked_up(const std::string& text, int number) {
     Request request = still(number);
     request.techniques = {text};

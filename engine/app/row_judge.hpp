@@ -11,16 +11,17 @@
 
 namespace catoptric::app {
 
-/// Says what rows of a comparison get wrong.
+/// Finds the errors of a comparison's rows.
 class RowJudge {
 public:
-    /// All must outlive this; `base` shows the session's scene, `truths` are of both.
+    /// All objects passed by reference must outlive the judge. `base` shows the session's scene.
+    /// `truths` uses the same session and base.
     RowJudge(Session& session, ReferenceCache& truths, const Request& base, const Watcher& watcher)
         : session_(session), truths_(truths), base_(base), watcher_(watcher) {}
 
-    /// Fills the row's picture and all that is said of it, from its frame `number`, which `part`
-    /// is; returns what its user should know. The session begins another sequence. Costs a frame
-    /// that says where mirrors looked, and nine rays a mirror pixel.
+    /// Fills the row's picture and all its figures from `part`, the row's frame `number`. Returns
+    /// warnings for the user. The session begins another sequence. Costs a frame that records where
+    /// mirrors looked, and nine rays per mirror pixel.
     std::vector<std::string> judge(report::Row& row, const std::string& text, const Part& part,
                                    int number);
     /// Splits the error of a technique that looks into captures by cause.
@@ -36,7 +37,7 @@ private:
     const Request& base_;
     const Watcher& watcher_;
     std::optional<Oracle> oracle_;
-    int oracle_frame_ = 0; ///< of whose instant it speaks
+    int oracle_frame_ = 0; ///< frame whose instant `oracle_` describes
     std::optional<CauseFinder> finder_;
 };
 

@@ -8,7 +8,7 @@ namespace catoptric::app {
 
 namespace {
 
-/// Since the program began, about.
+/// Returns the seconds since about the start of the program.
 double elapsed_seconds() {
     using Clock = std::chrono::steady_clock;
     static const Clock::time_point kStart = Clock::now();

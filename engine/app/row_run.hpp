@@ -7,36 +7,36 @@
 #include <limits>
 #include <vector>
 
-// Measuring in rounds: one row's frames after another's, so that what slows the machine down for a
-// while slows them all.
+// Measures rows in rounds: a few frames of each row in turn, so that a slow moment of the machine
+// meets all rows.
 namespace catoptric::app {
 
-/// Frames of round `index` of `rounds`: as even as can be, the first ones the larger. In all they
-/// are `frames`, which are at least as many as rounds.
+/// Returns the number of frames in round `index` of `rounds`. Frames are spread evenly; the first
+/// rounds get one more if needed. `frames` must be at least `rounds`.
 int frames_of_round(int frames, int rounds, int index);
-/// At most one round a frame.
+/// Returns the number of rounds: `asked`, but at most one per frame.
 int rounds_of(int frames, int asked);
 
 /// A row under measurement: one technique, or several in each frame. Its history, frame number and
-/// clock go on from round to round as if nothing ran between.
+/// clock continue from round to round as if nothing ran in between.
 class RowRun {
 public:
-    /// The session shows the request's scene and must outlive this; so must the watcher.
+    /// The session shows the request's scene. The session and the watcher must outlive this object.
     RowRun(Session& session, Request request, const Watcher& watcher);
 
-    /// So many frames; before the first of all, those of the warm-up.
+    /// Measures `frames` frames. The first call renders the warm-up before them.
     void measure(int frames);
-    /// Of the last frame, until `set_aside`.
+    /// Returns the results of the last frame. Call before `suspend`.
     std::vector<Part> parts() const { return frames_.result().parts; }
-    /// The session is free for others until the next `measure`.
+    /// Frees the session for other frames until the next `measure`.
     void suspend() { frames_.suspend(); }
 
-    /// Of the last frame, from 1.
+    /// Returns the number of the last frame, from 1.
     int number() const { return frames_.number(); }
     const std::vector<std::vector<FrameTimes>>& rounds() const { return rounds_; }
-    /// See waited_share, of all rounds; NaN where nobody tells.
+    /// Returns waited_share over all rounds; NaN if the system does not report waiting.
     double waited() const { return waited_; }
-    /// Its threads had to wait for a processor that others had.
+    /// Returns whether the row's threads had to wait for a processor that others had.
     bool is_noisy() const { return noisy_; }
 
 private:
@@ -44,7 +44,7 @@ private:
     const Watcher& watcher_;
     Frames frames_;
     std::vector<std::vector<FrameTimes>> rounds_;
-    Waiting waiting_; ///< of all rounds
+    Waiting waiting_; ///< sum over all rounds
     double waited_ = std::numeric_limits<double>::quiet_NaN();
     bool noisy_ = false;
 };

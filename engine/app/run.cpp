@@ -25,7 +25,7 @@ bool Frames::next() {
     spec.time = request_.instant(number_);
     const double used_before = process_seconds();
     frame_ = session_.frame(spec);
-    // The first measured frame is not to wait for those before it.
+    // The first measured frame must not wait for the frames before it.
     if (number_ == request_.warmup) frame_->times();
     if (number_ > request_.warmup) {
         times_.push_back(frame_->times());
@@ -41,7 +41,8 @@ bool Frames::next() {
     return true;
 }
 
-/// A still takes as many rounds of all its mirrors as it takes frames where each draws all.
+/// Multiplies the frames by the rounds, because a limited still needs as many rounds as it needs
+/// frames without a limit.
 int Frames::most_frames() const {
     std::uint32_t round = 1;
     for (std::size_t i = 0; request_.until_settled && frame_ && i < frame_->size(); ++i)

@@ -8,54 +8,60 @@
 
 namespace catoptric::app {
 
-/// A run of frames: what the first shows, in which scene, and how many follow.
+/// A run of frames: what the first frame shows, in which scene, and the number of frames.
 struct Request : FrameSpec {
     scene::Scene scene;            ///< at rest
-    std::optional<double> load_ms; ///< that the caller took to read or make it
-    int frames = 20;               ///< measured
-    int warmup = 8; ///< before them; frames count from 1 at cold history, these included
-    /// End with the first frame that cannot change any more: at once where nothing is remembered,
-    /// else when a frame's linear pictures and all captures equal those of the frame before, byte
-    /// for byte, and no capture is put off. Under a limit (FrameSpec::most_captures, budget_ms) a
-    /// frame counts as the round in which each capture has its turn.
+    std::optional<double> load_ms; ///< time that the caller took to read or make the scene
+    int frames = 20;               ///< number of measured frames
+    /// Number of frames before the measured ones; frame numbers begin with these, at 1 and with
+    /// cold history.
+    int warmup = 8;
+    /// End with the first frame that cannot change any more. If nothing is remembered, this is the
+    /// first frame. Otherwise its linear pictures and all captures equal those of the frame before,
+    /// byte for byte, and no capture is put off. Under a limit (FrameSpec::most_captures,
+    /// budget_ms) each frame of the run stands for a round in which each capture has its turn.
     bool until_settled = false;
-    bool auto_exposure = false; ///< `exposure` is still to be found (app/exposure.hpp)
-    bool animate = false;       ///< frame k at time + (k-1)/60 s; otherwise all at `time`
+    bool auto_exposure = false; ///< `exposure` must still be found (app/exposure.hpp)
+    /// Frame k is at time + (k-1)/60 s; false: all frames are at `time`.
+    bool animate = false;
 
     int total() const { return warmup + frames; }
-    /// Seconds into the scene's motion of frame k, from 1.
+    /// Returns the seconds into the scene's motion of frame k, from 1.
     double instant(int k) const { return time + (animate ? (k - 1) / 60.0 : 0.0); }
 };
 
-/// How many frames of a run, the last ones, keep the times of their passes. Older frames keep their
-/// totals alone, so a long run takes little memory.
+/// Number of the last frames of a run that keep the times of their passes. Older frames keep only
+/// their totals, so that a long run takes little memory.
 constexpr std::size_t kDetailedFrames = 1000;
 
 struct Result {
-    std::vector<Part> parts;        ///< one per technique, of the last frame
-    std::vector<FrameTimes> frames; ///< the measured ones; fewer than asked for where they settled
-    bool settled = false;           ///< with `until_settled`: any further frame would show the same
+    std::vector<Part> parts; ///< one per technique, of the last frame
+    /// Measured frames; fewer than asked for if the picture settled.
+    std::vector<FrameTimes> frames;
+    bool settled = false; ///< with `until_settled`: any further frame would show the same
 };
 
 /// The frames of a request, one after the other, from cold history:
 /// `for (Frames frames(session, request); frames.next();) ...`
 class Frames {
 public:
-    /// Throws `usage`. The session shows the request's scene; both must outlive this.
+    /// Begins with a cut. Throws `usage` for less than one frame or a negative warm-up. The session
+    /// shows the request's scene; session and request must outlive this object.
     CATOPTRIC_API Frames(Session& session, const Request& request);
 
-    /// Renders the next one; false after the last.
+    /// Renders the next frame. Returns false after the last.
     CATOPTRIC_API bool next();
-    /// Other frames may follow in the session until the next call of `next`, which goes on as if
-    /// there had been none. What is not read of the last frame by then is lost.
+    /// Frees the session for other frames until the next call of `next`, which continues as if
+    /// there had been none. Results of the last frame that were not read by then are lost.
     void suspend() { aside_.emplace(session_.suspend()); }
-    int number() const { return number_; } ///< of the frame that was rendered last, from 1
-    /// Frames that there will be, where they do not settle.
+    int number() const { return number_; } ///< number of the last frame, from 1
+    /// Returns the number of frames in all, if the picture does not settle earlier.
     CATOPTRIC_API int most_frames() const;
     const Frame& frame() const { return *frame_; }
     bool settled() const { return settled_; }
-    const std::vector<FrameTimes>& times() const { return times_; } ///< of the measured ones so far
-    /// What there is after the frame that was rendered last.
+    /// Returns the times of the measured frames so far.
+    const std::vector<FrameTimes>& times() const { return times_; }
+    /// Returns the results up to the frame rendered last.
     CATOPTRIC_API Result result() const;
 
 private:
@@ -66,12 +72,13 @@ private:
     std::optional<Frame> frame_;
     std::optional<Sequence> aside_;
     std::vector<FrameTimes> times_;
-    std::vector<std::byte> state_; ///< of the frame before, with `until_settled`
+    std::vector<std::byte> state_; ///< Frame::state of the frame before, with `until_settled`
 };
 
-/// All frames of a request in a session of its scene. The watcher is told of each and may end them.
+/// Renders all frames of a request in a session of its scene. The watcher is told of each frame and
+/// may end the run.
 CATOPTRIC_API Result run(Session& session, const Request& request, const Watcher& watcher = {});
-/// The same in a session of its own.
+/// Renders all frames of a request in a session of their own.
 CATOPTRIC_API Result run(Engine& engine, const Request& request);
 
 } // namespace catoptric::app

@@ -30,7 +30,7 @@ std::vector<int> objects_seen(const Request& request, uvec2 size) {
     const render::Space space = render::space_of(request.scene);
     const render::Geometry geometry = render::make_geometry(now, space);
     const shared::View view = render::camera_view(request.camera, space, size, 0);
-    // More tests than that take longer than a tree does.
+    // More tests than this take longer than building a BVH.
     const std::uint64_t most_tests = std::max<std::uint64_t>(std::uint64_t{1} << 24,
                                                              16 * (geometry.indices.size() / 3));
     if (auto covering = objects_covering(geometry, view, size, most_tests)) return *covering;
@@ -63,7 +63,7 @@ std::vector<measure::UnsupportedFeatureFacts> unsupported_facts(const scene::Sce
         facts.push_back({gap.id, gap.count, gap.first, {}});
         if (!gap.materials.empty()) facts.back().pixel_share = share_of(seen, scene, gap.materials);
     }
-    // No share (-1) comes last; equals stay in the order in which they came.
+    // Features without a share (-1) come last. Equal shares keep their order.
     std::ranges::stable_sort(
         facts, std::greater<>(),
         [](const measure::UnsupportedFeatureFacts& gap) { return gap.pixel_share.value_or(-1); });

@@ -1,4 +1,4 @@
-// A window's images, and the pass that draws a frame's pictures into one of them.
+// Manages a window's images, and draws a frame's pictures into one of them.
 #include "app/screen_impl.hpp"
 
 #include "app/session_impl.hpp"
@@ -14,7 +14,7 @@ namespace catoptric::app {
 
 namespace {
 
-/// Four bytes a pixel, of values from 0 to 1.
+/// Packs a picture of values from 0 to 1 into four bytes per pixel.
 std::vector<std::uint32_t> packed(const measure::Picture& display) {
     std::vector<std::uint32_t> words(display.pixels.size());
     std::ranges::transform(display.pixels, words.begin(), [](const vec3& pixel) {
@@ -27,7 +27,8 @@ std::vector<std::uint32_t> packed(const measure::Picture& display) {
     return words;
 }
 
-/// Grows to a power of two, so that what varies is seldom made anew.
+/// Writes data into a buffer. The buffer grows to a power of two, so that changing sizes seldom
+/// need a new buffer.
 template <typename T>
 void put(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
          const std::vector<T>& data, gpu::BufferUse use) {
@@ -48,7 +49,7 @@ Screen::Impl::~Impl() {
     try {
         swapchain.wait();
     } catch (const std::exception&) {
-        // The device is abandoned by now, and so nothing of it is destroyed.
+        // The device is abandoned by now, and none of its objects are destroyed.
     }
 }
 
@@ -83,7 +84,7 @@ void Screen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverage) {
           "a font's picture of ", size.x, "x", size.y, " texels has ", coverage.size(), " bytes");
     self.swapchain.wait();
     self.font_size = size;
-    std::vector<std::uint8_t> padded = coverage; // to whole words
+    std::vector<std::uint8_t> padded = coverage; // padded to whole words
     padded.resize((padded.size() + 3) / 4 * 4);
     gpu::upload(self.device, self.font, "font", padded, gpu::BufferUse::plain);
 }
@@ -98,8 +99,7 @@ Frame Session::show(const FrameSpec& spec, Screen& screen, const Showing& showin
     Screen::Impl::Slot& slot = onto.slots[index];
     if (slot.runner == &runner && !runner.has_ended(slot.ticket)) runner.wait(slot.ticket);
     std::optional<std::uint32_t> image;
-    onto.fits =
-        false; // where the frame is refused, its image is only given back by making all anew
+    onto.fits = false; // a refused frame returns its image only when all images are made again
     Frame frame = submit(spec, [&](FrameGraph& graph) {
         image = onto.acquire();
         if (!image) return graph::ExternalSync{};
@@ -130,7 +130,7 @@ void Screen::Impl::add(FrameGraph& frame, const FrameSpec& spec, const Showing& 
     using graph::Image;
     Slot& slot = slots[index];
     const Overlay& overlay = showing.overlay;
-    // The first three indices are those of the triangle over the whole window.
+    // The first three indices belong to the triangle that covers the whole window.
     std::vector<std::uint32_t> indices{0, 1, 2};
     indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
     put(device, slot.vertices, "overlay.vertices", overlay.vertices, gpu::BufferUse::vertex);

@@ -17,12 +17,13 @@ namespace catoptric::app {
 namespace {
 
 constexpr int kDraws = 1000;
-constexpr uvec2 kGrid{32, 32};         // of rays through the picture
-constexpr std::size_t kLeastSeen = 11; // of its 1024
-constexpr double kMostUpright = .99;   // of the view's direction along the up axis
+constexpr uvec2 kGrid{32, 32};         // rays through the picture
+constexpr std::size_t kLeastSeen = 11; // of the grid's 1024 rays
+constexpr double kMostUpright = .99;   // component of the view's direction along the up axis
 constexpr double kNearest = 1.5, kNarrowest = 25, kWidest = 60;
 
-/// Uniform in [low, high). The library's distributions may differ from one to another.
+/// Returns a uniform number in [low, high). Distributions of standard libraries differ from each
+/// other.
 double uniform(std::mt19937_64& random, double low, double high) {
     return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
@@ -33,7 +34,8 @@ dvec3 on_unit_sphere(std::mt19937_64& random) {
     return {r * std::cos(turn), y, r * std::sin(turn)};
 }
 
-/// A number as text with so many decimals, and the number that this text is.
+/// Appends a number to `text` with `decimals` decimals, and returns the number that this text
+/// stands for.
 double rounded(double value, int decimals, std::string& text) {
     std::array<char, 400> digits; // the longest double has 309 before the point
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
@@ -53,7 +55,7 @@ dvec3 rounded(const dvec3& point, int decimals, std::string& text) {
     return result;
 }
 
-/// The scene's mirrors, or everything, as what a camera may aim at.
+/// Returns the objects that a camera may aim at: the scene's mirrors, or all objects.
 std::vector<std::size_t> aims_of(const scene::Scene& now) {
     std::vector<std::size_t> aims = scene::mirrors(now);
     if (aims.empty())
@@ -85,7 +87,7 @@ scene::Camera draw(std::mt19937_64& random, const Bounds<double>& aim,
     return camera;
 }
 
-/// Rays of the grid that first meet the front of one of the aims.
+/// Counts the rays of the grid that first meet the front of one of the aims.
 std::size_t count_seen(const render::Geometry& geometry, const bvh::Bvh& hierarchy,
                        const shared::View& view, const std::vector<std::size_t>& aims) {
     std::size_t seen = 0;
@@ -102,7 +104,7 @@ std::size_t count_seen(const render::Geometry& geometry, const bvh::Bvh& hierarc
     return seen;
 }
 
-/// A scene at an instant, ready for rays.
+/// A scene at an instant, prepared for rays.
 struct Stage {
     explicit Stage(const scene::Scene& scene, double seconds)
         : now(scene::at(scene, seconds)), space(render::space_of(scene)),

@@ -8,19 +8,20 @@
 
 namespace catoptric::app {
 
-/// A camera drawn at random that sees a mirror of the scene at this instant: at least a hundredth
-/// of a square picture is the front of mirrors. Same scene, instant and seed, same camera, on every
-/// machine.
+/// Draws a random camera that sees a mirror of the scene at this instant: at least a hundredth of a
+/// square picture shows the front of mirrors. The same scene, instant and seed give the same camera
+/// on every machine.
 ///
-/// Of one mirror, each as likely: target in its bounds; eye in any direction that is not nearly
-/// upright, at a distance from 1.5 times the radius of those bounds (half their diagonal) to the
-/// diagonal of the scene's, all orders of magnitude alike; vertical field of view 25 to 60 degrees.
-/// Drawn again until a mirror is seen. Places are rounded to about a thousandth of the scene's
-/// extent, so that the camera can be typed: its name is its text, EX,EY,EZ:TX,TY,TZ:FOV. A scene
-/// without mirrors is taken as if all its objects were mirrors. Throws `Failure::usage` where 1000
-/// draws see none.
+/// The camera aims at one mirror, each equally likely. The target lies in the mirror's bounds. The
+/// eye lies in any direction that is not nearly upright. Its distance is at least 1.5 times the
+/// radius of those bounds (half their diagonal) and at most the diagonal of the scene's bounds. Its
+/// logarithm is uniform. The vertical field of view is 25 to 60 degrees. Cameras are drawn until
+/// one sees a mirror. Positions are rounded to about a thousandth of the scene's extent, so that
+/// the camera can be typed. The camera's name is its text, EX,EY,EZ:TX,TY,TZ:FOV. In a scene
+/// without mirrors all objects count as mirrors. Throws `Failure::usage` if 1000 draws see no
+/// mirror.
 scene::Camera seeded_camera(const scene::Scene& scene, double seconds, std::uint64_t seed);
-/// One for each seed; the scene is made ready for rays once.
+/// Draws a camera for each seed. Prepares the scene for rays only once.
 std::vector<scene::Camera> seeded_cameras(const scene::Scene& scene, double seconds,
                                           std::span<const std::uint64_t> seeds);
 

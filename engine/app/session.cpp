@@ -37,7 +37,8 @@ void check_spec(const FrameSpec& spec) {
 
 } // namespace
 
-/// The light that each surface gets anyway is no part of a scene, but of what is kept.
+/// Adds the ambient light to the content hashes. It is no part of a scene, but captures depend on
+/// it.
 void add_ambient(require::Model& model, double ambient) {
     for (require::MirrorNeeds& mirror : model.mirrors)
         for (auto* const content_hashes : {&mirror.content_hashes, &mirror.settings})
@@ -56,11 +57,12 @@ struct Sequence::Impl {
     std::vector<std::shared_ptr<render::CaptureCache>> kept;
     std::vector<CaptureCost> paces;
     std::vector<double> face_needs;
-    std::optional<SceneKey> scene_key; ///< from which its next frame moves on
-    std::uint64_t units = 0;           ///< in which distances were captured
-    std::uint64_t edits = 0;           ///< that the scene had seen
+    std::optional<SceneKey> scene_key; ///< from which its next frame continues
+    std::uint64_t units = 0;           ///< units in which distances were captured
+    std::uint64_t edits = 0;           ///< number of the scene's edits so far
     std::vector<std::string> texts;
-    std::vector<reflect::Plan> plans; ///< of `texts`, as they were suggested at its first frame
+    /// Parsed from `texts`, with the suggestions made for its first frame.
+    std::vector<reflect::Plan> plans;
 };
 
 Sequence::Sequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -75,13 +77,13 @@ void Session::Impl::wait_for_readers(std::size_t of) {
 
 double Session::Impl::update_scene(const SceneKey& wanted) {
     if (scene_key == wanted && resident->knows_face_needs()) return 0;
-    // Another copy than frames on their way read.
+    // Writes to another copy than the one that frames in flight read.
     const std::size_t next = (copy + 1) % read_by.size();
     wait_for_readers(next);
     copy = next;
     const Clock::time_point start = Clock::now();
     if (scene_key && scene_key->size != wanted.size) resident->forget_face_needs();
-    scene_key.reset(); // should the update end half-way
+    scene_key.reset(); // stays unset if the update throws half-way
     models.clear();
     if (scene::is_animated(scene)) {
         if (!moved) moved = scene;
@@ -113,7 +115,7 @@ const std::shared_ptr<const require::Model>& Session::Impl::model_of(Modelling m
     require::Question question{now(), scene_key->camera, scene_key->size};
     reflect::demand(question, plans);
     question.whole_cubes = question.whole_cubes ||
-                           is_ablated; // what is exact looks where a search never would
+                           is_ablated; // ablated lookups read places that a search never would
     if (modelling == Modelling::required && !requirements) requirements.emplace(scene);
     require::Model made = modelling == Modelling::everything ? require::everything(question)
                                                              : requirements->of(question);
@@ -199,12 +201,11 @@ void Session::change(const scene::Edit& edit) {
     Impl& self = *impl_;
     scene::Scene edited = self.scene;
     scene::apply(edited, edit);
-    // Units are those of the scene as it stands; where they stay, so does all that is resident, and
-    // history.
+    // If the units of the edited scene are unchanged, resident data and history stay.
     if (render::space_of(edited) != render::space_of(self.scene)) {
         auto made = std::make_unique<render::GpuScene>(self.engine.device, edited,
                                                        self.read_by.size());
-        self.runner.forget(); // waits for frames under way; captured distances were in other units
+        self.runner.forget(); // waits for frames in flight; captured distances were in other units
         self.kept.clear();
         self.resident = std::move(made);
         ++self.units;
@@ -268,7 +269,8 @@ std::string Session::plan(const FrameSpec& spec, PlanFormat format) {
     std::vector<reflect::CaptureHistory> keeping(plans.size(),
                                                  {*model, nullptr, &self.comparisons});
     FrameGraph frame = declare(spec, plans, self.mirrors, *self.resident, {}, keeping);
-    // Where captures are kept, the second frame compares; what follows that if nothing has changed?
+    // If captures are kept, only the second frame compares them. The plan is that of the frame
+    // after it, when nothing has changed.
     for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
         for (std::size_t i = 0; i < plans.size(); ++i) {
             keeping[i].before = frame.parts[i].outputs.kept;

@@ -1,4 +1,4 @@
-// What a session keeps of captures from frame to frame, and how many a frame may draw again.
+// Keeps captures from frame to frame, and limits how many a frame draws again.
 #include "app/session_impl.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 
 bool is_limited(const FrameSpec& spec) { return spec.most_captures > 0 || spec.budget_ms > 0; }
 
-/// Of the passes that draw, keep and compare captures.
+/// Returns the milliseconds of passes that draw, keep and compare captures.
 double capture_ms(const graph::FrameTimes& times, const std::string& prefix) {
     double ms = 0;
     for (const graph::PassTime& pass : times.passes)
@@ -66,7 +66,7 @@ void Session::Impl::catch_up(const FrameSpec& spec) {
 
 void Session::Impl::measure() {
     if (!timed) return;
-    // Frames beside the sequence may have taken its place.
+    // Frames that keep the history unchanged may have overwritten its times.
     if (last->frame < timed->ticket.frame + read_by.size()) {
         const graph::FrameTimes& times = runner.wait(timed->ticket);
         paces.resize(timed->drawn.size());

@@ -14,10 +14,11 @@
 #include <string>
 #include <vector>
 
-// What a session is made of, for session.cpp and frame.cpp alone.
+// Implementation of Session and Frame, only for session.cpp, session_cache.cpp, frame.cpp and
+// screen.cpp.
 namespace catoptric::app {
 
-/// What the device's copy of a scene was made for.
+/// What the device's copy of a scene depends on.
 struct SceneKey {
     double time = 0;
     scene::Camera camera;
@@ -36,30 +37,33 @@ struct Session::Impl {
         mirrors = mirror_names(scene);
     }
 
-    /// Returns the scene at the instant of `standing`. A scene that is not animated is not copied.
+    /// Returns the scene at the instant of `scene_key`. A scene that is not animated is not copied.
     const scene::Scene& now() const { return moved ? *moved : scene; }
-    /// Writes what is wanted and the device does not have yet; milliseconds of work.
+    /// Writes the scene data that `wanted` needs and the device lacks. Returns the milliseconds of
+    /// work.
     double update_scene(const SceneKey& wanted);
-    /// Until no frame is in flight that reads this copy of what is written.
+    /// Waits until no frame in flight reads copy `of` of the scene data.
     void wait_for_readers(std::size_t of);
-    /// The techniques' texts read, only once for as long as they stay: what is suggested (`auto`)
-    /// is so for the frame that asks for them first, after a cut and after an edit.
+    /// Returns the plans of the frame's techniques. Reads the texts again only if they change,
+    /// after a cut, and after an edit. Until then, `auto` keeps the plan suggested for the first
+    /// frame.
     const std::vector<reflect::Plan>& plans_of(const FrameSpec& spec);
-    /// Of the scene as it stands.
+    /// Returns the model of the scene at its present instant.
     const std::shared_ptr<const require::Model>& model_of(Modelling modelling, bool is_ablated);
-    /// What the next frame of these techniques goes on from.
+    /// Returns the capture history from which the next frame of these techniques continues.
     std::vector<reflect::CaptureHistory> keeping(const FrameSpec& spec, const require::Model& model,
                                                  bool follows);
-    /// Waits for what the frame needs to know of those before.
+    /// Waits for results of earlier frames that this frame needs.
     void catch_up(const FrameSpec& spec);
-    /// Mirrors whose captures the frame draws again at most; 0: all.
+    /// Returns how many mirrors' captures the frame draws again at most; 0: all.
     std::uint32_t most_captures(const FrameSpec& spec, std::size_t part,
                                 const require::Model& model) const;
-    /// Learns from the frame under a budget that was submitted last how long captures take; waits.
+    /// Reads how long captures took in the last submitted frame under a budget. Waits for that
+    /// frame.
     void measure();
-    /// The frame was submitted: it tells that.
+    /// Marks a submitted frame as the one that `measure` reads.
     void time(const FrameGraph& frame, graph::Ticket ticket);
-    /// The frame was submitted: the next one goes on from it.
+    /// Stores the captures of a submitted frame for the next one.
     void keep(const FrameGraph& frame, graph::Ticket ticket);
 
     Engine::Impl& engine;
@@ -67,30 +71,33 @@ struct Session::Impl {
     std::unique_ptr<render::GpuScene> resident;
     render::Comparisons comparisons;
     graph::Runner runner;
-    std::vector<std::string> mirrors; ///< their names
+    std::vector<std::string> mirrors; ///< names of the mirrors
     std::optional<SceneKey> scene_key;
-    std::optional<scene::Scene> moved; ///< `scene` as it stands there, where it is animated
+    /// `scene` at the instant of `scene_key`, if it is animated.
+    std::optional<scene::Scene> moved;
     std::vector<std::string> texts;
-    std::vector<reflect::Plan> plans;      ///< of `texts`
-    std::vector<reflect::Plan> remembered; ///< whose history the runner has
+    std::vector<reflect::Plan> plans;      ///< parsed from `texts`
+    std::vector<reflect::Plan> remembered; ///< plans whose history the runner has
     Modelling remembered_model = Modelling::everything;
-    std::vector<std::shared_ptr<render::CaptureCache>> kept; ///< likewise, by technique
-    std::vector<CaptureCost> paces;                          ///< by technique
-    /// A frame under a budget that was not looked at yet, and of each technique how its passes'
-    /// names begin and how many mirrors it drew.
+    /// Captures of `remembered`, by technique.
+    std::vector<std::shared_ptr<render::CaptureCache>> kept;
+    std::vector<CaptureCost> paces; ///< costs of captures, by technique
+    /// A frame under a budget whose times were not read yet. `drawn`: for each technique, the
+    /// prefix of its passes' names and the number of mirrors it drew.
     struct Timed {
         graph::Ticket ticket;
         std::vector<std::pair<std::string, std::uint32_t>> drawn;
     };
     std::optional<Timed> timed;
-    std::optional<require::Requirements> requirements; ///< once somebody asks
-    std::map<std::pair<Modelling, bool>, std::shared_ptr<const require::Model>>
-        models;                         ///< of `standing` and `plans`
-    std::optional<graph::Ticket> last;  ///< of the frame that was submitted last
-    std::vector<std::uint64_t> read_by; ///< by copy of what is written: the last frame to read it
-    std::size_t copy = 0;               ///< that frames read now
-    std::uint64_t units = 0;            ///< times that the scene's units on the device changed
-    std::uint64_t edits = 0;            ///< of the scene
+    std::optional<require::Requirements> requirements; ///< computed at first use
+    /// Models of `scene_key` and `plans`.
+    std::map<std::pair<Modelling, bool>, std::shared_ptr<const require::Model>> models;
+    std::optional<graph::Ticket> last; ///< ticket of the frame submitted last
+    /// For each copy of the scene data, the last frame that reads the copy.
+    std::vector<std::uint64_t> read_by;
+    std::size_t copy = 0;    ///< copy that frames read now
+    std::uint64_t units = 0; ///< number of changes of the scene's units on the device
+    std::uint64_t edits = 0; ///< number of edits of the scene
     Counts counts;
 };
 
@@ -101,12 +108,12 @@ struct Frame::Impl {
     FrameGraph frame;
     std::shared_ptr<const require::Model> model;
     double update_ms = 0, declare_ms = 0, hierarchy_ms = 0, waited_ms = 0;
-    mutable std::optional<FrameTimes> times; ///< once it was waited for
+    mutable std::optional<FrameTimes> times; ///< set once the frame was waited for
 
     graph::Runner& runner() const { return session->runner; }
     const Declared& part(std::size_t index) const { return frame.parts.at(index); }
     const graph::Plan& plan() const { return runner().compiled(frame.graph); }
-    /// What outlives a frame is another's after the next.
+    /// Checks that no later frame was submitted, because it overwrites images that outlive a frame.
     void check_last() const {
         check(session->last && session->last->frame == ticket.frame, Failure::internal, "frame ",
               ticket.frame, " is read after frame ", session->last ? session->last->frame : 0,
@@ -114,10 +121,10 @@ struct Frame::Impl {
     }
 };
 
-/// Refuses (`usage`) a limit of captures that means nothing.
+/// Throws `usage` for an invalid limit of captures.
 void check_limit(const FrameSpec& spec);
 
-/// The runner's times with the names that callers know.
+/// Returns the runner's times under the names that callers know.
 FrameTimes to_times(const graph::FrameTimes& times);
 
 } // namespace catoptric::app

@@ -1,4 +1,4 @@
-// The table of techniques as the outside sees it.
+// Presents the table of techniques to users of the library.
 #include "app/table.hpp"
 
 #include "app/engine.hpp"

@@ -7,7 +7,7 @@
 
 namespace catoptric::app {
 
-/// All knobs of a technique, with their values.
+/// Returns all knobs of a technique, with their values.
 std::vector<Setting> settings_of(const reflect::Choice& choice);
 
 } // namespace catoptric::app

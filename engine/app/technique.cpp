@@ -15,7 +15,7 @@ namespace catoptric::app {
 
 namespace {
 
-/// What a row of the table points into.
+/// Storage that a row of the technique table points into.
 struct Kept {
     Search search;
     std::vector<Knob> knobs;
@@ -58,7 +58,8 @@ void check_search(const Search& search) {
     }
 }
 
-/// The search's own knobs, then those that all searches have, or all that continue.
+/// Returns the search's own knobs, then those of all searches. Those of continuing searches come
+/// only if the search continues.
 std::vector<Knob> knobs_of(const Search& search) {
     constexpr std::array<std::string_view, 3> kOfContinuing{"continue", "captures", "mirrors"};
     std::vector<Knob> knobs;
@@ -76,7 +77,8 @@ std::vector<Knob> knobs_of(const Search& search) {
                          .is_real = own.is_real});
     }
     for (const Knob& knob : reflect::kSearchKnobs) {
-        check_new(knob.name); // also where it is not offered: its name would be read as this one
+        // Also if the knob is not offered, because its name would be read as this knob.
+        check_new(knob.name);
         if (search.continues || std::ranges::find(kOfContinuing, knob.name) == kOfContinuing.end())
             knobs.push_back(knob);
     }
@@ -90,9 +92,9 @@ RegisteredShaders::RegisteredShaders(std::span<const Shader> builds) {
 }
 
 void add_search(Search search) {
-    static std::deque<Kept> all; // rows must stay where they are
+    static std::deque<Kept> all; // a deque, because rows must not move in memory
     check_search(search);
-    static_cast<void>(knobs_of(search)); // throws before anything is kept
+    static_cast<void>(knobs_of(search)); // throws before anything is stored
     Kept& row = all.emplace_back();
     row.search = std::move(search);
     row.knobs = knobs_of(row.search);
@@ -106,7 +108,7 @@ void add_search(Search search) {
                .scene_passes = reflect::feedback_passes,
                .capture = reflect::capture_options,
                .in_captures = "reflect/parallax.frag",
-               .reads_whole_cubes = true, // nobody knows where it looks
+               .reads_whole_cubes = true, // the search may look anywhere
                .search = row.search.shader.c_str()};
     reflect::Registered{row.row};
 }

@@ -4,21 +4,22 @@
 #include "app/run.hpp"
 #include "measure/tuning.hpp"
 
-/// Measuring which variants of shaders (gpu/variants.hpp) suit a device.
+/// Measures which variants of shaders (gpu/variants.hpp) suit a device.
 namespace catoptric::app {
 
-/// What variants are measured with: it is made of the tracer's shader alone.
+/// Technique that variants are measured with. It consists of the tracer's shader alone.
 inline constexpr const char* kTunedTechnique = "raytrace:depth=4";
 
 struct Tuned {
     std::vector<measure::Tried> tried; ///< in the table's order
-    bool noisy = false;                ///< others were at work beside: the ratios may be theirs
+    /// Other processes were at work and may have caused the ratios.
+    bool noisy = false;
 };
 
-/// Each variant alone beside the default: the device's time of frames of `request`, whose technique
-/// is kTunedTechnique, in rounds of which each has some of every one. All in one session, since the
-/// threads of several software devices would be in each other's way. Leaves the engine with the
-/// defaults.
+/// Measures each variant against the default, by the device's time of frames of `request`, whose
+/// technique is kTunedTechnique. Every round has some frames of each variant. All variants share
+/// one session, because the threads of several software devices would disturb each other. Leaves
+/// the engine with the default choices.
 Tuned tune(Engine& engine, const Request& request, const BenchOptions& options);
 
 } // namespace catoptric::app

@@ -17,13 +17,13 @@ namespace {
 constexpr std::array<std::uint64_t, 2> kEvents{PERF_COUNT_HW_CPU_CYCLES,
                                                PERF_COUNT_HW_INSTRUCTIONS};
 
-/// A counter of the calling thread in user mode; -1 and errno where there is none.
+/// Opens a counter of the calling thread in user mode. Returns -1 and sets errno on failure.
 int open_counter(std::uint64_t event, bool of_threads_to_come) {
     perf_event_attr wanted{};
     wanted.size = sizeof wanted;
     wanted.type = PERF_TYPE_HARDWARE;
     wanted.config = event;
-    wanted.exclude_kernel = 1; // also what users without rights may count
+    wanted.exclude_kernel = 1; // user mode alone may be counted without privileges
     wanted.exclude_hv = 1;
     wanted.inherit = of_threads_to_come ? 1 : 0;
     wanted.read_format = PERF_FORMAT_TOTAL_TIME_ENABLED | PERF_FORMAT_TOTAL_TIME_RUNNING;
@@ -31,7 +31,8 @@ int open_counter(std::uint64_t event, bool of_threads_to_come) {
         ::syscall(SYS_perf_event_open, &wanted, 0, -1, -1, PERF_FLAG_FD_CLOEXEC));
 }
 
-/// What it has counted, scaled up where it had to share the processor's counters with others.
+/// Returns the count. It is scaled up if the counter had to share the processor's hardware
+/// counters.
 std::optional<double> read_counter(int counter) {
     struct {
         std::uint64_t value, enabled, running;

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
-/// What work costs this process's processors: cycles repeat on a machine that others use, where
-/// time on the clock does not.
+/// Measures what work costs this process's processors. Cycles repeat on a machine that others use,
+/// but time on the clock does not.
 namespace catoptric::app {
 
-/// Processor time, and in user mode cycles and instructions, where the system counts them.
+/// Processor time; and cycles and instructions in user mode, if the system counts them.
 struct Usage {
     double cpu_ms = 0;
     std::optional<double> cycles, instructions;
@@ -17,14 +17,14 @@ struct Usage {
     Usage operator-(const Usage& before) const;
 };
 
-/// Reads what threads have used so far.
+/// Meter of what threads have used so far.
 class UsageMeter {
 public:
     enum class Of : std::uint8_t {
-        caller, ///< the thread that made it, which alone may read it
-        /// All of the process's processor time; cycles and instructions of the thread that made it
-        /// and of all threads begun since by counted ones, ended or not. So it is made before
-        /// there are others.
+        caller, ///< the thread that made the meter; only this thread may read it
+        /// All of the process's processor time. Cycles and instructions are those of the thread
+        /// that made the meter, and of all threads begun since by counted threads, ended or not.
+        /// Therefore make the meter before other threads begin.
         process
     };
     explicit UsageMeter(Of of);
@@ -32,9 +32,9 @@ public:
     UsageMeter(const UsageMeter&) = delete;
     UsageMeter& operator=(const UsageMeter&) = delete;
 
-    /// A few microseconds.
+    /// Returns the usage so far. Costs a few microseconds.
     Usage read() const;
-    /// Why cycles are not counted, in words; empty: they are.
+    /// Returns why cycles are not counted, in words; empty: they are.
     const std::string& uncounted() const { return uncounted_; }
 
 private:

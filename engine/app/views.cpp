@@ -15,9 +15,10 @@ namespace {
 
 constexpr int kGap = 4; // columns between two pictures
 
-/// After `start` by a share of the period, rounded to about a thousandth of it.
+/// Returns the instant at `share` of the period after `start`, rounded to about a thousandth of the
+/// period.
 double instant_of(double start, double period, double share) {
-    const double parts = std::pow(10, 3 - std::floor(std::log10(period))); // of a second
+    const double parts = std::pow(10, 3 - std::floor(std::log10(period))); // steps per second
     return std::floor((start + period * share) * parts) / parts;
 }
 
@@ -30,7 +31,7 @@ scene::Camera camera_of(const measure::CameraFacts& facts) {
             facts.orthographic_height};
 }
 
-/// The request's picture from a view, as `render` takes it.
+/// Returns a request for the picture from a view, as `render` takes it.
 Request request_at(const Request& base, const measure::View& view) {
     Request request = base;
     request.camera = camera_of(view.camera);
@@ -57,7 +58,7 @@ void add_view(report::Row& row, const Part& part, const Part& truth,
     const std::vector<float> flip_map = flip_map_of(part, truth, exposure);
     row.views.push_back(errors_of(part, truth, flip_map, hits, mirrors, exposure));
     const double flip = row.views.back().error.flip;
-    // A view without a judged pixel is the worst of none.
+    // A view without judged pixels is never the worst.
     if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
         row.worst = {row.views.size() - 1, beside(part.display, truth.display)};
 }
@@ -83,7 +84,7 @@ std::vector<measure::View> drawn_views(const Request& request, int count) {
     std::mt19937_64 random(request.seed);
     std::vector<std::uint64_t> seeds;
     for (measure::View& view : views) {
-        view.seed = random() >> 32; // short enough to be typed, and exact in every JSON
+        view.seed = random() >> 32; // short enough to type, and exact in every JSON
         seeds.push_back(view.seed);
         const double share = static_cast<double>(random() >> 32) * 0x1p-32;
         view.time = period > 0 ? instant_of(request.time, period, share) : request.time;

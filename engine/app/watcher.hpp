@@ -8,20 +8,21 @@
 
 namespace catoptric::app {
 
-/// Who waits for long work: is told how far it is and may end it. Everything may be left out.
+/// Observer of long work. It is told of the progress and may end the work. All members are
+/// optional.
 struct Watcher {
-    /// Before each row: its label, number from 0, and the count.
+    /// Called before each row with its label, its number from 0, and the number of rows.
     std::function<void(const std::string&, std::size_t, std::size_t)> on_row;
-    /// After each frame: its number from 1, and how many there will be at most.
+    /// Called after each frame with its number from 1, and the largest possible number of frames.
     std::function<void(int, int)> on_frame;
-    /// The caller's; the number of the signal that asks to stop, 0: none yet. May be stored in a
-    /// signal handler.
+    /// Number of the signal that asks to stop; 0: none yet. The caller owns it and may write it in
+    /// a signal handler.
     const std::atomic<int>* stop = nullptr;
 
     void row(const std::string& label, std::size_t index, std::size_t count) const {
         if (on_row) on_row(label, index, count);
     }
-    /// Throws where a stop is asked for: `hangup` (1), `terminated` (15), else `interrupted`.
+    /// Throws if a stop is asked for: `hangup` (1), `terminated` (15), else `interrupted`.
     void check_stopped() const {
         const int signal = stop ? stop->load() : 0;
         if (signal == 0) return;
@@ -30,7 +31,7 @@ struct Watcher {
                             : Failure::interrupted,
              "stopped by signal ", signal);
     }
-    /// The same after a frame.
+    /// Reports a frame, then checks for a stop.
     void frame(int number, int count) const {
         if (on_frame) on_frame(number, count);
         check_stopped();

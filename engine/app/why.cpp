@@ -23,7 +23,7 @@ struct Required {
     require::Suggestion suggestion;
 };
 
-/// What reflects in the picture, though no technique but ray tracing draws what it reflects.
+/// Returns the feature of reflectors in the picture whose reflections only ray tracing draws.
 std::optional<measure::UnsupportedFeatureFacts> not_drawn(const Request& request) {
     constexpr std::string_view kId = "smooth-dielectric";
     const auto gap = std::ranges::find(request.scene.unsupported, kId,
@@ -117,7 +117,7 @@ std::string why_json(const Request& request, const std::optional<CaptureBudget>&
 }
 
 std::optional<CaptureBudget> measured_slices(Engine& engine, const Request& request) {
-    constexpr int kCuts = 5; // the first ones compile what they use
+    constexpr int kCuts = 5; // cuts: the first frames compile what they use
     Session session(engine, request.scene);
     FrameSpec spec = request;
     spec.time = request.instant(1);

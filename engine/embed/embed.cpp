@@ -23,7 +23,7 @@ graph::Use use_of(VkImageLayout layout) {
     }
 }
 
-/// The frame's last pass: what the screen shows, byte for byte.
+/// Adds the frame's last pass, which copies the displayed picture byte for byte.
 void add_copy(app::FrameGraph& frame, const Target& target, uvec2 size) {
     const graph::ImageDesc desc{
         .name = "target", .format = Format::rgba8_unorm, .width = size.x, .height = size.y};
@@ -58,7 +58,7 @@ app::Frame frame_into(app::Session& session, const app::FrameSpec& spec, const T
     check(spec.techniques.size() == 1, Failure::usage, "a target shows one technique, not ",
           spec.techniques.size());
     check(target.image != VK_NULL_HANDLE, Failure::usage, "a target wants an image");
-    static_cast<void>(use_of(target.leaves)); // before any work
+    static_cast<void>(use_of(target.leaves)); // throws before any work
     return app::Embedding::submit(
         session, spec, [&](app::FrameGraph& frame) { add_copy(frame, target, spec.size); });
 }
