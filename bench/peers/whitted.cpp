@@ -82,7 +82,7 @@ private:
     /// be shaded.
     void meet() {
         typename Kind::Hits hits;
-        fill(hits.ray, origin_, direction_, std::numeric_limits<float>::infinity());
+        fill(hits.ray, origin_, direction_, std::numeric_limits<float>::infinity(), active_);
         store(hits.hit.geomID, Mask{} + static_cast<int>(RTC_INVALID_GEOMETRY_ID));
         store(hits.hit.instID[0], Mask{} + static_cast<int>(RTC_INVALID_GEOMETRY_ID));
         Kind::meet(active_, scene_.tree, &context_, hits);
@@ -177,12 +177,14 @@ private:
         show(scene_.surfaces[scene_.sphere_objects[sphere]], i);
     }
 
-    void fill(typename Kind::Rays& rays, V origin, V direction, float end) {
+    /// A lane that is not `active` gets an empty range: without vectors of sixteen Embree takes
+    /// packets apart and tells by the range alone which rays are there.
+    void fill(typename Kind::Rays& rays, V origin, V direction, float end, const Mask& active) {
         store(rays.org_x, origin.x), store(rays.org_y, origin.y), store(rays.org_z, origin.z);
         store(rays.dir_x, direction.x), store(rays.dir_y, direction.y),
             store(rays.dir_z, direction.z);
         store(rays.tnear, Real{}), store(rays.time, Real{});
-        store(rays.tfar, Real{} + end);
+        store(rays.tfar, select(active, Real{} + end, Real{} - 1.0f));
         store(rays.mask, Mask{} - 1), store(rays.id, Mask{}), store(rays.flags, Mask{});
     }
 
@@ -228,7 +230,7 @@ private:
         count(rays_.shadow, asks);
         alignas(64) typename Kind::Rays rays;
         const V origin = shadow_origin(direction, normal);
-        fill(rays, origin, same<Real>(light.position) - origin, scene_.shadow_end);
+        fill(rays, origin, same<Real>(light.position) - origin, scene_.shadow_end, asks);
         Kind::block(asks, scene_.tree, &context_, rays);
         const Mask lit = asks & greater(load<Real>(rays.tfar), Real{});
         const Real factor = whole * cone * (at_light / distance) * (at_surface / distance) / kPi;
