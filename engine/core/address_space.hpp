@@ -5,9 +5,9 @@
 
 namespace catoptric {
 
-/// Throws `exhausted` where this process has no room for so many bytes more, as under `ulimit -v`:
-/// libraries that are loaded without it crash, or say something else. `wanted_for` is what there is
-/// "no memory for".
+/// Throws `exhausted` if the process cannot map `bytes` more, as under `ulimit -v`. Libraries that
+/// are loaded without enough address space crash or report another cause. `wanted_for` completes
+/// the message "no memory for".
 void check_address_space(std::size_t bytes, const std::string& wanted_for);
 
 } // namespace catoptric

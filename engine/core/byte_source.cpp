@@ -43,7 +43,7 @@ private:
     std::string name_;
 };
 
-/// With its bytes.
+/// A source that owns its bytes.
 class OwnBytes final : public ByteSource {
 public:
     explicit OwnBytes(std::string bytes) : bytes_(std::move(bytes)) {}

@@ -8,8 +8,8 @@
 
 namespace catoptric {
 
-/// Bytes that are read a piece at a time, so that a picture's header can be judged before the rest
-/// is in memory.
+/// A source of bytes that are read piece by piece, so that a picture's header can be checked before
+/// the rest is in memory.
 class ByteSource {
 public:
     ByteSource() = default;
@@ -18,12 +18,12 @@ public:
     virtual ~ByteSource() = default;
 
     virtual std::uint64_t size() const = 0;
-    /// Fills `into` with the bytes from `offset` on and returns how many these are: fewer only at
-    /// the end. Throws `io` when reading fails. From any thread.
+    /// Fills `into` with the bytes from `offset` on. Returns the number of bytes read, which is
+    /// smaller only at the end. Throws `io` if reading fails. May be called from any thread.
     virtual std::size_t read(std::uint64_t offset, std::span<char> into) const = 0;
 };
 
-/// Bytes that lie in memory for as long as this is used.
+/// A source of bytes in memory. The memory must outlive it.
 class MemoryBytes final : public ByteSource {
 public:
     explicit MemoryBytes(std::string_view bytes) : bytes_(bytes) {}
@@ -34,8 +34,8 @@ private:
     std::string_view bytes_;
 };
 
-/// Opens a file without reading it. The bytes of a pipe or a device, which have no places, are read
-/// into memory. Throws `missing_input` when it is not there or cannot be opened.
+/// Opens a file without reading it. A pipe or a device cannot be read at an offset, so its bytes
+/// are read into memory. Throws `missing_input` if the file does not exist or cannot be opened.
 std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path);
 
 } // namespace catoptric

@@ -8,7 +8,8 @@
 
 namespace catoptric {
 
-/// One of 2^64 numbers for a sequence of values: what differs has another one, but for chance.
+/// A content hash: a 64-bit number for a sequence of values. Different sequences have different
+/// hashes, except by chance.
 class ContentHash {
 public:
     explicit ContentHash(std::uint64_t seed = 0) { word(seed); }
@@ -37,7 +38,7 @@ private:
         }
         return *this;
     }
-    /// SplitMix64's finaliser over the running sum.
+    /// Mixes a word into the running sum with SplitMix64's finaliser.
     void word(std::uint64_t next) {
         std::uint64_t z = (sum_ ^ next) + 0x9e3779b97f4a7c15u;
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -8,15 +8,15 @@
 
 namespace catoptric {
 
-/// Why something failed; the value is the exit code of the command line program (sysexits.h).
+/// The kind of a failure. The value is the exit code of the command line program (sysexits.h).
 enum class Failure {
-    threshold = 1,      ///< a measured value is over the limit the user gave
+    threshold = 1,      ///< a measured value exceeds the limit that the user gave
     usage = 2,          ///< unknown name, value out of range
-    bad_data = 65,      ///< an input file says something that cannot be
-    missing_input = 66, ///< an input file is not there
-    no_device = 69,     ///< no Vulkan device, or none that can do what is needed
-    internal = 70,      ///< a promise of our own is broken
-    cannot_create = 73, ///< an output file or folder cannot be made
+    bad_data = 65,      ///< an input file has invalid contents
+    missing_input = 66, ///< an input file does not exist
+    no_device = 69,     ///< no Vulkan device, or none with the required features
+    internal = 70,      ///< a bug of the engine or of its caller
+    cannot_create = 73, ///< an output file or folder cannot be created
     io = 74,            ///< reading or writing failed half-way
     exhausted = 75,     ///< out of memory or over a device limit
     device_lost = 76,
@@ -25,21 +25,21 @@ enum class Failure {
     terminated = 143,  ///< SIGTERM
 };
 
-/// Whether a signal asked for it.
+/// Returns whether a signal caused the failure.
 constexpr bool is_stop(Failure failure) {
     return failure == Failure::hangup || failure == Failure::interrupted ||
            failure == Failure::terminated;
 }
 
-/// What everything that fails throws: one of the types below, by its `failure`. `what()` says what,
-/// where, wanted and found.
+/// The base of all exceptions that the library throws. The type below that is thrown depends on
+/// `failure`. `what()` says what failed, where, what was expected and what was found.
 class CATOPTRIC_API Error : public std::runtime_error {
 public:
     Error(Failure why, const std::string& message) : std::runtime_error(message), failure(why) {}
     Failure failure;
 };
 
-/// Of one kind of failure, for who catches only that.
+/// The exception for one kind of failure, to catch only that kind.
 template <Failure kind>
 class CATOPTRIC_API ErrorOf : public Error {
 public:
@@ -55,10 +55,10 @@ using IoError = ErrorOf<Failure::io>;
 using Exhausted = ErrorOf<Failure::exhausted>;
 using DeviceLost = ErrorOf<Failure::device_lost>;
 
-/// Throws what has this failure's type; `Error` itself where a signal or a threshold ends things.
+/// Throws the exception type of this failure, or `Error` itself for a signal or a threshold.
 [[noreturn]] CATOPTRIC_API void throw_error(Failure failure, const std::string& message);
 
-/// The same with the parts streamed one after the other.
+/// Throws as `throw_error` does, with the parts streamed into the message.
 template <typename... Parts>
 [[noreturn]] void fail(Failure failure, const Parts&... parts) {
     std::ostringstream text;
@@ -66,7 +66,7 @@ template <typename... Parts>
     throw_error(failure, text.str());
 }
 
-/// Fails with the streamed parts unless `ok`.
+/// Throws as `fail` does unless `ok`.
 template <typename... Parts>
 void check(bool ok, Failure failure, const Parts&... parts) {
     if (!ok) fail(failure, parts...);

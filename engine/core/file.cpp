@@ -26,7 +26,7 @@ using File = std::unique_ptr<std::FILE, Close>;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// Where bytes for `path` finally lie: the end of its links, which may not exist yet.
+/// Returns the path at the end of all links, which need not exist.
 fs::path destination(fs::path path) {
     std::error_code error;
     for (int link = 0; link < 40 && fs::is_symlink(fs::symlink_status(path, error)); ++link)
@@ -34,7 +34,7 @@ fs::path destination(fs::path path) {
     return path;
 }
 
-/// Writes, flushes and closes; throws `io` naming `path`, not the temporary.
+/// Writes, flushes and closes the file. Throws `io` with `path`, not with the temporary's name.
 void write_all(File file, std::string_view content, const fs::path& path) {
     const std::size_t written = content.empty()
                                     ? 0
@@ -56,7 +56,8 @@ File open_new(const fs::path& temporary, const fs::path& path) {
     return file;
 }
 
-/// Temporaries of this target whose processes are gone: a second signal leaves no time to tidy.
+/// Removes temporaries of this target whose processes have ended. A program that gets a second
+/// signal cannot remove its own.
 void remove_left_over(const fs::path& target) {
     const std::string beginning = target.filename().string() + kPartial;
     std::error_code error;
@@ -72,14 +73,15 @@ void remove_left_over(const fs::path& target) {
     }
 }
 
-/// `old`: what lies at `target`, if anything.
+/// Writes `content` to a temporary and renames it to `target`. `old`: status of the file at
+/// `target`, if any.
 void replace(const fs::path& target, fs::file_status old, std::string_view content,
              const fs::path& path) {
     fs::path temporary = target;
     temporary += kPartial + std::to_string(::getpid());
     std::error_code error;
     remove_left_over(target);
-    fs::remove(temporary, error); // left by a dead process that had our number
+    fs::remove(temporary, error); // left by a dead process with our process id
     File file = open_new(temporary, path);
     try {
         if (fs::exists(old)) {
@@ -102,7 +104,8 @@ fs::path real_path(const fs::path& path) {
     std::error_code error;
     const fs::path target = fs::absolute(destination(path), error);
     const fs::path real = fs::weakly_canonical(target, error);
-    return error ? target.lexically_normal() : real; // such as a folder that may not be read
+    // An error is, for example, an unreadable folder.
+    return error ? target.lexically_normal() : real;
 }
 
 void write_file(const fs::path& path, std::string_view content) {

@@ -8,20 +8,20 @@
 
 namespace catoptric {
 
-/// Where bytes written to `path` finally lie: absolute, without `.` and `..`, at the end of all
-/// links. Nothing need be there.
+/// Returns the path at which bytes written to `path` end up: absolute, without `.` and `..`, with
+/// all links followed. The file need not exist.
 std::filesystem::path real_path(const std::filesystem::path& path);
 
-/// Puts `content` at `path`: written to a temporary in the same folder, flushed, closed, renamed,
-/// so that readers see the old file or the whole new one, with the old one's mode. A link is
-/// followed; a device or pipe is
-/// written in place. Throws `cannot_create` when nothing can be opened there, `io` when writing
-/// fails; then the temporary is gone and an old file is untouched.
+/// Writes `content` to `path` through a temporary file in the same folder, which is flushed, closed
+/// and renamed. Readers see the old file or the whole new one. The new file keeps the mode of the
+/// old one. A link is followed. A device or pipe is written in place. Throws `cannot_create` if no
+/// file can be opened there and `io` if writing fails. Then the temporary is removed and an old
+/// file is unchanged.
 void write_file(const std::filesystem::path& path, std::string_view content);
 void write_file(const std::filesystem::path& path, std::span<const std::byte> content);
 
-/// The bytes of a file. Throws `missing_input` when it is not there or cannot be opened, `io` when
-/// reading fails half-way.
+/// Returns the bytes of a file. Throws `missing_input` if it does not exist or cannot be opened,
+/// and `io` if reading fails.
 std::string read_file(const std::filesystem::path& path);
 
 } // namespace catoptric

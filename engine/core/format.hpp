@@ -5,8 +5,8 @@
 
 namespace catoptric {
 
-/// Texel formats that the engine uses, named as in the field: channels, bits, kind.
-/// bgra8_unorm is a window's alone: no pass but the last writes it.
+/// Texel formats that the engine uses, named by channels, bits and kind. bgra8_unorm is for windows
+/// only: only the last pass of a frame writes it.
 enum class Format { r8_unorm, rgba8_unorm, bgra8_unorm, r16f, rgba16f, r32f, rgba32f, r32ui, d32f };
 
 constexpr std::uint32_t bytes_per_texel(Format format) {

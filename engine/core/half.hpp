@@ -9,7 +9,7 @@ namespace catoptric {
 inline constexpr float kLargestHalf = 65504;
 inline constexpr std::uint16_t kLargestHalfBits = 0x7bff;
 
-/// The number that 16 bits stand for (IEEE 754 binary16).
+/// Returns the value of a 16-bit float (IEEE 754 binary16).
 inline float from_half(std::uint16_t bits) {
     const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
     const float size = exponent == 31 ? (mantissa ? std::numeric_limits<float>::quiet_NaN()

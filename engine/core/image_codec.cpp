@@ -28,7 +28,7 @@ constexpr Beginning kBeginnings[] = {{"\x89PNG\r\n\x1a\n", "png"},
                                      {"DDS ", "dds"},
                                      {"8BPS", "psd"}};
 
-/// Throws unless it is done.
+/// Throws unless the answer is `done`.
 void check_decoded(const CodecResult& result, const std::string& name, const std::string& format) {
     const std::string why = result.why.empty() ? "" : ": " + result.why;
     switch (result.answer) {
@@ -64,7 +64,7 @@ void check_sides(const ImageShape& shape, const std::string& name) {
           " channels");
 }
 
-/// A picture that OpenImageIO reads.
+/// Reads a picture with OpenImageIO.
 class CodecReader {
 public:
     CodecReader(const ByteSource& bytes, const std::string& format, const std::string& name)
@@ -77,7 +77,7 @@ public:
     CodecReader(const CodecReader&) = delete;
     CodecReader& operator=(const CodecReader&) = delete;
 
-    /// Throws for a deep picture.
+    /// Returns the picture's shape. Throws `bad_data` for a deep picture or one without pixels.
     ImageShape shape() const {
         check(!header_.is_deep && header_.size.x > 0 && header_.size.y > 0, Failure::bad_data,
               name_, ": wanted a flat picture of 1 to ", ImageReader::kLargestSide,
@@ -124,7 +124,7 @@ struct ImageReader::Open {
     std::string name;
     ImageShape shape;
     std::optional<PngReader> png;
-    std::optional<CodecReader> codec; ///< of what is no PNG
+    std::optional<CodecReader> codec; ///< set for all formats but PNG
 };
 
 ImageReader::ImageReader(const ByteSource& bytes, const std::string& format, std::string name,

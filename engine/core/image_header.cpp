@@ -13,7 +13,7 @@ namespace catoptric {
 
 namespace {
 
-/// Whole numbers at places of a file; 0 beyond its end.
+/// Reads integers at offsets in a file; 0 beyond its end.
 class Numbers {
 public:
     explicit Numbers(const ByteSource& bytes) : bytes_(bytes) {}
@@ -47,7 +47,8 @@ ImageShape shape_of(std::uint32_t width, std::uint32_t height, std::size_t chann
     return {{width, height}, channel_count, {}};
 }
 
-/// The frame header behind as many segments as there are. What is no JPEG any more has no pixel.
+/// Returns the shape in the frame header, which follows any number of segments. If the file ends or
+/// is no JPEG there, the size is 0.
 ImageShape jpeg_header(const ByteSource& bytes) {
     const Numbers numbers(bytes);
     for (std::uint64_t at = 2; at + 9 < bytes.size();) {
@@ -79,7 +80,7 @@ ImageShape webp_header(const ByteSource& bytes) {
     }
 }
 
-/// The sides of "-Y 512 +X 1024"; 0 for what is something else.
+/// Returns the sides from a line such as "-Y 512 +X 1024"; 0 for other lines.
 uvec2 radiance_sides(std::string_view line) {
     uvec2 sides{0};
     const auto take = [&](std::string_view axis, std::uint32_t& side) {
@@ -102,7 +103,8 @@ ImageShape radiance_header(const ByteSource& bytes, const std::string& name) {
           ": cannot be decoded: wanted a blank line and the picture's size within ", kLongest,
           " bytes, found none");
     const uvec2 size = radiance_sides(std::string_view(text).substr(blank + 2, end - blank - 2));
-    // Lines of 8 to 32767 pixels are runs of at most 127 for each of 4 channels, the others flat.
+    // Lines of 8 to 32767 pixels are stored as runs of at most 127 for each of 4 channels. Other
+    // lines are stored without runs.
     const bool has_runs = size.x >= 8 && size.x < 1 << 15;
     const std::uint64_t line = has_runs ? 4 + 8 * std::uint64_t((size.x + 126) / 127)
                                         : 4 * std::uint64_t(size.x);
@@ -118,14 +120,15 @@ public:
     explicit TiffDirectory(const ByteSource& bytes)
         : numbers_(bytes), is_big_endian_(numbers_.big(0, 2) == 0x4d4d), first_(number(4, 4)) {}
 
-    /// Returns the first value of a tag, of 16 or 32 bits; `otherwise` where there is none.
+    /// Returns the first value of a tag, of 16 or 32 bits; `otherwise` if the tag is missing.
     std::uint32_t value(std::uint32_t tag, std::uint32_t otherwise) const {
         constexpr std::uint32_t kShort = 3;
         for (std::uint32_t i = 0; i < number(first_, 2); ++i) {
             const std::uint64_t entry = first_ + 2 + std::uint64_t{12} * i;
             if (number(entry, 2) != tag) continue;
             const std::size_t size = number(entry + 2, 2) == kShort ? 2 : 4;
-            const bool is_inside = size * number(entry + 4, 4) <= 4; // else at an offset
+            // Otherwise the entry holds the value's offset.
+            const bool is_inside = size * number(entry + 4, 4) <= 4;
             return number(is_inside ? entry + 8 : number(entry + 8, 4), size);
         }
         return otherwise;
@@ -141,12 +144,12 @@ private:
     std::uint64_t first_;
 };
 
-/// Returns how many bytes a TIFF file needs at least for so many decoded bytes; 0 if its
-/// compression has no limit that we know.
+/// Returns the least bytes of a TIFF file with this many decoded bytes; 0 if no limit of its
+/// compression is known.
 std::uint64_t least_of_tiff(std::uint64_t decoded, std::uint64_t compression) {
     constexpr std::uint64_t kNone = 1, kLzw = 5, kDeflate = 8, kOldDeflate = 32946,
                             kPackBits = 32773;
-    constexpr std::uint64_t kMostLzw = 4096; // bytes of a code, more than deflate's 1032
+    constexpr std::uint64_t kMostLzw = 4096; // bytes per code, above deflate's limit of 1032
     if (compression == kNone) return decoded;
     if (compression == kPackBits) return decoded / 64;
     const bool is_known = compression == kLzw || compression == kDeflate ||
@@ -162,7 +165,8 @@ ImageShape tiff_header(const ByteSource& bytes, const std::string& name) {
                         channels = std::clamp(directory.value(kChannels, 1), 1u, 64u),
                         bits = std::clamp(directory.value(kBits, 1), 1u, 64u);
     const std::uint64_t texels = std::uint64_t{width} * height;
-    constexpr std::uint64_t kAbsurd = std::uint64_t{1} << 40; // refused by its sides
+    // Avoids overflow; such sides are refused later.
+    constexpr std::uint64_t kAbsurd = std::uint64_t{1} << 40;
     const std::uint64_t least = least_of_tiff(std::min(texels, kAbsurd) * channels * bits / 8,
                                               directory.value(kCompression, 1));
     check(least <= bytes.size(), Failure::bad_data, name, ": wanted at least ", least,
@@ -186,7 +190,7 @@ std::optional<ImageShape> header_of(const ByteSource& bytes, const std::string& 
     if (format == "psd")
         return shape_of(numbers.big(18, 4), numbers.big(14, 4), numbers.big(12, 2));
     if (format == "bmp") {
-        const bool is_old = numbers.little(14, 4) == 12; // sides of 16 bits
+        const bool is_old = numbers.little(14, 4) == 12; // the old header has sides of 16 bits
         if (is_old) return shape_of(numbers.little(18, 2), numbers.little(20, 2), 4);
         const std::uint32_t height = numbers.little(22, 4);
         return shape_of(numbers.little(18, 4), height >> 31 ? ~height + 1 : height, 4);

@@ -1,5 +1,5 @@
-// The header of OpenEXR, https://openexr.com/en/latest/OpenEXRFileLayout.html, as far as it says
-// how much memory the file asks for.
+// Reads those parts of the OpenEXR header (https://openexr.com/en/latest/OpenEXRFileLayout.html)
+// that determine how much memory a file needs.
 #include "core/error.hpp"
 #include "core/image_header.hpp"
 
@@ -41,7 +41,7 @@ public:
         take(read);
         return static_cast<std::uint8_t>(read[0]);
     }
-    /// Up to a zero byte, which is taken too.
+    /// Returns the text up to a zero byte, and skips this byte.
     std::string word() {
         std::array<char, kLongestName + 1> read{};
         const std::string_view text(read.data(), bytes_.read(at_, read));
@@ -50,13 +50,13 @@ public:
         at_ += end + 1;
         return std::string(text.substr(0, end));
     }
-    /// Whether a zero byte comes next, which is taken then.
+    /// Returns whether a zero byte comes next, and skips it if so.
     bool takes_zero() {
         const bool is_zero = byte() == 0;
         if (!is_zero) --at_;
         return is_zero;
     }
-    /// Throws where so many bytes are not there.
+    /// Throws if fewer than `size` bytes are left.
     void need(std::uint64_t size, const char* what) const {
         if (size > left()) refuse("wanted ", size, " bytes of ", what, ", found ", left());
     }
@@ -78,7 +78,7 @@ private:
     std::uint64_t at_ = 0;
 };
 
-/// What one part says of itself.
+/// The header of one part of the file.
 struct Part {
     std::vector<std::string> channels;
     std::uint64_t pixel_bytes = 0;
@@ -87,7 +87,7 @@ struct Part {
     std::array<std::int32_t, 4> window{0, 0, -1, -1};
     std::array<std::uint32_t, 2> tile{};
     bool is_tiled = false;
-    std::uint64_t chunk_count = 0; ///< as the file claims; 0: it does not
+    std::uint64_t chunk_count = 0; ///< as the file claims; 0 if it claims none
 
     std::uint64_t side(std::size_t axis) const {
         const std::int64_t first = window[axis], last = window[axis + 2];
@@ -100,7 +100,7 @@ void read_channels(Cursor& file, Part& part, std::uint64_t end) {
         std::string name = file.word();
         if (name.empty()) break;
         const std::uint32_t type = file.number();
-        file.number(); // whether it is linear
+        file.number(); // skips the flag for linear data
         const std::uint32_t across = file.number(), down = file.number();
         part.is_subsampled |= across != 1 || down != 1;
         part.pixel_bytes += type == 1 ? 2 : 4;
@@ -108,7 +108,7 @@ void read_channels(Cursor& file, Part& part, std::uint64_t end) {
     }
 }
 
-/// Strings of a vector, each with a length that OpenEXR believes.
+/// Checks the strings of a vector, because OpenEXR trusts the length of each.
 void check_strings(Cursor& file, std::uint64_t end) {
     while (file.at() + 4 <= end) {
         const std::uint32_t size = file.number();
@@ -152,28 +152,29 @@ Part read_part(Cursor& file, bool is_tiled) {
     return part;
 }
 
-/// Lines in one chunk.
+/// Returns the number of lines in one chunk.
 std::uint32_t chunk_lines(std::uint32_t compression) {
     constexpr std::uint32_t kLines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
     return compression < std::size(kLines) ? kLines[compression] : 256;
 }
 
-/// How many bytes of values one byte of the file can stand for. None: RLE stores runs of 128 in 2
-/// bytes, deflate at most 1032 for 1, PXR24 drops a quarter of a float before that, B44A keeps 32
-/// bytes in 3. Nothing is known of the others.
+/// Returns the most bytes of values that one byte of the file can stand for. RLE stores runs of 128
+/// in 2 bytes. Deflate stores at most 1032 bytes in 1. PXR24 drops a quarter of a float before
+/// deflate. B44A stores 32 bytes in 3. The limits of other compressions are not known.
 double most_expansion(std::uint32_t compression) {
     constexpr double kMost[] = {1, 64, 1032, 1032, 0, 1032 * 4 / 3.0, 11, 11};
     const double most = compression < std::size(kMost) ? kMost[compression] : 0;
     return most > 0 ? most : std::numeric_limits<double>::infinity();
 }
 
-/// The least bytes that chunks of this part take, each with 8 in the table of chunks and 8 before
-/// its values. A double, since a product of what the file claims may be above any whole number.
+/// Returns the least bytes that the chunks of this part take. Each chunk has 8 bytes in the chunk
+/// table and 8 before its values. The result is a double, because products of claimed sizes may
+/// overflow any integer.
 double least_bytes(const Cursor& file, const Part& part) {
     const auto width = double(part.side(0)), height = double(part.side(1));
     double chunks = std::ceil(height / chunk_lines(part.compression));
     if (part.is_tiled) {
-        // OpenEXR makes a buffer for a whole tile, however small the picture is.
+        // OpenEXR allocates a whole tile, however small the picture is.
         constexpr double kLargest = 1024;
         const auto [across, down] = part.tile;
         if (across == 0 || down == 0 || across > std::max(kLargest, width) ||
@@ -191,7 +192,7 @@ double least_bytes(const Cursor& file, const Part& part) {
 
 ImageShape openexr_header(const ByteSource& bytes, const std::string& name) {
     Cursor file(bytes, name);
-    file.number(); // the mark of the format
+    file.number(); // skips the magic number
     const std::uint32_t flags = file.number();
     check((flags & kHasDeepParts) == 0, Failure::bad_data, name,
           ": wanted a flat picture, found a deep one");

@@ -15,11 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "catoptric-images.so";
-constexpr std::size_t kRoom = std::size_t{512} << 20; // all its libraries
+// Bytes of address space for all its libraries.
+constexpr std::size_t kRoom = std::size_t{512} << 20;
 constexpr const char* kModuleNeeds = "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
                                      "libopenimageio2.4)";
 
-/// The folder of the library or program that this function is part of.
+/// Returns the folder of the library or program that contains this function.
 fs::path own_folder() {
     static const char kHere = 0;
     Dl_info info{};
@@ -35,8 +36,8 @@ fs::path own_folder() {
     return file.parent_path();
 }
 
-/// The module's file: in a build tree beside the programs and the library, installed in a folder of
-/// its own beside the library.
+/// Returns the module's file. In a build tree it is beside the programs and the library. Installed,
+/// it is in its own folder beside the library.
 fs::path module_file() {
     const fs::path own = own_folder();
     const fs::path folders[] = {own, own / "catoptric",
@@ -51,7 +52,7 @@ fs::path module_file() {
 const ImageCodecs* load() {
     const fs::path file = module_file();
     check_address_space(kRoom, "OpenImageIO");
-    void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // to the end of the process
+    void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // never closed
     check(module != nullptr, Failure::internal,
           "pictures cannot be read or written: ", file.string(),
           " cannot be loaded: ", module ? "" : dlerror(), ". ", kModuleNeeds);

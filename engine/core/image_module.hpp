@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
-// What lies between this library and the module that links OpenImageIO (engine/images): two hundred
-// libraries, which a program loads when its first picture is read or written, and not before.
+// The interface between this library and the module that links OpenImageIO (engine/images).
+// OpenImageIO brings two hundred libraries. A program loads them only when it reads or writes its
+// first picture.
 namespace catoptric {
 
 enum class CodecAnswer {
     done,
-    no_codec, ///< this OpenImageIO knows no such format
+    no_codec, ///< this OpenImageIO does not support the format
     refused,
     out_of_memory,
     broken ///< OpenImageIO threw something else
@@ -21,15 +22,15 @@ enum class CodecAnswer {
 
 struct CodecResult {
     CodecAnswer answer = CodecAnswer::done;
-    std::string why = {}; ///< in one line; may be empty
+    std::string why = {}; ///< reason in one line; may be empty
 };
 
 enum class CodecValue { uint8, float32 };
 
-/// The module's functions. They throw nothing and keep nothing that they are handed but the bytes
-/// of an open picture. `format` is what OpenImageIO calls it.
+/// The functions of the module. They throw nothing. They keep no argument but the bytes of an open
+/// picture. `format` is OpenImageIO's name of a format.
 struct ImageCodecs {
-    struct Picture; ///< an open one; the module knows what it is
+    struct Picture; ///< an open picture; defined in the module
     struct Header {
         ivec2 size{0};
         int channel_count = 0;
@@ -43,10 +44,12 @@ struct ImageCodecs {
         const void* values = nullptr;
     };
 
-    /// `picture` is to be closed where this is done, and null otherwise.
+    /// Opens a picture. If the answer is `done`, the caller must close `picture`; otherwise it is
+    /// null.
     CodecResult (*open)(const ByteSource& bytes, const std::string& format, const std::string& name,
                         Picture*& picture, Header& header) noexcept;
-    /// `row_count` rows from `first` on; rows of tiled pictures may be read from their tiles anew.
+    /// Reads `row_count` rows from `first` on. Rows of tiled pictures may be read again from their
+    /// tiles.
     CodecResult (*read)(Picture& picture, std::uint32_t first, std::uint32_t row_count,
                         CodecValue type, void* values) noexcept;
     void (*close)(Picture* picture) noexcept;
@@ -54,15 +57,17 @@ struct ImageCodecs {
                           std::string& bytes) noexcept;
 };
 
-/// The one name that the module exports, a function that returns its `ImageCodecs`. It counts up
-/// with what stands above, so that a library and a module of two versions do not meet.
+/// The only symbol that the module exports: a function that returns its `ImageCodecs`. Its number
+/// rises with every change of the interface above, so that a library never uses a module of another
+/// version.
 constexpr const char* kImageCodecs = "catoptric_image_codecs_2";
 using ImageCodecsFunction = const ImageCodecs* (*)();
 
-/// The module's functions; the first call loads it, a fifth of a second. Looked for beside the
-/// library or program that this code is part of, and where it is installed from there. Throws
-/// `internal` (`exhausted` where memory was wanting) with the places and what to install; then the
-/// next call looks again. From any thread.
+/// Returns the module's functions. The first call loads the module, which takes a fifth of a
+/// second. The module is searched beside the library or program that contains this code, and at its
+/// installed place relative to them. Throws `internal` with the searched places and what to
+/// install, or `exhausted` without memory. After an error the next call searches again. May be
+/// called from any thread.
 const ImageCodecs& image_codecs();
 
 } // namespace catoptric

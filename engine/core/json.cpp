@@ -15,9 +15,9 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kDeepest = 64;
-constexpr int kOutOfRange = 406; // the parser's number for a number that no double holds
+constexpr int kOutOfRange = 406; // the parser's error number for a number too large for a double
 
-/// The parser's words, and what it wanted there. The first that fits holds.
+/// Pairs of a part of the parser's message and the expected token. The first match counts.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kExpectedTokens{
     {{"missing closing quote", "a closing quotation mark"},
      {"control character", "control characters of a text written as \\n, \\t or \\u00XX"},
@@ -40,18 +40,20 @@ std::string place_of(const std::string& file, std::string_view text, std::size_t
            std::to_string(at - line_start + 1);
 }
 
-/// Returns the length of the last word of what the parser calls the token it read, which may hold
-/// what stands before it, too.
+/// Returns the length of the last word of the parser's token, which may also contain the text
+/// before the word.
 std::size_t last_word(const std::string& token) {
     constexpr std::string_view kPunctuation = "[]{}:,";
     if (token.empty() || kPunctuation.find(token.back()) != kPunctuation.npos) return 1;
     const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
-    if (!is_letter(token.back())) return token.size(); // of a number or a text it is exact
+    // For a number or a string the token is exact.
+    if (!is_letter(token.back())) return token.size();
     const auto before = std::find_if_not(token.rbegin(), token.rend(), is_letter);
     return static_cast<std::size_t>(before - token.rbegin());
 }
 
-/// What stands at `at`: the word that was read, or one character.
+/// Returns the text at `at` for a message: the word of `length` characters, cut to 40, or one
+/// character.
 std::string found_at(std::string_view text, std::size_t at, std::size_t length) {
     constexpr std::size_t kLongest = 40;
     if (at >= text.size()) return "the end";
@@ -77,7 +79,8 @@ public:
     bool end_object() override { return --depth_ >= 0; }
     bool end_array() override { return --depth_ >= 0; }
 
-    /// `read`: characters read so far, one more at the end of the text; `token`: the last of them.
+    /// `read`: characters read so far, one more at the end of the text. `token`: the last
+    /// characters read.
     bool parse_error(std::size_t read, const std::string& token,
                      const Json::exception& error) override {
         const std::string_view words = error.what();
@@ -94,7 +97,7 @@ public:
     }
 
 private:
-    /// A value of a list or map takes 32 bytes, with what these keep around it, and its own.
+    /// Reports the memory of a value: 32 bytes in its list or map, and `more` bytes of its own.
     bool value(std::uint64_t more = 0) {
         if (spends_) spends_(32 + more);
         return true;

@@ -12,7 +12,8 @@ namespace catoptric {
 
 namespace {
 
-// A suggestion is for a slip of the finger: at most 64 x 96 steps for each of so many names.
+// These limits bound the time of a suggestion, which is only for typing errors: at most 64 x 96
+// steps for each name.
 constexpr std::size_t kLongestWord = 64;
 constexpr std::size_t kMostNames = 10'000;
 
@@ -114,7 +115,8 @@ std::string nearest_name(std::string_view word, std::span<const std::string> nam
     std::size_t best = std::max<std::size_t>(2, word.size() / 2) + 1;
     std::string nearest;
     for (const std::string& name : names.first(std::min(names.size(), kMostNames))) {
-        if (name.size() >= word.size() + best) continue; // so many letters are missing at least
+        // The difference in length is a lower bound of the distance.
+        if (name.size() >= word.size() + best) continue;
         const std::size_t distance = edit_distance(word, name);
         if (distance < best) best = distance, nearest = name;
     }

@@ -6,9 +6,9 @@
 
 namespace catoptric {
 
-/// Asks for pages of two megabytes where memory that nobody has written yet has room for some: each
-/// page is cleared at its first touch and looked up once in a while. Only a wish: nothing tells
-/// whether the system has them.
+/// Asks the system for 2 MB pages in the part of the memory that can hold them. Call it before the
+/// memory is written, because pages are allocated and cleared at first touch. Larger pages need
+/// fewer address translations. It is only a hint: nothing tells whether the system follows it.
 inline void advise_large_pages(void* memory, std::size_t bytes) {
     constexpr std::uintptr_t kLarge = std::uintptr_t{1} << 21;
     const auto start = reinterpret_cast<std::uintptr_t>(memory);

@@ -1,5 +1,5 @@
 #pragma once
-// The library is built with GLM's packed types; all else that GLM has to set is the program's.
+// The library is built with GLM's packed types. A program may set all other options of GLM.
 #ifdef GLM_FORCE_DEFAULT_ALIGNED_GENTYPES
 #error "catoptric: wanted GLM's packed types, found GLM_FORCE_DEFAULT_ALIGNED_GENTYPES"
 #endif
@@ -22,7 +22,7 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
-/// Axis-aligned box; starts empty (`lo > hi`), grows by `add`.
+/// An axis-aligned box. It starts empty (`lo > hi`) and grows by `add`.
 template <typename Real>
 struct Bounds {
     using Vec = glm::vec<3, Real>;
@@ -35,7 +35,7 @@ struct Bounds {
     bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
     Vec centre() const { return (lo + hi) * Real(0.5); }
     Vec extent() const { return hi - lo; }
-    /// Surface area; 0 for an empty box.
+    /// Returns the surface area; 0 for an empty box.
     Real area() const {
         if (empty()) return 0;
         const Vec e = extent();

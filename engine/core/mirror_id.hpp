@@ -6,18 +6,18 @@
 
 namespace catoptric {
 
-/// Which mirror of a scene, wherever somebody sees it: 1, 2, ... in the order of the file; 0: none.
+/// The number of a mirror of a scene: 1, 2, ... in the order of the file; 0: none.
 class MirrorId {
 public:
     constexpr MirrorId() = default;
     constexpr explicit MirrorId(std::uint32_t number) : number_(number) {}
-    /// Of the mirror at `index` of a list with an entry for each.
+    /// Returns the id of the mirror at `index` of a list with one entry per mirror.
     static constexpr MirrorId at(std::size_t index) {
         return MirrorId(static_cast<std::uint32_t>(index) + 1);
     }
 
     constexpr std::uint32_t number() const { return number_; }
-    /// Its place in such a list; of none there is no such place.
+    /// Returns the mirror's index in such a list. Not valid for the id 0.
     constexpr std::size_t index() const { return number_ - 1; }
     constexpr explicit operator bool() const { return number_ != 0; }
     constexpr auto operator<=>(const MirrorId&) const = default;

@@ -11,13 +11,13 @@
 
 namespace catoptric {
 
-/// As many as the machine runs at once; at least 1.
+/// Returns the number of threads that the machine runs at once, at least 1.
 inline unsigned all_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
 
-/// Calls body(i) for every i below `count`, on at most `threads` threads of which the caller's is
-/// one; fewer where the system has no more. Lower numbers begin first. What a body throws comes out
-/// here once all threads have ended, of several the one with the lowest number; what had not begun
-/// by then is left out. A thread costs some ten microseconds.
+/// Calls body(i) for every i below `count`, on at most `threads` threads including the caller's.
+/// Fewer threads are used if the system cannot start more. Lower numbers begin first. If calls
+/// throw, the calls that have not begun are skipped. Once all threads have ended, the exception of
+/// the lowest number is rethrown. Starting a thread costs some ten microseconds.
 template <typename Body>
 void in_parallel(std::size_t count, unsigned threads, const Body& body) {
     std::atomic<std::size_t> next{0};
@@ -39,7 +39,7 @@ void in_parallel(std::size_t count, unsigned threads, const Body& body) {
         try {
             for (std::size_t t = 1; t < std::min<std::size_t>(threads, count); ++t)
                 others.emplace_back(work);
-        } catch (const std::system_error&) { // those that there are do it
+        } catch (const std::system_error&) { // the threads that did start do all the work
         }
         work();
     }

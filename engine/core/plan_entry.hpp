@@ -10,10 +10,10 @@ namespace catoptric {
 
 /// How one mirror was drawn.
 struct PlanEntry {
-    std::uint32_t mirror = 0; ///< its number, from 1
+    std::uint32_t mirror = 0; ///< number of the mirror, from 1
     std::string name, technique;
     std::vector<Setting> settings; ///< all knobs
-    std::string why;               ///< what decided so
+    std::string why;               ///< the reason for this choice
 };
 
 } // namespace catoptric

@@ -1,5 +1,5 @@
-// PNG pictures are written by libpng itself: most programs write these alone, and OpenImageIO,
-// which would write the same bytes, takes a fifth of a second to load.
+// Writes PNG pictures with libpng. Most programs write only PNG. OpenImageIO would write the same
+// bytes, but takes a fifth of a second to load.
 #include "core/error.hpp"
 #include "core/image_codec.hpp"
 
@@ -22,7 +22,7 @@ void append(png_structp png, png_bytep data, std::size_t size) {
     auto& destination = *static_cast<Destination*>(png_get_io_ptr(png));
     try {
         destination.bytes.append(reinterpret_cast<const char*>(data), size);
-    } catch (const std::exception&) { // must not pass through a library in C
+    } catch (const std::exception&) { // exceptions must not pass through a C library
         png_error(png, "out of memory");
     }
 }
@@ -32,14 +32,13 @@ void flush(png_structp) {}
     auto& destination = *static_cast<Destination*>(png_get_error_ptr(png));
     try {
         destination.why = why;
-    } catch (const std::exception&) { // goes without
+    } catch (const std::exception&) { // reported without the reason
     }
     png_longjmp(png, 1);
 }
 void ignore_warning_of_writing(png_structp, png_const_charp) {}
 
-/// What it says of itself: sRGB, and a time that is not the clock's, so that the same picture is
-/// the same bytes.
+/// Writes the metadata: sRGB and a constant time, so that equal pictures have equal bytes.
 void describe(png_structp png, png_infop info) {
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
     png_set_oFFs(png, info, 0, 0, PNG_OFFSET_PIXEL);
@@ -53,7 +52,8 @@ void describe(png_structp png, png_infop info) {
     png_set_text(png, info, &text, 1);
 }
 
-/// Whether it was written. Nothing here has a destructor, which the way out of libpng would skip.
+/// Writes the picture and returns whether this succeeded. libpng leaves by longjmp, so no variable
+/// here may have a destructor.
 bool write(png_structp png, png_infop info, const ImageShape& shape, const std::uint8_t* values) {
     if (setjmp(png_jmpbuf(png))) return false;
     constexpr int kTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,

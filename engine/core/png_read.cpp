@@ -26,7 +26,7 @@ struct Origin {
     auto& origin = *static_cast<Origin*>(png_get_error_ptr(png));
     try {
         origin.why = printable(why);
-    } catch (const std::exception&) { // goes without
+    } catch (const std::exception&) { // reported without the reason
     }
     png_longjmp(png, 1);
 }
@@ -37,15 +37,15 @@ void take(png_structp png, png_bytep into, std::size_t size) {
     bool is_whole = false;
     try {
         is_whole = origin.bytes.read(origin.at, {reinterpret_cast<char*>(into), size}) == size;
-    } catch (const std::exception&) { // must not pass through a library in C
+    } catch (const std::exception&) { // exceptions must not pass through a C library
     }
     if (!is_whole) png_error(png, "the file ends early");
     origin.at += size;
 }
 
-// Functions that libpng leaves by longjmp: nothing in them has a destructor.
+// libpng may leave these functions by longjmp, so no variable in them may have a destructor.
 
-/// Up to the first values. Whether that worked.
+/// Reads the file up to the first values. Returns whether this succeeded.
 bool read_header(png_structp png, png_infop info) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_read_info(png, info);
@@ -54,7 +54,7 @@ bool read_header(png_structp png, png_infop info) {
 
 bool start(png_structp png, png_infop info) {
     if (setjmp(png_jmpbuf(png))) return false;
-    png_set_expand(png); // to 8 bits and alpha
+    png_set_expand(png); // expands to 8 bits and alpha
     png_read_update_info(png, info);
     return true;
 }
@@ -71,7 +71,7 @@ bool read_all(png_structp png, png_bytepp rows) {
     return true;
 }
 
-/// `row` of values of 8 bits, or of 16 with the high byte first.
+/// Converts a row of values of 8 bits, or of 16 bits with the high byte first.
 template <typename Value>
 void convert(const std::uint8_t* row, std::size_t count, bool is_wide, Value* values) {
     constexpr bool kToFloat = std::is_same_v<Value, float>;
@@ -115,7 +115,7 @@ struct PngReader::Open {
         fail(Failure::bad_data, name, ": cannot be decoded", origin.why.empty() ? "" : ": ",
              origin.why);
     }
-    /// Throws for more values than deflate can make of the file.
+    /// Throws if the picture has more values than deflate can store in the file.
     void check_size() const {
         const std::uint64_t bits = std::uint64_t(png_get_bit_depth(png, info)) *
                                    png_get_channels(png, info);
@@ -134,8 +134,8 @@ struct PngReader::Open {
     std::size_t channel_count = 0;
     bool is_wide = false, is_interlaced = false;
     bool is_started = false;
-    std::uint32_t next = 0;               ///< row
-    std::vector<std::uint8_t> row, whole; ///< whole: of an interlaced picture
+    std::uint32_t next = 0;               ///< number of the next row
+    std::vector<std::uint8_t> row, whole; ///< `row`: one row; `whole`: an interlaced picture
 };
 
 PngReader::PngReader(const ByteSource& bytes, const std::string& name)

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-// shaders/lib/math.glsl as C++: `f32` computes as the shaders do, `f64` is the oracle.
-// Needs -ffp-contract=off (`precise` of GLSL).
+// shaders/lib/math.glsl compiled as C++. `f32` computes as the shaders do; `f64` is the oracle for
+// tests. Needs -ffp-contract=off (`precise` of GLSL).
 
 #define INLINE inline
 #define OUT(type) type&

@@ -4,7 +4,7 @@
 
 namespace catoptric {
 
-/// Adds the milliseconds of its life to a sum.
+/// Adds the milliseconds from its construction to its destruction to a sum.
 class Stopwatch {
 public:
     explicit Stopwatch(double& sum_ms) : sum_ms_(sum_ms) {}
@@ -12,7 +12,7 @@ public:
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
 
-    /// Milliseconds so far.
+    /// Returns the milliseconds since construction.
     double ms() const {
         const std::chrono::duration<double, std::milli> life = Clock::now() - begin_;
         return life.count();

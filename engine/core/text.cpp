@@ -16,7 +16,7 @@ std::string hexadecimal(std::uint32_t value, std::size_t digits) {
     return text;
 }
 
-/// One character of UTF-8: how many bytes it has, 0 for a byte that begins none.
+/// One character of UTF-8. `size` is its number of bytes, 0 for a byte that begins no character.
 struct Character {
     std::size_t size = 0;
     std::uint32_t code = 0;
@@ -36,7 +36,8 @@ Character character_at(std::string_view text) {
         if ((byte(i) & 0xc0) != 0x80) return {};
         code = code << 6 | (byte(i) & 0x3f);
     }
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000}; // shorter forms exist below
+    // Smaller codes have a shorter form.
+    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
     const bool is_surrogate = code >= 0xd800 && code < 0xe000;
     if (code < kLeast[size] || is_surrogate || code > 0x10ffff) return {};
     return {size, code};

@@ -6,10 +6,10 @@ namespace catoptric::gpu {
 
 namespace {
 
-constexpr std::uint64_t kFewestBytes = 16; // a texel of any kind
+constexpr std::uint64_t kFewestBytes = 16; // one texel of the largest format
 
 struct TexelFormat {
-    VkFormat format = VK_FORMAT_UNDEFINED; ///< none: the buffer is read as no texels
+    VkFormat format = VK_FORMAT_UNDEFINED; ///< undefined: no texel buffer
     std::uint64_t bytes = 0;
 };
 
@@ -42,10 +42,10 @@ UniqueBuffer make_buffer(const Device& device, std::uint64_t bytes, VkBufferUsag
     return {device.handle(), buffer};
 }
 
-/// Who uses a buffer most.
+/// The side that uses a buffer most.
 enum class Home { device, host_writes, host_reads };
 
-/// A memory type, and whether it is to be mapped.
+/// A memory type and whether the memory is to be mapped.
 struct MemoryType {
     int index = -1;
     bool mapped = false;
@@ -58,7 +58,8 @@ MemoryType type_for(const Device& device, const VkMemoryRequirements& needs, Hom
         return device.memory_type(needs.memoryTypeBits, properties);
     };
     if (home == Home::device) {
-        // Where the host sees only a window of the device's memory, large buffers stay outside it.
+        // If the host sees only a part of the device's memory, large buffers stay outside this
+        // part.
         constexpr std::uint64_t kShareOfWindow = 16;
         const int seen = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHost);
         const std::uint64_t window = seen < 0 ? 0
@@ -73,7 +74,7 @@ MemoryType type_for(const Device& device, const VkMemoryRequirements& needs, Hom
     return {cached >= 0 ? cached : find(kHost), true};
 }
 
-/// Memory for `buffer`, bound; `mapped` is null when the memory is not visible to the host.
+/// Allocates memory for `buffer` and binds it. `mapped` is null if the host cannot see the memory.
 UniqueMemory back(const Device& device, VkBuffer buffer, Home home, const std::string& name,
                   void*& mapped) {
     VkMemoryRequirements needs;

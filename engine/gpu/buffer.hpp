@@ -8,18 +8,18 @@
 
 namespace catoptric::gpu {
 
-/// What a buffer is for, beside being a storage buffer and a source and target of copies.
-/// `read_back`: filled by the device for the host, and so in the host's memory.
+/// Uses of a buffer. Every buffer is also a storage buffer and a source and target of copies.
+/// `read_back`: the device writes and the host reads, so it lies in the host's memory.
 enum class BufferUse : std::uint32_t {
     plain = 0,
     vertex = 1,
     index = 2,
     uniform = 4,
-    texels = 8, ///< of four floats
+    texels = 8, ///< texel buffer of four floats per texel
     read_back = 16,
-    words = 32,   ///< texels of a whole number
-    quads = 64,   ///< texels of four whole numbers
-    staging = 128 ///< filled by the host for copies, and so in the host's memory
+    words = 32,   ///< texel buffer of one unsigned integer per texel
+    quads = 64,   ///< texel buffer of four unsigned integers per texel
+    staging = 128 ///< the host writes and copies read, so it lies in the host's memory
 };
 constexpr BufferUse operator|(BufferUse a, BufferUse b) {
     return static_cast<BufferUse>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
@@ -28,23 +28,23 @@ constexpr bool has(BufferUse set, BufferUse bit) {
     return static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(bit);
 }
 
-/// Memory that the device reads and the host may write between frames.
+/// A buffer that the device reads and the host may write between frames.
 class Buffer {
 public:
     Buffer() = default;
-    /// At least 16 bytes are made, so that an empty list can still be bound.
-    /// Throws `exhausted` naming the bytes, or the limit for texel buffers.
+    /// Allocates at least 16 bytes, so that an empty list can still be bound. Throws `exhausted`,
+    /// naming the bytes or the device's limit for texel buffers.
     Buffer(Device& device, std::string name, std::uint64_t bytes, BufferUse use);
 
-    /// Copies `data` to `offset`. Where device memory cannot be mapped, the bytes are there for all
-    /// that is submitted from now on (Uploads).
-    /// Not while a frame that reads the buffer is in flight.
+    /// Copies `data` to `offset`, in bytes. Must not be called while a frame that reads the buffer
+    /// is in flight. If device memory cannot be mapped, the copy goes through Uploads. Work
+    /// submitted from now on sees the data.
     void write(std::uint64_t offset, std::span<const std::byte> data);
     template <typename T>
     void write(std::span<const T> data) {
         write(0, std::as_bytes(data));
     }
-    /// Contents, after the device has finished.
+    /// Returns the contents. The device must have finished writing them.
     std::vector<std::byte> read() const;
 
     const std::string& name() const { return name_; }
@@ -63,7 +63,7 @@ private:
     void* mapped_ = nullptr;
 };
 
-/// Grows `buffer` (a new one with the same name) when `data` does not fit, then writes it.
+/// Writes `data` to `buffer`. If it does not fit, a new buffer of the same name replaces `buffer`.
 template <typename T>
 void upload(Device& device, Buffer& buffer, const std::string& name, const std::vector<T>& data,
             BufferUse use) {

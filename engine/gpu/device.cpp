@@ -34,7 +34,7 @@ Device::Device(const DeviceOptions& options)
 Device::~Device() { close(); }
 
 void Device::close() {
-    if (abandoned_) { // the messenger writes there as long as the instance lives
+    if (abandoned_) { // the debug messenger writes to `messages_` as long as the instance exists
         static_cast<void>(messages_.release());
         return;
     }
@@ -131,7 +131,7 @@ void Device::begin_one_shot(const std::string& doing) {
     check_vk(vkBeginCommandBuffer(one_shot_, &begin), doing + " (begin a command buffer)");
 }
 
-/// What was copied is visible to the host and to all later commands.
+/// Submits the copies and waits. Their writes become visible to the host and to all later commands.
 void Device::end_one_shot(const std::string& doing) {
     barrier_after_copies(one_shot_,
                          VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,

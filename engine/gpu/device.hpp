@@ -12,30 +12,30 @@
 
 namespace catoptric::gpu {
 
-/// What a user may know about a device.
+/// Properties of a device, as reported to the user.
 struct DeviceInfo {
     std::string name;
-    std::string driver;  ///< name and version as the driver tells them
+    std::string driver;  ///< name and version, as the driver reports them
     std::string api;     ///< "1.3.230"
     std::string type;    ///< discrete | integrated | virtual | cpu | other
-    int threads = 0;     ///< of a cpu device: how many processors it may use; otherwise 0
-    std::string missing; ///< features that the engine requires and the device lacks; empty = usable
-    std::string id;      ///< vendor and device in hexadecimal: "10de-2330"
+    int threads = 0;     ///< processors that a cpu device may use; 0 for other types
+    std::string missing; ///< required features that the device lacks; empty = usable
+    std::string id;      ///< vendor and device id in hexadecimal: "10de-2330"
 };
 
-/// All devices in the order in which they are preferred: discrete, integrated, virtual, cpu.
-/// Throws `Failure::no_device` saying what to install when there is no driver.
+/// Returns all devices, most preferred first: discrete, integrated, virtual, cpu. Throws
+/// `no_device` if there is no driver; the message says what to install.
 std::vector<DeviceInfo> list_devices();
 
 class Uploads;
 
-/// Somebody else's, made with Features::switch_on; all of it outlives the Device.
+/// A device made by the caller with Features::switch_on. All handles must outlive the Device.
 struct GivenDevice {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
-    std::uint32_t queue_family = 0; ///< graphics, compute and copies, with timestamps
+    std::uint32_t queue_family = 0; ///< must have graphics, compute, copies and timestamps
 };
 
 struct DeviceOptions {
@@ -43,27 +43,26 @@ struct DeviceOptions {
     bool validate = false; ///< Khronos validation layer: core, synchronization, queue submit
     bool layered = true;   ///< false: pretend that a vertex shader cannot write gl_Layer
     bool staged = false;   ///< true: pretend that device memory cannot be mapped
-    std::vector<std::string> instance_extensions = {}; ///< that the window system wants
-    /// Makes the surface that the device is to show pictures on; empty: none.
+    std::vector<std::string> instance_extensions = {}; ///< required by the window system
+    /// Makes the surface to show pictures on; empty: none.
     std::function<VkSurfaceKHR(VkInstance)> make_surface = {};
-    std::optional<GivenDevice> given = {}; ///< in place of one of its own
+    std::optional<GivenDevice> given = {}; ///< a device to use instead of making one
 };
 
-/// Whether a device of this process was abandoned: its driver's threads may still be at work, and a
-/// program that takes itself down under them can crash. Such a program ends with std::_Exit.
+/// Returns whether a device of this process was abandoned. Its driver's threads may still run, and
+/// normal process exit can crash under them. Such a program must end with std::_Exit.
 bool any_abandoned();
 
-/// Instance, device and its one queue (graphics, compute, copies). Not copyable; everything made
-/// from it must go before it. One thread at a time.
+/// A Vulkan instance, device and its one queue (graphics, compute, copies). Not copyable. All
+/// objects made from it must be destroyed before it. Used by one thread at a time.
 ///
-/// A device that is lost, or that cannot be waited for, may still use what it was given. It is
-/// *abandoned*: from then on nothing made from it is destroyed, itself and its instance neither,
-/// and it takes no more work. The memory is gone for the rest of the process; another Device may be
-/// made.
+/// A device that is lost, or that cannot be waited for, may still use its resources. It becomes
+/// *abandoned*: it takes no more work, and neither it, its instance nor its objects are destroyed.
+/// Their memory is lost until the process ends. Another Device may be made.
 class Device {
 public:
-    /// Throws `no_device` (nothing there, cannot be opened, lacks a required feature), `usage` (no
-    /// such device), `exhausted`.
+    /// Opens a device. Throws `no_device` if there is none, it cannot be opened or it lacks a
+    /// required feature. Throws `usage` if `wanted` matches no device. May throw `exhausted`.
     explicit Device(const DeviceOptions& options);
     ~Device();
     Device(const Device&) = delete;
@@ -73,59 +72,63 @@ public:
     const VkPhysicalDeviceLimits& limits() const { return limits_; }
     DeviceHandle handle() const { return {device_, &abandoned_}; }
     VkPhysicalDevice physical() const { return physical_; }
-    VkSurfaceKHR surface() const { return surface_; } ///< null: none was asked for
+    VkSurfaceKHR surface() const { return surface_; } ///< null if none was asked for
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
     bool is_cpu() const { return info_.type == "cpu"; }
-    /// What its shaders are to be; the defaults until somebody says otherwise, before the first
-    /// frame.
+    /// Returns the shader variants of the device: the defaults unless `choose` was called. Call
+    /// `choose` before the first frame.
     const Choices& choices() const { return choices_; }
     void choose(const Choices& choices) { choices_ = choices; }
-    /// Vertex shaders may write gl_Layer; otherwise layered passes run layer by layer.
+    /// Returns whether vertex shaders may write gl_Layer. If not, layered passes run layer by
+    /// layer.
     bool layered() const { return layered_; }
-    /// Whether lists of texels are read from storage buffers, because texel buffers hold few. A
-    /// device may allow as few as 65,536 texels: enough for 21,845 triangles.
+    /// Returns whether lists of texels are read from storage buffers, because texel buffers hold
+    /// too few. A device may allow as few as 65,536 texels: enough for 21,845 triangles.
     bool texels_in_storage() const { return limits_.maxTexelBufferElements < (1u << 26); }
-    /// Returns how many texels of `texel_bytes` bytes each a list may have.
+    /// Returns the most texels, of `texel_bytes` bytes each, that a list may have.
     std::uint64_t most_texels(std::uint64_t texel_bytes) const {
         return texels_in_storage() ? limits_.maxStorageBufferRange / texel_bytes
                                    : limits_.maxTexelBufferElements;
     }
-    /// Whether images of 32-bit floats can be sampled with linear filtering.
+    /// Returns whether images of 32-bit floats can be sampled with linear filtering.
     bool filters_floats() const { return filters_floats_; }
-    /// Shaders may compute with doubles.
+    /// Returns whether shaders may compute with doubles.
     bool doubles() const { return doubles_; }
     bool staged() const { return staged_; }
     std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
-    /// Index of the first memory type that is among `type_bits` and has all of `properties`, or -1.
+    /// Returns the index of the first memory type that is among `type_bits` and has all of
+    /// `properties`, or -1.
     int memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
-    /// Bytes of the largest device-local heap.
+    /// Returns the bytes of the largest device-local heap.
     std::uint64_t memory_budget() const;
-    /// Bytes that the device gives in one piece.
+    /// Returns the most bytes of one allocation.
     std::uint64_t max_allocation() const { return max_allocation_; }
-    /// Bytes of the heap of a memory type.
+    /// Returns the bytes of the heap of a memory type.
     std::uint64_t heap_bytes(std::uint32_t type) const {
         return memory_.memoryHeaps[memory_.memoryTypes[type].heapIndex].size;
     }
-    /// Throws `exhausted` naming the bytes, and the device's limit when it is that.
+    /// Allocates memory. Throws `exhausted`, naming the bytes, and the device's limit if it is
+    /// exceeded.
     UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
-    /// `check_vk` for a call that gives the device work or asks what became of it; the device is
-    /// abandoned where it is lost.
+    /// Does `check_vk` for a call that submits work or asks about its result. If the device is
+    /// lost, it becomes abandoned.
     void check_alive(VkResult result, const std::string& doing);
-    /// `check_vk` for a call that waits for the device, which is abandoned where that fails.
+    /// Does `check_vk` for a call that waits for the device. If the wait fails, the device becomes
+    /// abandoned.
     void check_waited(VkResult result, const std::string& doing);
     bool abandoned() const { return abandoned_; }
-    /// Throws what made the device be abandoned, if it was. Before it is given work.
+    /// Throws the error that made the device abandoned, if any. Called before work is submitted.
     void check_usable() const;
-    /// Gives the object a name for validation messages and debuggers; nothing without that
-    /// extension.
+    /// Names the object in validation messages and debuggers. Does nothing without
+    /// VK_EXT_debug_utils.
     void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
     bool has_labels() const { return has_debug_utils_; }
 
-    /// Records copies with `record`, submits and waits; what they wrote is visible to the host and
-    /// to all later commands. For uploads and read-back, never inside a timed frame. `doing` reads
-    /// on from "Vulkan: cannot " when it throws `exhausted` or `device_lost`.
+    /// Records copies with `record`, submits them and waits. Their writes are visible to the host
+    /// and to all later commands. For uploads and read-back, never inside a timed frame. `doing`
+    /// completes "Vulkan: cannot " in the message of `exhausted` or `device_lost`.
     template <typename Record>
     void submit_now(const std::string& doing, Record&& record) {
         begin_one_shot(doing);
@@ -133,14 +136,14 @@ public:
         end_one_shot(doing);
     }
 
-    /// What is written to buffers that cannot be mapped. Made at its first use.
+    /// Returns the uploads to buffers that the host cannot map. Made at first use.
     Uploads& uploads();
     /// Submits the uploads so far. Called before a submit that reads them.
     void submit_uploads();
 
-    /// Messages of the validation layer so far (errors and warnings).
+    /// Returns the messages of the validation layer so far (errors and warnings).
     const std::vector<std::string>& validation_messages() const { return *messages_; }
-    /// Throws `internal` with the first message when there is any.
+    /// Throws `internal` with the first validation message, if there is any.
     void check_validation() const;
 
 private:

@@ -1,4 +1,4 @@
-// Which device there is to choose, and how it is opened.
+// Choice and opening of the device.
 #include "gpu/device.hpp"
 
 #include "core/knob.hpp"
@@ -109,7 +109,7 @@ void Device::adopt(const GivenDevice& given) {
           info_.missing);
 }
 
-/// What the physical device allows and has.
+/// Reads limits and features of the physical device.
 void Device::look_at(const DeviceOptions& options) {
     staged_ = options.staged;
     VkPhysicalDeviceMaintenance3Properties pieces{

@@ -20,22 +20,23 @@ constexpr const char* kNoDriver =
     "no Vulkan device: no driver is installed; install one for the graphics card, or the software "
     "driver: apt-get install mesa-vulkan-drivers";
 
-/// A software driver and its compiler. Without this room the loader says that it could not map a
-/// driver's file, and drivers crash.
+/// Bytes of address space for a software driver and its compiler. With less, drivers crash, or the
+/// loader says that it could not map a driver's file.
 constexpr std::size_t kRoomForDriver = std::size_t{256} << 20;
 
-/// What `call(count, items)` lists: counted first, then fetched; both again where something came in
-/// between. What has gone in between is not there. `failed` is told of a result that is an error.
+/// Returns the list that `call(count, items)` gives. The list is counted, then fetched, and both
+/// are repeated if it grew in between. Items that vanished in between are left out. Calls `failed`
+/// with a result that is an error.
 template <typename Item, typename Call, typename Failed>
 std::vector<Item> list_of(Call&& call, Failed&& failed) {
-    constexpr int kTries = 8; // then what was fetched will do
+    constexpr int kTries = 8; // after the last try the fetched items are returned
     std::vector<Item> items;
     VkResult result = VK_INCOMPLETE;
     for (int i = 0; i < kTries && result == VK_INCOMPLETE; ++i) {
         std::uint32_t count = 0;
         if (result = call(&count, nullptr); result < 0) failed(result);
         items.resize(count);
-        if (items.empty()) break; // without a place to put them it would count again
+        if (items.empty()) break; // a second call with a null pointer would count again
         if (result = call(&count, items.data()); result < 0) failed(result);
         items.resize(count);
     }
@@ -55,7 +56,7 @@ bool has_instance_extension(const char* layer, const char* name) {
             return vkEnumerateInstanceExtensionProperties(layer, count, items);
         },
         [](VkResult result) {
-            // The loader calls a file that is not there VK_ERROR_OUT_OF_HOST_MEMORY.
+            // The loader returns VK_ERROR_OUT_OF_HOST_MEMORY for a missing file.
             fail(Failure::no_device, kNoDriver,
                  " (the Vulkan loader cannot read its driver files: ", name_of(result),
                  "; is VK_DRIVER_FILES or VK_ICD_FILENAMES set?)");
@@ -73,8 +74,9 @@ int preference(VkPhysicalDeviceType type) {
     }
 }
 
-/// What the software driver of Mesa 22 lacks of the vectors that the environment asks for. Of other
-/// widths than these it compiles code that crashes (tried from 0 to 1024 bits).
+/// Returns the problem, if any, of Mesa 22's software driver with the vector width set in the
+/// environment. For widths other than 128 and 256 bits it compiles code that crashes (tested from 0
+/// to 1024 bits).
 std::string missing_width(const VkPhysicalDeviceDriverProperties& driver) {
     const std::optional<long> asked = vector_bits_asked();
     const bool is_sound = !asked || *asked == 128 || *asked == 256;
@@ -104,14 +106,14 @@ int cpu_threads() {
     return threads;
 }
 
-/// Of images in optimal tiling.
+/// Returns whether images of this format with optimal tiling have these features.
 bool allows(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags features) {
     VkFormatProperties properties;
     vkGetPhysicalDeviceFormatProperties(device, format, &properties);
     return (properties.optimalTilingFeatures & features) == features;
 }
 
-/// In compute shaders.
+/// Returns whether compute shaders have these subgroup operations.
 bool has_subgroups(VkPhysicalDevice device, VkSubgroupFeatureFlags wanted) {
     VkPhysicalDeviceSubgroupProperties subgroups{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
@@ -135,7 +137,7 @@ std::optional<long> vector_bits_asked() {
     const char* const text = std::getenv("LP_NATIVE_VECTOR_WIDTH");
     if (text == nullptr) return std::nullopt;
     char* end = nullptr;
-    const long bits = std::strtol(text, &end, 0); // as the driver reads it
+    const long bits = std::strtol(text, &end, 0); // parsed as the driver does
     return end == text ? std::nullopt : std::optional(bits);
 }
 
@@ -148,8 +150,9 @@ void check_begun(VkResult result, const std::string& doing, const char* or_else)
 
 VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_extensions,
                          bool& has_debug_utils) {
-    // Mesa's layer that puts devices in order crashes where one goes between two of its calls.
-    // Unless somebody tells it which one to take, the order that is made here is enough.
+    // Mesa's device-select layer sorts devices and crashes if one vanishes between two of its
+    // calls. It is needed only if the user selects a device by its variables, because devices are
+    // sorted here.
     if (!std::getenv("MESA_VK_DEVICE_SELECT") && !std::getenv("DRI_PRIME"))
         setenv("NODEVICE_SELECT", "1", 0);
     check_address_space(kRoomForDriver, "a Vulkan driver");
@@ -158,7 +161,7 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
         check(has_layer(kValidationLayer), Failure::no_device, "--validate needs the layer ",
               kValidationLayer, ": apt-get install vulkan-validationlayers");
         layers.push_back(kValidationLayer);
-        // The layer of Vulkan 1.3 takes this one from the environment only.
+        // The validation layer of Vulkan 1.3 reads this setting only from the environment.
         setenv("VK_LAYER_ENABLES",
                "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT:"
                "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT",
@@ -262,8 +265,8 @@ void Features::switch_on(VkPhysicalDevice device) {
     v12.shaderOutputLayer = has.v12.shaderOutputLayer;
     v13.dynamicRendering = true;
     v13.synchronization2 = true;
-    v13.shaderTerminateInvocation = true; // what `discard` is in SPIR-V for Vulkan 1.3
-    v13.maintenance4 = true;              // work-group sizes as glslang writes them for Vulkan 1.3
+    v13.shaderTerminateInvocation = true; // `discard` compiles to it in SPIR-V for Vulkan 1.3
+    v13.maintenance4 = true;              // glslang needs it for work-group sizes with Vulkan 1.3
 }
 
 Features::Features() {

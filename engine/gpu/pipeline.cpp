@@ -44,7 +44,7 @@ std::string name_of(const RasterState& state, const Attachments& attachments) {
     return name;
 }
 
-/// By name, then by bits: a float that is no number is one constant, too.
+/// Orders constants by name, then by the bits of the value, so that NaN compares equal to itself.
 bool before(const Constants& a, const Constants& b) {
     return std::ranges::lexicographical_compare(a, b, [](const auto& x, const auto& y) {
         return x.first != y.first ? x.first < y.first : bits_of(x.second) < bits_of(y.second);
@@ -68,7 +68,7 @@ void check_images(const Device& device, const std::string& name,
           " images, the device allows ", most);
 }
 
-/// Checks that every constant is known to a stage, merges bindings, makes the layouts.
+/// Checks that every constant is known to a stage, merges the bindings and creates the layouts.
 void lay_out(const Device& device, const std::string& name, std::span<Stage> stages,
              const Constants& constants, Pipeline& pipeline) {
     for (const auto& [constant, value] : constants)
@@ -114,7 +114,7 @@ void lay_out(const Device& device, const std::string& name, std::span<Stage> sta
     pipeline.layout = {device.handle(), layout};
 }
 
-/// The fixed-function part that every raster pipeline of the engine shares.
+/// Creates a raster pipeline with the fixed-function state that all raster pipelines share.
 VkPipeline make_raster(const Device& device, VkPipelineCache cache,
                        std::span<const VkPipelineShaderStageCreateInfo> stages,
                        const Attachments& attachments, const RasterState& state,

@@ -11,27 +11,27 @@
 
 namespace catoptric::gpu {
 
-/// Values of specialisation constants, by the name they have in the shader.
+/// Values of specialisation constants, by their names in the shader.
 using Constants = std::vector<std::pair<std::string, std::variant<std::uint32_t, float>>>;
 
-/// How a triangle's corners run around it in the picture.
+/// The order of a triangle's corners in the picture.
 enum class Winding { none, clockwise, counterclockwise };
 
-/// A raster pipeline as a pass body asks for it; attachments come from the pass. Depth is reversed:
+/// A raster pipeline as a pass body asks for it. Attachments come from the pass. Depth is reversed:
 /// greater is nearer.
 struct RasterState {
     std::string vertex;
     std::string fragment; ///< empty: depth only
     Constants constants;
-    Winding hidden = Winding::none; ///< triangles that run so are left out
-    Constants features = {};        ///< of the scene: a shader that has not got one does without
-    bool blended = false;           ///< over what is there, by alpha
+    Winding hidden = Winding::none; ///< triangles of this winding are culled
+    Constants features = {};        ///< constants of the scene; ignored by shaders that lack them
+    bool blended = false;           ///< blended over the attachment by alpha
 };
 
 struct ComputeState {
     std::string shader;
     Constants constants;
-    Constants features = {}; ///< of the scene: a shader that has not got one does without
+    Constants features = {}; ///< constants of the scene; ignored by shaders that lack them
 };
 
 struct Attachments {
@@ -39,7 +39,7 @@ struct Attachments {
     bool depth = false;
 };
 
-/// What Vulkan calls such a binding.
+/// Returns Vulkan's descriptor type of a binding.
 VkDescriptorType descriptor_type(BindingKind kind);
 
 /// A pipeline with its layout and the bindings that its shaders use.
@@ -53,13 +53,13 @@ struct Pipeline {
     VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
 };
 
-/// Makes each pipeline once. References stay valid as long as this lives.
-/// On a software driver the first use of a pipeline still compiles it inside the frame.
+/// Makes each pipeline once. References stay valid as long as this object lives. On a software
+/// driver the first use of a pipeline still compiles it inside the frame.
 class Pipelines {
 public:
     /// `variants`: shaders to use in place of others ("raytrace.comp" -> "raytrace.comp#naive"),
     /// for benchmarks that compare two builds of one shader.
-    /// `cache`: a folder to keep compiled pipelines in; empty: none.
+    /// `cache`: folder for compiled pipelines; empty: none.
     explicit Pipelines(Device& device, std::map<std::string, std::string> variants = {},
                        const std::filesystem::path& cache = {})
         : device_(device), variants_(std::move(variants)), cache_(device, cache) {}
@@ -67,12 +67,12 @@ public:
     const Pipeline& compute(const ComputeState& state);
     const PipelineCache& cache() const { return cache_; }
     std::size_t made() const { return rasters_.size() + computes_.size(); }
-    double ms() const { return ms_; } ///< of the host, for all that were made
+    double ms() const { return ms_; } ///< milliseconds of the host, for all pipelines made
 
 private:
     using Raster = std::pair<RasterState, Attachments>;
     using RasterView = std::pair<const RasterState&, const Attachments&>;
-    /// An order of what was asked for, so that asking again makes no text of it.
+    /// An order of the requests, so that a lookup builds no name.
     struct Before {
         using is_transparent = void;
         bool operator()(const RasterView& a, const RasterView& b) const;

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::string_view kMagic = "catoptric pipelines 1\n";
 
-/// Drivers trust what they are given: half a file must not reach them. 64-bit FNV-1a.
+/// Returns the 64-bit FNV-1a checksum. Drivers do not check cache data, so a truncated file must
+/// not reach them.
 std::uint64_t checksum(std::string_view data) {
     std::uint64_t sum = 0xcbf29ce484222325;
     for (const char byte : data) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
@@ -30,7 +31,7 @@ std::string wrapped(const std::string& data) {
     return file + data;
 }
 
-/// Empty where the file is not whole.
+/// Returns the data of a cache file; empty if the file is not complete.
 std::string unwrapped(const std::string& file) {
     std::uint64_t sum = 0;
     const std::size_t head = kMagic.size() + sizeof sum;
@@ -40,7 +41,8 @@ std::string unwrapped(const std::string& file) {
     return checksum(data) == sum ? data : std::string();
 }
 
-/// Device, driver and its build: what pipelines of one are to another is not defined.
+/// Returns a file name for device, driver and driver build. Vulkan does not define pipeline data of
+/// one to be valid for another.
 std::string file_name(const Device& device) {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device.physical(), &properties);
@@ -77,12 +79,12 @@ PipelineCache::~PipelineCache() {
     if (file_.empty() || device_.abandoned()) return;
     try {
         save();
-    } catch (...) { // it is only a cache
+    } catch (...) { // ignored: it is only a cache
     }
 }
 
-/// What the file holds; empty where there is none. A first file is made at once, so that one that
-/// cannot be made is known now.
+/// Returns the data of the file; empty if there is none. A missing file is created at once, so that
+/// a failure is reported now.
 std::string PipelineCache::loaded() {
     std::error_code error;
     const bool is_there = fs::exists(file_, error);

@@ -7,25 +7,25 @@
 
 namespace catoptric::gpu {
 
-/// What the driver remembers of pipelines that it compiled, kept in a file from one process to the
-/// next. One file for each device and driver; a driver that keeps a cache of its own puts next to
-/// nothing into it.
+/// The driver's pipeline cache, stored in a file from one process to the next. Each device and
+/// driver has a file of its own. A driver with its own cache stores almost nothing here.
 class PipelineCache {
 public:
-    /// `folder` is made where it is not there; empty: nothing is kept. A file that cannot be read,
-    /// is not whole or is another driver's counts as none, and a folder that cannot be written to
-    /// as none given: `warning` says so.
+    /// Loads the cache from `folder`, which is created if missing; empty: nothing is stored. A file
+    /// that is unreadable, incomplete or another driver's is ignored. A folder that cannot be
+    /// written to counts as empty. `warning` reports both.
     PipelineCache(Device& device, const std::filesystem::path& folder);
-    /// Writes the file where there is something new; what goes wrong then is nobody's concern.
+    /// Writes the file if the cache has changed. Errors are ignored, because it is only a cache.
     ~PipelineCache();
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
 
     VkPipelineCache handle() const { return cache_; }
-    /// Whether there is a file to keep pipelines in, and what the driver was given from it.
+    /// Returns whether the cache is stored in a file. `loaded_bytes` is the size of the data loaded
+    /// from it.
     bool is_persistent() const { return !file_.empty(); }
     std::size_t loaded_bytes() const { return known_.size(); }
-    /// A sentence for the user; empty where all is well.
+    /// Returns a sentence for the user; empty if there was no problem.
     const std::string& warning() const { return warning_; }
 
 private:
@@ -33,8 +33,8 @@ private:
     void save() const;
 
     Device& device_;
-    std::filesystem::path file_; ///< empty: nothing is kept
-    std::string known_;          ///< what the file holds
+    std::filesystem::path file_; ///< empty: nothing is stored
+    std::string known_;          ///< data of the file
     std::string warning_;
     UniquePipelineCache cache_;
 };

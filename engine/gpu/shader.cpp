@@ -13,7 +13,7 @@ namespace catoptric::gpu {
 
 namespace {
 
-// The part of SPIR-V that is looked at (specification 1.6, sections 3.20, 3.42, 3.49).
+// The parts of SPIR-V that are read (specification 1.6, sections 3.20, 3.42, 3.49).
 enum Op : std::uint32_t {
     kName = 5,
     kCapability = 17,
@@ -46,7 +46,7 @@ enum Storage : std::uint32_t {
     kPushConstant = 9,
     kStorageBuffer = 12
 };
-constexpr std::uint32_t kFloat64 = 10; // a capability
+constexpr std::uint32_t kFloat64 = 10; // number of the capability
 enum Dim : std::uint32_t { kDim2D = 1, kDimCube = 3, kDimBuffer = 5 };
 
 struct SpirvType {
@@ -132,7 +132,7 @@ private:
         return types_.at(variable.type).words[1];
     }
 
-    /// Bytes of a type in the scalar layout.
+    /// Returns the bytes of a type in the scalar layout.
     std::uint32_t size_of(std::uint32_t id) const {
         const SpirvType& type = types_.at(id);
         switch (type.op) {

@@ -8,36 +8,37 @@
 
 namespace catoptric::gpu {
 
-/// SPIR-V that was compiled at build time; `name` is the path below shaders/, "#variant" appended.
+/// SPIR-V that was compiled at build time. `name` is the path below shaders/, with "#variant"
+/// appended.
 struct EmbeddedShader {
     std::string_view name;
     std::span<const std::uint32_t> words;
 };
 std::span<const EmbeddedShader> embedded_shaders();
-/// Adds one of a program's own, before anything uses the table; name and words stay the caller's.
-/// Throws `Failure::usage` for a name that is taken.
+/// Adds a shader of the calling program. Must be called before any shader is used. Name and words
+/// are not copied. Throws `Failure::usage` if the name is taken.
 void add_shader(const EmbeddedShader& shader);
-/// Of both kinds. Throws `Failure::internal` for a name that there is not.
+/// Returns the embedded or added shader of this name. Throws `Failure::internal` if there is none.
 const EmbeddedShader& find_shader(std::string_view name);
 
 enum class BindingKind {
     uniform_buffer,
     storage_buffer,
     texel_buffer,
-    sampled_image, ///< with a sampler of its own
-    texture,       ///< without one
+    sampled_image, ///< combined with a sampler
+    texture,       ///< without a sampler
     sampler,
     storage_image
 };
 enum class ImageShape { flat, flat_array, cube, cube_array };
 
-/// One resource that a shader's code really uses, in set 0.
+/// One resource in set 0 that the shader's code uses.
 struct Binding {
-    std::string name; ///< of the variable, or of the block
+    std::string name; ///< name of the variable or of the block
     std::uint32_t binding = 0;
     BindingKind kind = BindingKind::storage_buffer;
     ImageShape shape = ImageShape::flat;
-    std::uint32_t count = 1; ///< of an array of textures
+    std::uint32_t count = 1; ///< length of an array of textures
 };
 
 struct Constant {
@@ -45,17 +46,17 @@ struct Constant {
     std::uint32_t id = 0; ///< constant_id
 };
 
-/// What the engine must know of a shader to make a pipeline and bind by name.
+/// The properties of a shader that the engine needs to make a pipeline and to bind by name.
 struct Reflection {
     std::vector<Binding> bindings;
     std::vector<Constant> constants;
     std::uint32_t push_bytes = 0;
-    bool doubles = false; ///< needs a device that computes with them
+    bool doubles = false; ///< needs a device that computes with doubles
 };
 
 /// Reads names, decorations and uses out of SPIR-V. Throws `internal` for a set other than 0 and
-/// for an array of anything but textures (which shaders may index by constants only: not every
-/// device can do more).
+/// for an array of anything but textures. Shaders may index such arrays by constants only, because
+/// not every device can do more.
 Reflection reflect(std::string_view name, std::span<const std::uint32_t> words);
 
 } // namespace catoptric::gpu

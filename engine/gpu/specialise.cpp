@@ -24,7 +24,7 @@ std::vector<std::uint32_t> specialise(std::string_view name, std::span<const std
         .RegisterPass(spvtools::CreateDeadBranchElimPass())
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
     spvtools::OptimizerOptions options;
-    options.set_run_validator(false); // once, when it was compiled
+    options.set_run_validator(false); // the shader was validated when it was compiled
     std::vector<std::uint32_t> result;
     check(optimiser.Run(words.data(), words.size(), &result, options), Failure::internal,
           "shader '", name, "' cannot be specialised: ", said);

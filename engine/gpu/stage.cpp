@@ -8,8 +8,8 @@ namespace catoptric::gpu {
 
 namespace {
 
-/// Returns the constants that replace what the device lacks. A shader without such a constant is
-/// not affected.
+/// Returns the constants that switch shaders to substitutes for features that the device lacks. A
+/// shader without such a constant is not affected.
 Constants constants_of(const Device& device) {
     Constants constants;
     if (device.texels_in_storage()) constants.emplace_back("texels_in_storage", 1u);
@@ -32,7 +32,8 @@ Stage::Stage(const Device& device, const std::string& name, VkShaderStageFlagBit
         for (const auto& [constant, value] : *list)
             if (const Constant* known = find(constant)) values[known->id] = bits_of(value);
     const std::vector<std::uint32_t> words = specialise(name, shader.words, values);
-    reflection.bindings = reflect(name, words).bindings; // of what these constants leave of it
+    // Only the bindings that are still used with these constants.
+    reflection.bindings = reflect(name, words).bindings;
     VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     create.codeSize = words.size() * sizeof(std::uint32_t);
     create.pCode = words.data();

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <bit>
 
-/// A shader on its way into a pipeline.
+/// Shader stages of a pipeline that is being made.
 namespace catoptric::gpu {
 
-/// As shaders are given them.
+/// Returns the 32 bits that are passed to the shader for a constant.
 inline std::uint32_t bits_of(const std::variant<std::uint32_t, float>& value) {
     return std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value);
 }
 
-/// One stage: its module, which must outlive the create call.
+/// One stage of a pipeline. Its module must outlive the call that creates the pipeline.
 struct Stage {
     Stage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
           const Constants& constants, const Constants& features);
@@ -24,7 +24,7 @@ struct Stage {
         stage.pName = "main";
         return stage;
     }
-    /// Null: it has no such constant.
+    /// Returns the constant of this name, or null if the shader has none.
     const Constant* find(const std::string& constant) const {
         const auto found = std::ranges::find(reflection.constants, constant, &Constant::name);
         return found == reflection.constants.end() ? nullptr : &*found;

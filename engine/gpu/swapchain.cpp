@@ -6,7 +6,8 @@ namespace catoptric::gpu {
 
 namespace {
 
-/// As many frames may be on their way, and one more is begun.
+/// Semaphores for acquired images: one for each frame in flight, and one for the frame being
+/// recorded.
 constexpr std::size_t kTurns = 4;
 
 UniqueSemaphore make_semaphore(const Device& device) {
@@ -93,7 +94,8 @@ bool Swapchain::make(uvec2 size) {
     images_.resize(count);
     check_vk(vkGetSwapchainImagesKHR(device_.handle(), chain_, &count, images_.data()),
              "get the window's images");
-    acquired_.clear(), rendered_.clear(); // what was acquired and not drawn is signalled
+    // Semaphores of images acquired but not drawn are still signalled.
+    acquired_.clear(), rendered_.clear();
     for (std::size_t i = 0; i < kTurns; ++i) acquired_.push_back(make_semaphore(device_));
     for (std::size_t i = 0; i < images_.size(); ++i) rendered_.push_back(make_semaphore(device_));
     size_ = {extent.width, extent.height};
@@ -105,7 +107,7 @@ std::optional<std::uint32_t> Swapchain::acquire() {
     std::uint32_t image = 0;
     const VkResult result = vkAcquireNextImageKHR(device_.handle(), chain_, ~std::uint64_t{0},
                                                   acquired_[turn], VK_NULL_HANDLE, &image);
-    // One that no longer fits the window well is drawn all the same: its semaphore is taken.
+    // A suboptimal image is drawn all the same, because its semaphore will be signalled.
     if (result != VK_SUBOPTIMAL_KHR && !check(result, "get the window's next image")) return {};
     turn_ = turn;
     return image;

@@ -8,32 +8,33 @@
 
 namespace catoptric::gpu {
 
-/// A window's images, which its system shows in turn. Presented in order, none left out.
+/// The images of a window, presented in order without dropping any (FIFO).
 class Swapchain {
 public:
-    /// Of a device that was made with a surface. Throws `no_device` where the window takes no
-    /// colours of 8 bits.
+    /// `device` must have a surface. Throws `no_device` if the window takes no colours of 8 bits.
     explicit Swapchain(Device& device);
 
-    /// Until the device does nothing any more: before `make`, and before views of its images go.
+    /// Waits until the device is idle. Call it before `make`, and before views of the images are
+    /// destroyed.
     void wait();
-    /// Images of this size, or of the one that the window system demands.
-    /// False: the window has no pixels now (it is minimised), or is gone: `lost`.
+    /// Makes images of this size, in pixels, or of the size that the window system demands. Returns
+    /// false if the window has no pixels now (it is minimised), or is gone (see `lost`).
     bool make(uvec2 size);
-    /// The surface went away with its window: only another device with another surface helps.
+    /// Returns whether the surface is lost together with its window. Only another device with
+    /// another surface helps.
     bool lost() const { return lost_; }
     Format format() const { return format_; }
     uvec2 size() const { return size_; }
     const std::vector<VkImage>& images() const { return images_; }
 
-    /// The image to be drawn next; waits for the window system where none is free. Nothing: the
-    /// window has changed, and `make` is to be called.
+    /// Returns the index of the image to draw next. Waits for the window system if none is free.
+    /// Returns nothing if the window has changed and `make` must be called.
     std::optional<std::uint32_t> acquire();
-    /// For the frame that draws the image that was acquired last: begins after the one, signals
-    /// the other.
+    /// Semaphores for the frame that draws the image acquired last: the frame waits for `acquired`
+    /// and signals `rendered`.
     VkSemaphore acquired() const { return acquired_[turn_]; }
     VkSemaphore rendered(std::uint32_t image) const { return rendered_[image]; }
-    /// False: as for `acquire`.
+    /// Shows the image. Returns false if the window has changed and `make` must be called.
     bool present(std::uint32_t image);
 
 private:

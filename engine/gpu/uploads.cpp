@@ -40,7 +40,8 @@ Uploads::Uploads(Device& device) : device_(device) {
     }
 }
 
-/// By now each buffer that it wrote to is destroyed, and has waited for its upload.
+/// Waits for the submitted uploads. Buffers that were written are already destroyed, and waited for
+/// their uploads.
 Uploads::~Uploads() {
     if (device_.abandoned() || ended_ == submitted_) return;
     try {
@@ -60,7 +61,7 @@ void Uploads::wait(Ticket ticket) {
     ended_ = ticket;
 }
 
-/// Returns a block that records and has room.
+/// Returns a block that is recording and has room.
 Uploads::Block& Uploads::open_block() {
     if (is_recording_ && blocks_[current_].used < kBlockBytes) return blocks_[current_];
     submit();
@@ -74,7 +75,8 @@ Uploads::Block& Uploads::open_block() {
     return block;
 }
 
-/// Two writes to the same bytes happen in the order of their calls.
+/// Adds a barrier if a write overlaps an earlier one, so that writes happen in the order of their
+/// calls.
 void Uploads::keep_order(Block& block, const Target& target) {
     const bool overlaps = std::ranges::any_of(block.targets, [&](const Target& other) {
         return other.buffer == target.buffer && other.first < target.end &&
@@ -129,7 +131,7 @@ void Uploads::submit() {
 
 void Uploads::finish(Ticket ticket) {
     if (ticket > submitted_) submit();
-    // What could not be submitted is never written.
+    // A write that could not be submitted is never executed.
     wait(std::min(ticket, submitted_));
 }
 
@@ -137,7 +139,7 @@ PendingUpload::~PendingUpload() {
     if (ticket_ == 0 || device_->abandoned()) return;
     try {
         device_->uploads().finish(ticket_);
-    } catch (const Error&) { // the device is abandoned now, or nothing was submitted
+    } catch (const Error&) { // the device is abandoned now, or the write was not submitted
     }
 }
 

@@ -15,22 +15,21 @@ namespace catoptric::gpu {
 class Buffer;
 class Device;
 
-/// Writes to buffers that the host cannot map: a ring of staging blocks. A write copies its bytes
-/// into a block and records a copy on the device, so it waits only where the whole ring is in
-/// flight. Copies are submitted before the next frame, and everything that is submitted after them
-/// sees what they wrote.
+/// Writes to buffers that the host cannot map, through a ring of staging blocks. A write copies its
+/// bytes into a block and records a copy on the device. It waits only if the whole ring is in
+/// flight. Copies are submitted before the next frame. Work submitted after them sees their writes.
 class Uploads {
 public:
-    /// Names a write; 0: none. Larger ones end later.
+    /// The number of a write; 0: none. Larger numbers end later.
     using Ticket = std::uint64_t;
 
     explicit Uploads(Device& device);
     ~Uploads();
 
-    /// Writes `data` to `to` from `offset` bytes on. `to` lives until the ticket has ended.
+    /// Writes `data` to `to` from `offset` bytes on. `to` must live until the ticket has ended.
     /// Throws as Device::check_alive and check_waited do.
     Ticket write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data);
-    /// Submits what is recorded and not submitted yet.
+    /// Submits the recorded copies that are not submitted yet.
     void submit();
     /// Waits until the write has ended.
     void finish(Ticket ticket);
@@ -44,9 +43,9 @@ private:
     struct Block {
         std::unique_ptr<Buffer> staging;
         VkCommandBuffer commands = VK_NULL_HANDLE;
-        std::uint64_t used = 0;      ///< bytes of its staging buffer
-        Ticket ends = 0;             ///< value of the timeline at which it is free
-        std::vector<Target> targets; ///< since the last barrier
+        std::uint64_t used = 0;      ///< bytes used in `staging`
+        Ticket ends = 0;             ///< timeline value at which the block is free again
+        std::vector<Target> targets; ///< writes since the last barrier
     };
     Block& open_block();
     void wait(Ticket ticket);
@@ -72,7 +71,7 @@ public:
         return *this;
     }
     ~PendingUpload();
-    /// Replaces the ticket by that of a later write to the same buffer.
+    /// Replaces the ticket with that of a later write to the same buffer.
     void renew(Device& device, Uploads::Ticket ticket) { device_ = &device, ticket_ = ticket; }
 
 private:

@@ -12,29 +12,30 @@
 
 namespace catoptric::gpu {
 
-/// Throws unless `result` is VK_SUCCESS: out of memory -> `exhausted`, device lost ->
-/// `device_lost`, anything else -> `internal`. `doing` reads on from "Vulkan: cannot ".
+/// Throws unless `result` is VK_SUCCESS: `exhausted` without memory, `device_lost` for a lost
+/// device, else `internal`. `doing` completes "Vulkan: cannot ".
 void check_vk(VkResult result, const std::string& doing);
 const char* name_of(VkResult result);
 
 VkFormat vk_format(Format format);
 
-/// Records a barrier: what copies before it wrote is visible to `stages` and `access` after it.
+/// Records a barrier that makes the writes of earlier copies visible to `stages` and `access` after
+/// it.
 void barrier_after_copies(VkCommandBuffer commands, VkPipelineStageFlags2 stages,
                           VkAccessFlags2 access);
 
-/// The surface that a number stands for, as window libraries hand it over.
+/// Returns the surface for the number that window libraries pass for it.
 inline VkSurfaceKHR surface_of(std::uint64_t number) { return std::bit_cast<VkSurfaceKHR>(number); }
 
-/// A device as what is made from it knows it.
+/// A device handle for objects made from the device, with its abandoned flag.
 struct DeviceHandle {
     VkDevice device = VK_NULL_HANDLE;
-    const bool* abandoned = nullptr; ///< Device::abandoned(); null: never
+    const bool* abandoned = nullptr; ///< the flag of Device::abandoned(); null: never abandoned
     operator VkDevice() const { return device; }
 };
 
-/// A Vulkan object that a device owns, destroyed with this value; left alone where the device has
-/// been abandoned, since its driver may still use it.
+/// A Vulkan object of a device, destroyed with this value. If the device was abandoned the object
+/// is not destroyed, because the driver may still use it.
 template <typename Handle, auto Destroy>
 class Unique {
 public:

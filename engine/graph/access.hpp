@@ -9,7 +9,7 @@
 
 namespace catoptric::graph {
 
-/// One use by one pass; images and buffers alike: a buffer is a resource of one layer.
+/// How one pass uses one image or buffer. A buffer counts as a resource with one layer and one mip.
 struct Access {
     bool is_buffer = false;
     std::uint32_t id = 0;
@@ -20,18 +20,19 @@ struct Access {
     std::uint32_t mip_count = 1;
     Use use = Use::sampled;
     bool write = false;
-    bool needs = false; ///< contents from before: a read, an attachment without clear, `storage`
+    bool needs = false; ///< needs earlier contents: a read, an attachment without clear, `storage`
     bool clears = false;
 
-    /// Also of a wrong access, whose layers may be more than 32 bits hold.
+    /// Returns the layer after the last, in 64 bits: the sum can exceed 32 bits for an invalid
+    /// access.
     std::uint64_t end_layer() const { return std::uint64_t{first_layer} + layer_count; }
     std::uint64_t end_mip() const { return std::uint64_t{first_mip} + mip_count; }
 };
 
-/// What the pass touches: images in order of declaration, then buffers.
+/// Returns the accesses of the pass: images in order of declaration, then buffers.
 std::vector<Access> accesses(const Pass& pass);
 
-/// The same of every pass of a graph, gathered once.
+/// The accesses of every pass of a graph, gathered once.
 class Accesses {
 public:
     explicit Accesses(const Graph& graph);
@@ -41,24 +42,27 @@ public:
 
 private:
     std::vector<Access> all_;
-    std::vector<std::size_t> first_; // of each pass, and the end
+    std::vector<std::size_t> first_; // index of each pass's first access in `all_`, then the total
 };
 
-/// The touch that an access leaves behind.
+/// Returns the touch that the access of this pass leaves on the resource.
 Touch touch_of(const Access& access, const Pass& pass);
 
 constexpr bool is_attachment(Use use) { return use == Use::colour || use == Use::depth; }
 
-/// "'cubes' [0,6)", "previous('cubes') [0,6)" or "buffer 'args'".
+/// Returns the access as text for messages: "'cubes' [0,6)", "previous('cubes') [0,6)" or "buffer
+/// 'args'".
 std::string describe(const Graph& graph, const Access& access);
-/// "layers [6,12)", and of which mip where there are several: numbers as of
-/// `for_each_range`, up to the end of the first one's mip.
+/// Returns a range of an image's layers as text: "layers [6,12)", with the mip if the image has
+/// several. `first` and `end` are numbers as in `for_each_range`. The range is cut at the end of
+/// its first mip.
 std::string layers_text(const ImageDesc& desc, std::uint32_t first, std::uint32_t end);
-/// "'cubes'"; also for buffers.
+/// Returns the name of the image or buffer in single quotes: "'cubes'".
 std::string quoted_name(const Graph& graph, const Access& access);
 
-/// Calls visit(first, end) for the layers of the mips of a part of an image with so many layers:
-/// layer l of mip m has number m * layers + l.
+/// Calls visit(first, end) for the layers of each mip of `part`, a part of an image with `layers`
+/// layers. Layer l of mip m has the number m * layers + l. A part with all layers is visited as one
+/// range.
 template <typename Part, typename Visit>
 void for_each_range(const Part& part, std::uint32_t layers, const Visit& visit) {
     if (part.layer_count == layers)
@@ -67,7 +71,7 @@ void for_each_range(const Part& part, std::uint32_t layers, const Visit& visit) 
         visit(m * layers + part.first_layer, m * layers + part.first_layer + part.layer_count);
 }
 
-/// A value for each layer of each mip of each image and for each buffer.
+/// A value for each layer of each mip of every image, and for every buffer.
 template <typename T>
 class Ledger {
 public:
@@ -81,7 +85,7 @@ public:
     const Runs<T>& of(const Access& a) const { return entry(a).runs; }
     std::uint32_t layers_of(const Access& a) const { return entry(a).layers; }
 
-    /// Calls visit(first, end, value) for the runs that the access meets.
+    /// Calls visit(first, end, value) for each run of equal values that the access meets.
     template <typename Visit>
     void each(const Access& a, const Visit& visit) const {
         const Entry& e = entry(a);
@@ -99,7 +103,7 @@ public:
     void set(const Access& a, const T& value) {
         change(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
-    /// Whether some layer of the access has the value.
+    /// Returns whether some layer of the access has the value.
     bool any(const Access& a, const T& value) const {
         bool found = false;
         each(a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
@@ -119,11 +123,11 @@ private:
     std::vector<Entry> entries_; // images, then buffers
 };
 
-/// A part of an image as an access of no use.
+/// Returns an access to a part of an image. Its use is left at the default.
 Access access_to(const Image& image);
-/// All of an image.
+/// Returns an access to all layers and mips of an image.
 Access access_to_all(const Graph& graph, std::uint32_t image);
-/// True for every layer and buffer that the graph wants.
+/// Returns a ledger that is true for every layer and buffer that is an output of the graph.
 Ledger<char> output_parts(const Graph& graph);
 
 } // namespace catoptric::graph

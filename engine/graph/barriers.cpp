@@ -8,12 +8,13 @@ namespace catoptric::graph {
 
 namespace {
 
-/// What happened so far in this frame to one layer of an image or to a buffer.
+/// The touches of one layer of an image, or of a buffer, so far in this frame.
 struct State {
-    TouchCode write = kNothing; // the last one; `nothing`: none in this frame
-    Touches readers;            // since that write or the last change of layout; distinct
+    TouchCode write = kNothing; // the last write in this frame; `nothing`: none
+    Touches readers;            // distinct readers since that write or the last layout change
 
-    /// What the next write must wait for. For an image all are in the layout it has now.
+    /// Returns the touches that the next write must wait for. For an image, all have its present
+    /// layout.
     Touches latest() const {
         if (!readers.empty()) return readers;
         return write == kNothing ? Touches() : Touches(write);
@@ -21,14 +22,15 @@ struct State {
     friend bool operator==(const State&, const State&) = default;
 };
 
-/// What a read must wait for; empty when an earlier reader waited in its stead.
+/// Returns the touches that a read must wait for; empty if an earlier reader with this touch
+/// already waited.
 Touches awaited_by_read(const State& state, TouchCode touch, bool is_buffer) {
     if (state.readers.contains(touch)) return {};
     if (state.readers.empty() || is_buffer) return Touches(state.write);
-    // Same layout, another stage: `before` must tell the present layout, so chain to a reader,
-    // which waited for the write, rather than to the write.
+    // The layout stays and only the stage differs. `before` must name the present layout. So the
+    // barrier waits for a reader, which itself waited for the write.
     if (use_of(state.readers.front()) == use_of(touch)) return Touches(state.readers.front());
-    return state.readers; // a change of layout is a write
+    return state.readers; // a layout change counts as a write
 }
 
 void advance(State& state, TouchCode touch, bool is_buffer) {
@@ -48,7 +50,7 @@ std::vector<Touch> listed(TouchSet set) {
     return touches;
 }
 
-/// Whether `next` only continues the layers, or the mips, of `last`.
+/// Returns whether `next` only continues the layers, or the mips, of `last`.
 bool continues(const Barrier& last, const Barrier& next) {
     if (last.is_buffer || next.is_buffer || last.id != next.id || last.previous != next.previous)
         return false;
@@ -61,7 +63,7 @@ bool continues(const Barrier& last, const Barrier& next) {
            (same_layers && last.first_mip + last.mip_count == next.first_mip);
 }
 
-/// Adds a barrier, as part of the last one when it continues it.
+/// Adds a barrier. If it continues the last barrier, both are merged.
 void append(std::vector<Barrier>& barriers, Barrier&& barrier) {
     if (barriers.empty() || !continues(barriers.back(), barrier)) {
         barriers.push_back(std::move(barrier));
@@ -74,8 +76,8 @@ void append(std::vector<Barrier>& barriers, Barrier&& barrier) {
         last.mip_count += barrier.mip_count;
 }
 
-/// Calls visit(first mip, mips, first layer, layers) for rectangles that make up numbers
-/// [first, end) of an image with so many layers.
+/// Calls visit(first mip, mips, first layer, layers) for rectangles that cover the numbers [first,
+/// end) of an image with `layers` layers.
 template <typename Visit>
 void for_each_rectangle(std::uint32_t first, std::uint32_t end, std::uint32_t layers,
                         const Visit& visit) {
@@ -88,7 +90,7 @@ void for_each_rectangle(std::uint32_t first, std::uint32_t end, std::uint32_t la
     }
 }
 
-/// What was ready for every stage when the frame began.
+/// Returns the state of contents that every shader stage may use in this way when the frame begins.
 State arrived(Use use) {
     const Touch compute{.nothing = false, .use = use, .write = false, .raster = false};
     Touch raster = compute;
@@ -98,7 +100,7 @@ State arrived(Use use) {
     return state;
 }
 
-/// How an image is at the start of a frame.
+/// Returns the state of an image at the start of a frame.
 State at_start(const Graph& graph, std::uint32_t image) {
     if (graph.lifetime(image) == Lifetime::persistent) return arrived(Use::sampled);
     if (graph.lifetime(image) == Lifetime::imported && graph.arrives(image))
@@ -106,7 +108,7 @@ State at_start(const Graph& graph, std::uint32_t image) {
     return {};
 }
 
-/// Owns the states of everything while the frame is walked from top to bottom.
+/// Holds the state of every image and buffer while the frame is walked from first to last pass.
 class Tracker {
 public:
     Tracker(const Graph& graph, const Plan& plan)
@@ -132,9 +134,9 @@ public:
         (access.previous ? previous_ : states_).change(access, visit);
     }
 
-    /// After the last pass that touches the resource of the access.
+    /// Called after the last pass that touches the resource of the access.
     void finish(const Access& access) {
-        if (placement(access).alone) return; // nobody follows in its memory
+        if (placement(access).alone) return; // no later resource uses its memory
         TouchSet touches = 0;
         states_.of(access).each([&](std::uint32_t, std::uint32_t, const State& state) {
             const Touches latest = state.latest();
@@ -143,15 +145,16 @@ public:
         users_.leave(placement(access), touches);
     }
 
-    /// A barrier for each layer, needed or not: whoever comes after the frame relies on it.
-    /// `untouched`: also for what no pass touched.
+    /// Adds a barrier for each layer, even if it is not needed within the frame: the work after the
+    /// frame relies on it. `untouched`: also for layers that no pass touched.
     void leave(const Access& access, Use use, bool untouched, std::vector<Barrier>& barriers) {
         const State start = access.is_buffer ? State() : at_start(graph_, access.id);
         const Touch touch{.nothing = false, .use = use};
         states_.each(access, [&](std::uint32_t first, std::uint32_t end, const State& state) {
             if (!untouched && state == start) return;
             Touches latest = state.latest();
-            if (latest.empty()) latest.add(kNothing); // never touched: from nothing
+            // Never touched: the barrier discards the contents.
+            if (latest.empty()) latest.add(kNothing);
             wait(access, first, end, latest, touch, barriers);
         });
     }
@@ -172,7 +175,7 @@ private:
     void emit(const Access& access, std::uint32_t first, std::uint32_t end, const Touch& before,
               const Touch& after, const std::vector<Touch>& shared,
               std::vector<Barrier>& barriers) const {
-        // A buffer has no layout: without anything to wait for there is nothing to do.
+        // A buffer has no layout, so it needs no barrier if there is nothing to wait for.
         if (access.is_buffer && before.nothing && shared.empty()) return;
         for_each_rectangle(first, end, states_.layers_of(access),
                            [&](std::uint32_t first_mip, std::uint32_t mips,
@@ -216,8 +219,7 @@ void order_end(const Graph& graph, Tracker& tracker, Plan& plan) {
     const Ledger<char> wanted = output_parts(graph);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const Access whole = access_to_all(graph, i);
-        const bool stays = graph.lifetime(i) ==
-                           Lifetime::persistent; // also where no pass touches it
+        const bool stays = graph.lifetime(i) == Lifetime::persistent; // also if no pass touches it
         switch (plan.images[i].used || stays ? graph.lifetime(i) : Lifetime::frame) {
         case Lifetime::frame: order_outputs(whole, wanted, tracker, plan.last); break;
         case Lifetime::previous: tracker.leave(whole, Use::sampled, true, plan.last); break;

@@ -4,8 +4,8 @@
 
 namespace catoptric::graph {
 
-/// Fills the barriers of every pass and `last`. Needs placements: memory that was used before is
-/// waited for.
+/// Fills the barriers of every pass and `plan.last`. Needs placements, because a pass waits for the
+/// earlier users of its memory.
 void order(const Graph& graph, const Accesses& all, Plan& plan);
 
 } // namespace catoptric::graph

@@ -216,8 +216,8 @@ void Commands::write_buffer(const gpu::Binding& binding, const Bound& bound,
     texels = (*owned)->texels();
 }
 
-/// Returns the name under which a pass binds what this binding reads. Both bindings of a list of
-/// texels, texel buffer and storage buffer, have the list's name (shaders/lib/texels.glsl).
+/// Returns the name under which a pass binds the resource of this binding. A list of texels has two
+/// bindings, a texel buffer and a storage buffer, with one name (shaders/lib/texels.glsl).
 std::string_view Commands::list_of(const gpu::Binding& binding) {
     constexpr std::string_view kInStorage = "_in_storage";
     std::string_view name = binding.name;
@@ -225,8 +225,9 @@ std::string_view Commands::list_of(const gpu::Binding& binding) {
     return name;
 }
 
-/// Returns the filter of the sampler for an image. On devices that do not filter 32-bit floats the
-/// shader interpolates distances itself (`distances_by_gather`), so they get the nearest texel.
+/// Returns the filter of the sampler for an image. On devices that do not filter 32-bit floats,
+/// images of distances use the nearest texel. There the shader interpolates them itself
+/// (`distances_by_gather`).
 Filter Commands::filter_of(Image image, Filter filter) const {
     const ImageDesc& desc = graph_.images()[image.id];
     const bool is_float = desc.format == Format::r32f || desc.format == Format::rgba32f;

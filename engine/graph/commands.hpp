@@ -16,20 +16,22 @@ namespace catoptric::graph {
 
 class Recorder;
 
-/// Images that one name of a shader can stand for: an array of textures.
+/// The most images that one name of a shader can be bound to, as an array of textures.
 inline constexpr std::size_t kMostImages = 8;
 
-/// How a sampled image is looked up. Edges clamp; cubes are seamless.
+/// How a sampled image is looked up. Coordinates clamp to the edge, and cubes are filtered across
+/// faces.
 enum class Filter {
     nearest,
     linear,
-    compare,  ///< depth >= reference, 2x2 PCF
+    compare,  ///< reference >= depth, 2x2 PCF
     mipmapped ///< linear, also between mips
 };
 
-/// What a pass body records with. Bindings have the names they have in the shaders and stay bound
-/// until the pass ends; a name that the current pipeline does not use is ignored, one that it uses
-/// and nobody bound is refused. Valid only during the call of the body.
+/// Records the commands of one pass. Valid only while the pass body runs.
+/// Resources are bound by their names in the shaders and stay bound until the pass ends. A name
+/// that the current pipeline does not use is ignored. A name that the pipeline uses and that is not
+/// bound throws `internal`.
 class Commands {
 public:
     Commands(Recorder& recorder, const Graph& graph, const Pass& pass, VkCommandBuffer commands,
@@ -37,52 +39,57 @@ public:
         : recorder_(recorder), graph_(graph), pass_(pass), commands_(commands),
           first_layer_(first_layer), layer_count_(layer_count) {}
 
-    /// In a pass of several layers the vertex shader's "#layered" build is used where the device
-    /// can; otherwise the body is called once for each layer. Either way gl_InstanceIndex tells the
-    /// layer (see draw).
+    /// Selects a raster pipeline. A pass of several layers uses the vertex shader's "#layered"
+    /// build where the device can write gl_Layer from a vertex shader. On other devices the body is
+    /// called once for each layer. In both cases gl_InstanceIndex tells the layer (see `draw`).
     void use(gpu::RasterState state);
     void use(const gpu::ComputeState& state);
-    /// The image must be declared by the pass.
+    /// Binds an image, which the pass must declare.
     void bind(std::string_view name, Image image, Filter filter = Filter::nearest) {
         bind(name, std::span(&image, 1), filter);
     }
-    /// 1 to kMostImages of them; where the shader's array is longer, its rest is the first.
+    /// Binds 1 to kMostImages images to an array. If the shader's array is longer, the first image
+    /// fills its other entries.
     void bind(std::string_view name, std::span<const Image> images,
               Filter filter = Filter::nearest);
-    /// A sampler by itself.
+    /// Binds a sampler without an image.
     void bind(std::string_view name, Filter sampler);
     void bind(std::string_view name, Buffer buffer);
     void bind(std::string_view name, const gpu::Buffer& buffer);
-    /// Push constants of the draws and dispatches that follow.
+    /// Sets the push constants of the draws and dispatches that follow.
     template <typename T>
     void push(const T& value) {
         push_.assign(reinterpret_cast<const std::byte*>(&value),
                      reinterpret_cast<const std::byte*>(&value) + sizeof value);
         is_pushed_ = false;
     }
-    /// 32-bit indices into vertices as shaders/shared.h has them.
-    /// Three vertices without attributes: screen.vert makes them a triangle over the whole picture.
+    /// Draws three vertices without attributes. screen.vert makes them a triangle that covers the
+    /// whole picture.
     void cover();
+    /// Sets the vertices (as in shaders/shared.h) and the 32-bit indices of the draws that follow.
     void geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices);
-    /// Draws into layers [first_layer, first_layer + layer_count) of the pass. gl_InstanceIndex is
-    /// `first_instance` plus the layer.
+    /// Draws indexed triangles into layers [first_layer, first_layer + layer_count) of the pass.
+    /// gl_InstanceIndex is `first_instance` plus the layer.
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
               std::uint32_t layer_count = 1, std::uint32_t first_instance = 0);
-    /// Draws from here on change no pixel outside the area, which lies within the attachments.
+    /// Limits the draws that follow to the area, in pixels, which must lie within the attachments.
     void scissor(const Area& area);
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
-    /// Group counts x, y, z are read from the buffer, which the pass declares as indirect, at
-    /// `offset` bytes.
+    /// Dispatches with the group counts x, y, z read from `offset` bytes into the buffer, which the
+    /// pass declares as indirect.
     void dispatch_indirect(Buffer arguments, std::uint64_t offset = 0);
-    /// Makes what the dispatches so far wrote visible to the following ones of this pass.
+    /// Makes the writes of earlier dispatches of this pass visible to later ones.
     void barrier();
-    /// Both declared by the pass; same size and format, all layers of the handles.
+    /// Copies an image to one of the same size and format, all layers of the handles. The pass
+    /// declares both.
     void copy(Image from, Image to);
-    /// Both declared by the pass: texels of one mip, rows top down, layers one after the other.
+    /// Copies one mip of an image to a buffer: rows from the top down, one layer after another. The
+    /// pass declares both.
     void copy(Image from, Buffer to);
-    /// Sets every word of a buffer that the pass declares as copy_to.
+    /// Sets every 32-bit word of a buffer that the pass declares as copy_to.
     void fill(Buffer buffer, std::uint32_t word);
-    /// Puts bytes, whole words and no more than 65536, at the start of such a buffer.
+    /// Writes bytes to the start of a buffer that the pass declares as copy_to: whole words, at
+    /// most 65536 bytes.
     void update(Buffer buffer, std::span<const std::byte> bytes);
 
 private:
@@ -114,7 +121,7 @@ private:
     bool dirty_ = true;
     VkBuffer vertices_ = VK_NULL_HANDLE, indices_ = VK_NULL_HANDLE; ///< bound by this pass
     std::vector<std::byte> push_;
-    bool is_pushed_ = false; ///< the current pipeline has them
+    bool is_pushed_ = false; ///< whether `push_` was recorded for the current pipeline
 };
 
 } // namespace catoptric::graph

@@ -8,57 +8,59 @@
 
 namespace catoptric::graph {
 
-/// Frames that may be on their way at once.
+/// The most frames that may be in flight at once.
 constexpr std::uint32_t kMostInFlight = 3;
 
-/// An image that outlives the frame.
+/// An image that outlives the frame: a persistent image, or one with a `previous`.
 struct PersistentImage {
     Lifetime lifetime = Lifetime::previous;
-    std::vector<Physical> copies; ///< with `previous` this frame's and the last one's; else one
+    std::vector<Physical> copies; ///< with `previous` this frame's and the last frame's, else one
     gpu::UniqueMemory memory;
-    std::uint64_t bytes = 0; ///< of it
+    std::uint64_t bytes = 0; ///< bytes of `memory`
     std::size_t last = 0;    ///< index of the copy that holds the last frame
-    bool valid = false;      ///< there was one
-    ContentHashes stamps;    ///< of a kept one
+    bool valid = false;      ///< whether a last frame exists
+    ContentHashes stamps;    ///< content hashes of a persistent image
 
     Physical& copy(bool previous) {
         return lifetime == Lifetime::persistent ? copies[0] : copies[previous ? last : 1 - last];
     }
 };
 
-/// Images and buffers of a shape by their number in the graph; those that are elsewhere are empty.
+/// Images and buffers of a shape, indexed by their number in the graph. Entries whose memory lies
+/// elsewhere are empty.
 struct Resources {
     std::vector<Physical> images;
     std::vector<gpu::UniqueBuffer> buffers;
     bool made = false;
 };
 
-/// A shape with its plan and, once it has run, what it runs with.
+/// A shape with its plan and, once it has run, the resources that it runs with.
 struct Compiled {
     Graph outline; ///< without bodies
     std::uint64_t hash = 0;
     Plan plan;
-    bool ran = false; ///< it has claims on memory
+    bool ran = false; ///< whether it has run; its memory needs count only then
 
-    Resources shared;                         ///< what lives within a frame
-    std::array<Resources, kMostInFlight> own; ///< what is wanted of a frame, one for each slot
-    std::vector<PersistentImage*> kept;       ///< by image; of the frame that was submitted last
+    Resources shared;                         ///< resources that live within a frame
+    std::array<Resources, kMostInFlight> own; ///< outputs of a frame, a copy for each slot
+    /// Images that outlive frames, by image number, for the frame submitted last; null for others.
+    std::vector<PersistentImage*> kept;
 
-    /// Whether the image has memory of its own, through frames. A kept one may be read after a
-    /// frame whose passes do not touch it.
+    /// Returns whether the image has its own memory across frames. A persistent image always does:
+    /// it may be read after a frame whose passes do not touch it.
     bool is_persistent(std::uint32_t image) const {
         const Lifetime lifetime = outline.lifetime(image);
         return lifetime == Lifetime::persistent ||
                (lifetime == Lifetime::previous && plan.images[image].used);
     }
-    /// Whether its memory is the runner's.
+    /// Returns whether the image is used and the runner owns its memory.
     bool is_owned(std::uint32_t image) const {
         return plan.images[image].used && outline.lifetime(image) != Lifetime::imported;
     }
     bool is_owned(Buffer buffer) const {
         return plan.buffers[buffer.id].used && !outline.is_imported(buffer);
     }
-    /// Where a frame of the slot has the image.
+    /// Returns the device image that stands for `image` in a frame of the slot.
     Physical& physical(Image image, std::size_t slot) {
         if (PersistentImage* const k = kept[image.id]) return k->copy(image.previous);
         return (plan.images[image.id].alone ? own[slot] : shared).images[image.id];

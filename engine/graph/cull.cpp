@@ -6,7 +6,7 @@ namespace catoptric::graph {
 
 namespace {
 
-/// What must be whole at the end of the frame.
+/// Returns the layers and buffers whose contents are needed at the end of the frame.
 Ledger<char> live_at_end(const Graph& graph) {
     Ledger<char> live = output_parts(graph);
     for (std::uint32_t i = 0; i < graph.images().size(); ++i)
@@ -17,8 +17,8 @@ Ledger<char> live_at_end(const Graph& graph) {
     return live;
 }
 
-/// The attachments of the pass that nobody reads before they are written again. Images come first
-/// among the accesses, in order of declaration.
+/// Returns a bit for each attachment of the pass that is not read before it is written again.
+/// Images come first among the accesses, in order of declaration.
 std::uint32_t unread(std::span<const Access> accesses, const Ledger<char>& live) {
     constexpr std::size_t kBits = 32;
     std::uint32_t bits = 0;
@@ -29,7 +29,8 @@ std::uint32_t unread(std::span<const Access> accesses, const Ledger<char>& live)
     return bits;
 }
 
-/// One sweep from the last pass to the first. `live` starts as what must be whole at the end.
+/// Sweeps from the last pass to the first. `live` starts as the contents needed at the end of the
+/// frame.
 std::vector<Fate> sweep(const Accesses& all, std::size_t passes, Ledger<char> live) {
     std::vector<Fate> fates(passes);
     for (std::size_t p = fates.size(); p-- > 0;) {
@@ -51,7 +52,8 @@ std::vector<Fate> fates(const Graph& graph, const Accesses& all) {
     Ledger<char> at_end = live_at_end(graph);
     while (true) {
         std::vector<Fate> fates = sweep(all, graph.passes().size(), at_end);
-        // What survivors read of the last frame must be whole at the end of this one, too.
+        // Contents of the last frame that survivors read must be complete at the end of this frame,
+        // too.
         bool grew = false;
         for (std::size_t p = 0; p < fates.size(); ++p) {
             if (!fates[p].survives) continue;

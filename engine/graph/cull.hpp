@@ -4,17 +4,18 @@
 
 namespace catoptric::graph {
 
-/// What becomes of a pass.
+/// Whether a pass is executed, and which of its attachments are not read.
 struct Fate {
     bool survives = false;
-    std::uint32_t unread = 0; ///< as PlannedPass::unread
+    std::uint32_t unread = 0; ///< bits as in PlannedPass::unread
 };
 
-/// For each pass of a valid graph, whether anything wanted depends on it, in this frame or, through
-/// `previous`, in the next. What is kept or imported is wanted.
+/// Returns the fate of each pass of a valid graph. A pass survives if an output depends on it, in
+/// this frame or, through `previous`, in the next. Persistent and imported images, and imported
+/// buffers, count as outputs.
 std::vector<Fate> fates(const Graph& graph, const Accesses& all);
 
-/// "nobody wants what it writes: 'x', 'y'"
+/// Returns the reason why a pass was culled: "nobody wants what it writes: 'x', 'y'".
 std::string cull_reason(const Graph& graph, std::span<const Access> accesses);
 
 } // namespace catoptric::graph

@@ -37,8 +37,7 @@ Requirements placed(const gpu::Device& device, const VkMemoryRequirements& needs
                     const std::string& name) {
     const int type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(type >= 0, Failure::internal, "no memory type for '", name, "'");
-    // Linear buffers and optimal images share heaps: the granularity keeps them on pages of their
-    // own.
+    // Buffers and images share heaps. Aligning to the granularity keeps them on separate pages.
     const auto granularity = device.limits().bufferImageGranularity;
     return {needs.size, std::max<std::uint64_t>(needs.alignment, granularity),
             static_cast<std::uint32_t>(type)};

@@ -5,18 +5,19 @@
 
 namespace catoptric::graph {
 
-/// Memory that a device wants for images and buffers of the graph. The device must outlive it.
+/// Returns functions that tell how much memory the device needs for images and buffers of a graph.
+/// The device must outlive them.
 Sizer sizer_of(const gpu::Device& device);
 
-/// A buffer of the graph without memory.
+/// Creates a buffer of the graph without memory.
 gpu::UniqueBuffer make_buffer(const gpu::Device& device, const BufferDesc& desc);
 
-/// An image with memory of its own.
+/// An image with its own memory.
 struct OwnedImage {
     gpu::UniqueMemory memory; // destroyed after the image
     Physical image;
 };
-/// For whoever imports it into graphs; its contents are undefined.
+/// Creates an image to be imported into graphs. Its contents are undefined.
 OwnedImage make_image(const gpu::Device& device, const ImageDesc& desc);
 
 } // namespace catoptric::graph

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 std::string_view name_of(Tag tag) { return tag == Tag::scene ? "scene" : "none"; }
 
-/// "1 pass", "2 passes"
+/// Returns a count with its noun: "1 pass", "2 passes".
 std::string counted(std::size_t count, const std::string& thing, const std::string& plural) {
     return std::to_string(count) + " " + (count == 1 ? thing : thing + plural);
 }
@@ -24,7 +24,7 @@ const Pass& pass_of(const Graph& graph, const PlannedPass& planned) {
     return graph.passes()[planned.pass];
 }
 
-/// Who shares memory with whom.
+/// Tells which resources share memory.
 class Sharers {
 public:
     Sharers(const Graph& graph, const Plan& plan) {
@@ -37,16 +37,16 @@ public:
             std::ranges::sort(heap.ends);
         }
     }
-    /// Everything whose memory overlaps that of `mine`.
+    /// Returns the number of other resources whose memory overlaps that of `mine`.
     std::size_t count(const Placement& mine) const {
         if (!mine.used || mine.bytes == 0) return 0;
         const Heap& heap = heaps_[mine.heap];
         const auto begun = std::ranges::lower_bound(heap.begins, mine.offset + mine.bytes);
         const auto ended = std::ranges::upper_bound(heap.ends, mine.offset);
         return static_cast<std::size_t>(begun - heap.begins.begin()) -
-               static_cast<std::size_t>(ended - heap.ends.begin()) - 1; // itself
+               static_cast<std::size_t>(ended - heap.ends.begin()) - 1; // `mine` itself
     }
-    /// The names of the first `limit` of them.
+    /// Returns the names of the first `limit` of these resources.
     std::vector<std::string_view> names(const Placement& mine, std::size_t limit) const {
         const std::size_t wanted = std::min(limit, count(mine));
         std::vector<std::string_view> names;
@@ -86,7 +86,7 @@ void write_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
 }
 
 void write_placement(std::ostream& out, const Sharers& sharers, const Placement& placement) {
-    constexpr std::size_t kNamed = 32; // in a large frame hundreds share a place
+    constexpr std::size_t kNamed = 32; // in a large frame, hundreds of resources share a place
     if (!placement.used) {
         out << ", not used\n";
         return;
@@ -151,7 +151,7 @@ Json image_json(const ImageDesc& desc, Lifetime lifetime, const Placement& place
     return json;
 }
 
-/// Text between quotation marks of the dot language.
+/// Escapes text for quotation marks of the dot language.
 std::string escaped(std::string_view text) {
     std::string out;
     for (const char c : text) {

@@ -6,10 +6,11 @@
 
 namespace catoptric::graph {
 
-/// The plan for people: passes in order with what each reads and writes, what was culled and why,
-/// which images share memory, scene_passes, bytes.
+/// Returns the plan as text: passes in order with their reads and writes, culled passes with the
+/// reason, images that share memory, scene_passes and bytes.
 std::string to_text(const Graph& graph, const Plan& plan);
-/// Graphviz: passes as boxes, images as ellipses, culled passes dashed.
+/// Returns the plan in Graphviz's dot language: passes as boxes, images as ellipses, culled passes
+/// dashed.
 std::string to_dot(const Graph& graph, const Plan& plan);
 /// {"passes":
 /// [{"name","tag","reads":[{"image","layers":[first,count],"use","previous"}],"writes":[...],"barriers":n}],

@@ -8,7 +8,8 @@ namespace catoptric::graph {
 
 namespace {
 
-/// Calls visit(placement) for what lies in the memory of frames: `alone` or not, and not kept.
+/// Calls visit(placement) for each resource in the memory of frames whose `alone` is as given.
+/// Images that outlive frames are skipped.
 template <typename Visit>
 void for_each_placement(const Compiled& shape, bool alone, const Visit& visit) {
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
@@ -21,8 +22,9 @@ void for_each_placement(const Compiled& shape, bool alone, const Visit& visit) {
             visit(shape.plan.buffers[b]);
 }
 
-/// Where in each heap of the plan the memory of its wanted ones begins. The plan has them behind
-/// what is shared; here they are elsewhere, at the same distance from one another.
+/// Returns the offset in each heap of the plan at which the outputs begin. The plan puts outputs
+/// after the shared part. The runner puts them into a separate arena, at the same distance from one
+/// another.
 std::vector<std::uint64_t> begin_of_own(const Compiled& shape) {
     const std::vector<std::uint64_t>& heaps = shape.plan.heap_bytes;
     std::vector<std::uint64_t> begin = heaps, alignment(heaps.size(), 1);
@@ -34,7 +36,7 @@ std::vector<std::uint64_t> begin_of_own(const Compiled& shape) {
     return begin;
 }
 
-/// Bytes that a shape needs of each heap.
+/// Returns the bytes that a shape needs of each heap.
 std::vector<std::uint64_t> claim(const Compiled& shape, bool alone) {
     std::vector<std::uint64_t> bytes(shape.plan.heap_bytes.size(), 0);
     const std::vector<std::uint64_t> begin = begin_of_own(shape);
@@ -60,7 +62,7 @@ std::vector<std::uint64_t> largest_claim(std::span<const std::shared_ptr<Compile
 } // namespace
 
 void FrameMemory::allocate(Arena& arena, std::vector<std::uint64_t> bytes) {
-    arena = {}; // before more is asked for
+    arena = {}; // frees the old memory before more is allocated
     for (std::size_t type = 0; type < bytes.size(); ++type)
         arena.heaps.push_back(bytes[type]
                                   ? device_.allocate(bytes[type], static_cast<std::uint32_t>(type),
@@ -118,7 +120,7 @@ void FrameMemory::provide(Compiled& shape, std::size_t slot,
         for (const auto& other : shapes) other->shared = {};
         allocate(shared_, std::move(bytes));
     }
-    // Nobody else uses this slot's: its last frame has ended.
+    // No frame in flight uses this slot's memory: its last frame has ended.
     if (std::vector<std::uint64_t> bytes = largest_claim(shapes, true); bytes != own_[slot].bytes) {
         for (const auto& other : shapes) other->own[slot] = {};
         allocate(own_[slot], std::move(bytes));

@@ -7,24 +7,25 @@
 
 namespace catoptric::graph {
 
-/// Memory that the shapes of a runner use in turn: what lives within a frame lies in one place for
-/// all, since frames follow one another; what is wanted of a frame in one place for each slot,
-/// until a frame is submitted there again. As large as the largest shape asks for.
+/// Memory that the shapes of a runner use in turn, as large as the largest shape needs. Resources
+/// that live within a frame share one arena, because frames run one after another. Outputs of a
+/// frame have one arena per slot and stay until the slot's next frame is submitted.
 class FrameMemory {
 public:
     explicit FrameMemory(const gpu::Device& device) : device_(device) {}
 
-    /// Makes what `shape` runs with from this slot; nothing when that is there. `shapes`: all that
-    /// have claims. Calls `wait` before anything is destroyed that frames in flight may use.
+    /// Makes the resources that `shape` runs with in this slot, unless they exist. `shapes`: all
+    /// shapes that need memory. Calls `wait` before it destroys anything that frames in flight may
+    /// use.
     void provide(Compiled& shape, std::size_t slot,
                  std::span<const std::shared_ptr<Compiled>> shapes,
                  const std::function<void()>& wait);
 
-    /// Bytes that are taken of the device.
+    /// Returns the bytes of device memory that are allocated.
     std::uint64_t bytes() const;
 
 private:
-    /// Bytes of each heap, with their memory.
+    /// The bytes of each heap and the memory allocated for them.
     struct Arena {
         std::vector<std::uint64_t> bytes;
         std::vector<gpu::UniqueMemory> heaps;

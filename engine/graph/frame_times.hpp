@@ -5,28 +5,29 @@
 
 namespace catoptric::graph {
 
-/// isolated: an execution barrier follows each stamp, so the times of passes add up and no two
-/// passes overlap. pipelined: only the barriers that the plan needs; believe the span, not the
-/// parts.
+/// How the passes of a frame are timed.
+/// isolated: an execution barrier follows each timestamp. No two passes overlap, and their times
+/// add up.
+/// pipelined: only the barriers of the plan. Passes may overlap, and only the span is meaningful.
 enum class Timing { isolated, pipelined };
 
 struct PassTime {
     std::string name;
-    double begin_ms = 0; ///< from the frame's first stamp
+    double begin_ms = 0; ///< from the frame's first timestamp
     double end_ms = 0;
     double ms() const { return end_ms - begin_ms; }
 };
 
-/// One frame on the clock. On a cpu device "gpu" time is processor time of the driver's threads.
-/// The host's work is compile and record; what it waited is told apart and no part of them.
+/// Times of one frame in milliseconds. On a cpu device the GPU times are processor time of the
+/// driver's threads. compile_ms and record_ms are the host's work and do not contain wait_ms.
 struct FrameTimes {
     std::vector<PassTime> passes; ///< in order of execution
-    double span_ms = 0;           ///< first to last stamp
+    double span_ms = 0;           ///< first to last timestamp
     double compile_ms = 0;        ///< finding or making the plan, making its images; host clock
     double record_ms = 0;         ///< filling the command buffer, host clock
     double wait_ms =
         0; ///< waiting for a place among the frames in flight, and for this frame's end
-    double wall_ms = 0; ///< submit until the wait for it returned, host clock
+    double wall_ms = 0; ///< from submit until the wait for the frame returned, host clock
 };
 
 } // namespace catoptric::graph

@@ -4,22 +4,24 @@
 
 namespace catoptric::graph {
 
-/// Who touched which part of the shared memory last, while a frame is walked from top to bottom.
-/// Each call costs the logarithm of the number of placements.
+/// The last touches of each part of the shared memory while a frame is walked from first to last
+/// pass. Each call costs O(log n) in the number of placements.
 class MemoryUsers {
 public:
     explicit MemoryUsers(const Plan& plan);
-    /// What lay there is not touched again; `touches` were its last.
+    /// Records that the resource at this placement is not touched again. `touches` were its last
+    /// touches.
     void leave(const Placement& placement, TouchSet touches);
-    /// All touches that were left in this memory.
+    /// Returns all touches that earlier resources left in this memory.
     TouchSet left_in(const Placement& placement) const;
 
 private:
-    /// A tree over the pieces between all ends of placements; node n has children 2n and 2n + 1.
+    /// A segment tree over the pieces between the ends of all placements. Node n has the children
+    /// 2n and 2n + 1.
     struct Heap {
         std::vector<std::uint64_t> ends; // sorted, each once
-        std::vector<TouchSet> whole;     // left in all of the node
-        std::vector<TouchSet> below;     // left in some of it
+        std::vector<TouchSet> whole;     // touches left in all of the node
+        std::vector<TouchSet> below;     // touches left in some part of the node
         std::size_t leaf(std::uint64_t offset) const;
         void size();
     };

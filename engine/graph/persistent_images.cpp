@@ -37,7 +37,7 @@ void clear(VkCommandBuffer commands, const Physical& image) {
 
 } // namespace
 
-/// Black and readable.
+/// Creates the copies of the image, cleared to black and in the layout for sampling.
 void PersistentImages::make(const ImageDesc& desc, PersistentImage& kept) {
     const std::size_t copies = kept.lifetime == Lifetime::previous ? 2 : 1;
     const Requirements needs = sizer_of(device_).image(desc);
@@ -85,7 +85,7 @@ void PersistentImages::provide(Compiled& shape, const std::function<void()>& wai
 void PersistentImages::write(const Graph& graph, const Compiled& shape) {
     for (const auto& [part, content_hash] : graph.stamps()) {
         PersistentImage* const kept = shape.kept[part.id];
-        if (!kept) continue; // nothing of it was used
+        if (!kept) continue; // the frame uses no part of the image
         for_each_range(part, graph.images()[part.id].layers,
                        [&](std::uint32_t first, std::uint32_t end) {
                            kept->stamps.set(first, end, content_hash);

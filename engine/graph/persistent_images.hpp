@@ -9,28 +9,29 @@
 
 namespace catoptric::graph {
 
-/// What earlier frames have left for later ones, by the images' names. Taken out of a runner it can
-/// be given back to it; the device must outlive it.
+/// Images that earlier frames left for later frames, by name. They can be taken out of a runner and
+/// given back to it. The device must outlive them.
 using RetainedImages = std::map<std::string, PersistentImage>;
 
-/// The images of a runner that outlive frames, by their names.
+/// The images of a runner that outlive frames, by name.
 class PersistentImages {
 public:
     explicit PersistentImages(gpu::Device& device) : device_(device) {}
 
-    /// Finds or makes those of the shape. Calls `wait` before anything is destroyed that frames in
-    /// flight may use.
+    /// Finds or makes the persistent images of the shape. Calls `wait` before it destroys anything
+    /// that frames in flight may use.
     void provide(Compiled& shape, const std::function<void()>& wait);
-    /// The frame was submitted: kept images hold what it says that they are made from.
+    /// Stores the content hashes that the submitted frame sets.
     void write(const Graph& graph, const Compiled& shape);
-    /// What it wrote beside its `previous` is the last frame now.
+    /// Swaps the two copies of each image that has a `previous`: the frame just submitted becomes
+    /// the last frame.
     void advance(const Compiled& shape);
-    /// All of it. Not while frames are in flight.
+    /// Drops all images. Must not be called while frames are in flight.
     void forget() { all_.clear(); }
     RetainedImages take() { return std::exchange(all_, {}); }
     void put(RetainedImages all) { all_ = std::move(all); }
     History history() const;
-    /// Bytes that are taken of the device.
+    /// Returns the bytes of device memory that are allocated.
     std::uint64_t bytes() const;
 
 private:

@@ -19,7 +19,7 @@ VkImageCreateInfo image_create_info(const ImageDesc& desc) {
                    VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     create.usage |= is_depth(desc.format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                           : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    // Storage images are demanded by the core only for these (table of mandatory formats).
+    // Vulkan requires storage images only for these formats (table of mandatory formats).
     if (desc.format == Format::rgba32f || desc.format == Format::rgba16f ||
         desc.format == Format::r32f || desc.format == Format::r32ui ||
         desc.format == Format::rgba8_unorm)

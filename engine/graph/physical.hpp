@@ -9,13 +9,13 @@
 
 namespace catoptric::graph {
 
-/// An image of the graph on the device, with the views that were asked for.
+/// A device image of the graph, with the views that were asked for.
 struct Physical {
     ImageDesc desc;
-    gpu::UniqueImage owned; ///< empty where somebody else owns the image
+    gpu::UniqueImage owned; ///< empty if the image is owned outside the runner
     VkImage image = VK_NULL_HANDLE;
 
-    /// Of the part's layers and mips.
+    /// Returns the view of the part's layers and mips. Each view is made once.
     VkImageView view(const gpu::Device& device, gpu::ImageShape shape, const Image& part);
 
 private:
@@ -24,13 +24,14 @@ private:
     std::map<Key, gpu::UniqueImageView> views_;
 };
 
-/// The create info for any image of the graph: every use that its format allows.
+/// Returns the create info of an image of the graph, with every usage that its format allows.
 VkImageCreateInfo image_create_info(const ImageDesc& desc);
 Physical make_physical(const gpu::Device& device, const ImageDesc& desc);
-/// Somebody else's image, to be imported; it must outlive this, which holds its views.
+/// Wraps an image that is owned elsewhere, to be imported into graphs. The image must outlive the
+/// result, which holds its views.
 Physical adopt(const ImageDesc& desc, VkImage image);
 VkImageAspectFlags aspect_of(Format format);
-/// Of the part's layers and its first mip, from or to the beginning of a buffer.
+/// Returns the region that copies the part's layers and first mip from or to the start of a buffer.
 VkBufferImageCopy copy_region(const ImageDesc& desc, const Image& part);
 
 } // namespace catoptric::graph

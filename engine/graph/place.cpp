@@ -9,7 +9,7 @@ namespace {
 
 struct Item {
     Placement* placement = nullptr;
-    int rank = 0; ///< 0 shares, 1 is wanted, 2 outlives the frame: the order in the heap
+    int rank = 0; ///< order in the heap: 0 shares, 1 is an output, 2 outlives the frame
 };
 
 std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
@@ -18,16 +18,17 @@ std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
 
 std::uint64_t end_of(const Placement& p) { return p.offset + p.bytes; }
 
-/// What was placed at one offset. Its members share memory, so no two are alive at once.
+/// The resources placed at one offset. They share memory, so no two are alive at once.
 struct Shelf {
     struct Life {
         std::uint32_t first, last;
-        std::uint64_t end; ///< in the heap
+        std::uint64_t end; ///< offset in the heap
     };
     std::uint64_t offset = 0;
     std::vector<Life> lives; ///< from the earliest
 
-    /// Up to where the members that are alive with `placement` reach; 0: there is none.
+    /// Returns the end, in the heap, of the members that are alive with `placement`; 0 if there are
+    /// none.
     std::uint64_t reach(const Placement& placement) const {
         auto life = std::ranges::lower_bound(lives, placement.first, {}, &Life::last);
         std::uint64_t end = 0;
@@ -36,9 +37,9 @@ struct Shelf {
         return end;
     }
 };
-using Shelves = std::vector<Shelf>; // of one heap, from the lowest
+using Shelves = std::vector<Shelf>; // shelves of one heap, from the lowest
 
-/// The lowest aligned offset at which `item` overlaps nothing that is alive with it.
+/// Returns the lowest aligned offset at which `item` overlaps nothing that is alive with it.
 std::uint64_t first_fit(const Item& item, const Shelves& shelves) {
     std::uint64_t offset = 0;
     for (const Shelf& shelf : shelves) {
@@ -67,7 +68,7 @@ Item size_up(Placement& placement, const Requirements& wanted, Lifetime lifetime
     return {&placement, lifetime != Lifetime::frame ? 2 : placement.alone ? 1 : 0};
 }
 
-/// Used ones by rank, then the largest first, so that small ones fill the gaps.
+/// Returns the used resources by rank, then the largest first, so that small ones fill the gaps.
 std::vector<Item> sized_items(const Graph& graph, const Sizer& sizer, Plan& plan) {
     std::vector<Item> items;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)

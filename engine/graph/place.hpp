@@ -7,8 +7,8 @@ namespace catoptric::graph {
 /// Fills `used`, `first`, `last` and `alone` of every image and buffer from the surviving passes.
 void find_lifetimes(const Graph& graph, const Accesses& all, Plan& plan);
 
-/// Fills offsets, bytes and heap sizes. Needs lifetimes. What is alive at the same time never
-/// overlaps; what is not may.
+/// Fills offsets, bytes and heap sizes. Needs lifetimes. Resources that are alive at the same time
+/// never overlap; others may.
 void place(const Graph& graph, const Sizer& sizer, Plan& plan);
 
 } // namespace catoptric::graph

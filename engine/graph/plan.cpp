@@ -29,8 +29,8 @@ bool has_own_memory(Lifetime lifetime) {
     return lifetime == Lifetime::previous || lifetime == Lifetime::persistent;
 }
 
-/// Bytes of the largest allocation: images that outlive the frame have one each, all else of a heap
-/// shares one.
+/// Returns the bytes of the largest allocation. Each image that outlives the frame has its own
+/// allocation; all other resources of a heap share one.
 std::uint64_t largest_piece(const Graph& graph, const Plan& plan) {
     std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)

@@ -1,4 +1,4 @@
-// The runner's read-back.
+// Read-back of a runner's images and buffers.
 #include "graph/run.hpp"
 #include "graph/sync.hpp"
 
@@ -13,7 +13,7 @@ std::uint64_t bytes_of(const ImageDesc& desc, const Image& part) {
     return texels * part.layer_count * bytes_per_texel(desc.format);
 }
 
-/// Records the copy of a part that is in layout `is`, and is left in it.
+/// Records the copy of a part of an image to a buffer. The part is in layout `is` before and after.
 void copy_out(VkCommandBuffer commands, const Physical& source, const Image& part, VkImageLayout is,
               VkBuffer target) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
@@ -53,7 +53,7 @@ std::vector<std::byte> Runner::read(Ticket ticket, Image image) {
           " was submitted, which may have changed it");
     check(!kept || shape.kept[image.id], Failure::internal, "image '", desc.name,
           "' is read after it was forgotten");
-    // After a frame that stays, what it wrote is not the last frame.
+    // A frame with `stays` does not advance the history: its own copy is not yet the last frame.
     image.previous = kept && !slot.stays;
     const Physical& source = shape.physical(image, index_of(ticket.frame));
     const std::uint64_t bytes = bytes_of(desc, image);

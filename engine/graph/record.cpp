@@ -19,7 +19,8 @@ gpu::UniqueSampler make_sampler(const gpu::Device& device, Filter filter) {
         create.maxLod = VK_LOD_CLAMP_NONE;
     }
     create.compareEnable = filter == Filter::compare;
-    create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depth: not behind what is stored
+    // Reversed depth: passes unless behind the stored depth.
+    create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
     VkSampler sampler = VK_NULL_HANDLE;
     gpu::check_vk(vkCreateSampler(device.handle(), &create, nullptr, &sampler), "create a sampler");
     return {device.handle(), sampler};
@@ -51,11 +52,12 @@ Sides sides_of(const Barrier& barrier, bool last) {
         sides.before.stages |= scope.stages, sides.before.access |= scope.access;
     }
     if (last) sides.after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
-    if (last && barrier.is_buffer) { // an imported one may lie in the host's memory
+    if (last && barrier.is_buffer) { // an imported buffer may lie in the host's memory
         sides.after.stages |= VK_PIPELINE_STAGE_2_HOST_BIT;
         sides.after.access |= VK_ACCESS_2_HOST_READ_BIT;
     }
-    // First touch of the frame: chains on to the barrier that divides it from the frame before.
+    // The first touch in a frame has no earlier touch to wait for. Equal stages on both sides chain
+    // it to the barrier that separates this frame from the last.
     if (sides.before.stages == VK_PIPELINE_STAGE_2_NONE) sides.before = sides.after;
     return sides;
 }
@@ -98,7 +100,8 @@ void Recorder::record(const Graph& graph, Compiled& shape, Slot& slot, std::size
     gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
 }
 
-/// Everything before is done and visible to everything after: divides frames and read-backs.
+/// Records a barrier that completes all earlier work and makes it visible to all later work. It
+/// separates frames and read-backs.
 void Recorder::full_barrier() {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -110,8 +113,8 @@ void Recorder::full_barrier() {
     vkCmdPipelineBarrier2(commands_, &dependency);
 }
 
-/// A stamp is only true when an execution barrier follows it: without, a software driver takes it
-/// after the next pass's work.
+/// Writes a timestamp. It is exact only if an execution barrier follows: without one, a software
+/// driver takes it after the next pass's work.
 void Recorder::stamp(Timing timing) {
     vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_->queries,
                          slot_->next_query++);
@@ -210,7 +213,7 @@ void Recorder::add_attachment(const ImageUse& use, bool unread, std::uint32_t fi
         depth_ = info;
 }
 
-/// One rendering scope over some layers of the pass's attachments.
+/// Records one rendering scope over some layers of the pass's attachments.
 void Recorder::render(const PlannedPass& planned, std::uint32_t first_layer,
                       std::uint32_t layer_count) {
     const Pass& pass = graph_->passes()[planned.pass];

@@ -6,12 +6,12 @@
 
 namespace catoptric::graph {
 
-/// Fills the command buffer of a slot with a planned frame.
+/// Records a planned frame into the command buffer of a slot.
 class Recorder {
 public:
     Recorder(gpu::Device& device, gpu::Pipelines& pipelines);
 
-    /// `slot_index`: which of the shape's own images the frame writes.
+    /// Records the frame. `slot_index` selects the copy of the outputs that the frame writes.
     void record(const Graph& graph, Compiled& shape, Slot& slot, std::size_t slot_index,
                 Timing timing);
 
@@ -41,13 +41,13 @@ private:
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT end_label_ = nullptr;
 
-    // The frame at hand.
+    // The frame that is being recorded.
     const Graph* graph_ = nullptr;
     Compiled* shape_ = nullptr;
     Slot* slot_ = nullptr;
     std::size_t slot_index_ = 0;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    // Lists that are filled again and again.
+    // Members rather than locals, so that their memory is reused.
     std::vector<VkImageMemoryBarrier2> image_barriers_;
     std::vector<VkBufferMemoryBarrier2> buffer_barriers_;
     std::vector<VkRenderingAttachmentInfo> colours_;

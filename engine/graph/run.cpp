@@ -30,7 +30,8 @@ gpu::UniqueSemaphore make_timeline(const gpu::Device& device) {
     return {device.handle(), semaphore};
 }
 
-/// The number of the frame and its passes: which of them a device was lost in, nobody knows.
+/// Returns the number of the frame and the names of all its passes. A lost device does not tell
+/// which pass was running.
 std::string name_of_frame(std::uint64_t frame, const Compiled& shape) {
     std::string name = "frame " + std::to_string(frame) + " (passes";
     for (const PlannedPass& planned : shape.plan.passes)
@@ -38,7 +39,7 @@ std::string name_of_frame(std::uint64_t frame, const Compiled& shape) {
     return name + ")";
 }
 
-/// Fills passes and span from the stamps of a frame that has ended.
+/// Fills passes and span from the timestamps of a frame that has ended.
 void read_stamps(gpu::Device& device, const Slot& slot, FrameTimes& times) {
     const Compiled& shape = *slot.shape;
     std::vector<std::uint64_t> stamps(slot.next_query);
@@ -74,11 +75,11 @@ Runner::~Runner() {
     try {
         finish_all();
     } catch (const std::exception&) {
-        // The device is abandoned by now, and so nothing of it is destroyed.
+        // The device is abandoned now, so none of its objects is destroyed.
     }
 }
 
-/// No frame is under way any more, and none that has ended refers to what was kept.
+/// Waits for all frames, and removes the references of ended frames to images that outlive frames.
 void Runner::release_persistent() {
     finish_all();
     for (Slot& slot : slots_)
@@ -118,7 +119,7 @@ Compiled& Runner::compile(const Graph& graph) {
         made->outline = graph.without_bodies();
         made->hash = hash;
         ++plans_made_;
-        // Frames in flight hold their shape, so what is forgotten here is not taken from them.
+        // Frames in flight share ownership of their shape, so removing it here is safe.
         if (shapes_.size() == kShapes) shapes_.pop_back();
         found = shapes_.insert(shapes_.end(), std::move(made));
     }
@@ -185,7 +186,7 @@ void Runner::submit(Slot& slot, const Compiled& shape, const ExternalSync& outsi
     slot.ended = false;
 }
 
-/// Waits for the frame of the slot unless that was done.
+/// Waits for the frame of the slot, unless it was waited for before.
 void Runner::finish(Slot& slot) {
     if (slot.ended) return;
     const Clock::time_point begin = Clock::now();
@@ -222,7 +223,7 @@ Slot& Runner::slot_of(Ticket ticket) {
 bool Runner::has_ended(Ticket ticket) {
     const Slot& slot = slots_[index_of(ticket.frame)];
     if (slot.frame != ticket.frame || slot.ended)
-        return true; // another has its place, or waited for
+        return true; // a later frame has the slot, or the frame was waited for
     const VkSemaphore semaphore = timeline_;
     VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
     wait.semaphoreCount = 1;

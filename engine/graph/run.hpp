@@ -8,74 +8,78 @@
 
 namespace catoptric::graph {
 
-/// A frame that was submitted, by its number from 1. Valid with the runner that gave it.
+/// A submitted frame, by its number from 1. Valid with the runner that returned it.
 struct Ticket {
     std::uint64_t frame = 0;
 };
 
-/// Somebody else's semaphores: the frame begins after the one and ends with the other; null: none.
+/// Semaphores of the caller. The frame begins after `wait` and signals `signal` at its end; null:
+/// none.
 struct ExternalSync {
     VkSemaphore wait = VK_NULL_HANDLE;
     VkSemaphore signal = VK_NULL_HANDLE;
 };
 
-/// Runs graphs: each shape is planned once, each frame is one command buffer and one submit, and
-/// one timeline semaphore tells when it has ended. Frames run in order, each after all of the one
-/// before. Images, memory and history stay between frames. One run of a technique = one Runner.
+/// Runs graphs. Each shape is planned once. Each frame is one command buffer and one submit, and
+/// one timeline semaphore tells when it has ended. Frames run in order, each after all work of the
+/// one before. Images, memory and history stay between frames. Each run of a technique has its own
+/// Runner.
 class Runner {
 public:
-    /// `in_flight`: how many frames may be submitted before the first of them is waited for, 1 to
-    /// kMostInFlight; each has its own commands and its own copy of what is wanted of a frame.
+    /// `in_flight`: frames that may be submitted before the first of them is waited for, 1 to
+    /// kMostInFlight. Each has its own command buffer and its own copy of the outputs.
     Runner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight = 1);
     Runner(const Runner&) = delete;
     Runner& operator=(const Runner&) = delete;
-    /// Waits for what is in flight.
+    /// Waits for the frames in flight.
     ~Runner();
 
-    /// What the next Graph must be told about the last frame.
+    /// Returns the history to construct the next Graph with.
     History history() const { return kept_.history(); }
-    /// Drops all that was kept of earlier frames: the next one is as the first. Waits for what is
-    /// in flight.
+    /// Drops all contents of earlier frames, so that the next frame is like the first. Waits for
+    /// the frames in flight.
     void forget();
-    /// All that was kept of earlier frames, taken away: the next frame is as the first. Waits for
-    /// what is in flight.
+    /// Takes out and returns all contents of earlier frames, so that the next frame is like the
+    /// first. Waits for the frames in flight.
     RetainedImages suspend();
-    /// The next frame goes on from what was set aside; what is kept now is dropped. Waits for what
-    /// is in flight.
+    /// Puts back contents from `suspend`, from which the next frame continues, and drops the
+    /// present ones. Waits for the frames in flight.
     void resume(RetainedImages leavings);
     Limits limits() const;
-    /// The plan of the graph's shape: found among those of the last 8 shapes, or made. Valid until
-    /// 8 others were asked for. Throws what graph::plan throws.
+    /// Returns the plan of the graph's shape. The plans of the last 8 shapes are cached; others are
+    /// made. Valid until 8 other shapes were asked for. Throws the errors of graph::plan.
     const Plan& compiled(const Graph& graph) { return compile(graph).plan; }
     std::uint64_t plans_made() const { return plans_made_; }
-    /// Bytes of the device's memory that images and buffers of its graphs take: as much as the
-    /// largest of the last 8 shapes that ran, and all that is kept.
+    /// Returns the bytes of device memory for images and buffers of its graphs: as much as the
+    /// largest of the last 8 shapes that ran, plus all images that outlive frames.
     std::uint64_t memory_bytes() const { return memory_.bytes() + kept_.bytes(); }
 
-    /// Records and submits. Waits only where all places in flight are taken, for the oldest frame.
-    /// `stays`: a frame beside the sequence; the next one has the history that this one had.
-    /// Throws `exhausted`; `device_lost` where it had to wait or the device refused the frame.
+    /// Records and submits a frame. If `in_flight` frames are on the device, waits for the oldest.
+    /// `stays`: the frame does not advance the history, so that the next frame sees the same last
+    /// frame. Throws `exhausted`. Throws `device_lost` if a wait fails or the device refuses the
+    /// frame.
     Ticket submit(const Graph& graph, Timing timing, bool stays = false,
                   const ExternalSync& outside = {});
-    /// Waits until the frame has ended; at once when that was done before. Throws `device_lost`
-    /// (naming the frame's passes), and `internal` when its place was taken by a later frame.
+    /// Waits until the frame has ended, and returns its times. Returns at once if it was waited for
+    /// before. Throws `device_lost`, naming the frame's passes. Throws `internal` if a later frame
+    /// has taken its slot.
     const FrameTimes& wait(Ticket ticket);
-    /// Whether the frame has ended, without waiting. Throws `device_lost`.
+    /// Returns whether the frame has ended, without waiting. Throws `device_lost`.
     bool has_ended(Ticket ticket);
     FrameTimes run(const Graph& graph, Timing timing, bool stays = false) {
         return wait(submit(graph, timing, stays));
     }
 
-    /// Texels of a wanted image of the frame, which is waited for: rows top down, layer after
-    /// layer, mip after mip. There until its place is taken by a later frame; what outlives frames
-    /// is there until the next one is submitted.
+    /// Waits for the frame and returns the texels of one of its outputs: rows from the top down,
+    /// layer after layer, mip after mip. An output can be read until a later frame takes the slot.
+    /// An image that outlives frames can be read until the next frame is submitted.
     std::vector<std::byte> read(Ticket ticket, Image image);
     std::vector<std::byte> read(Ticket ticket, Buffer buffer);
-    /// The same of the frame that was submitted last.
+    /// Reads from the frame that was submitted last.
     std::vector<std::byte> read(Image image) { return read(Ticket{frame_}, image); }
     std::vector<std::byte> read(Buffer buffer) { return read(Ticket{frame_}, buffer); }
-    /// Everything that the next frame can see of the last one: texels of the images that have a
-    /// `previous`, one after the other. Empty where nothing is remembered.
+    /// Returns the texels of all images with a `previous`, one after another: all that the next
+    /// frame can see of the last one. Empty if no such image exists.
     std::vector<std::byte> read_history();
 
 private:
@@ -92,12 +96,12 @@ private:
     gpu::UniqueSemaphore timeline_;
     FrameMemory memory_;
     PersistentImages kept_;
-    std::vector<std::shared_ptr<Compiled>> shapes_; ///< the one that was asked for last comes first
+    std::vector<std::shared_ptr<Compiled>> shapes_; ///< most recently used first
     std::vector<Slot> slots_;
-    std::uint64_t frame_ = 0; ///< of the last submit
+    std::uint64_t frame_ = 0; ///< number of the frame submitted last
     std::uint64_t plans_made_ = 0;
     double compile_ms_ = 0; ///< since the last submit
-    double wait_ms_ = 0;    ///< in all
+    double wait_ms_ = 0;    ///< total
 };
 
 } // namespace catoptric::graph

@@ -7,15 +7,15 @@
 
 namespace catoptric::graph {
 
-/// A value for each of `size` cells, kept as runs: neighbours of equal value are one entry. What
-/// is asked or changed costs the runs that it meets, however many cells they have. No memory is
-/// taken until the first change.
+/// A value for each of `size` cells, stored as runs: neighbouring cells of equal value are one
+/// entry. Queries and changes cost as many steps as they meet runs, however long the runs are. No
+/// memory is allocated until the first change.
 template <typename T>
 class Runs {
 public:
     explicit Runs(std::uint32_t size = 0, const T& value = {}) : size_(size), initial_(value) {}
 
-    /// Calls visit(begin, end, value) for the runs of cells [first, end), from the lowest.
+    /// Calls visit(begin, end, value) for each run in cells [first, end), from the lowest.
     template <typename Visit>
     void each(std::uint32_t first, std::uint32_t end, const Visit& visit) const {
         if (first >= end) return;
@@ -28,7 +28,8 @@ public:
         each(0, size_, visit);
     }
 
-    /// The same with values that may be changed.
+    /// Calls visit(begin, end, value) for each run in cells [first, end), with values that it may
+    /// change.
     template <typename Visit>
     void change(std::uint32_t first, std::uint32_t end, const Visit& visit) {
         if (first >= end) return;
@@ -41,7 +42,7 @@ public:
         change(first, end, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
 
-    /// Whether some cell of [first, end) has the value.
+    /// Returns whether some cell of [first, end) has the value.
     bool any(std::uint32_t first, std::uint32_t end, const T& value) const {
         bool found = false;
         each(first, end, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
@@ -59,12 +60,12 @@ private:
     std::uint32_t end_of(std::size_t run) const {
         return run + 1 < runs_.size() ? runs_[run + 1].begin : size_;
     }
-    /// The run that holds the cell.
+    /// Returns the index of the run that holds the cell.
     std::size_t find(std::uint32_t cell) const {
         const auto after = std::ranges::upper_bound(runs_, cell, {}, &Run::begin);
         return static_cast<std::size_t>(after - runs_.begin()) - 1;
     }
-    /// Makes a run begin at the cell; returns which.
+    /// Splits a run so that one begins at the cell, and returns its index.
     std::size_t split(std::uint32_t cell) {
         if (cell >= size_) return runs_.size();
         const std::size_t run = find(cell);
@@ -83,7 +84,7 @@ private:
 
     std::uint32_t size_;
     T initial_;
-    std::vector<Run> runs_; // the first begins at 0; empty: all have the initial value
+    std::vector<Run> runs_; // the first begins at 0; empty: all cells have the initial value
 };
 
 } // namespace catoptric::graph

@@ -6,7 +6,7 @@ namespace catoptric::graph {
 
 namespace {
 
-/// Of what is added, in order.
+/// A hash of the added values and their order.
 class Hash {
 public:
     void add(std::uint64_t value) {
@@ -54,7 +54,7 @@ void add(Hash& hash, const Pass& pass) {
         hash.add(use.buffer.id, number(use.use) << 1 | use.write);
 }
 
-/// Where a kept image holds something.
+/// Returns the ranges of a persistent image that have contents.
 std::vector<std::uint32_t> held_ranges(const Graph& graph, std::uint32_t image) {
     std::vector<std::uint32_t> ranges;
     graph.held(image).each([&](std::uint32_t first, std::uint32_t end, const auto& content_hash) {

@@ -4,12 +4,12 @@
 
 namespace catoptric::graph {
 
-/// A number that all graphs of one shape have. A shape is what a plan depends on: everything that
-/// is declared, and where kept images hold something; but not what passes record, the values
-/// they clear to, stamps, and which things of somebody else's are imported.
+/// Returns a hash that is equal for all graphs of one shape. A shape is all that a plan depends on:
+/// every declaration, and which parts of persistent images have contents. It excludes recorded
+/// commands, clear values, content hashes and which outside resources are imported.
 std::uint64_t shape_hash(const Graph& graph);
 
-/// Whether a plan of the one is a plan of the other. `known` may have lost its bodies.
+/// Returns whether a plan of one graph is valid for the other. `known` need not have pass bodies.
 bool has_shape(const Graph& graph, const Graph& known);
 
 } // namespace catoptric::graph

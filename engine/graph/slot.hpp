@@ -9,12 +9,12 @@
 
 namespace catoptric::graph {
 
-/// What a frame in flight has for itself: commands, stamps, descriptors. It may be filled anew once
-/// the frame has ended.
+/// The resources of one frame in flight: command buffer, timestamps, descriptors. They are reused
+/// once the frame has ended.
 class Slot {
 public:
     explicit Slot(const gpu::Device& device);
-    /// Empties the descriptor pools and makes room for so many stamps.
+    /// Empties the descriptor pools and makes room for `stamps` timestamps.
     void reset(std::uint32_t stamps);
     VkDescriptorSet descriptor_set(VkDescriptorSetLayout layout);
 
@@ -22,9 +22,9 @@ public:
     gpu::UniqueQueryPool queries;
     std::uint32_t next_query = 0;
 
-    // The frame that was submitted from here last.
+    // The frame that was submitted last from this slot.
     std::uint64_t frame = 0; ///< from 1; 0: none yet
-    bool ended = true;       ///< it was waited for
+    bool ended = true;       ///< whether it was waited for
     bool stays = false;
     Timing timing = Timing::isolated;
     std::shared_ptr<Compiled> shape;

@@ -6,9 +6,9 @@
 
 namespace catoptric::graph {
 
-/// Milliseconds from the first time stamp to each. Only the low `valid_bits` (1..64) of a stamp
-/// count, and the counter may wrap once in between; `tick_ns`: nanoseconds of one tick. Empty for
-/// no stamps.
+/// Returns the milliseconds from the first GPU timestamp to each. Only the low `valid_bits` (1..64)
+/// of a timestamp are valid. The counter may wrap once between the first and each other timestamp.
+/// `tick_ns`: nanoseconds per tick. Empty if there are no timestamps.
 std::vector<double> milliseconds_since_first(std::span<const std::uint64_t> stamps,
                                              std::uint32_t valid_bits, double tick_ns);
 

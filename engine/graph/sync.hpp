@@ -5,14 +5,14 @@
 
 namespace catoptric::graph {
 
-/// What a touch means to the device.
+/// The pipeline stages and memory accesses of a touch.
 struct Scope {
     VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
 };
 Scope scope_of(const Touch& touch);
 
-/// The layout that an image is in while it is used like this.
+/// Returns the layout that an image has during this use.
 VkImageLayout layout_of(Use use);
 
 } // namespace catoptric::graph

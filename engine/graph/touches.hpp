@@ -8,10 +8,10 @@
 
 namespace catoptric::graph {
 
-/// A touch as a number, from 1; 0 is `nothing`.
+/// A touch as a number from 1; 0 stands for `nothing`.
 using TouchCode = std::uint8_t;
 constexpr TouchCode kNothing = 0;
-constexpr int kTouchCodes = 64; ///< every code is less
+constexpr int kTouchCodes = 64; ///< every code is smaller
 
 constexpr TouchCode code_of(const Touch& touch) {
     if (touch.nothing) return kNothing;
@@ -28,7 +28,7 @@ constexpr Touch touch_of(TouchCode code) {
 }
 constexpr Use use_of(TouchCode code) { return static_cast<Use>((code - 1) / 4); }
 
-/// A few distinct touches in the order in which they came.
+/// Up to 8 distinct touches in the order in which they were added.
 class Touches {
 public:
     Touches() = default;
@@ -40,7 +40,8 @@ public:
     bool contains(TouchCode touch) const {
         return std::find(codes_.begin(), codes_.begin() + count_, touch) != codes_.begin() + count_;
     }
-    /// Unless it is there. Reads of one thing are of at most 8 kinds: 4 uses, in raster or not.
+    /// Adds the touch unless it is contained. Reads of one resource have at most 8 kinds: 4 uses,
+    /// each by a raster pass or not.
     void add(TouchCode touch) {
         if (contains(touch)) return;
         assert(count_ < codes_.size());
@@ -54,7 +55,7 @@ private:
     std::uint8_t count_ = 0;
 };
 
-/// Any touches, in no order: bit `code`.
+/// A set of touches without order: a bit for each code.
 using TouchSet = std::uint64_t;
 constexpr TouchSet set_of(TouchCode code) { return TouchSet{1} << code; }
 

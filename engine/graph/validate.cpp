@@ -11,7 +11,7 @@ namespace catoptric::graph {
 
 namespace {
 
-/// The first layers of `access` for which `there` is false; empty when all are there.
+/// Returns the first layers of `access` for which `there` is false; empty if it is true for all.
 std::string missing_layers(const Graph& graph, const Ledger<char>& there, const Access& access) {
     if (!there.any(access, false)) return "";
     std::optional<std::pair<std::uint32_t, std::uint32_t>> missing;
@@ -70,7 +70,8 @@ void check_image(const ImageDesc& desc, const Limits& limits) {
          " before any pass writes ", missing);
 }
 
-/// What is there before the first pass: what kept images hold, what imported ones come with.
+/// Returns the contents that exist before the first pass: those of persistent and of imported
+/// resources.
 Ledger<char> there_at_start(const Graph& graph) {
     Ledger<char> there(graph, false);
     for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
@@ -86,8 +87,8 @@ Ledger<char> there_at_start(const Graph& graph) {
     return there;
 }
 
-/// Every read finds its layers written, by an earlier pass of this frame or before it. Returns
-/// what is there in the end.
+/// Checks that every layer is written before it is read, by an earlier pass of this frame or before
+/// the frame. Returns the contents that exist after the last pass.
 Ledger<char> check_order(const Graph& graph, const Accesses& all) {
     Ledger<char> written = there_at_start(graph);
     for (std::size_t p = 0; p < graph.passes().size(); ++p) {
@@ -111,7 +112,8 @@ void check_stamped(const Graph& graph, const ContentRecord& stamped) {
              desc.layers, ") and ", desc.mips, " mip(s)");
 }
 
-/// What is written to kept images is what is said to be made from something.
+/// Checks that passes write exactly those parts of persistent images for which a content hash is
+/// set.
 void check_stamps(const Graph& graph, const Accesses& all) {
     Ledger<char> stamped(graph, false), written(graph, false);
     for (const ContentRecord& s : graph.stamps()) {

@@ -4,14 +4,14 @@
 
 namespace catoptric::graph {
 
-/// How a graph fails that its caller declared wrongly.
+/// The failure of a graph that its caller declared wrongly.
 constexpr auto kInvalidGraph = Failure::internal;
 
-/// Refuses a graph that cannot mean anything (`Failure::internal`) or is over a limit
-/// (`Failure::exhausted`). Culled or not: every declared pass is looked at.
+/// Throws if a graph is contradictory (`Failure::internal`) or exceeds a limit
+/// (`Failure::exhausted`). Checks every declared pass, also those that will be culled.
 void validate(const Graph& graph, const Accesses& all, const Limits& limits);
 
-/// The part of `validate` that needs one pass only: handles, uses, attachments, conflicts.
+/// Checks one pass by itself: handles, uses, attachments, conflicts. Throws like `validate`.
 void validate_pass(const Graph& graph, const Pass& pass, std::span<const Access> all,
                    const Limits& limits);
 

@@ -59,7 +59,7 @@ void check_attachment(const Graph& graph, const Pass& pass, const Access& a) {
          " format");
 }
 
-/// Text is made only of what is refused: most passes are right.
+/// Texts are built only on failure, because most passes are valid.
 void check_use(const Graph& graph, const Pass& pass, const Access& a) {
     if (a.write && a.previous)
         fail(kInvalidGraph, "pass '", pass.name, "' writes ", describe(graph, a), " as ",
@@ -112,7 +112,7 @@ void check_attachments(const Graph& graph, const Pass& pass, std::span<const Acc
     }
 }
 
-/// Two uses of the same contents in one pass: harmless, or why not.
+/// Throws if two uses of the same contents in one pass are in conflict.
 void check_pair(const Graph& graph, const Pass& pass, const Access& a, const Access& b) {
     const std::uint64_t first = std::max(a.first_layer, b.first_layer);
     const std::uint64_t end = std::min(a.end_layer(), b.end_layer());
@@ -141,10 +141,11 @@ void check_pair(const Graph& graph, const Pass& pass, const Access& a, const Acc
              ": one image cannot be in two layouts at once", where());
 }
 
-/// Only uses of one resource are held against each other.
+/// Checks all pairs of uses of one resource.
 void check_pairs(const Graph& graph, const Pass& pass, std::span<const Access> all) {
     const auto key = [](const Access* a) {
-        return std::tuple(a->is_buffer, a->id, a->previous, a); // then in order of declaration
+        // Pointers sort in order of declaration.
+        return std::tuple(a->is_buffer, a->id, a->previous, a);
     };
     std::vector<const Access*> sorted;
     sorted.reserve(all.size());

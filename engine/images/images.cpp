@@ -1,5 +1,5 @@
-// The module that links OpenImageIO, the only place that knows it. It opens no file of its own
-// accord here.
+// The module that links OpenImageIO; no other code uses it. It opens no files itself: pictures are
+// read from and written to memory.
 #include "core/image_module.hpp"
 
 #include <OpenImageIO/filesystem.h>
@@ -18,7 +18,7 @@ namespace catoptric {
 
 namespace {
 
-/// A source of bytes as OpenImageIO reads one.
+/// Lets OpenImageIO read from a source of bytes.
 class Proxy final : public OIIO::Filesystem::IOProxy {
 public:
     explicit Proxy(const ByteSource& bytes) : IOProxy("", Read), bytes_(bytes) {}
@@ -35,7 +35,7 @@ public:
             return bytes_.read(static_cast<std::uint64_t>(offset),
                                {static_cast<char*>(into), size});
         } catch (const std::exception&) {
-            return 0; // the reader finds less than it wanted
+            return 0; // the reader reports a short read
         }
     }
 
@@ -49,7 +49,7 @@ struct ImageCodecs::Picture {
     explicit Picture(const ByteSource& bytes) : proxy(bytes) {}
 
     Proxy proxy;
-    std::unique_ptr<OIIO::ImageInput> input; // goes before what it reads from
+    std::unique_ptr<OIIO::ImageInput> input; // destroyed before the proxy that it reads from
     int channel_count = 0;
 };
 
@@ -59,7 +59,7 @@ OIIO::TypeDesc type_of(CodecValue type) {
     return type == CodecValue::float32 ? OIIO::TypeFloat : OIIO::TypeUInt8;
 }
 
-/// What OpenImageIO has to say, in one line.
+/// Returns OpenImageIO's error message, in one line.
 template <typename Codec>
 CodecResult refused(const Codec& codec) {
     std::string text = codec.geterror();
@@ -67,7 +67,7 @@ CodecResult refused(const Codec& codec) {
     return {CodecAnswer::refused, std::move(text)};
 }
 
-/// What `work` returns, exceptions as results.
+/// Returns the result of `work`, with exceptions turned into results.
 template <typename Work>
 CodecResult without_exceptions(const Work& work) noexcept {
     try {
@@ -89,7 +89,7 @@ CodecResult open(const ByteSource& bytes, const std::string& format, const std::
         opened->input = OIIO::ImageInput::create(format);
         if (!opened->input) return {CodecAnswer::no_codec};
         OIIO::ImageSpec hints, spec;
-        hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not times alpha
+        hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not multiplied by alpha
         opened->input->set_ioproxy(&opened->proxy);
         if (!opened->input->open(name, spec, hints)) return refused(*opened->input);
         header = {{spec.width, spec.height}, spec.nchannels, spec.deep, spec.channelnames};
@@ -99,7 +99,7 @@ CodecResult open(const ByteSource& bytes, const std::string& format, const std::
     });
 }
 
-/// Rows of tiles that hold these rows, of which those are kept.
+/// Reads all tiles that contain the rows, and copies the rows from them.
 bool read_tiles(OIIO::ImageInput& input, std::uint32_t first, std::uint32_t row_count,
                 int channel_count, const OIIO::TypeDesc& type, void* values) {
     const OIIO::ImageSpec& spec = input.spec();
@@ -135,8 +135,8 @@ CodecResult read(ImageCodecs::Picture& picture, std::uint32_t first, std::uint32
 
 void close(ImageCodecs::Picture* picture) noexcept { delete picture; }
 
-/// In memory, since OpenImageIO's writers report success on a full disk. PNG is what core/png.cpp
-/// is tested against.
+/// Encodes to memory, because OpenImageIO's writers report success on a full disk. PNG is supported
+/// to test core/png.cpp against.
 CodecResult encode(const std::string& format, const ImageCodecs::Values& picture,
                    std::string& bytes) noexcept {
     return without_exceptions([&]() -> CodecResult {
@@ -144,7 +144,7 @@ CodecResult encode(const std::string& format, const ImageCodecs::Values& picture
         OIIO::ImageSpec spec(static_cast<int>(picture.size.x), static_cast<int>(picture.size.y),
                              static_cast<int>(picture.channel_count), type);
         spec.attribute("DateTime",
-                       "2000:01:01 00:00:00"); // not the clock: same picture, same bytes
+                       "2000:01:01 00:00:00"); // constant, so that equal pictures have equal bytes
         spec.attribute("oiio:ColorSpace", format == "png" ? "sRGB" : "Linear");
         spec.attribute("oiio:UnassociatedAlpha", 1);
         OIIO::Filesystem::IOVecOutput memory;
