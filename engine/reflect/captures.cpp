@@ -51,7 +51,8 @@ render::MirrorShader shading_with_captures(const MirrorInputs& around, std::stri
                                          {"captures", "asks_others"},
                                          {"show", "show"}})
         if (settings.has(knob)) set(constant, settings.integer(knob));
-    // Of those that share it all captures keep them, or none; not every mirror is captured.
+    // The captures of mirrors that share a technique all hold surface numbers, or none does. Some
+    // mirrors may have no capture, so all are checked.
     if (std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
             const render::Cubes* const cubes = around.captures->array_of(mirror);
             return cubes && cubes->surfaces;

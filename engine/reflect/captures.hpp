@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 
-/// What the techniques with captures share: their knobs, and what these mean for the shared passes.
+/// Knobs that the techniques with captures share, and functions that pass their values to the
+/// shared passes.
 namespace catoptric::reflect {
 
 inline constexpr std::array<std::string_view, 3> kDistanceChoices{"r32f", "r16f", "unorm8"};
@@ -61,7 +62,7 @@ inline constexpr std::array<std::string_view, 2> kCapturesChoices{"own", "all"};
 inline constexpr std::array<std::string_view, 2> kMirrorsChoices{"captured", "left_out"};
 inline constexpr std::array<std::string_view, 3> kShowChoices{"colour", "state", "residual"};
 
-/// Knobs of every search, after its own.
+/// Knobs that every search has, in lists after the search's own knobs.
 inline constexpr std::array kSearchKnobs{
     kFace,
     kColour,
@@ -98,25 +99,29 @@ constexpr std::array<Knob, N + kSearchKnobs.size()> search_knobs(const std::arra
     return knobs;
 }
 
-/// Shadow passes: one a light, none without shadows.
+/// Returns the number of shadow passes: one for each light, or 0 with `shadow=none`.
 int shadow_passes(int lights, const Settings& settings);
 
-/// `face`, and how colour and, where there are such knobs, distance are stored.
+/// Returns the options of a capture from the knobs: face edge, colour format and, for techniques
+/// with these knobs, distance format and surface numbers. Throws `Failure::no_device` for
+/// `colour=float` on a device that cannot filter 32-bit floats.
 render::CaptureOptions capture_options(const render::FrameInputs& inputs, const Settings& settings);
 
-/// Whether the search goes on, or may ask, in captures of other mirrors than its own.
+/// Returns whether the search may read captures of other mirrors (`continue` above 0 or
+/// `captures=all`).
 bool visits_others(const Settings& settings);
 
-/// A mirror that looks into the captures with the fragment shader; hops are set where there is a
-/// `continue`.
+/// Returns a mirror shading that looks into the captures with the fragment shader `fragment`. The
+/// knobs `continue`, `lookup`, `captures` and `show`, where they exist, become shader constants.
 render::MirrorShader shading_with_captures(const MirrorInputs& around, std::string fragment,
                                            const Settings& settings);
 
-/// The look of a Technique::search: the knobs that are its own are the shader's constants.
+/// Returns the mirror shading of a technique with Technique::search. The technique's own knobs
+/// become shader constants of the same names.
 render::MirrorShader shading_of_search(const Technique& technique, const MirrorInputs& around,
                                        const Settings& settings);
 
-/// R = N + 2 with one light.
+/// Returns the scene passes R of techniques with one capture per mirror: N + 2 with one light.
 inline int feedback_passes(int mirrors, int lights, const Settings& settings) {
     return mirrors + shadow_passes(lights, settings) + 1;
 }

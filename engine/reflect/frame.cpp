@@ -15,7 +15,7 @@ std::optional<std::uint32_t> map_edge(const Settings& settings) {
     return static_cast<std::uint32_t>(settings.integer("shadow_map"));
 }
 
-/// A shadow map for each edge that is asked for, made once.
+/// Shadow maps by edge in texels. Each is added to the graph once.
 class Maps {
 public:
     Maps(graph::Graph& graph, const render::FrameInputs& inputs, const require::Model& model)
@@ -36,7 +36,8 @@ private:
     std::map<std::uint32_t, render::Lighting> made_;
 };
 
-/// Of the view. Rays know shadows that a drawn view has only by a map.
+/// Returns the shadow map edge for the view, in texels; none: no map. If several techniques are
+/// mixed, the view is rasterised and needs a map even for techniques that trace shadow rays.
 std::optional<std::uint32_t> view_map_edge(const std::vector<Choice>& choices) {
     std::optional<std::uint32_t> finest;
     if (choices.size() == 1) return map_edge(choices.front().settings);
@@ -47,8 +48,8 @@ std::optional<std::uint32_t> view_map_edge(const std::vector<Choice>& choices) {
     return finest;
 }
 
-/// What every mirror's capture holds: as its technique has it, and what searches that go on in
-/// other captures than their own want of all.
+/// Returns the capture options of each mirror: those of its technique, extended by the data that
+/// searches need which read captures of other mirrors.
 std::vector<render::CaptureOptions> options_of_mirrors(const render::FrameInputs& inputs,
                                                        const Assignment& assignment, Maps& maps,
                                                        const render::Lighting& view_lighting) {
@@ -66,7 +67,7 @@ std::vector<render::CaptureOptions> options_of_mirrors(const render::FrameInputs
             }
         } else if (!settings.is_special("capture")) {
             options.face = static_cast<std::uint32_t>(settings.integer("capture"));
-            options.distance = Format::r32f; // mirrors look into it with one step's correction
+            options.distance = Format::r32f; // one-step parallax correction reads distance
         }
         of_choice.push_back(options);
     }
@@ -81,13 +82,14 @@ std::vector<render::CaptureOptions> options_of_mirrors(const render::FrameInputs
     return of_mirror;
 }
 
-/// How captures show the other mirrors: by last frame's captures of these.
+/// Returns the mirror shading of all mirrors inside captures: lookups in the captures of the last
+/// frame.
 render::Looks looks_in_captures(const render::CaptureUpdate& feeding,
                                 const Assignment& assignment) {
     render::Looks looks;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const Technique& technique = *assignment.choices[assignment.of_mirror[i]].technique;
-        render::MirrorShader look; // black
+        render::MirrorShader look; // no fragment shader: black
         const bool is_kept = feeding.kept != nullptr;
         if (feeding.last && feeding.last->places[i].exists() &&
             (feeding.was_there[i] || !is_kept)) {
@@ -107,12 +109,12 @@ bool has_mirrored_views(const Choice& choice) {
     return choice.technique->mirrored_bounces != nullptr;
 }
 
-/// The captures of part two of the report and its followers, fed by those of the frame before.
-/// Nothing where no technique looks into any.
+/// Declares the captures of parts two and later of the report, which show mirrors by the captures
+/// of the frame before. Returns an empty update if no technique needs captures.
 render::CaptureUpdate add_feedback(graph::Graph& graph, const render::FrameInputs& inputs,
                                    const Assignment& assignment, const CaptureHistory& keeping,
                                    Maps& maps, const render::Lighting& view_lighting) {
-    // Views in mirrors show by captures what is nothing but traced.
+    // Mirrored views show traced mirrors by captures, so captures are needed.
     const bool has_views = assignment.choices.size() > 1 &&
                            std::ranges::any_of(assignment.choices, has_mirrored_views);
     const auto captures_any = [](const Choice& choice) {
@@ -141,8 +143,8 @@ std::vector<std::uint32_t> mirrors_of(std::size_t choice, const Assignment& assi
     return mirrors;
 }
 
-/// How views in mirrors show the other mirrors: as the picture does, but that nothing is traced in
-/// them. What is nothing but traced is shown as captures show it.
+/// Returns the mirror shading of all mirrors inside mirrored views: as in the picture, but without
+/// tracing. Mirrors that are only traced are shown by their captures, if they have any.
 render::Looks looks_in_mirrors(const Outputs& outputs, const Assignment& assignment,
                                render::Looks looks) {
     for (std::size_t i = 0; i < looks.looks.size(); ++i) {

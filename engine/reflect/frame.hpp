@@ -5,22 +5,24 @@
 
 namespace catoptric::reflect {
 
-/// What a frame may leave out, and what it goes on from.
+/// Input of add_frame: work that the frame may skip, and captures of the frame before.
 struct CaptureHistory {
     const require::Model& model;
-    /// Outputs::kept of the frame before; null: there was none.
+    /// Outputs::kept of the frame before; null for the first frame
     std::shared_ptr<render::CaptureCache> before;
     render::Comparisons* comparisons = nullptr; ///< see render::PreviousCaptures
-    std::uint32_t most = 0;                     ///< likewise
+    std::uint32_t most = 0;                     ///< capture budget; see render::PreviousCaptures
 };
-/// Nothing is left out.
+/// Model that culls no work.
 inline const require::Model kEverything;
 
-/// Declares the passes of one frame: the union of what the mirrors' techniques need. Where all
-/// mirrors share one, the passes are that technique's; where they do not, the view is drawn, lit by
-/// the finest shadow map that one of them asks for, and if one looks into captures that show last
-/// frame's, every mirror has one, so that the others can show it. No pass is declared for what the
-/// model leaves out.
+/// Declares the passes of one frame: all that the mirrors' techniques need. If all mirrors share
+/// one technique, the passes are those of this technique.
+///
+/// If mirrors have different techniques, the view is drawn by rasterisation. It is lit by the
+/// finest shadow map that any of the techniques asks for. If any technique uses captures, all
+/// mirrors get captures, so that the captures can show every mirror. Work that the model culls gets
+/// no passes.
 Outputs add_frame(graph::Graph& graph, const render::FrameInputs& inputs,
                   const Assignment& assignment,
                   const CaptureHistory& keeping = {.model = kEverything});

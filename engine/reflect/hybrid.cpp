@@ -1,7 +1,6 @@
-// Search first, trace only what the search cannot know. Pixels whose search ends UNKNOWN go into a
-// list as long as need be; an indirect dispatch traces just those from the camera with the ray
-// tracer's own function. A pixel is either found or traced: weights 1 and 0, so they always add up
-// to 1.
+// Searches the captures first, and traces only pixels whose search ends with `unknown`. A pass
+// lists these pixels, and an indirect dispatch traces them from the camera with the code of the ray
+// tracer. Each pixel is either searched or traced, so the weights 1 and 0 always add up to 1.
 #include "reflect/pyramid.hpp"
 
 namespace catoptric::reflect {
@@ -15,8 +14,8 @@ constexpr auto kKnobs = search_knobs(
                     .high = 1,
                     .choices = kForceChoices}});
 
-/// It searches with what, of the searches, has the fewest wrong answers that call themselves right
-/// (`march` misses what is thinner than its step).
+/// Uses the search of `pyramid`, because it gives the fewest wrong hits. (`march` misses objects
+/// that are thinner than its step.)
 MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
                    const MirrorInputs& around) {
     MirrorShading look = shading_with_pyramid(graph, inputs, settings, around);

@@ -1,5 +1,5 @@
-// Captures of two layers (Umenhoffer, Patow, Szirmay-Kalos, GPU Gems 3, chapter 17): what a ray
-// meets behind something that hides it from the capture's centre is in the second.
+// Captures with two layers (Umenhoffer, Patow, Szirmay-Kalos, GPU Gems 3, chapter 17). The second
+// layer holds surfaces that the nearest surface hides from the capture's centre.
 #include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
@@ -24,7 +24,8 @@ MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& se
     MirrorShading look{shading_with_captures(around, "reflect/layered.frag", settings), {}};
     look.mirror.constants.emplace_back("steps",
                                        static_cast<std::uint32_t>(settings.integer("steps")));
-    // Captures that lack a layer are those of mirrors that nobody looks into with this shader.
+    // No mirror with this shader looks into captures that lack a layer. Their colour only fills the
+    // binding.
     const auto images = [&](const char* name, auto&& image) {
         std::vector<graph::Image> list;
         for (const render::Cubes& cubes : around.captures->arrays) list.push_back(image(cubes));

@@ -1,5 +1,5 @@
-// A march along the reflected ray in steps of equal angle, then refinement: finds the first
-// crossing, where the secant finds any.
+// Marches along the reflected ray in steps of equal angle, then refines the crossing. It finds the
+// first crossing, whereas `secant` may find any crossing.
 #include "reflect/captures.hpp"
 
 namespace catoptric::reflect {

@@ -9,18 +9,18 @@ namespace {
 
 using render::MirroredView;
 
-/// A face that has views: of which mirror it is one, and its triangles.
+/// A flat face that can have mirrored views, with its mirror and its triangles.
 struct Face {
     std::uint32_t mirror = 0;
-    std::size_t number = 0; ///< from 1; 0: it is the whole mirror
+    std::size_t number = 0; ///< from 1; 0: the face is the whole mirror
     std::vector<scene::TriangleRun> triangles;
 };
 
-/// All mirrors that are drawn by planes.
+/// All mirrors that are drawn by mirrored views.
 struct Faces {
     std::vector<Face> faces;
-    std::vector<std::optional<render::MirrorPlane>> planes; ///< of each face
-    /// Mirrors of several faces, with their triangles in none.
+    std::vector<std::optional<render::MirrorPlane>> planes; ///< plane of each face
+    /// Mirrors with several faces, and their triangles that belong to no flat face.
     std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleRun>>> bodies;
 };
 
@@ -45,7 +45,8 @@ Faces faces_of(const render::GpuScene& scene, const Assignment& assignment) {
     return all;
 }
 
-/// "mirrored/2/1": what mirror 1 shows in mirror 2; "mirrored/2.3": what face 3 of mirror 2 shows.
+/// Returns the name of a view. "mirrored/2/1" is the view of mirror 1 inside mirror 2.
+/// "mirrored/2.3" is the view of face 3 of mirror 2.
 std::string name_of(const Faces& all, const std::vector<MirroredView>& views, std::size_t view) {
     const auto& within = views[view].within;
     const Face& face = all.faces[views[view].mirror];
@@ -54,8 +55,9 @@ std::string name_of(const Faces& all, const std::vector<MirroredView>& views, st
            (face.number > 0 ? "." + std::to_string(face.number) : "");
 }
 
-/// Faces with views show what these made, black where nothing did, as what of a mirror is in no
-/// face; `made`: of the views that are seen in `within`.
+/// Adds to `looks` the mirror shading inside view `within`, or in the picture if it is none. Faces
+/// with views show the images `made`. Faces without views and triangles outside all faces are
+/// black.
 render::Looks shown_in(render::Looks looks, const Faces& all,
                        const std::vector<MirroredView>& views,
                        const std::vector<graph::Image>& made, std::optional<std::size_t> within) {
@@ -99,7 +101,8 @@ std::vector<std::string> add_mirrored(graph::Graph& graph, const render::FrameIn
     const std::vector<MirroredView> views = render::mirrored_views(inputs.scene.eye(), all.planes,
                                                                    inputs.size, most);
     std::vector<graph::Image> made(views.size());
-    for (std::size_t i = views.size(); i-- > 0;) { // what a view shows comes after it
+    for (std::size_t i = views.size();
+         i-- > 0;) { // inner views have larger indices and must be made first
         const std::uint32_t number = inputs.scene.add_view(views[i].view);
         const Face& face = all.faces[views[i].mirror];
         const std::optional<std::uint32_t> whole = face.number == 0 ? std::optional(face.mirror)

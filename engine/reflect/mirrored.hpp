@@ -2,14 +2,15 @@
 
 #include "reflect/plan.hpp"
 
-/// What flat mirrors show that have views of their own.
+/// Mirrored views for flat mirrors.
 namespace catoptric::reflect {
 
-/// Declares a view for each mirror whose technique has such (Technique::mirrored_bounces) and that
-/// the picture shows, and for those that these views show, and says in `looks`, which has one for
-/// each mirror, how the picture shows them: black where there is no view. Other mirrors are drawn
-/// in the views as `others` has it. Returns what was done otherwise than asked for, a sentence
-/// each.
+/// Declares a mirrored view for each visible mirror whose technique has
+/// Technique::mirrored_bounces, and views within these views.
+///
+/// `looks` receives the mirror shading of these mirrors in the picture, with one entry per mirror.
+/// Mirrors without a view are black. `others` is the mirror shading of all other mirrors inside the
+/// views. Returns notes, one sentence each, on views that differ from the request.
 std::vector<std::string> add_mirrored(graph::Graph& graph, const render::FrameInputs& inputs,
                                       const Assignment& assignment,
                                       const render::Lighting& lighting, const render::Looks& others,

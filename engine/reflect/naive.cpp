@@ -1,7 +1,7 @@
-// Part one of the report: every inter-reflection is rendered again in each frame, from black.
-// Bounce k looks into the cubes of bounce k-1, so with i bounces R = N i + 2. The two cube images
-// that the report swaps by hand fall out of lifetimes: bounce k+1's cubes lie where bounce k-1's
-// were.
+// Part one of the report. Every inter-reflection is rendered again in each frame, starting from
+// black. Bounce k looks into the cubes of bounce k-1, so with i bounces R = N i + 2. The report
+// swaps two cube images by hand. Here the render graph finds this from lifetimes: bounce k+1 reuses
+// the memory of bounce k-1.
 #include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
@@ -19,12 +19,13 @@ constexpr Knob kKnobs[] = {{.name = "bounces",
                            kShadowMapEdge,
                            kCapture};
 
-/// Of the last bounce only the captures of the mirrors that look into them.
+/// Builds the mirror shading bounce by bounce. The last bounce captures only the mirrors with this
+/// technique, since only these look into it.
 MirrorShading look(graph::Graph& graph, const render::FrameInputs& inputs, const Settings& settings,
                    const MirrorInputs& around) {
     render::CaptureOptions options = capture_options(inputs, settings);
     options.lighting = around.lighting;
-    render::MirrorShader look; // black
+    render::MirrorShader look; // no fragment shader: black
     const int bounces = settings.integer("bounces");
     for (int bounce = 1; bounce <= bounces; ++bounce) {
         render::CaptureOptions of_others = options;

@@ -1,6 +1,6 @@
-// Part three of the report: captures hold the distance too, and the reflected direction is
-// corrected by one step. distance=unorm8 stores it as the report did, clamped at `range` in eight
-// bits.
+// Part three of the report. Captures also hold distance, and one step corrects the reflected
+// direction. `distance=unorm8` stores distance as the report did: in eight bits, clamped at
+// `range`.
 #include "reflect/captures.hpp"
 
 namespace catoptric::reflect {

@@ -18,7 +18,8 @@ namespace {
 constexpr std::string_view kBlanks = " \t\n";
 constexpr std::size_t kLongestFileName = 80;
 
-constexpr double kLeastSaid = .001; // of a mirror's area that is in no flat face
+constexpr double kLeastSaid =
+    .001; // smallest share of area outside all flat faces that is reported
 
 std::string percent(double share) {
     char text[32];
@@ -26,10 +27,10 @@ std::string percent(double share) {
     return text;
 }
 
-/// How closely a pattern's item says which mirror is meant.
+/// How precisely an item of a pattern names a mirror; the smallest rank wins.
 enum Rank { kNumber, kName, kRest, kNone };
 
-/// The item as a number, if it is one.
+/// Returns the item as a number, or none if it is not a number.
 std::optional<std::size_t> number_of(const std::string& item) {
     std::size_t number = 0;
     const char* end = item.data() + item.size();
@@ -37,7 +38,7 @@ std::optional<std::size_t> number_of(const std::string& item) {
     return error == std::errc{} && stop == end ? std::optional(number) : std::nullopt;
 }
 
-/// How the item means mirror `index`, from 0.
+/// Returns how precisely the item names mirror `index`, from 0.
 Rank rank_of(const std::string& item, std::size_t index, const std::string& name) {
     if (item == "*") return kRest;
     if (const auto number = number_of(item)) return *number == index + 1 ? kNumber : kNone;
@@ -63,7 +64,7 @@ Rule parse_rule(const std::string& text, std::string_view plan) {
     return rule;
 }
 
-/// One choice for rules that say the same.
+/// Returns the index of the choice in `choices`. Adds the choice unless an equal one is present.
 std::uint32_t index_of(const Choice& choice, std::vector<Choice>& choices) {
     const auto found = std::ranges::find_if(
         choices, [&](const Choice& known) { return known.same_as(choice); });
@@ -72,12 +73,12 @@ std::uint32_t index_of(const Choice& choice, std::vector<Choice>& choices) {
     return static_cast<std::uint32_t>(choices.size() - 1);
 }
 
-/// Some search may ask the captures of all mirrors.
+/// Returns whether a search may read the captures of all mirrors.
 bool asks_all(const Settings& settings) {
     return settings.has("captures") && settings.choice("captures") == "all";
 }
 
-/// The technique that `rest` names, with shadows as the choice has them.
+/// Returns the technique that the knob `rest` names, with the shadow settings of `choice`.
 Choice rest_of(const Choice& choice) {
     Choice rest = parse_choice(choice.settings.choice("rest"));
     const Settings defaults(choice.technique->knobs);
@@ -102,7 +103,7 @@ std::string Plan::file_name() const {
         name, [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_' && c != '-'; },
         '-');
     if (name.size() <= kLongestFileName) return name;
-    const std::size_t mark = std::hash<std::string>{}(label); // tells long names apart
+    const std::size_t mark = std::hash<std::string>{}(label); // shortened names differ by this hash
     return name.substr(0, kLongestFileName - 7) + "-" + std::to_string(mark % 1000000);
 }
 
@@ -190,7 +191,7 @@ void demand(require::Question& question, const std::vector<Plan>& plans) {
 
 Assignment fitted(Assignment assignment, const std::vector<scene::FlatFaces>& flats,
                   double tolerance) {
-    std::vector<Choice> choices; // without those that nobody has any more
+    std::vector<Choice> choices; // only choices that some mirror still uses
     assignment.lacks.assign(assignment.of_mirror.size(), "");
     if (assignment.of_mirror.empty()) return assignment;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {

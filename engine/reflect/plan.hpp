@@ -7,61 +7,68 @@
 #include <string_view>
 #include <vector>
 
-/// Which technique draws which mirror.
+/// Plans: which technique draws which mirror.
 namespace catoptric::reflect {
 
-/// One entry of a plan. The pattern is a list with commas of mirror numbers from 1, names with the
-/// wildcards of a shell, or `*`.
+/// One entry of a plan. The pattern is a list of mirror numbers from 1, names with shell wildcards,
+/// or `*`, separated by commas.
 struct Rule {
     std::string pattern;
     Choice choice;
 };
 
-/// A frame's techniques as they were asked for.
+/// The techniques of a frame as the user asked for them.
 struct Plan {
     std::string label; ///< "secant:face=64", "1=planar *=reuse", "plan:mixed.json"
     std::vector<Rule> rules;
-    bool is_technique = false; ///< one for all mirrors, which may be none
-    bool is_auto = false;      ///< what the scene suggests: no rules until somebody has asked it
-    /// Of each mirror, of a plan that was suggested: why it is drawn so.
+    bool is_technique = false; ///< one technique for all mirrors; the scene may have none
+    bool is_auto = false;      ///< no rules until a scene has suggested them (kAuto)
+    /// Reason for the technique of each mirror, in suggested plans.
     std::vector<std::string> reasons;
 
-    /// The label fit for a file name, of no more than 80 bytes.
+    /// Returns the label as a file name of at most 80 bytes.
     std::string file_name() const;
-    /// Same patterns with the same techniques and settings, whatever was spelled out.
+    /// Returns whether both plans have the same patterns with the same techniques and settings. The
+    /// spelling of the labels does not matter.
     bool same_as(const Plan& other) const;
 };
 
-/// The plan that is suggested anew for each scene (require::suggest).
+/// Name of the plan that is suggested anew for each scene (require::suggest).
 inline constexpr std::string_view kAuto = "auto";
 
-/// Reads "name[:knob=value,...]", or "PATTERN=name[:knob=value,...] ..." with blanks between its
-/// rules, or kAuto. Throws `Failure::usage` naming what is wrong and the nearest name.
+/// Reads "name[:knob=value,...]", or rules "PATTERN=name[:knob=value,...] ..." separated by blanks,
+/// or kAuto. Throws `Failure::usage` with the faulty part and the nearest name.
 Plan parse_plan(std::string_view text);
 
-/// A plan for the mirrors of a scene.
+/// A plan applied to the mirrors of a scene. All lists but `choices` have one entry per mirror;
+/// entry n-1 belongs to mirror n.
 struct Assignment {
-    std::vector<Choice> choices;          ///< no two the same; at least one
-    std::vector<std::uint32_t> of_mirror; ///< index into `choices`, entry n-1 of mirror n
-    std::vector<std::string> patterns; ///< of the rule that decided, likewise; empty: a technique
-    /// Why it is drawn so, likewise, where that is more than the rule: another technique draws it,
-    /// or the plan was suggested.
+    std::vector<Choice> choices;          ///< all different; at least one
+    std::vector<std::uint32_t> of_mirror; ///< index into `choices`
+    /// Pattern of the rule that was applied; empty: one technique for all mirrors.
+    std::vector<std::string> patterns;
+    /// Reason for the technique, if the plan was suggested or another technique replaces the one
+    /// asked for; else empty.
     std::vector<std::string> reasons;
-    /// What its technique does not draw as asked, likewise, a clause each; empty: nothing.
+    /// Parts of the mirror that its technique does not draw as asked, as one clause; else empty.
     std::vector<std::string> lacks;
 };
 
-/// A rule that names the mirror by number goes before one that does by name, that before `*`; of
-/// equals the first. `names`: of the mirrors. Throws `Failure::usage` for a pattern without a match
-/// and for a mirror without a rule. O(rules * mirrors).
+/// Returns the plan applied to mirrors with these names. If several rules match a mirror, a number
+/// wins over a name and a name over `*`. Between equals the first rule wins. Throws
+/// `Failure::usage` for a pattern without a match and for a mirror without a rule. O(rules *
+/// mirrors).
 Assignment assign(const Plan& plan, const std::vector<std::string>& names);
 
-/// What the plans' techniques need of a model, whoever is seen.
+/// Adds to the question the needs of the plans' techniques that do not depend on visibility: whole
+/// cubes, captures of all mirrors, and the edge of the coarsest shadow map.
 void demand(require::Question& question, const std::vector<Plan>& plans);
 
-/// Mirrors that their technique cannot draw (Technique::unfit) get the one that its knob `rest`
-/// names, with the same shadows. Assignment::lacks says so, and which part of a mirror with flat
-/// faces lies in none of them. `flats`: of each mirror.
+/// Replaces the technique of each mirror that the technique cannot draw (Technique::unfit). The
+/// knob `rest` names the replacement, which keeps the shadow settings.
+///
+/// Assignment::lacks reports the replacement, and the share of a mirror that lies in none of its
+/// flat faces. `flats` has one entry per mirror. `tolerance` is in radians.
 Assignment fitted(Assignment assignment, const std::vector<scene::FlatFaces>& flats,
                   double tolerance);
 

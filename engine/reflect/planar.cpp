@@ -1,7 +1,7 @@
-// A flat mirror shows a view of its own: that of the eye mirrored in its plane, clipped there
-// (Diefenbach and Badler 1997). Exact but for the edges of triangles; a mirror in a mirror has a
-// view in a view. Of a body with flat faces each face that the eye is in front of has one. R = 2 +
-// views.
+// A flat mirror shows a mirrored view: the scene from the eye mirrored in the mirror's plane,
+// clipped there (Diefenbach and Badler 1997). This is exact except at the edges of triangles. A
+// mirror seen in a mirror needs a view within a view. Of a body with flat faces, each face that the
+// eye is in front of has a view. R = 2 + views.
 #include "reflect/captures.hpp"
 
 #include <cstdio>

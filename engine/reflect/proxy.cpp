@@ -1,5 +1,6 @@
-// The oldest correction: the surroundings are taken for one box (Lagarde and Zanuttini 2012) or one
-// sphere (Brennan 2002). Nobody places it: it is derived from the captured distances of each frame.
+// The oldest parallax correction. One box (Lagarde and Zanuttini 2012) or one sphere (Brennan 2002)
+// stands for everything around the mirror. The shape is not placed by hand: each frame derives it
+// from the captured distances.
 #include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
@@ -12,12 +13,13 @@ constexpr auto kKnobs = [] {
                                               .help = "what stands for the surroundings",
                                               .high = 1,
                                               .choices = kShapes}});
-    std::ranges::find(knobs, "continue", &Knob::name)->value = 0; // as it was known
+    std::ranges::find(knobs, "continue", &Knob::name)->value =
+        0; // as published, without following rays through other mirrors
     return knobs;
 }();
-constexpr std::uint64_t kProxyBytes = 28; // Proxy of shaders/reflect/proxy.glsl
+constexpr std::uint64_t kProxyBytes = 28; // size of Proxy in shaders/reflect/proxy.glsl
 
-/// One proxy a mirror.
+/// Declares the pass that derives one proxy per mirror. Returns the buffer of proxies.
 graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs,
                           const std::shared_ptr<const render::Captures>& captures) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
@@ -25,7 +27,8 @@ graph::Buffer add_proxies(graph::Graph& graph, const render::FrameInputs& inputs
     graph::PassBuilder pass = graph.pass(inputs.prefix + "proxies");
     std::vector<graph::Image> faces;
     for (const render::Cubes& cubes : captures->arrays) {
-        faces.push_back(cubes.distance.value_or(cubes.colour)); // without distance: never read
+        faces.push_back(
+            cubes.distance.value_or(cubes.colour)); // placeholder: never read without distance
         pass.reads(faces.back(), graph::Use::sampled);
     }
     gpu::ComputeState state{"reflect/proxy.comp", {}};

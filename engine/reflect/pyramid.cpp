@@ -1,5 +1,6 @@
-// Least and largest distance of ever larger cells of the captures, and a search that passes a cell
-// in one step wherever these bounds allow it: exact to the texel, where a march takes its chances.
+// Builds the least and largest distances of ever larger cells of the captures. The search skips a
+// cell in one step if these bounds allow it. It is exact to the texel, whereas `march` may step
+// over thin objects.
 #include "reflect/pyramid.hpp"
 
 #include "core/content_hash.hpp"
@@ -14,7 +15,8 @@ namespace {
 
 constexpr auto kKnobs = search_knobs(std::array<Knob, 0>{});
 
-/// The topmost level, one cell a face; level_edge and top_level of shaders/reflect/pyramid.glsl.
+/// Returns the topmost level, which has one cell per face. Must match level_edge and top_level in
+/// shaders/reflect/pyramid.glsl.
 std::uint32_t top_level(std::uint32_t face) {
     return face <= 2 ? 1 : static_cast<std::uint32_t>(std::bit_width(face - 1));
 }
@@ -22,14 +24,14 @@ std::uint32_t level_edge(std::uint32_t face, std::uint32_t level) {
     return (face + (1u << level) - 1) >> level;
 }
 
-/// Cubes of one array that follow each other.
+/// Consecutive cubes of one array.
 struct Run {
     graph::Image distances, bounds;
     std::uint32_t face = 0;
 };
 
-/// What the bounds of a mirror's cube are made from: cells at the edge of a face read its
-/// neighbours.
+/// Returns the content hash of the distance bounds of a mirror's cube. It covers the whole cube,
+/// because cells at the edge of a face read the neighbouring faces.
 std::uint64_t content_hash_of(const render::Captures& captures, std::size_t mirror) {
     const render::CaptureOptions& options = captures.options[mirror];
     return ContentHash()
@@ -40,14 +42,15 @@ std::uint64_t content_hash_of(const render::Captures& captures, std::size_t mirr
         .value();
 }
 
-/// The cubes of the array that do not hold the bounds of what the captures show.
+/// Returns the cubes of the array whose stored bounds are out of date, as runs.
 std::vector<Run> to_be_made(graph::Graph& graph, const render::Captures& captures,
                             std::uint32_t array, graph::Image bounds) {
     const render::Cubes& cubes = captures.arrays[array];
-    // What nobody searches has no distance, and what stands for it is never read.
+    // Captures that no search reads have no distance. Their colour is a placeholder that is never
+    // read.
     const graph::Image distances = cubes.distance.value_or(cubes.colour);
     std::vector<Run> runs;
-    std::uint32_t end = 0; // of the last run
+    std::uint32_t end = 0; // first layer after the last run
     for (std::size_t mirror = 0; mirror < captures.places.size(); ++mirror) {
         const render::CapturePlace& place = captures.places[mirror];
         if (place.array != array) continue;
@@ -66,8 +69,9 @@ std::vector<Run> to_be_made(graph::Graph& graph, const render::Captures& capture
     return runs;
 }
 
-/// All levels of all faces of each array, one layer a face: a dispatch a level and run of cubes.
-/// Where captures are kept, so is this.
+/// Declares the pyramids of all arrays: all levels of all faces, one layer per face. Each level of
+/// each run of cubes is one dispatch. If captures are kept from frame to frame, the pyramids are
+/// kept as well.
 std::vector<graph::Image> add_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,
                                       const render::Captures& captures) {
     std::vector<graph::Image> pyramids;

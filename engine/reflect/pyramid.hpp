@@ -2,7 +2,7 @@
 
 #include "reflect/captures.hpp"
 
-/// The search of `pyramid`, for other rows that begin with it.
+/// The search of `pyramid`, which other techniques use as well.
 namespace catoptric::reflect {
 
 MirrorShading shading_with_pyramid(graph::Graph& graph, const render::FrameInputs& inputs,

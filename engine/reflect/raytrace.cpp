@@ -1,4 +1,4 @@
-// The reference: Whitted ray tracing (reflect/tracer.hpp).
+// The technique `raytrace`, which is also the reference: Whitted ray tracing (reflect/tracer.hpp).
 #include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
@@ -8,7 +8,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kTracedShadowChoices{"ray", "map", "none"};
 constexpr std::array<std::string_view, 2> kSphereChoices{"mesh", "exact"};
 constexpr std::array<std::string_view, 2> kHitChoices{"f32", "f64"};
-/// As shaders/lib/plain.glsl numbers them.
+/// Numbered as in shaders/lib/plain.glsl.
 constexpr std::array<std::string_view, 6> kRules{"none",        "watertight", "box_slack",
                                                  "spawn_bound", "shadow_end", "stable_sphere"};
 constexpr Knob kKnobs[] = {
@@ -45,7 +45,7 @@ Tracer tracer_of(const Settings& settings, const render::Lighting& lighting) {
     const std::string_view shadow = settings.choice("shadow");
     return {.depth = static_cast<std::uint32_t>(settings.integer("depth")),
             .samples = settings.integer("samples"),
-            // A scene without lights has no map and no shadows to ask for.
+            // A scene without lights has no shadow map, and no light needs a shadow test.
             .shadow = shadow == "none"      ? Tracer::Shadow::none
                       : lighting.shadow_map ? Tracer::Shadow::map
                                             : Tracer::Shadow::ray,

@@ -1,5 +1,5 @@
-// Part two of the report: one capture a mirror and frame; deeper bounces arrive from last frame's
-// captures, so frame k shows k of them. R = N + 2.
+// Part two of the report. Each mirror has one capture per frame. Deeper bounces come from the
+// captures of the last frame, so frame k shows k bounces. R = N + 2.
 #include "reflect/captures.hpp"
 
 namespace catoptric::reflect {

@@ -1,5 +1,5 @@
-// The search that the report's one step begins: it goes on until the reflected ray meets what was
-// captured. steps=0 is `parallax`.
+// Continues the one step of the report as a search, until the reflected ray meets a captured
+// surface. With `steps=0` it equals `parallax`.
 #include "reflect/captures.hpp"
 
 namespace catoptric::reflect {
@@ -16,7 +16,7 @@ constexpr auto kKnobs = search_knobs(
 MirrorShading look(graph::Graph&, const render::FrameInputs&, const Settings& settings,
                    const MirrorInputs& around) {
     const int steps = settings.integer("steps");
-    if (steps == 0) // parallax has no other knobs
+    if (steps == 0) // without the knobs of a search, which `parallax` does not have
         return {shading_with_captures(around, "reflect/parallax.frag", Settings({})), {}};
     MirrorShading look{shading_with_captures(around, "reflect/secant.frag", settings), {}};
     look.mirror.constants.emplace_back("steps", static_cast<std::uint32_t>(steps));

@@ -9,7 +9,7 @@ namespace catoptric::reflect {
 namespace {
 
 std::vector<const Technique*>& table() {
-    static std::vector<const Technique*> rows; // filled while the program starts
+    static std::vector<const Technique*> rows; // filled when the program starts
     return rows;
 }
 

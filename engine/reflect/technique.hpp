@@ -11,91 +11,98 @@
 #include <string_view>
 #include <vector>
 
-/// The table of techniques. A technique is one row: data and two functions, in one .cpp that
-/// registers itself; nothing else lists it.
+/// The table of techniques. A technique is one row of data and functions. Its .cpp file registers
+/// the row, and no other file lists it.
 namespace catoptric::reflect {
 
-/// What a technique leaves in the graph.
+/// Images and buffers that a technique adds to the graph, with notes for the user.
 struct Outputs {
-    graph::Image hdr;                    ///< linear radiance, rgba32f
-    bool has_hits = false;               ///< its alpha says what was met (shared::kMetBits)
-    std::vector<graph::Buffer> counters; ///< shared::Counters of each tracing
-    std::optional<graph::Image> lookup; ///< rgba32f: where mirrors looked, if the inputs ask for it
-    std::shared_ptr<const render::Captures> captures; ///< that the view looks into; may be none
-    std::vector<std::string> notes; ///< what was done otherwise than asked for, a sentence each
-    std::shared_ptr<render::CaptureCache> kept; ///< for the next frame, where captures are kept
+    graph::Image hdr;      ///< linear radiance, rgba32f
+    bool has_hits = false; ///< whether the alpha of `hdr` tells what the ray met (shared::kMetBits)
+    std::vector<graph::Buffer> counters; ///< shared::Counters of each tracing pass
+    /// Where mirrors looked into captures (shaders/lib/mirror.glsl), rgba32f; only if the inputs
+    /// ask for it.
+    std::optional<graph::Image> lookup;
+    std::shared_ptr<const render::Captures> captures; ///< captures that the view reads; may be null
+    std::vector<std::string> notes;             ///< differences from the request, one sentence each
+    std::shared_ptr<render::CaptureCache> kept; ///< for the next frame, if captures are kept
 };
 
-/// What the mirrors that share a technique and its settings may look into.
+/// Mirror inputs: captures and lighting for the mirrors that share a technique and its settings.
 struct MirrorInputs {
-    std::shared_ptr<const render::Captures> captures; ///< of all mirrors; none was asked for: null
-    render::Lighting lighting;                        ///< as the settings ask for it
-    std::vector<std::uint32_t> mirrors;               ///< those that share it, from 0
+    std::shared_ptr<const render::Captures>
+        captures;                       ///< of all mirrors; null if no technique asks for captures
+    render::Lighting lighting;          ///< as the settings ask for
+    std::vector<std::uint32_t> mirrors; ///< the mirrors that share the technique, from 0
 };
 
-/// How mirrors are drawn in the view.
+/// How the view draws mirrors.
 struct MirrorShading {
     render::MirrorShader mirror;
-    std::optional<Tracer> tracer; ///< for pixels that the mirror's shader leaves to it
+    std::optional<Tracer> tracer; ///< for pixels that the mirror's shader leaves to the tracer
 };
 
 struct Technique {
     std::string_view name;
     std::string_view summary; ///< one sentence for `list` and the report
-    int order = 0;            ///< place in lists and tables
+    int order = 0;            ///< position in lists and tables
     std::span<const Knob> knobs;
-    /// Its rows where compare is not told which: "name[:knob=value,...]" each.
+    /// Rows that `compare` uses by default: "name[:knob=value,...]" each.
     std::span<const std::string_view> compared = {};
-    /// Scene renders a frame as the report counts its R; a cube counts once.
+    /// Returns the scene passes R per frame as the report counts them. A cube counts once.
     int (*scene_passes)(int mirrors, int lights, const Settings& settings) = nullptr;
-    /// What its mirrors' captures hold, one a frame and mirror. In them mirrors look into last
-    /// frame's captures with `in_captures`. Null: it looks into none of these.
+    /// Returns the options of the captures, one per mirror and frame. Null: the technique uses no
+    /// such captures. In these captures, mirrors show last frame's captures by the shader
+    /// `in_captures`.
     render::CaptureOptions (*capture)(const render::FrameInputs& inputs,
                                       const Settings& settings) = nullptr;
     const char* in_captures = nullptr; ///< path of a fragment shader
-    bool reads_whole_cubes = false;    ///< whatever directions its mirrors ask for
-    /// Path of a fragment shader that looks into the captures and needs nothing else: `look` is
-    /// null then (reflect/captures.hpp, shading_of_search).
+    bool reads_whole_cubes = false;    ///< captures need all six faces
+    /// Path of a fragment shader that needs only the captures. If set, `look` is null
+    /// (reflect/captures.hpp, shading_of_search).
     const char* search = nullptr;
-    /// How its mirrors are drawn; declares what passes that takes.
+    /// Returns how the technique draws its mirrors, and declares the passes that this needs.
     MirrorShading (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
                           const Settings& settings, const MirrorInputs& around) = nullptr;
-    /// Its mirrors show what a view of their own sees (reflect/mirrored.hpp): mirrors one behind
-    /// the other in it.
+    /// Returns how many flat mirrors one behind the other a mirrored view shows. Null: the
+    /// technique has no mirrored views (reflect/mirrored.hpp).
     int (*mirrored_bounces)(const Settings& settings) = nullptr;
-    /// Why it cannot draw the mirror, after "it is"; empty: it can. Null: it draws any. What it
-    /// cannot is drawn by the row that the knob `rest` names. `tolerance`: scene::flat_tolerance.
+    /// Returns why the technique cannot draw the mirror, as words after "it is"; empty: it can.
+    /// Null: the technique draws any mirror. The technique that the knob `rest` names draws the
+    /// mirrors that are unfit. `tolerance`: scene::flat_tolerance.
     std::string (*unfit)(const scene::FlatFaces& flats, double tolerance) = nullptr;
-    /// The whole picture where all mirrors are its own, without a view that is drawn. Null: drawn.
+    /// Declares the whole picture without a rasterised view, if all mirrors have this technique.
+    /// Null: the view is rasterised.
     Outputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
                        const Settings& settings, const render::Lighting& lighting) = nullptr;
 };
 
-/// A namespace-scope Registered puts its technique into the table while the program starts.
+/// Adds a technique to the table when the program starts, as an object of namespace scope.
 struct Registered {
     explicit Registered(const Technique& technique);
 };
 
-/// Every technique by `order`.
+/// Returns all techniques, sorted by `order`.
 std::vector<const Technique*> techniques();
-/// Throws `Failure::usage` with the nearest name.
+/// Returns the technique of this name. Throws `Failure::usage` with the nearest name.
 const Technique& find_technique(std::string_view name);
 
 /// A technique with a value for each knob.
 struct Choice {
     const Technique* technique = nullptr;
     Settings settings{{}};
-    std::string label; ///< as it was asked for: "naive:bounces=3"
+    std::string label; ///< as the user wrote it
 
-    /// The label fit for a file name: "naive-bounces3".
+    /// Returns the label as a file name: "naive-bounces3".
     std::string file_name() const;
-    /// Same technique, same value of each knob, whatever was spelled out.
+    /// Returns whether technique and knob values are the same. The spelling of the labels does not
+    /// matter.
     bool same_as(const Choice& other) const {
         return technique == other.technique && settings == other.settings;
     }
 };
 
-/// Reads "name[:knob=value,...]". Throws `Failure::usage` naming what is wrong and the nearest
+/// Reads "name[:knob=value,...]". Throws `Failure::usage` with the faulty part and the nearest
 /// name.
 Choice parse_choice(std::string_view text);
 

@@ -1,6 +1,7 @@
-// Whitted ray tracing in a compute shader over a hierarchy that needs no ray-tracing extension. One
-// dispatch a sample, added up in the picture: a software driver ends all loops of an invocation
-// after 65,535 iterations, and one sample of a deep path must stay below that.
+// Whitted ray tracing in a compute shader, over a BVH that needs no ray-tracing extension. Each
+// sample is one dispatch, and the picture adds the samples up. The reason is a software driver that
+// ends all loops of an invocation after 65,535 iterations. One sample of a deep path stays below
+// this limit.
 #include "reflect/tracer.hpp"
 
 #include <cmath>
@@ -12,13 +13,14 @@ namespace {
 
 using graph::Use;
 
-/// World units: what the report moves a ray's origin by.
+/// Offset of a ray's origin in the report, in world units.
 constexpr double kReportOffset = 1e-3;
-/// Work groups in one row of a dispatch: every device allows 65535.
+/// Most work groups in one row of a dispatch. Every device allows 65535.
 constexpr std::uint32_t kMostAcross = 32768;
 
-/// Where sample i of n lies in the pixel: its centre, the regular grid, or one point in each of n
-/// cells of the smallest grid that holds them, jittered.
+/// Returns the positions of the samples in the pixel. These are the centre for one sample, and a
+/// regular grid for n*n. Other counts get one jittered point in each of n cells of the smallest
+/// grid that holds them.
 std::vector<vec2> sample_offsets(int count, std::uint64_t seed) {
     const int edge = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
     const bool regular = edge * edge == count;
@@ -54,7 +56,7 @@ gpu::ComputeState state_of(const Tracer& tracer, const render::GpuScene& scene, 
             scene.tracing_features(spheres_of(tracer))};
 }
 
-/// What the body of a tracing pass binds.
+/// Binds the resources of a tracing pass.
 void bind(graph::Commands& commands, const render::GpuScene& scene, const Tracer& tracer) {
     scene.bind(commands);
     scene.bind_tracing(commands, spheres_of(tracer));
@@ -62,7 +64,7 @@ void bind(graph::Commands& commands, const render::GpuScene& scene, const Tracer
         commands.bind("shadow_map", *tracer.lighting.shadow_map, graph::Filter::compare);
 }
 
-/// One dispatch a sample.
+/// Runs one dispatch per sample, with barriers between them.
 template <typename Dispatch>
 void dispatch_samples(graph::Commands& commands, const Tracer& tracer, uvec2 size,
                       std::uint64_t seed, Dispatch&& dispatch) {
@@ -75,7 +77,7 @@ void dispatch_samples(graph::Commands& commands, const Tracer& tracer, uvec2 siz
     }
 }
 
-/// Pixels to trace, and how many work groups they are.
+/// The pixels to trace, the dispatch arguments in work groups, and counters.
 struct List {
     graph::Buffer pixels, arguments, counters;
 };

@@ -59,7 +59,7 @@ void ContentHashes::add_up(const World& world, Faces6& faces, std::size_t mirror
     const std::size_t object = world.mirrors()[mirror];
     const WorldObject& own = world.things()[object];
     const dvec3 centre = own.tight.centre();
-    // Sums, since the order in which movers are looked at says nothing.
+    // Hashes are summed, because the order of the movers has no meaning.
     std::array<std::uint64_t, 6> sums{};
     const auto pieces = std::make_shared<Pieces>();
     bool are_many = false;

@@ -6,38 +6,47 @@
 
 #include <vector>
 
-/// Of what captures and shadow maps show.
+/// Content hashes of captures and shadow maps.
 namespace catoptric::require {
 
-/// Smaller than this part of how far it may be from the scene's origin, a thing may have a space of
-/// its own on the device (render::kSmallPart), whose coming and going other things' shaders notice.
+/// World objects smaller than this part of the size of the scene may get a coordinate space of
+/// their own on the device (render::kSmallPart). When such an object comes or goes, the shaders of
+/// other objects change as well.
 inline constexpr double kSmall = 0x1p-12;
-/// Shadows on things, times captures, that are looked at one by one in a frame.
+/// Most pairs of shadow landing and capture that are tested one by one per frame.
 inline constexpr std::size_t kMostLandings = 1 << 17;
 
-/// A face's stamp stands for: the epoch (all that has never moved, materials, environment, lights);
-/// the mirror itself, for the capture's centre; and each mover, mirrors among them, whose box and
-/// ball may meet the face or one of whose shadows may fall on something there. A shadow on a mover
-/// is told by that mover where the caster stands still. Equal stamps, equal bytes, but for what
-/// other mirrors show, as long as views do: near planes and a directional light's windows depend on
-/// the nearest and the outermost things, which those who have the views know.
+/// Content hashes of the faces of captures. The hash of a face stands for:
 ///
-/// A capture whose mirror moved since the instant before gets one stamp of everything on all of its
-/// faces, and so do all where more than kMostPairs of things would have to be looked at.
+/// - the epoch: all objects that never moved, materials, environment and lights;
+///
+/// - the mirror itself, because it places the capture's centre;
+///
+/// - each mover, including mirrors, whose box and ball may meet the face;
+///
+/// - each mover whose shadow may fall on an object in the face. If only the receiver moves, the
+/// receiver's own hash covers the change.
+///
+/// Equal hashes stand for equal bytes, except for the contents of other mirrors, while the views
+/// stay the same. The hashes do not cover views: near planes and the windows of a directional light
+/// depend on the nearest and outermost objects. The owner of the views must compare these.
+///
+/// A capture whose mirror moved since the previous instant gets one hash of everything on all its
+/// faces. All captures do if more than kMostPairs pairs of objects would have to be tested.
 class ContentHashes {
 public:
-    /// After World::follow. O(movers * (lights * objects + walls)).
+    /// Takes over an instant, after World::follow. O(movers * (lights * objects + walls)).
     void follow(const World& world, std::uint32_t shadow_edge);
-    /// Of a mirror's six faces.
+    /// Content hashes of the six faces of a mirror's capture.
     struct Faces6 {
-        std::uint64_t made_at = 0; ///< value of `changes_`
+        std::uint64_t made_at = 0; ///< value of `changes_` for which the hashes were computed
         std::array<std::uint64_t, 6> content_hashes{}, settings{};
         std::shared_ptr<const Pieces> pieces;
     };
-    /// See MirrorNeeds. O(movers + landings), nothing where nothing has changed since it was asked
-    /// last.
+    /// Returns the content hashes of a mirror's faces (MirrorNeeds). O(movers + landings); O(1) if
+    /// nothing has changed since the last call.
     const Faces6& of_faces(const World& world, std::size_t mirror);
-    /// Movers that cast shadows.
+    /// Returns the movers that cast shadows.
     std::vector<Caster> casters(const World& world) const;
 
 private:
@@ -46,7 +55,7 @@ private:
     std::vector<Faces6> mirrors_;
     std::vector<Landing> landings_;
     std::uint64_t changes_ = 1; ///< counts instants at which something changed
-    std::uint64_t all_ = 0;     ///< of everything
+    std::uint64_t all_ = 0;     ///< content hash of everything
     std::uint64_t epoch_ = 0, layout_ = 0;
     std::uint32_t shadow_edge_ = 0;
     bool is_much_ = false;

@@ -10,9 +10,9 @@ namespace catoptric::require {
 
 namespace {
 
-using Numbers = std::vector<std::size_t>; ///< of mirrors or lights, from 1
+using Numbers = std::vector<std::size_t>; ///< numbers of mirrors or lights, from 1
 
-/// A thing and what it is called, or several.
+/// Returns `one` with its number and name, or the plural with several numbers.
 std::string called(const std::string& one, const Numbers& numbers, const std::string& name) {
     if (numbers.size() == 1) return one + " " + ranges(numbers) + (name.empty() ? "" : " " + name);
     return one + "s " + ranges(numbers);
@@ -22,7 +22,7 @@ std::string name_of(const scene::Scene& scene, std::size_t object) {
     return in_quotes(scene.objects[object].name);
 }
 
-/// Why nobody sees them, `seen` mirrors being seen.
+/// Returns why the mirrors are invisible. `seen`: number of visible mirrors.
 std::string why_unseen(const Unseen& unseen, std::size_t seen, bool is_one,
                        const scene::Scene& scene) {
     const std::string they = is_one ? "it" : "they", them = is_one ? "it" : "them";

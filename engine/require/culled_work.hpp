@@ -5,29 +5,30 @@
 #include <optional>
 #include <vector>
 
-/// Why things are left out, in words.
+/// Describes culled work and its reasons in words.
 namespace catoptric::require {
 
-/// What the rules found beside the model.
+/// Results of the rules that are not part of the model.
 struct Findings {
-    /// Of each mirror: why the camera does not see it; none where it does.
+    /// For each mirror, why the camera does not see it; none if the camera sees it.
     std::vector<std::optional<Unseen>> camera;
-    /// All that sentences depend on, so that they are made anew only where it changed.
+    /// All values that the sentences depend on. Sentences are rebuilt only if the key changes.
     std::vector<std::uint64_t> key;
 };
 void fill_key(Findings& findings, const Model& model);
 
-/// "1", "2-5", "1-3, 7" of numbers in ascending order.
+/// Returns numbers in ascending order as text: "1", "2-5", "1-3, 7".
 std::string ranges(const std::vector<std::size_t>& numbers);
 
-/// Captures, faces and shadow maps that the model does without; what is said alike of several is
-/// said once.
+/// Returns the captures, faces and shadow maps that the model culls. Mirrors with the same reason
+/// share one entry.
 std::vector<CulledWork> left_out(const Model& model, const Findings& findings,
                                  const scene::Scene& scene);
 
-/// A light's name, in quotes; empty where a lamp's mesh makes several lights and none has one.
+/// Returns a light's name in quotes. Empty if a lamp's mesh makes several lights, because then no
+/// light has a name.
 std::string name_of_light(const scene::Scene& scene, std::size_t light, std::size_t count);
-/// "+X -Y" ...
+/// Returns the names of the faces, such as "+X -Y".
 std::string names_of(Faces faces);
 
 } // namespace catoptric::require

@@ -7,7 +7,7 @@ namespace catoptric::require {
 
 namespace {
 
-/// The corner of the box that lies furthest along the normal.
+/// Returns the corner of the box that lies furthest along the normal.
 dvec3 furthest(const Bounds<double>& box, const dvec3& normal) {
     return {normal.x > 0 ? box.hi.x : box.lo.x, normal.y > 0 ? box.hi.y : box.lo.y,
             normal.z > 0 ? box.hi.z : box.lo.z};
@@ -23,7 +23,8 @@ Picture::Picture(const scene::Camera& camera, uvec2 size) : eye_(camera.eye) {
     const double half = is_parallel_ ? camera.orthographic_height / 2
                                      : std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     pixel_ = 2 * half / size.y;
-    // Before the eye, and |right| <= half * aspect (times how far before it, in perspective).
+    // Inside is in front of the eye with |right| <= half * aspect. In perspective this limit is
+    // scaled by the depth.
     const dvec3 along = is_parallel_ ? dvec3(0) : forward_;
     const double beyond = is_parallel_ ? 1 : 0;
     planes_[0] = {forward_, 0};
@@ -39,9 +40,9 @@ bool Picture::may_hold(const Bounds<double>& box) const {
     });
 }
 
-/// Cuts the triangle by one plane after the other (Sutherland and Hodgman 1974).
+/// Clips the triangle by one plane after the other (Sutherland and Hodgman 1974).
 bool Picture::may_hold_triangle(const std::array<dvec3, 3>& triangle, double margin) const {
-    constexpr std::size_t kMostCorners = 3 + 5; // each plane adds one at most
+    constexpr std::size_t kMostCorners = 3 + 5; // each plane adds at most one corner
     std::array<dvec3, kMostCorners> corners{triangle[0], triangle[1], triangle[2]}, kept;
     std::size_t count = 3;
     for (const auto& [normal, beyond] : planes_) {
@@ -75,7 +76,8 @@ Faces faces_with(const Bounds<double>& box) {
     Faces faces = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        // Towards +: some of the box has a >= |u| and a >= |v|, plane by plane.
+        // For the face towards +a, some of the box needs a >= |u| and a >= |v|. Each of these
+        // planes is tested separately.
         const double hi = box.hi[axis], lo = -box.lo[axis];
         const auto reaches = [&](double furthest) {
             return furthest >= 0 && furthest + box.hi[u] >= 0 && furthest - box.lo[u] >= 0 &&
@@ -119,7 +121,8 @@ Faces faces_before(const dvec3& normal, double sine) {
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double ahead = face % 2 == 0 ? normal[axis] : -normal[axis];
-        // The largest product is that with a corner's direction, (1, +-1, +-1) turned.
+        // The largest product is with the direction of a corner of the face, (1, +-1, +-1) with its
+        // axes permuted.
         const double most = ahead + std::abs(normal[(axis + 1) % 3]) +
                             std::abs(normal[(axis + 2) % 3]);
         if (most > -sine * std::sqrt(3.0)) faces |= static_cast<Faces>(1 << face);

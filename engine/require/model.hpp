@@ -10,94 +10,99 @@
 #include <string>
 #include <vector>
 
-/// What a picture of a scene requires: of each mirror and light what has to be rendered, and for
-/// each thing that is left out why, what that saves and what error it can cost. Pure: numbers about
-/// a scene, no device.
+/// The work that a picture of a scene requires: for each mirror and light, what must be rendered.
+/// For culled work it gives the reason, the saving and the largest error. It only computes numbers
+/// about a scene and needs no device.
 namespace catoptric::require {
 
-/// What is asked: a picture of the scene at one instant.
+/// A question: what does a picture of the scene at one instant require?
 struct Question {
-    const scene::Scene& now; ///< as it stands at the instant (scene::at)
+    const scene::Scene& now; ///< the scene at the instant (scene::at)
     const scene::Camera& camera;
     uvec2 size{512, 512};
-    /// Texels of the coarsest shadow map in use: the coarser, the further shadows reach.
+    /// Edge in texels of the coarsest shadow map in use. The coarser the map, the further shadows
+    /// reach.
     std::uint32_t shadow_edge = 1;
-    /// Some search asks every mirror's capture, seen or not (`captures=all`).
+    /// Whether a search reads the captures of all mirrors, visible or not (`captures=all`).
     bool asks_all = false;
-    /// Some technique reads whole cubes, whatever direction a mirror can ask for.
+    /// Whether a technique reads whole cubes, not only the directions that a mirror can reflect to.
     bool whole_cubes = false;
 };
 
-/// Six bits, one a face of a capture, as render::cube_views has them.
+/// Six bits, one per face of a capture, in the order of render::cube_views.
 using Faces = std::uint8_t;
-struct Pieces; // of what moves in a capture's faces: require/pieces.hpp
+struct Pieces; // parts of a capture's faces that movers change
 inline constexpr Faces kAllFaces = 0x3f;
 
 struct MirrorNeeds {
-    bool is_seen = true; ///< by the camera, or by a mirror that is
-    MirrorId seen_in;    ///< the mirror through which; none: the camera sees it, or nobody
-    /// Somebody may look into its capture: in searches of its own pixels, and of rays that go on
-    /// from other mirrors, and with Question::asks_all whoever is seen.
+    bool is_seen = true; ///< whether the camera or a visible mirror sees the mirror
+    MirrorId seen_in;    ///< the mirror that shows it; none: the camera sees it, or nothing does
+    /// Whether its capture may be read: by searches of its own pixels, by rays continued from other
+    /// mirrors, or by any search with Question::asks_all.
     bool is_captured = true;
-    /// Of its capture, whose directions somebody may ask for.
+    /// Faces of its capture that hold directions which may be read.
     Faces faces = kAllFaces;
-    std::uint32_t edge = 0; ///< texels along an edge that are enough; 0: as many as the row asks
-    /// Of what each face shows but for mirrors, and how it is lit: while the number and the views
-    /// of face and shadow maps stay, so do the bytes.
+    std::uint32_t edge = 0; ///< sufficient edge of a face in texels; 0: as many as the row asks for
+    /// Content hash of what each face shows, except the contents of mirrors, and of its lighting.
+    /// While the hash and the views of the face and the shadow maps stay the same, its bytes do.
     std::array<std::uint64_t, 6> content_hashes{};
-    /// Of the same but for what `pieces` has.
+    /// Content hashes of the same data without the movers and shadows that `pieces` lists.
     std::array<std::uint64_t, 6> settings{};
-    std::shared_ptr<const Pieces> pieces; ///< null: they are not told apart
+    std::shared_ptr<const Pieces> pieces; ///< null: movers are not listed one by one
     std::vector<std::uint32_t>
-        sees; ///< the other mirrors that its capture shows, from 0, ascending
+        /// The other mirrors that its capture shows, numbered from 0, in ascending order.
+        sees;
 };
 
 struct LightNeeds {
-    bool has_map = true;            ///< something that is seen may lie in a shadow of its
-    std::uint64_t content_hash = 0; ///< of the light and of all that has never moved
+    bool has_map = true;            ///< whether something visible may lie in a shadow of the light
+    std::uint64_t content_hash = 0; ///< content hash of the light and of all that never moved
 };
 
-/// A thing that moves and casts shadows. A face of a shadow map stays while LightNeeds::stamp, the
-/// face's view and the stamps of those that it may show do.
+/// A mover that casts shadows. A face of a shadow map stays valid while LightNeeds::content_hash,
+/// the face's view and the content hashes of the casters that it may show stay the same.
 struct Caster {
     std::uint32_t object = 0;
-    std::uint64_t content_hash = 0; ///< of its shape and where it is
+    std::uint64_t content_hash = 0; ///< content hash of its shape and place
 };
 
-/// A thing that is not done, for the user to read.
+/// An item of culled work, described for the user.
 struct CulledWork {
     std::string what;
     std::string why;
     std::string saves;
-    double error = 0; ///< the most that a displayed pixel can differ for it, of 1; 0: nothing
+    double error = 0; ///< largest change of a displayed pixel, of 1; 0: none
 };
 
 struct Model {
     bool is_everything = true;
-    std::vector<MirrorNeeds> mirrors; ///< entry n-1 of mirror n
-    std::vector<LightNeeds> lights;   ///< as scene::lights has them
+    std::vector<MirrorNeeds> mirrors; ///< entry n-1 belongs to mirror n
+    std::vector<LightNeeds> lights;   ///< in the order of scene::lights
     std::vector<Caster> casters;
     std::vector<CulledWork> left_out;
 };
 
-/// Nothing is left out and nothing kept.
+/// Returns the model that culls no work and keeps no captures.
 CATOPTRIC_API Model everything(const Question& question);
-/// Only what the picture requires; with one stamp for everything, since nothing is known of what
-/// moves. O(vertices): for many pictures of one scene take Requirements.
+/// Returns the model with only what the picture requires. It has one content hash for everything,
+/// because nothing is known of movers. O(vertices). Use Requirements for many pictures of one
+/// scene.
 CATOPTRIC_API Model required(const Question& question);
 
-/// The same for picture after picture of one scene, whose meshes stay. ContentHashes are told apart
-/// by what moves, and equal ones stand for equal bytes within one object of this class.
+/// Computes the models of successive pictures of one scene whose meshes stay the same. Content
+/// hashes differ by what moves. Equal hashes stand for equal bytes only within one object of this
+/// class.
 class Requirements {
 public:
-    /// The scene at rest, motions with it. O(vertices), texels of images.
+    /// Takes the scene at rest, including its motions. O(vertices + texels of images).
     CATOPTRIC_API explicit Requirements(const scene::Scene& rest);
     CATOPTRIC_API ~Requirements();
     CATOPTRIC_API Requirements(Requirements&&) noexcept;
     CATOPTRIC_API Requirements& operator=(Requirements&&) noexcept;
 
-    /// O(objects) where nothing has changed, else with mirrors * (walls + movers + their shadows)
-    /// (docs/require.md has figures). The model is this object's, until it is asked again.
+    /// Returns the model of a picture. The reference is valid until the next call. O(objects) if
+    /// nothing has changed; else also mirrors * (walls + movers + their shadows). Figures are in
+    /// docs/require.md.
     CATOPTRIC_API const Model& of(const Question& question);
 
 private:
@@ -105,8 +110,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// What the model says, a line for each mirror and light, then what was left out and why.
-/// `scene`: for names.
+/// Returns the model as text: a line for each mirror and light, then the culled work with its
+/// reasons. `scene` supplies the names.
 CATOPTRIC_API std::string to_text(const Model& model, const scene::Scene& scene);
 
 } // namespace catoptric::require

@@ -13,7 +13,7 @@ namespace catoptric::require {
 
 namespace {
 
-/// The scene's triangles about the eye, with the normals of their corners.
+/// The scene's triangles relative to the eye, with the normals of their corners.
 class Stage {
 public:
     explicit Stage(const Question& question) : number_(question.now.objects.size(), 0) {
@@ -30,9 +30,11 @@ public:
     }
 
     struct Path {
-        std::vector<std::uint32_t> mirrors; ///< in the order in which they are met, from 0
+        std::vector<std::uint32_t> mirrors; ///< in the order in which the ray meets them, from 0
         std::vector<bool>
-            is_hidden; ///< by mirror on the way: its capture does not show what follows
+            /// For each mirror on the path, whether its capture does not show what the ray meets
+            /// next.
+            is_hidden;
     };
     Path follow(f32::Ray ray) const {
         Path path;
@@ -84,11 +86,11 @@ private:
         return {f32::spawn_origin(point, error, facet, direction), direction, hit.triangle + 1};
     }
 
-    /// Whether the mirror's capture shows what the ray met, or that it met nothing. The mirror
-    /// itself is not in it.
+    /// Returns whether the mirror's capture shows what the ray met, or that the ray met nothing.
+    /// The capture does not contain the mirror itself.
     bool shows(std::uint32_t mirror, const f32::Ray& ray,
                const std::optional<bvh::Hit<float>>& met) const {
-        constexpr int kMostOwn = 64; // of its own triangles on the way
+        constexpr int kMostOwn = 64; // most of the mirror's own triangles that the ray passes
         constexpr float kBefore = 1 - 0x1p-10f;
         if (met && number_[met->object] == mirror + 1) return false;
         const vec3 centre = centres_[mirror],
@@ -107,13 +109,13 @@ private:
     }
 
     static constexpr float kFar = std::numeric_limits<float>::max();
-    std::vector<vec3> centres_;         ///< of the mirrors' captures
-    std::vector<std::uint32_t> number_; ///< of the mirror that an object is, from 1; 0: none
-    std::vector<vec3> normals_;         ///< three a triangle, as far as there are mirrors
+    std::vector<vec3> centres_;         ///< centres of the mirrors' captures
+    std::vector<std::uint32_t> number_; ///< mirror number of each object, from 1; 0: no mirror
+    std::vector<vec3> normals_;         ///< three per triangle, up to the last mirror's triangles
     bvh::Bvh tree_;
 };
 
-/// A picture's pixels, or a grid of the same shape with at most kMostPaths.
+/// Returns the size of the picture, or of a grid of the same shape with at most kMostPaths cells.
 uvec2 grid_of(uvec2 size) {
     const double pixels = 1.0 * size.x * size.y,
                  scale = std::min(1.0, std::sqrt(static_cast<double>(kMostPaths) / pixels));

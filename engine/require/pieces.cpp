@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// The least s in [-1, 1] with aside <= s * ahead for all places, 1 where there is none.
+/// The least s in [-1, 1] with aside <= s * ahead for all points. It is 1 if no such s exists.
 class Slope {
 public:
     void add(double aside, double ahead) {
@@ -25,7 +25,7 @@ public:
             most_ = -kUnbounded;
     }
     double value() const { return least_ <= most_ ? std::clamp(least_, -1., 1.) : 1; }
-    /// Nothing of the hull is ahead and on this side of the face's edge, -1.
+    /// Returns whether the hull ahead lies entirely beyond the opposite edge of the face, at -1.
     bool is_outside() const { return least_ <= most_ && least_ < -1; }
 
 private:
@@ -53,7 +53,7 @@ FacePart part_with(int face, std::span<const dvec3> places) {
     const dvec3 right = f64::cube_direction(face, dvec3(1, 0, 0)),
                 down = f64::cube_direction(face, dvec3(0, 1, 0)),
                 forward = f64::cube_direction(face, dvec3(0, 0, 1));
-    std::array<Slope, 4> slopes; // to the right, left, down and up
+    std::array<Slope, 4> slopes; // right, left, down, up
     for (const dvec3& place : places) {
         const double ahead = dot(forward, place), x = dot(right, place), y = dot(down, place);
         slopes[0].add(x, ahead), slopes[1].add(-x, ahead);

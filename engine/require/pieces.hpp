@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-/// Which part of a capture's face it is that changes when something moves.
+/// Finds which part of a capture's face changes when an object moves.
 namespace catoptric::require {
 
-/// A rectangle of a face: what lies right and down of its middle over what lies ahead, each from -1
-/// to 1, along the axes of f64::cube_direction.
+/// A rectangle of a face. Coordinates are right and down divided by depth, from -1 to 1, along the
+/// axes of f64::cube_direction.
 struct FacePart {
     dvec2 low{-1}, high{1};
     bool operator==(const FacePart&) const = default;
@@ -20,36 +20,39 @@ struct FacePart {
 };
 inline constexpr FacePart kNoPart{dvec2(1), dvec2(-1)};
 
-/// What lies in both.
+/// Returns the intersection.
 FacePart common(const FacePart& a, const FacePart& b);
-/// The smallest that holds both.
+/// Returns the smallest rectangle that holds both.
 FacePart united(const FacePart& a, const FacePart& b);
 
-/// Holds what the face shows of the hull of places, relative to the capture's centre. A line
-/// through the centre that has none of the places to its left has nothing of their hull there, so
-/// the smallest slopes with that property bound it; they are those of places ahead, unless what
-/// lies behind says that there is none. O(places).
+/// Returns a rectangle that holds what the face shows of the hull of the points. Points are
+/// relative to the capture's centre. O(points).
+///
+/// Consider a line through the centre. If no point lies to its left, nothing of the hull lies
+/// there. The smallest slopes with this property bound the hull. Points ahead of the centre
+/// determine these slopes. If points behind it rule out any such slope, the side is unbounded.
 FacePart part_with(int face, std::span<const dvec3> places);
-/// Of a box, and of the hull of two.
+/// Returns the same for a box, and for the hull of two boxes.
 FacePart part_with(int face, const Bounds<double>& box);
 FacePart part_with(int face, const Bounds<double>& a, const Bounds<double>& b);
 
-/// A mover, or one's shadow on something, where a face may show it.
+/// A mover, or the shadow of a mover on an object, that a face may show.
 struct Piece {
-    std::uint64_t content_hash = 0; ///< equal, and so is what it looks like
+    std::uint64_t content_hash = 0; ///< equal hashes stand for equal looks
     FacePart part;
 };
 
-/// More of them in a face are not told apart.
+/// Most pieces per face. If a face has more, the capture's pieces are not stored.
 inline constexpr std::size_t kMostPieces = 64;
 
-/// Of a capture's faces.
+/// The pieces in each face of a capture.
 struct Pieces {
     std::array<std::vector<Piece>, 6> faces;
-    void sort(); ///< as `differing` wants them
+    void sort(); ///< sorts the pieces in the order that `differing` needs
 };
 
-/// Holds whatever only one of two states of a face has. Both sorted. O(pieces).
+/// Returns a rectangle that holds all pieces which only one of two states of a face has. Both lists
+/// must be sorted. O(pieces).
 FacePart differing(std::span<const Piece> before, std::span<const Piece> after);
 
 } // namespace catoptric::require

@@ -34,12 +34,12 @@ Faces faces_of_flat(const Bounds<double>& mirror, const dvec3& normal, double ma
     bool front = true, back = true;
     for (const Bounds<double>& viewer : viewers) {
         const auto [viewer_low, viewer_high] = along(normal, viewer);
-        // Who is in the plane sees nothing of it.
+        // A viewer in the mirror's plane sees nothing of the mirror.
         if (viewer_low > low - margin && viewer_high < high + margin) continue;
         front = front && viewer_low > high;
         back = back && viewer_high < low;
     }
-    if (front == back) return kAllFaces; // nobody looks, or some from either side
+    if (front == back) return kAllFaces; // no viewer, or viewers on both sides
     return faces_before(front ? normal : -normal, 2 * kLean);
 }
 

@@ -5,28 +5,32 @@
 
 #include <span>
 
-/// Which faces of flat mirrors are asked for, and which lights reach what is seen.
+/// Finds the needed faces of flat mirrors, and the lights that reach what is seen.
 namespace catoptric::require {
 
-/// Facets and normals of a flat mirror may lean by this angle, radians, and what is filtered may
-/// take texels from so far beside where it looks.
+/// Most angle by which facets and normals of a flat mirror may lean, in radians. Filtered lookups
+/// may also read texels up to this angle beside their direction.
 inline constexpr double kLean = .05;
 
-/// The unit normal of a mesh all of whose triangles and vertices' normals point one way within
-/// kLean / 2, in the mesh's own space; zero for any other. O(vertices).
+/// Returns the unit normal of a flat mesh in its own space; zero for other meshes. In a flat mesh,
+/// all facets and vertex normals point one way within kLean / 2. O(vertices).
 dvec3 flat_normal(const scene::Mesh& mesh);
 
-/// Faces of the capture of a flat mirror with this normal in the world, where `viewers` are the
-/// boxes of all who may look at it: one side of the mirror's plane has them all or it reflects to
-/// both. What is reflected stays on the viewers' side of the plane through the mirror, in which the
-/// capture's centre lies, and so does the place where a reflected ray ends: no direction from the
-/// centre to such a place points to behind the plane, nor does a reflected ray's own. A viewer that
-/// lies in the plane, within `margin`, sees nothing of it: panels on one wall.
+/// Returns the needed faces of the capture of a flat mirror. `normal` is in world space. `viewers`
+/// are the boxes of all possible viewers: the eye and other mirrors.
+///
+/// If all viewers lie on one side of the mirror's plane, the mirror only reflects to this side.
+/// Reflected rays and the points where they end also lie on this side of the plane. The capture's
+/// centre lies in the plane. No direction from the centre to such a point leads behind the plane,
+/// nor does the direction of a reflected ray.
+///
+/// A viewer within `margin` of the plane sees nothing of the mirror, such as another panel on the
+/// same wall. If viewers lie on both sides, all faces are needed.
 Faces faces_of_flat(const Bounds<double>& mirror, const dvec3& normal, double margin,
                     std::span<const Bounds<double>> viewers);
 
-/// Whether the light may shine on something in the box: it is within its range and, of a lamp,
-/// in front of it.
+/// Returns whether the light may shine on something in the box: within the light's range and, for a
+/// lamp, in front of the lamp.
 bool may_light(const scene::PointLight& light, const Bounds<double>& box, double margin);
 
 } // namespace catoptric::require

@@ -15,10 +15,11 @@ struct Requirements::Impl {
     ContentHashes content_hashes;
     Findings findings;
     Model model;
-    std::vector<std::size_t> waiting;     ///< mirrors that are seen and not asked yet what they see
-    std::vector<bool> listed;             ///< what the mirror's capture shows is in the model
-    std::vector<Bounds<double>> viewers;  ///< of one mirror
-    std::vector<std::uint64_t> known_key; ///< of the sentences in the model
+    /// Visible mirrors whose view of other mirrors has not been tested yet.
+    std::vector<std::size_t> waiting;
+    std::vector<bool> listed;             ///< whether MirrorNeeds::sees of the mirror is up to date
+    std::vector<Bounds<double>> viewers;  ///< viewers of one mirror
+    std::vector<std::uint64_t> known_key; ///< key of the sentences in the model
 
     explicit Impl(const scene::Scene& rest) : world(rest) { model.is_everything = false; }
 
@@ -28,7 +29,7 @@ struct Requirements::Impl {
     void find_lights(const Picture& picture);
 };
 
-/// Mirrors that the camera sees, and those that they can see, and so on.
+/// Finds the mirrors that the camera sees, the mirrors that these can see, and so on.
 void Requirements::Impl::find_seen(const Picture& picture, const scene::Scene& now) {
     const std::size_t count = world.mirrors().size();
     model.mirrors.resize(count), findings.camera.resize(count), listed.resize(count);
@@ -52,7 +53,7 @@ void Requirements::Impl::find_seen(const Picture& picture, const scene::Scene& n
         }
 }
 
-/// What a mirror's capture shows, once it is known who is seen.
+/// Finds what a mirror's capture shows, after find_seen.
 void Requirements::Impl::find_captured(std::size_t mirror, bool asks_all) {
     MirrorNeeds& needs = model.mirrors[mirror];
     needs.is_captured = needs.is_seen || asks_all;
@@ -78,7 +79,7 @@ Faces Requirements::Impl::faces_of(const Picture& picture, std::size_t mirror) {
     const dvec3 flat = world.meshes()[thing.mesh].flat_normal;
     if (flat == dvec3(0) || !model.mirrors[mirror].is_captured) return kAllFaces;
     viewers.clear();
-    // The eyes of an orthographic picture lie in a plane.
+    // The rays of an orthographic picture start in a plane, not at one eye.
     if (!findings.camera[mirror] && picture.is_parallel()) return kAllFaces;
     if (!findings.camera[mirror]) viewers.push_back({picture.eye(), picture.eye()});
     for (std::size_t i = 0; i < model.mirrors.size(); ++i)
@@ -88,8 +89,8 @@ Faces Requirements::Impl::faces_of(const Picture& picture, std::size_t mirror) {
     return faces_of_flat(thing.box, normal, 4 * world.rounding(), viewers);
 }
 
-/// Whether each light may shine on something that is seen: of what the camera alone sees, or of
-/// everything where some capture is made.
+/// Finds whether each light may shine on something that is seen. If any capture is made, all
+/// objects count as seen; else only those that the camera may see.
 void Requirements::Impl::find_lights(const Picture& picture) {
     model.lights.resize(world.lights().size());
     model.casters = content_hashes.casters(world);

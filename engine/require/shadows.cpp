@@ -9,12 +9,12 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// How many times as far from the light as in the box a place of the shade can be.
+/// Returns how many times further from the light than the box a shaded point can be.
 double farthest_from_point(const dvec3& light, const Bounds<double>& box,
                            const Bounds<double>& everything) {
     double times = kNever;
     for (int axis = 0; axis < 3; ++axis) {
-        // (wall - L) / (b - L) is largest for the b next to the light.
+        // (wall - L) / (b - L) is largest for the b nearest to the light.
         const double above = box.lo[axis] - light[axis], below = light[axis] - box.hi[axis];
         if (above > 0) times = std::min(times, (everything.hi[axis] - light[axis]) / above);
         if (below > 0) times = std::min(times, (light[axis] - everything.lo[axis]) / below);
@@ -32,16 +32,16 @@ double farthest_along(const dvec3& axis, const Bounds<double>& box,
     return std::max(times, 0.);
 }
 
-/// The largest distance from a place to one of a box.
+/// Returns the largest distance from a point to the points of a box.
 double reach(const dvec3& place, const Bounds<double>& box) {
     return glm::length(glm::max(abs(box.lo - place), abs(box.hi - place)));
 }
 
-/// World units by which kShadowTexels shift what is seen at the box.
+/// Returns the length of kShadowTexels at the box, in world units.
 double texels_at(const scene::PointLight& light, const Bounds<double>& box,
                  const Bounds<double>& everything, std::uint32_t edge) {
-    // A face spans two of its depth; a directional light's windows at most what everything does,
-    // and a little (render::sun_views).
+    // A face at depth d is 2 d wide. The windows of a directional light are at most slightly wider
+    // than everything (render::sun_views).
     const double span = light.directional ? 1.5 * glm::length(everything.extent())
                                           : 2 * reach(light.position, box);
     return kShadowTexels * span / std::max(edge, 1u);

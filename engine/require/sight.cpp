@@ -9,7 +9,7 @@ namespace catoptric::require {
 
 namespace {
 
-/// Walls' edges and planes are kept off by this many roundings.
+/// Returns the margin to the edges and planes of walls: four times World::rounding, in world units.
 double margin_of(const World& world) { return 4 * world.rounding(); }
 
 } // namespace
@@ -63,7 +63,7 @@ std::uint8_t Sight::look_at(const World& world, std::size_t viewer, std::size_t 
          between &= between - 1) {
         const Wall& wall = world.walls()[static_cast<std::size_t>(std::countr_zero(between))];
         if (wall.object == from || wall.object == to) continue;
-        // What no place of it sees, its middle does not.
+        // If the wall does not hide the target from the centre, it cannot hide it from all points.
         if (!hides(wall, {centre, centre}, there, margin)) continue;
         seen &= static_cast<std::uint8_t>(~kShows);
         if (hides(wall, here, there, margin)) return 0;

@@ -16,22 +16,22 @@ namespace {
 
 constexpr CostTable kCosts;
 constexpr ErrorTable kErrors;
-constexpr double kAsGood = 1.1;    // errors that are taken to be alike
-constexpr int kFewestBounces = 2;  // of planar
-constexpr int kMostBounces = 6;    // that are chosen
-constexpr double kLeftBlack = .01; // share of the mirrors' pixels that may need more
+constexpr double kAsGood = 1.1;    // errors within this factor count as equal
+constexpr int kFewestBounces = 2;  // smallest `bounces` of `planar`
+constexpr int kMostBounces = 6;    // largest `bounces` that is suggested
+constexpr double kLeftBlack = .01; // share of mirror pixels that may need more bounces
 
-/// What is known of a picture's mirrors before anything is chosen.
+/// Facts about a picture's mirrors that the choice depends on.
 struct Known {
     Paths paths;
-    std::vector<bool> is_flat, is_seen; ///< by mirror
-    double triangles = 0;               ///< of the scene
-    double pixels = 0;                  ///< of the picture
-    double on_mirrors = 0;              ///< paths whose first hit is one; 1 at least
-    int bounces = kFewestBounces;       ///< of planar
+    std::vector<bool> is_flat, is_seen; ///< one entry per mirror
+    double triangles = 0;               ///< number of triangles in the scene
+    double pixels = 0;                  ///< number of pixels in the picture
+    double on_mirrors = 0;              ///< paths whose first hit is a mirror; at least 1
+    int bounces = kFewestBounces;       ///< knob `bounces` of `planar`
 
     std::size_t count() const { return is_flat.size(); }
-    /// Of the picture, for so many paths.
+    /// Returns how many pixels of the picture this number of paths stands for.
     double pixels_of(std::size_t paths_through) const {
         return pixels * static_cast<double>(paths_through) / static_cast<double>(paths.count);
     }
@@ -43,14 +43,14 @@ bool is_flat(const Question& question, const scene::Object& object) {
     return flats.share(scene::flat_tolerance(question.camera, question.size)) >= 1 - kMostBent;
 }
 
-/// How many mirrors of these a path meets before another.
+/// Returns how many mirrors with `of` the path meets before another mirror.
 std::size_t length_of_run(const std::vector<std::uint32_t>& path, const std::vector<bool>& of) {
     return static_cast<std::size_t>(
         std::ranges::find_if(path, [&](std::uint32_t mirror) { return !of[mirror]; }) -
         path.begin());
 }
 
-/// Flat mirrors one behind the other that the picture shows, but for few pixels.
+/// Returns how many flat mirrors one behind the other the picture shows, ignoring few pixels.
 int bounces_of(const Known& known) {
     for (int bounces = kFewestBounces; bounces < kMostBounces; ++bounces) {
         double more = 0;
@@ -72,7 +72,7 @@ Known known_of(const Question& question) {
     known.on_mirrors = static_cast<double>(std::max<std::size_t>(1, known.paths.on_mirrors()));
     for (const std::size_t reached : known.paths.reached)
         known.is_seen.push_back(static_cast<double>(reached) > kHardlySeen * known.on_mirrors);
-    // Nothing to go by: as if all were.
+    // Without any visible mirror, treat all as visible.
     if (std::ranges::none_of(known.is_seen, std::identity()))
         known.is_seen.assign(known.count(), true);
     known.bounces = bounces_of(known);
@@ -83,19 +83,20 @@ double pass_of(const Known& known, double pixels) {
     return kCosts.pass + kCosts.triangle * known.triangles + kCosts.pixel * pixels;
 }
 
-/// How a mirror is drawn.
+/// The ways to draw a mirror.
 enum class Way { planes, hybrid, march, small };
 
-/// Whether tracing what its capture does not show takes a tenth off the mirror's estimated error.
+/// Returns whether tracing what its capture does not show reduces the mirror's estimated error by
+/// more than a tenth.
 bool is_traced(const Known& known, std::size_t mirror) {
     const auto first = static_cast<double>(known.paths.first[mirror]),
                hidden = static_cast<double>(known.paths.hidden[mirror]);
     return hidden * (kErrors.unknown - kErrors.search) > (kAsGood - 1) * kErrors.search * first;
 }
 
-/// Adds the cost and the error of a mirror that is seen in flat mirrors drawn by planes. `path`:
-/// the mirrors that `count` rays meet, this one last. A view in a plane looks into the mirror's
-/// capture but traces nothing, so what the capture does not show is a guess.
+/// Adds cost and error of a mirror that is seen in flat mirrors with mirrored views. `path` lists
+/// the mirrors that `count` rays meet; this mirror is the last. A mirrored view looks into the
+/// mirror's capture but traces nothing, so it can only guess what the capture does not show.
 void weigh_in_planes(Candidate& candidate, const Known& known,
                      const std::vector<std::uint32_t>& path, std::size_t count, Way way) {
     const bool is_searched = way != Way::small;
@@ -107,8 +108,8 @@ void weigh_in_planes(Candidate& candidate, const Known& known,
         candidate.error += static_cast<double>(found->second) * (kErrors.unknown - error);
 }
 
-/// Adds what the candidate's techniques cost and get wrong. `face`: of the captures of flat mirrors
-/// that are drawn by planes; 0: there are no captures.
+/// Adds cost and error of the candidate's techniques. `face` is the edge in texels of the captures
+/// of mirrors drawn by `planar`; 0: no captures.
 void weigh(Candidate& candidate, const Known& known, const std::vector<Way>& ways,
            std::uint32_t face) {
     std::vector<bool> by_planes;
@@ -148,7 +149,8 @@ void weigh(Candidate& candidate, const Known& known, const std::vector<Way>& way
     candidate.error /= known.on_mirrors;
 }
 
-/// "planar, hybrid": the techniques of a candidate, each once, without what is hardly seen.
+/// Returns the techniques of a candidate, each once, without those of hardly seen mirrors: "planar,
+/// hybrid".
 std::string name_of(const std::vector<Way>& ways) {
     std::string name;
     for (const auto& [way, word] :
@@ -159,11 +161,11 @@ std::string name_of(const std::vector<Way>& ways) {
     return name.empty() ? "reuse" : name;
 }
 
-/// Flat mirrors by planes, where `planes`; the rest by searches; what is hardly seen by small
-/// captures.
+/// Returns a candidate. Flat mirrors get `planar` if `planes` is set. Hardly seen mirrors get small
+/// captures, and all others get searches.
 Candidate candidate_of(const Known& known, bool planes) {
     std::vector<Way> ways(known.count(), Way::small);
-    bool is_searched = false; // some mirror's captures are looked up with care
+    bool is_searched = false; // whether any mirror's capture is searched
     for (std::size_t i = 0; i < known.count(); ++i) {
         if (!known.is_seen[i] || (planes && known.is_flat[i])) continue;
         ways[i] = is_traced(known, i) ? Way::hybrid : Way::march;
@@ -171,7 +173,7 @@ Candidate candidate_of(const Known& known, bool planes) {
     }
     bool has_captures = false;
     for (std::size_t i = 0; i < known.count(); ++i) {
-        // Where nothing is searched, a plane costs less than a capture.
+        // If no mirror is searched, a mirrored view costs less than a capture.
         if (planes && known.is_flat[i] && (known.is_seen[i] || !is_searched)) ways[i] = Way::planes;
         has_captures = has_captures || ways[i] != Way::planes;
     }
@@ -199,7 +201,7 @@ std::string percent(double share) {
     return text;
 }
 
-/// Why the mirror is drawn so, after its technique.
+/// Returns the reason that follows the mirror's technique.
 std::string reason_of(const Question& question, const Known& known, std::size_t mirror,
                       const scene::Object& object, const std::string& technique) {
     const auto share = [&](std::size_t paths) {
@@ -226,7 +228,8 @@ std::string reason_of(const Question& question, const Known& known, std::size_t 
     return reason;
 }
 
-/// "1,3=planar *=hybrid": what is not `rest` by its numbers.
+/// Returns a plan such as "1,3=planar *=hybrid". All techniques other than `rest` list their
+/// mirrors by number.
 std::string plan_of(const std::map<std::string, std::vector<std::size_t>>& mirrors,
                     const std::string& rest) {
     if (mirrors.empty()) return rest;

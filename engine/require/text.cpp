@@ -1,4 +1,4 @@
-// What a model says, for the user to read.
+// Writes a model as text for the user.
 #include "core/text.hpp"
 #include "require/culled_work.hpp"
 
@@ -37,7 +37,7 @@ std::string error_text(double error) {
     return text.str();
 }
 
-/// What is made once for many frames; nothing where nothing is made.
+/// Returns the text about captures and maps that are kept over frames; empty if there are none.
 std::string kept_text(const Model& model) {
     std::size_t faces = 0;
     for (const MirrorNeeds& needs : model.mirrors)
@@ -66,7 +66,7 @@ std::string to_text(const Model& model, const scene::Scene& scene) {
     const auto text_of = [&](std::size_t i) {
         return needs_text(model.mirrors[i], scene.meshes[scene.objects[mirrors[i]].mesh]);
     };
-    // Neighbours of which the same is said share a line.
+    // Consecutive mirrors with the same text share a line.
     for (std::size_t i = 0; i < model.mirrors.size();) {
         const std::string needs = text_of(i);
         std::size_t end = i + 1;

@@ -7,7 +7,7 @@ namespace catoptric::require {
 
 namespace {
 
-/// Every corner turns the same way, and the four lie in one plane.
+/// Returns whether all corners turn the same way and the four lie in one plane.
 bool is_convex(const Quad& quad) {
     const dvec3 normal = cross(quad[2] - quad[0], quad[3] - quad[1]);
     const double size = length(normal);
@@ -20,12 +20,13 @@ bool is_convex(const Quad& quad) {
     return true;
 }
 
-/// The two triangles as one, where they are.
+/// Returns the convex quadrilateral that the two triangles form, or none.
 std::optional<Quad> joined(const scene::Mesh& mesh, const uvec3& one, const uvec3& other) {
     const auto at = [&](const uvec3& triangle, int i) { return mesh.positions[triangle[i % 3]]; };
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
-            // Neighbours that run the same way around run through their edge both ways.
+            // Neighbours with the same orientation run along their shared edge in opposite
+            // directions.
             if (at(one, i) != at(other, j + 1) || at(one, i + 1) != at(other, j)) continue;
             const Quad quad{at(one, i), at(other, j + 2), at(one, i + 1), at(one, i + 2)};
             if (is_convex(quad)) return quad;
@@ -33,7 +34,7 @@ std::optional<Quad> joined(const scene::Mesh& mesh, const uvec3& one, const uvec
     return std::nullopt;
 }
 
-/// Corners of a box, or the one place that it is.
+/// The corners of a box, or its only point if the box is a point.
 struct Corners {
     std::array<dvec3, 8> at;
     std::size_t count = 8;
@@ -43,8 +44,8 @@ struct Corners {
 };
 
 struct Side {
-    double height;                ///< from the plane, positive
-    std::array<double, 4> inside; ///< of each edge
+    double height;                ///< distance from the plane, positive
+    std::array<double, 4> inside; ///< distance inside each edge
 };
 Side side_of(const Wall& wall, const dvec3& place) {
     Side side{std::abs(wall.height(place)), {}};
@@ -123,7 +124,7 @@ bool hides_along(const Wall& wall, const dvec3& eye, const dvec3& direction,
     if (wall.front_only && slant >= 0) return false;
     for (const dvec3& corner : corners_of(target)) {
         const double depth = dot(corner - eye, direction), height = wall.height(corner);
-        const double back = height / slant; // to the wall, against the direction
+        const double back = height / slant; // distance back to the wall, against the direction
         if (!(back > margin && depth - back > margin)) return false;
         for (std::size_t edge = 0; edge < 4; ++edge)
             if (!(wall.inside(edge, corner - back * direction) >= margin)) return false;

@@ -6,34 +6,35 @@
 #include <cstddef>
 #include <vector>
 
-/// Convex quadrilaterals, and what they hide.
+/// Convex quadrilaterals, and tests of what they hide.
 namespace catoptric::require {
 
-/// Four corners in a plane, in order around; to the side from which they run counterclockwise is
-/// the front.
+/// Four corners in a plane, in order around. From the front, the order is counterclockwise.
 using Quad = std::array<dvec3, 4>;
 
-/// The eight corners of a box.
+/// Returns the eight corners of a box.
 std::array<dvec3, 8> corners_of(const Bounds<double>& box);
 
-/// Products of an axis with the places of a box: the least and the largest.
+/// Returns the least and the largest product of the axis with points of the box.
 std::array<double, 2> along(const dvec3& axis, const Bounds<double>& box);
 
-/// Pairs of the mesh's triangles that are such quadrilaterals, in the mesh's own space: an edge in
-/// common, one plane (within kFlat of their extent), one orientation, every corner convex. No
-/// triangle is in two. None of a mesh with more than kMostTriangles. O(triangles^2).
+/// Returns the pairs of triangles that form convex quadrilaterals, in the mesh's own space. The two
+/// triangles share an edge, lie in one plane (within kFlat of their extent) and have one
+/// orientation, and every corner is convex. Each triangle is in at most one pair. Returns none for
+/// a mesh with more than kMostTriangles. O(triangles^2).
 std::vector<Quad> quads_of(const scene::Mesh& mesh);
 inline constexpr double kFlat = 1e-9;
 inline constexpr std::size_t kMostTriangles = 64;
 
-/// A quadrilateral in the world that nothing can be seen through.
+/// An opaque quadrilateral in world space.
 struct Wall {
     Quad corners;
     std::size_t object = 0;
-    bool front_only = false; ///< not there for who looks from behind
+    bool front_only = false; ///< hides nothing from viewers behind it
     bool seen_by_camera = true;
-    dvec3 normal{0};               ///< unit, to the front
-    std::array<dvec3, 4> inward{}; ///< unit, in the plane, of the edge from corner i
+    dvec3 normal{0}; ///< unit, towards the front
+    std::array<dvec3, 4>
+        inward{}; ///< unit, in the plane, normal of the edge that starts at corner i
     double area = 0;
 
     double height(const dvec3& place) const { return dot(normal, place - corners[0]); }
@@ -41,23 +42,26 @@ struct Wall {
         return dot(inward[edge], place - corners[edge]);
     }
 };
-/// Without an area it hides nothing.
+/// Returns the wall of a quadrilateral of an object. A wall of zero area hides nothing.
 Wall wall_of(const Quad& corners, std::size_t object);
 
-/// Whether each segment from a place of `viewer` to one of `target` crosses the wall at least
-/// `margin` inside of its edges, its ends that far from the wall's plane on different sides.
+/// Returns whether each segment from a point of `viewer` to a point of `target` crosses the wall.
+/// Crossings must lie at least `margin` inside the wall's edges. The ends must lie on different
+/// sides of the wall's plane, at least `margin` away. `viewer` may be a single point. About .4 us
+/// if the wall hides the target, .01 us if not.
 ///
-/// Where V and T lie strictly on different sides, what the plane cuts of hull(V, T) is the hull of
-/// where the segments between their corners cross it: a place of a segment is a mean of corners of
-/// V and of T, and projecting along the segment keeps means. So if those (at most 64) crossings lie
-/// in the wall, which is convex, all do. With h the heights over the plane and e the distance
-/// inside an edge's line, both linear, the crossing of v and t has e = (e(v) |h(t)| + e(t) |h(v)|)
-/// / (|h(v)| + |h(t)|). `viewer` may be a point. About .4 us where it hides, .01 where it does not.
+/// Proof: let boxes V and T lie strictly on different sides. The plane cuts hull(V, T) in the hull
+/// of the points where segments between corners of V and T cross it. The reason is that each point
+/// of a segment is a mean of corners of V and T, and projection along the segment keeps means. If
+/// these (at most 64) crossings lie in the wall, which is convex, all crossings do. Let h be the
+/// height over the plane and e the distance inside an edge's line, both linear. The crossing of v
+/// and t has e = (e(v) |h(t)| + e(t) |h(v)|) / (|h(v)| + |h(t)|).
 bool hides(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
            double margin);
 
-/// The same where all who look at `target` look along the unit `direction` from the plane through
-/// `eye` across it: a corner's crossing is linear in the corner, so eight segments do.
+/// Returns the same for parallel views. All rays to `target` run along the unit `direction`, from
+/// the plane through `eye` across it. A corner's crossing is linear in the corner, so eight
+/// segments suffice.
 bool hides_along(const Wall& wall, const dvec3& eye, const dvec3& direction,
                  const Bounds<double>& target, double margin);
 

@@ -25,7 +25,7 @@ MeshFacts facts_of(const scene::Mesh& mesh) {
     return facts;
 }
 
-/// Of a box elsewhere.
+/// Returns the bounds of the transformed box.
 Bounds<double> moved(const Bounds<double>& box, const dmat4& place) {
     Bounds<double> result;
     if (!box.empty())
@@ -34,7 +34,8 @@ Bounds<double> moved(const Bounds<double>& box, const dmat4& place) {
     return result;
 }
 
-/// Of a length: the spectral norm is at most the root of the largest sum of a row of M^T M.
+/// Returns a bound on how much the matrix stretches lengths. The spectral norm is at most the root
+/// of the largest row sum of M^T M.
 double stretch_at_most(const dmat3& m) {
     const dmat3 square = transpose(m) * m;
     double most = 0;
@@ -60,7 +61,7 @@ bool same(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphe
 }
 
 bool is_wall(const scene::Material& material, bool is_mirror) {
-    // A lamp is not there from behind, and nobody knows by a corner's order where that is.
+    // A lamp is invisible from behind, and the order of its corners does not tell where behind is.
     return !scene::is_masked(material) &&
            (is_mirror || material.front_only || !scene::is_one_sided(material)) &&
            scene::light_of(material) == vec3(0);
@@ -107,7 +108,7 @@ void World::lay_out(const scene::Scene& now) {
     find_epoch();
 }
 
-/// Whether it is the scene that was laid out, but for where movers are.
+/// Returns whether the scene is the one that was laid out, except for where movers are.
 bool World::fits(const scene::Scene& now) const {
     if (now.objects.size() != things_.size() || now.environment != environment_ ||
         now.materials != materials_ || now.punctual.size() != punctual_.size())
@@ -124,7 +125,7 @@ bool World::fits(const scene::Scene& now) const {
     return true;
 }
 
-/// Puts an object where it is now.
+/// Moves an object to its current place.
 void World::move(const scene::Scene& now, std::size_t index) {
     const scene::Object& object = now.objects[index];
     WorldObject& thing = things_[index];
@@ -132,9 +133,11 @@ void World::move(const scene::Scene& now, std::size_t index) {
     const bool is_shifted = dmat3(thing.place) == dmat3(thing.rest);
     thing.tight = is_shifted
                       ? shifted(thing.tight_rest, dvec3(thing.place[3]) - dvec3(thing.rest[3]))
-                  : thing.is_mirror ? scene::bounds(now, object) // its centre is a capture's
-                                    : moved(meshes_[thing.mesh].box, thing.place);
-    // Floats are of places beside the middle of everything.
+                  : thing.is_mirror
+                      ? scene::bounds(
+                            now, object) // the centre of its bounds is the centre of its capture
+                      : moved(meshes_[thing.mesh].box, thing.place);
+    // The device stores positions as floats relative to the middle of the scene.
     const dvec3 away = thing.tight.empty() ? dvec3(0) : abs(thing.tight.centre() - middle_);
     const double room = rounding_ + kRounding * std::max({away.x, away.y, away.z});
     thing.box = {thing.tight.lo - room, thing.tight.hi + room};
@@ -181,7 +184,7 @@ void World::follow(const scene::Scene& now) {
 
 void World::find_walls() {
     walls_.clear();
-    const auto keep_largest = [&] { // of equal ones the first
+    const auto keep_largest = [&] { // keeps the first of equal walls
         std::ranges::stable_sort(walls_, std::ranges::greater(), &Wall::area);
         if (walls_.size() > kMostWalls) walls_.resize(kMostWalls);
     };

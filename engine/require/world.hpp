@@ -8,64 +8,73 @@
 #include <optional>
 #include <vector>
 
-/// What rules go by: where everything is, what moves, what stands in the way.
+/// The scene as the rules see it: where objects are, what moves, and which walls hide objects.
 namespace catoptric::require {
 
-/// Boxes are larger than what they hold by this part of the extent of all that stands still and of
-/// how far they are from its middle: device and rules round differently, by 2^-24 of it at most.
+/// Relative enlargement of boxes, as a part of two lengths: the extent of all objects that stand
+/// still, and the distance from their middle. Device and rules round differently, by at most 2^-24
+/// of these lengths.
 inline constexpr double kRounding = 0x1p-20;
-/// The largest of what stands still, which are looked at for what they hide.
+/// Most walls, the largest that stand still, that are tested for what they hide.
 inline constexpr std::size_t kMostWalls = 32;
-/// ... of those that have at least this part of the square of that extent.
+/// Least area of a wall, as a part of the square of that extent.
 inline constexpr double kLeastWall = 1e-3;
 
-/// What does not depend on where an object is.
+/// Facts about a mesh that do not depend on where an object is.
 struct MeshFacts {
     Bounds<double> box; ///< in the mesh's own space
-    double radius = 0;  ///< of all that is drawn, around the middle of `box`
+    double radius = 0;  ///< of all its triangles, around the middle of `box`
     std::uint64_t content_hash = 0;
     std::vector<Quad> quads;
-    dvec3 flat_normal{0}; ///< of a flat one (require/reach.hpp)
+    dvec3 flat_normal{0}; ///< of a flat mesh, else zero (require/reach.hpp)
 };
 
 struct WorldObject {
     std::size_t mesh = 0, material = 0;
-    dmat4 rest{1}, place{1}; ///< world from object: when it was found, and now
+    dmat4 rest{1}, place{1}; ///< world from object: at rest, and now
     std::optional<scene::Sphere> sphere;
     bool seen_by_camera = true, is_mirror = false, casts_shadow = true;
-    bool is_mover = false;          ///< it has a motion, or was moved since
-    bool has_moved = false;         ///< since the instant before
-    Bounds<double> tight_rest;      ///< of its vertices
-    Bounds<double> tight;           ///< now; of a turned mover that is no mirror a larger box
-    Bounds<double> box;             ///< `tight` with room for roundings; empty: it has no triangle
-    dvec3 middle{0};                ///< of a sphere that holds it
-    double radius = 0;              ///< of that, with room for roundings
-    std::uint64_t content_hash = 0; ///< of its mesh, place, sphere and material
+    bool is_mover = false;          ///< whether it has a motion or was ever moved
+    bool has_moved = false;         ///< whether it moved since the previous instant
+    Bounds<double> tight_rest;      ///< bounds of its vertices at rest
+    Bounds<double> tight;           ///< bounds now; larger for a turned mover that is no mirror
+    Bounds<double> box;             ///< `tight` enlarged for roundings; empty: no triangle
+    dvec3 middle{0};                ///< centre of a sphere that holds it
+    double radius = 0;              ///< radius of this sphere, enlarged for roundings
+    std::uint64_t content_hash = 0; ///< content hash of its mesh, place, sphere and material
 };
 
-/// A scene as rules see it, instant by instant. What has never moved is told apart from what has:
-/// it cannot change what a capture shows, so one number stands for all of it.
+/// A scene as the rules see it, from instant to instant. Objects that never moved are kept apart
+/// from movers. They cannot change what a capture shows, so one number stands for all of them.
 class World {
 public:
-    /// O(vertices): bounds and stamps of meshes, texels of images.
+    /// Takes the scene at rest. O(vertices + texels of images), for the bounds and content hashes
+    /// of meshes and the content hashes of materials.
     explicit World(const scene::Scene& rest);
 
-    /// Takes over an instant. O(objects), O(vertices) in mirrors that turn and in lamps that move.
-    /// What was still and is not any more (an edit) is a mover from then on; that, and another
-    /// number of things or another material, light or environment, is another `epoch`.
+    /// Takes over an instant. O(objects), and O(vertices) for mirrors that turn and lamps that
+    /// move. An object that stood still and has moved (an edit) is a mover from then on. This
+    /// begins a new `epoch`, as does another number of objects or another material, light or
+    /// environment.
     void follow(const scene::Scene& now);
 
     const std::vector<WorldObject>& things() const { return things_; }
-    const std::vector<std::size_t>& mirrors() const { return mirrors_; } ///< objects
-    const std::vector<std::size_t>& movers() const { return movers_; }   ///< objects
+    const std::vector<std::size_t>& mirrors() const { return mirrors_; } ///< indices of objects
+    const std::vector<std::size_t>& movers() const { return movers_; }   ///< indices of objects
     const std::vector<Wall>& walls() const { return walls_; }            ///< the largest first
     const std::vector<scene::PointLight>& lights() const { return lights_; }
     const std::vector<MeshFacts>& meshes() const { return meshes_; }
-    const Bounds<double>& still() const { return still_; } ///< of what has never moved
-    double rounding() const { return rounding_; }          ///< world units
-    std::uint64_t epoch() const { return epoch_; } ///< of all that is no mover, and of the lights
-    std::uint64_t layouts() const { return layouts_; } ///< another where other things stand still
-    bool has_changed() const { return has_changed_; }  ///< anything, since the instant before
+    const Bounds<double>& still() const { return still_; } ///< bounds of all that never moved
+    double rounding() const { return rounding_; }          ///< in world units
+    std::uint64_t epoch() const {
+        return epoch_;
+    } ///< content hash of all that is no mover, and of the lights
+    std::uint64_t layouts() const {
+        return layouts_;
+    } ///< number of layouts; grows when other objects stand still
+    bool has_changed() const {
+        return has_changed_;
+    } ///< whether anything changed since the previous instant
 
 private:
     void lay_out(const scene::Scene& now);

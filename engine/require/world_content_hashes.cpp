@@ -11,7 +11,7 @@ void add(ContentHash& content_hash, const std::vector<Value>& values) {
     content_hash.add_all(std::span<const Value>(values));
 }
 
-/// Of images, each looked at once however many materials show it.
+/// Content hashes of images. Each image is hashed once, even if several materials use it.
 class Images {
 public:
     std::uint64_t operator[](const std::shared_ptr<const scene::Image>& image) {

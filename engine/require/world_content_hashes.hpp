@@ -3,13 +3,13 @@
 #include "core/content_hash.hpp"
 #include "scene/scene.hpp"
 
-/// Numbers that stand for parts of a scene: what is seen of them is the same while they are.
+/// Content hashes of parts of a scene. Equal hashes stand for parts that look the same.
 namespace catoptric::require {
 
 std::uint64_t content_hash_of(const scene::Mesh& mesh);
-/// Of all materials, texels of their images with them. O(texels).
+/// Returns the content hash of all materials, including the texels of their images. O(texels).
 std::uint64_t content_hash_of(const std::vector<scene::Material>& materials);
-/// None: black.
+/// Returns the content hash of the environment. Null is a black environment.
 std::uint64_t content_hash_of(const scene::Environment* environment);
 std::uint64_t content_hash_of(const scene::PointLight& light);
 

@@ -1,4 +1,5 @@
-// catoptric bench: what frames, and what comes before them, cost; beside another run or build.
+// catoptric bench: measures the cost of frames and of their preparation, and compares runs or
+// builds.
 #include "app/bench_subjects.hpp"
 #include "app/compare.hpp"
 #include "app/device_facts.hpp"
@@ -37,7 +38,7 @@ Cycles are of user mode. Where the system does not count them (perf_event), proc
 what is faster for certain; pictures stay the same, to the byte.
 Exit code 1 where --compare or --against finds something slower: the interval of the ratio lies above 1.)";
 
-/// What is measured of a scene where nothing is asked for.
+/// Techniques that are measured by default.
 const std::vector<std::string> kTechniques{"raytrace:depth=4",
                                            "raytrace:depth=4,sphere=exact",
                                            "parallax:face=64",
@@ -54,18 +55,18 @@ constexpr const char* kFlatScene = "flat"; // `planar` needs a flat mirror
 constexpr const char* kFlatTechnique = "planar";
 
 struct BenchOptions {
-    Common common; ///< of every scene
+    Common common; ///< options for all scenes
     std::vector<std::string> scenes;
     std::vector<std::string> techniques;
     std::string output;
     int rounds = app::kRounds;
     std::vector<std::string> before_and_after; ///< files to compare
-    std::string against;                       ///< another build
+    std::string against;                       ///< program of another build
     bool tunes = false;
     std::vector<std::string> command;
 };
 
-/// A scene, and what is measured of it.
+/// A scene and the techniques to measure.
 struct SceneAsked {
     Common common;
     std::vector<std::string> techniques;
@@ -97,7 +98,7 @@ void load_again(const Common& common) {
                                       .use_scene_file = common.use_scene_file});
 }
 
-/// What there is to measure of one scene.
+/// Adds the subjects to measure for one scene.
 void add_subjects(app::Engine& engine, const SceneAsked& asked, app::Request request,
                   int iterations, std::vector<app::Subject>& subjects) {
     const Common common = asked.common;
@@ -119,7 +120,7 @@ void check_output(const BenchOptions& options, const std::vector<std::filesystem
     check_apart({kStdout, options.output}, inputs, read);
 }
 
-/// To stdout, and into the file where one is asked for.
+/// Writes the result to stdout, and also to a file if the user asks for one.
 void put_result(const BenchOptions& options, const std::string& json, const std::string& table) {
     put(options.common.manners.json ? json : table);
     if (options.output.empty()) return;
@@ -128,7 +129,7 @@ void put_result(const BenchOptions& options, const std::string& json, const std:
 }
 
 int measure(const BenchOptions& options) {
-    // Before the driver's threads are there, so that it counts them.
+    // Created before the driver's threads, to count them as well.
     const app::UsageMeter meter(app::UsageMeter::Of::process);
     check(!options.common.both_models, Failure::usage, kOneModel);
     check_no_scene(options.techniques);
@@ -159,7 +160,7 @@ int measure(const BenchOptions& options) {
     return 0;
 }
 
-/// Why a difference may not be the program's.
+/// Warns of reasons other than the program for a difference.
 void warn_of_circumstances(const measure::BenchmarkRun& before,
                            const measure::BenchmarkRun& after) {
     if (before.device.name != after.device.name || before.device.driver != after.device.driver)

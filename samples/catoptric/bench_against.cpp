@@ -1,4 +1,4 @@
-// Two builds of the program, a round of each in turn.
+// Benchmarks two builds of the program, one round of each in turn.
 #include "bench_against.hpp"
 
 #include "child.hpp"
@@ -16,13 +16,13 @@ struct Own {
     std::string_view name;
     bool has_value;
 };
-/// What is ours and not the round's.
+/// Options of `bench --against` that are not passed on to the rounds.
 constexpr std::array kOwn{Own{"--against", true},  Own{"--rounds", true}, Own{"--frames", true},
                           Own{"--output", true},   Own{"-o", true},       Own{"--progress", true},
                           Own{"--json", false},    Own{"--quiet", false}, Own{"-q", false},
                           Own{"--verbose", false}, Own{"-v", false}};
 
-/// Words that this one and its value take, 0 where it is not ours.
+/// Returns how many words this option and its value take; 0 if the option is passed on.
 std::size_t words_taken(const std::string& word) {
     for (const Own& own : kOwn) {
         if (word == own.name) return own.has_value ? 2 : 1;

@@ -21,7 +21,7 @@ using Cells = std::vector<std::vector<std::string>>;
 
 std::string benchmark_figure(double value) { return fmt::format("{:.3f}", value); }
 
-/// Median and interval, in `unit`.
+/// Adds the median and its interval, in `unit`.
 void add(std::vector<std::string>& cells, const std::vector<double>& values, double unit = 1) {
     cells.push_back(benchmark_figure(measure::percentile(values, .5) / unit));
     cells.push_back(interval_text(measure::median_interval(values), unit));
@@ -40,12 +40,12 @@ std::vector<std::string> cells_of(const Benchmark& benchmark, bool counted) {
     return cells;
 }
 
-/// Both as millions of cycles, or milliseconds.
+/// Returns a cost as text, in millions of cycles or in milliseconds.
 std::string cost_text(double cost, Cost of) {
     return benchmark_figure(of == Cost::cycles ? cost / 1e6 : cost);
 }
 
-/// The costs that the list is compared by.
+/// Returns the kinds of cost that the list compares.
 std::string costs_text(const measure::Changes& changes) {
     std::string text;
     for (const Cost cost : {Cost::cycles, Cost::cpu_time, Cost::real_time})

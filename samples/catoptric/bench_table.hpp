@@ -6,13 +6,14 @@
 
 namespace catoptric::cli {
 
-/// "[0.981 - 1.020]", in `unit`; "-" where it is not known.
+/// Returns the interval in `unit`, such as "[0.981 - 1.020]"; "-" if it is unknown.
 std::string interval_text(const measure::Interval& interval, double unit = 1);
-/// What bench prints: a line about where it was measured, then one a benchmark.
+/// Returns the output of `bench`: a line about the device, then one line per benchmark.
 std::string bench_table(const measure::BenchmarkRun& run);
-/// What `bench --compare` and `--against` print.
+/// Returns the output of `bench --compare` and `--against`.
 std::string changes_table(const measure::Changes& changes);
-/// "frame/x 1.21 [1.18 - 1.25]" of each that is slower, separated by commas; empty: none is.
+/// Returns the benchmarks that are slower, such as "frame/x 1.21 [1.18 - 1.25]", separated by
+/// commas; empty if none is.
 std::string slower_text(const measure::Changes& changes);
 
 } // namespace catoptric::cli

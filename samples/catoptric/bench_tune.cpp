@@ -1,4 +1,4 @@
-// What suits the device: measured, and into its profile.
+// Measures which shader settings suit the device, and writes them to its profile.
 #include "bench_tune.hpp"
 
 #include "app/compare.hpp"
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where the profile goes; checked before anything is measured.
+/// Returns the path of the profile. Checks before the measurement that the file can be written.
 fs::path place_of(const std::string& output, const app::DeviceInfo& device,
                   const std::vector<fs::path>& inputs) {
     fs::path place = output;
@@ -29,7 +29,7 @@ fs::path place_of(const std::string& output, const app::DeviceInfo& device,
         check(!folder.empty(), Failure::cannot_create,
               "no folder for the device's profile: wanted XDG_CONFIG_HOME or HOME to be an "
               "absolute path; -o FILE writes it elsewhere");
-        report::create_folder(folder); // before the measuring
+        report::create_folder(folder); // fail before the measurement
         place = folder / app::profile_name(device);
     } else {
         check_file_can_be_made(place);
@@ -60,7 +60,7 @@ int tune_device(const Common& common, int rounds, const std::string& output) {
     app::Request request = make_request(common);
     request.techniques = {app::kTunedTechnique};
     app::EngineOptions opened = engine_options(common.device);
-    opened.profiles.clear(); // it is measured from the defaults on
+    opened.profiles.clear(); // tuning starts from the defaults
     app::Engine engine(opened);
     introduce(engine, common.manners);
     const app::DeviceInfo& device = engine.device();

@@ -8,12 +8,14 @@
 
 namespace catoptric::cli {
 
-/// One line a variant: its ratio to the default, with its interval, and whether it is taken.
+/// Returns a table with one line per variant: its ratio to the default, the interval, and whether
+/// the variant is chosen.
 std::string tuned_table(const app::DeviceInfo& device, const std::vector<measure::Tried>& tried);
 
-/// `bench --tune`: measures in `rounds`, prints, and writes the profile to `output`, or where the
-/// engine looks for it if that is empty. Returns the exit code; throws as app::tune does,
-/// `usage` for too few rounds and for a profile to begin with, `cannot_create`.
+/// Runs `bench --tune`: measures variants in `rounds`, prints the results and writes the profile.
+/// An empty `output` writes it to the path where the engine looks for it. Returns the exit code.
+/// Throws as app::tune does, `usage` for too few rounds or a given starting profile, and
+/// `cannot_create`.
 int tune_device(const Common& common, int rounds, const std::string& output);
 
 } // namespace catoptric::cli

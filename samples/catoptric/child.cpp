@@ -17,11 +17,11 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr int kLook = 100; // milliseconds between two looks at `stop`
+constexpr int kLook = 100; // milliseconds between two checks of `stop`
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// A started program that is waited for whatever happens.
+/// A started program. The destructor waits for its end in any case.
 class Child {
 public:
     explicit Child(const std::vector<std::string>& command) : name_(command.front()) {
@@ -51,7 +51,7 @@ public:
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    /// All that it writes until it closes its stdout.
+    /// Returns all output of the program until it closes its stdout.
     std::string read(const app::Watcher& watcher) const {
         std::string text;
         for (;;) {

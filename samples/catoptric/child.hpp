@@ -6,9 +6,9 @@
 
 namespace catoptric::cli {
 
-/// Runs a program to its end, its stderr ours, and returns its stdout. Ends it with SIGTERM where
-/// `stop` says so, and throws as app::Watcher::check_stopped does. Throws `missing_input` where it
-/// cannot be started, `bad_data` with how it ended where that is not exit code 0.
+/// Runs a program to its end and returns its stdout. The program shares our stderr. If `stop` is
+/// set, it is ended by SIGTERM, and the function throws as app::Watcher::check_stopped does. Throws
+/// `missing_input` if the program cannot be started, and `bad_data` for an exit code other than 0.
 std::string output_of(const std::vector<std::string>& command, const std::atomic<int>& stop);
 
 } // namespace catoptric::cli

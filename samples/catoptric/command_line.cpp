@@ -19,10 +19,10 @@ namespace {
 
 constexpr const char* kHelpVerb = "help";
 constexpr std::size_t kHelpWidth = 80;
-constexpr std::size_t kHelpIndent = 28; ///< of what options mean
+constexpr std::size_t kHelpIndent = 28; ///< column of the descriptions of options
 
-/// Returns the words of `text` in lines of at most kHelpWidth columns, each after the first behind
-/// `indent` blanks; the first begins in column `indent`.
+/// Returns `text` in lines of at most kHelpWidth columns. The first line starts in column `indent`;
+/// the others are indented to it.
 std::string wrapped(const std::string& text, std::size_t indent) {
     std::istringstream words(text);
     std::string lines, word;
@@ -42,7 +42,7 @@ std::string wrapped(const std::string& text, std::size_t indent) {
     return lines;
 }
 
-/// Returns `left` and, beside it or below where it is too wide, `help`.
+/// Returns `left` with `help` beside it, or below it if `left` is too wide.
 std::string help_entry(const std::string& left, const std::string& help) {
     const std::string start = "  " + left;
     const bool fits = start.size() + 2 <= kHelpIndent;
@@ -72,7 +72,7 @@ std::string paragraphs(const std::string& text) {
     return result;
 }
 
-/// Help in kHelpWidth columns.
+/// Formats the help of CLI11 in kHelpWidth columns.
 class Layout : public CLI::Formatter {
 public:
     std::string make_option(const CLI::Option* option, bool is_positional) const override {
@@ -87,13 +87,13 @@ public:
     }
 };
 
-/// Help without runs of empty lines.
+/// Returns the help without repeated empty lines.
 std::string tidy(std::string text) {
     for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
     return text;
 }
 
-/// What CLI11 was told to let through, so that the nearest name can be suggested here.
+/// Refuses unknown words. CLI11 lets them pass, because this function suggests the nearest name.
 void refuse_extras(const CLI::App& verb) {
     std::vector<std::string> names;
     for (const CLI::Option* option : verb.get_options())
@@ -109,7 +109,7 @@ void refuse_extras(const CLI::App& verb) {
           "' wanted no further argument, found '", extras.empty() ? "" : extras.front(), "'");
 }
 
-/// The option of `app` or of the verb that was read last whose name the parser's words begin with.
+/// Returns the option of `app` or of the last verb whose name starts the parser's message.
 const CLI::Option* option_named(const CLI::App& app, const std::string& words) {
     const CLI::Option* longest = nullptr;
     std::vector<const CLI::App*> apps{&app};
@@ -123,7 +123,7 @@ const CLI::Option* option_named(const CLI::App& app, const std::string& words) {
     return longest;
 }
 
-/// What the parser refused, in this program's words.
+/// Returns the parser's refusal in this program's words.
 std::string refusal(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::Option* option = option_named(app, error.what());
     if (option == nullptr) return "wanted one verb with options and arguments of its own";
@@ -207,7 +207,7 @@ Verb& CommandLine::add(const std::string& name, const std::string& summary) {
     CLI::App* app = app_->add_subcommand(name, summary);
     app->group("Verbs");
     app->set_help_flag("-h,--help", "this text");
-    app->allow_extras(); // refuse_extras says more
+    app->allow_extras(); // refuse_extras has the better message
     return *verbs_.emplace_back(std::make_unique<Verb>(*app));
 }
 
@@ -218,7 +218,7 @@ Verb& CommandLine::whole() {
     return *verbs_.emplace_back(std::make_unique<Verb>(*app_));
 }
 
-/// "help" becomes "--help", "help VERB" becomes "VERB --help".
+/// Replaces "help" by "--help", and "help VERB" by "VERB --help".
 std::vector<std::string> CommandLine::without_help_verb(std::vector<std::string> words) const {
     if (is_whole_ || words.front() != kHelpVerb) return words;
     check(words.size() <= 2, Failure::usage, "'help' wanted at most one verb, found '",
@@ -229,7 +229,7 @@ std::vector<std::string> CommandLine::without_help_verb(std::vector<std::string>
     return words;
 }
 
-/// The first word is a verb, or asks for help or the version.
+/// Throws `usage` unless the first word is a verb or asks for help or the version.
 void CommandLine::check_verb(const std::string& word) const {
     std::vector<std::string> names;
     for (const CLI::App* verb : app_->get_subcommands(nullptr)) names.push_back(verb->get_name());
@@ -250,12 +250,12 @@ std::function<int()> CommandLine::parse(std::vector<std::string> words) {
     const std::string program = is_whole_ ? app_->get_name()
                                           : app_->get_name() + " " + words.front();
     if (!is_whole_) check_verb(words.front());
-    std::ranges::reverse(words); // as CLI11 wants a vector
+    std::ranges::reverse(words); // CLI11 takes a vector in reverse order
     try {
         app_->parse(words);
     } catch (const CLI::ParseError& error) {
         std::ostringstream text, ignored;
-        if (app_->exit(error, text, ignored) == 0) // help or version was asked for
+        if (app_->exit(error, text, ignored) == 0) // the user asked for help or version
             return [text = tidy(text.str())] { return put(text), 0; };
         fail(Failure::usage, refusal(*app_, error), " (try '", program, " --help')");
     }

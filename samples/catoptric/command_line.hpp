@@ -10,45 +10,46 @@ namespace CLI { // NOLINT(readability-identifier-naming): theirs
 class App;
 }
 
-// The command line as a table of verbs; the library that reads it is known to one file.
+// The command line as a table of verbs. Only one file uses the library that parses it.
 namespace catoptric::cli {
 
-/// A verb: what it takes and what it does. Parsing fills the variables that its options name, so
-/// they must outlive it.
+/// A verb with its options, arguments and action. Parsing fills the variables of the options, so
+/// these must outlive the verb.
 class Verb {
 public:
     using Take = std::function<void(const std::string&)>;
 
     explicit Verb(CLI::App& app) : app_(app) {}
 
-    /// Shown under the help.
+    /// Sets the examples that follow the help.
     void examples(const std::string& text);
-    /// Options from here on stand under this heading of the help. Headings come in the order in
-    /// which they are first named, kCommonOptions first.
+    /// Puts the options added from here on under this heading of the help. Headings appear in the
+    /// order of their first use, kCommonOptions first.
     void heading(const std::string& text);
 
     enum class Need : std::uint8_t { optional, required };
     void argument(const std::string& name, const std::string& help, std::string& value, Need need);
-    /// Any number of words.
+    /// Adds an argument of any number of words.
     void arguments(const std::string& name, const std::string& help,
                    std::vector<std::string>& values);
     void flag(const std::string& names, const std::string& help, bool& value);
-    /// `names` as in "-o,--output"; `type` stands for the value in the help.
+    /// Adds an option with names such as "-o,--output". `type` stands for the value in the help.
     void option(const std::string& names, const std::string& type, const std::string& help,
                 std::string& value);
-    /// Takes every word that follows.
+    /// Adds an option that takes all words that follow it.
     void option(const std::string& names, const std::string& type, const std::string& help,
                 std::vector<std::string>& values);
-    /// `take` gets the text while the line is parsed; what it throws, `CommandLine::parse` throws.
+    /// Adds an option whose text is passed to `take` during parsing. `CommandLine::parse` passes
+    /// exceptions of `take` on.
     void option(const std::string& names, const std::string& type, const std::string& help,
                 const Take& take);
-    /// The same, each time that it is given.
+    /// Adds an option that may be given several times. Each use calls `take`.
     void repeated(const std::string& names, const std::string& type, const std::string& help,
                   const Take& take);
     void option_without_value(const std::string& names, const std::string& help,
                               const std::function<void()>& take);
 
-    /// Called once the whole line is parsed; returns the exit code.
+    /// Sets the action that is called after the whole line is parsed. It returns the exit code.
     void does(std::function<int()> run) { run_ = std::move(run); }
 
 private:
@@ -57,7 +58,8 @@ private:
     std::function<int()> run_;
 };
 
-/// Heading of the options that most users need; those named before any other heading.
+/// Heading of the options that most users need. Options added before any other heading belong to
+/// it.
 inline constexpr const char* kCommonOptions = "Common options";
 
 class CommandLine {
@@ -68,15 +70,16 @@ public:
     CommandLine(const CommandLine&) = delete;
     CommandLine& operator=(const CommandLine&) = delete;
 
-    /// A further verb, which lives as long as this.
+    /// Adds a verb, which lives as long as this object.
     Verb& add(const std::string& name, const std::string& summary);
-    /// In place of verbs: all words are options and arguments of this one.
+    /// Returns a single verb in place of a list of verbs. It takes all words as options and
+    /// arguments.
     Verb& whole();
 
-    /// What the words after the program's name ask for, to be called: a verb's work, or printing
-    /// help ("help", "help VERB", "--help") or version. No word prints help to stderr and returns
-    /// `usage`'s exit code. Throws `usage` for a word that is no verb, option or argument, naming
-    /// the nearest.
+    /// Parses the words after the program's name and returns the function to call. The function
+    /// runs a verb, or prints help ("help", "help VERB", "--help") or the version. Without words,
+    /// it prints help to stderr and returns the exit code of `usage`. Throws `usage` for an unknown
+    /// verb, option or argument, with the nearest name.
     std::function<int()> parse(std::vector<std::string> words);
 
 private:

@@ -1,4 +1,4 @@
-// catoptric compare: every technique against the reference, speed and error in one table.
+// catoptric compare: compares all techniques with the reference, with time and error in one table.
 #include "app/compare.hpp"
 
 #include "core/error.hpp"
@@ -33,12 +33,12 @@ SCENE comes before --techniques; several become one report with a section and a 
 report.html, report.md, report.json, rows.csv and images/.)";
 
 struct CompareOptions {
-    Common common; ///< of every scene
+    Common common; ///< options for all scenes
     std::vector<std::string> scenes;
     std::string folder;
     std::vector<std::string> techniques;
     bool together = false;
-    std::optional<int> rounds; ///< none: as many as app::kRounds, or one a frame
+    std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumns csv = report::CsvColumns::table;
     bool causes = false;
     bool lag = false;
@@ -46,7 +46,7 @@ struct CompareOptions {
     std::vector<std::string> command;
 };
 
-/// 1, or as many as bound a median.
+/// Returns the number of views: 1, or at least as many as an interval of the median needs.
 int parse_views(const std::string& text) {
     constexpr std::int64_t kMost = 10'000;
     constexpr int kLeast = measure::kFewest;
@@ -56,19 +56,20 @@ int parse_views(const std::string& text) {
     return views;
 }
 
-/// As they were asked for; one, the built-in scene, where none was.
+/// Returns the scenes that the user asked for, or the built-in scene if there are none.
 std::vector<std::string> scenes_of(const CompareOptions& options) {
     return options.scenes.empty() ? std::vector{options.common.scene} : options.scenes;
 }
 
-/// Throws `usage` for more rounds than frames: each round measures at least one frame of each row.
+/// Throws `usage` for more rounds than frames, because each round measures at least one frame of
+/// each row.
 void check_rounds(const CompareOptions& options) {
     const int frames = options.common.frames.value_or(app::Request().frames);
     check(!options.rounds || *options.rounds <= frames, Failure::usage, "--rounds: wanted at most ",
           frames, ", one for each of --frames, found ", options.rounds.value_or(0));
 }
 
-/// What is asked of every scene.
+/// Returns the request for one scene, with the options for all scenes.
 app::CompareRequest make_compare_request(const CompareOptions& options, const std::string& scene) {
     app::CompareRequest request;
     Common common = options.common;
@@ -88,7 +89,8 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
     return request;
 }
 
-/// All of them before any work, so that the last one's fault is known at once.
+/// Returns the requests of all scenes. Making them before any work reports a fault of the last
+/// scene at once.
 std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& options) {
     check_rounds(options);
     check_no_scene(options.techniques);
@@ -120,7 +122,7 @@ void check_places(const CompareOptions& options, const std::vector<app::CompareR
         }
         const bool is_first = &request == &requests.front();
         for (const std::filesystem::path& file : report::files_of(images, request.images))
-            if (is_first || file.has_parent_path()) // the documents are of all
+            if (is_first || file.has_parent_path()) // the documents cover all scenes
                 outputs.push_back(std::filesystem::path(options.folder) / file);
         const std::vector<std::filesystem::path>& files = request.base.scene.files;
         inputs.insert(inputs.end(), files.begin(), files.end());
@@ -128,7 +130,7 @@ void check_places(const CompareOptions& options, const std::vector<app::CompareR
     check_apart(outputs, inputs);
 }
 
-/// Labels of the rows with pixels that are NaN or infinite.
+/// Returns the labels of rows with pixels that are NaN or infinite.
 std::vector<std::string> broken_rows(const report::Comparison& comparison) {
     std::vector<std::string> broken;
     for (const report::Row& row : comparison.rows)
@@ -138,21 +140,21 @@ std::vector<std::string> broken_rows(const report::Comparison& comparison) {
     return broken;
 }
 
-/// What was on its way when a run with all its rows ended early.
+/// Returns the phase of a run that was stopped after all its rows were measured.
 std::string phase_of(const report::Comparison& comparison) {
     if (comparison.lag) return ", while their lag was measured";
     const bool in_views = !comparison.views.empty() && comparison.rows.size() == comparison.asked;
     return in_views ? ", while their views were rendered" : "";
 }
 
-/// Throws what ended the comparison early.
+/// Throws the error that ended the comparison early, if any.
 void check_not_stopped(const CompareOptions& options, const report::Comparison& comparison) {
     if (comparison.stopped)
         fail_incomplete(*comparison.stopped, comparison.rows.size(), comparison.asked,
                         phase_of(comparison), options.folder);
 }
 
-/// Where the reports of one or of several scenes go.
+/// Writes the reports of one or several scenes.
 class Output {
 public:
     Output(const CompareOptions& options, std::size_t count)
@@ -162,7 +164,7 @@ public:
     void write(std::size_t index, const report::Comparison& comparison) {
         is_one_ ? one_.write(comparison) : several_.write(index, comparison);
     }
-    /// The table of one scene, once it is done.
+    /// Prints the table of one finished scene.
     void show(const report::Comparison& comparison) const {
         const Manners& manners = options_.common.manners;
         for (const std::string& warning : comparison.warnings)
@@ -176,7 +178,7 @@ public:
         else if (is_one_)
             put(report::to_json(comparison));
     }
-    /// What is said of all of them, at the end.
+    /// Prints the document of all scenes at the end.
     void show_all() const {
         if (options_.common.manners.json && !is_one_) put(report::to_json(several_.scenes()));
     }
@@ -188,7 +190,7 @@ private:
     bool is_one_;
 };
 
-/// Measures one of the scenes and writes what there is of all so far.
+/// Measures one scene and writes the report on all scenes so far.
 report::Comparison compare_one(app::Engine& engine, app::CompareRequest& request, std::size_t index,
                                Progress& progress, Output& output) {
     const std::size_t row_count = rows_of(request).size();
@@ -199,7 +201,7 @@ report::Comparison compare_one(app::Engine& engine, app::CompareRequest& request
     };
     report::Comparison comparison = app::compare(engine, request);
     progress.clear();
-    // Where no row came to its end, a report of before is worth more.
+    // If no row was finished, an earlier report is worth more.
     if (!comparison.rows.empty()) output.write(index, comparison);
     output.show(comparison);
     return comparison;
@@ -212,7 +214,7 @@ int run_compare(const CompareOptions& options) {
     check_folder_can_be_made(std::filesystem::path(options.folder) / "images");
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
     check_places(options, requests);
-    image_codecs(); // where they are missing nothing need be rendered
+    image_codecs(); // fail before rendering if the codecs are missing
     app::Engine engine(engine_options(options.common.device));
     introduce(engine, options.common.manners);
     report::create_folder(options.folder);
@@ -229,7 +231,7 @@ int run_compare(const CompareOptions& options) {
             note(manners, "written: " + options.folder);
         check_not_stopped(options, comparison);
         for (const std::string& row : broken_rows(comparison)) broken.push_back(row);
-        requests[i].base.scene = scene::Scene(); // its memory
+        requests[i].base.scene = scene::Scene(); // frees the memory of the scene
     }
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");

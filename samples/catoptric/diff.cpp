@@ -1,4 +1,4 @@
-// catoptric diff: how far two pictures are apart.
+// catoptric diff: measures the difference of two pictures.
 #include "measure/difference.hpp"
 
 #include "core/error.hpp"
@@ -39,7 +39,7 @@ struct DiffOptions {
 
 void judge(DiffFacts& facts, const char* option, double value, std::optional<double> most) {
     if (!most) return;
-    // NaN (no pixel to judge) is over every threshold.
+    // NaN (no pixel to judge) exceeds every threshold.
     if (!(value <= *most))
         facts.over.push_back(
             fmt::format("{} {:.6g} is over --max-{} {:.6g}", option, value, option, *most));

@@ -6,7 +6,7 @@
 
 namespace catoptric::cli {
 
-/// What a verb renders with: one technique for all mirrors, or a plan.
+/// The choice of techniques of a verb: one technique for all mirrors, or a plan.
 struct Drawn {
     std::string technique, plan;
 };
@@ -14,8 +14,9 @@ struct Drawn {
 /// Adds --technique and --plan. `drawn` must outlive the parsing.
 void add_drawn(Verb& verb, Drawn& drawn);
 
-/// The one that was given, as app::FrameSpec::techniques takes it. Throws `usage` for none, for
-/// both and for what cannot be read, and as a plan's file does (app/plan_file.hpp).
+/// Returns the technique or plan that was given, as app::FrameSpec::techniques takes it. Throws
+/// `usage` if none or both were given or the text is invalid, and as reading a plan's file does
+/// (app/plan_file.hpp).
 std::string checked(const Drawn& drawn, const std::string& verb);
 
 } // namespace catoptric::cli

@@ -1,4 +1,4 @@
-// catoptric graph: the compiled plan of a frame.
+// catoptric graph: shows the compiled render graph of a frame.
 #include "app/session.hpp"
 #include "app/why.hpp"
 #include "core/error.hpp"
@@ -30,7 +30,7 @@ lights, what of captures and shadow maps it does without and why, and which plan
 struct GraphOptions {
     Common common;
     Drawn drawn;
-    std::string technique; ///< of the two, checked
+    std::string technique; ///< technique or plan, checked
     std::optional<app::PlanFormat> format;
     bool why = false;
 };

@@ -1,4 +1,4 @@
-// catoptric info: what a scene is made of; or version, device, features.
+// catoptric info: describes a scene, or the program's version, device and features.
 #include "app/engine.hpp"
 #include "app/exposure.hpp"
 #include "app/lanes.hpp"
@@ -32,7 +32,7 @@ InfoFacts gather(const DeviceAsked& device) {
     InfoFacts facts;
     try {
         app::EngineOptions options = engine_options(device);
-        options.cache.clear(); // it compiles nothing
+        options.cache.clear(); // `info` compiles no shaders
         const app::Engine engine(options);
         facts.device = engine.device();
         facts.lanes = app::lanes_of(engine);
@@ -77,16 +77,16 @@ std::string text_of(const InfoFacts& facts) {
 }
 
 struct InfoOptions {
-    Common common; ///< without a scene: about the program
+    Common common; ///< without a scene, `info` describes the program
     bool writes = false, replaces = false;
 };
 
-/// Returns the exposure that the scene is shown with; none where no device can tell. Moves the
-/// scene away.
+/// Returns the exposure that the scene is shown with, in stops; none if no device can measure it.
+/// Moves the scene out of the request.
 std::optional<double> exposure_of(app::Request& request, const InfoOptions& options) {
     if (!request.auto_exposure) return request.exposure;
     constexpr std::size_t kMostTriangles =
-        500'000; // a tree over more would cost what a picture does
+        500'000; // building a BVH over more costs as much as a picture
     if (const std::size_t count = scene::triangle_count(request.scene); count > kMostTriangles) {
         note(options.common.manners, fmt::format("exposure not told: wanted at most {} triangles, "
                                                  "found {}; render chooses it",
@@ -105,7 +105,7 @@ std::optional<double> exposure_of(app::Request& request, const InfoOptions& opti
     }
 }
 
-/// What was asked for, with what was added.
+/// Writes the overrides that the user gave, and the values that were added, to the scene's file.
 void write_scene_file(const InfoOptions& options, const app::ResolvedScene& wanted,
                       const app::Request& request) {
     const scene::Scene& scene = request.scene;
@@ -120,7 +120,7 @@ void write_scene_file(const InfoOptions& options, const app::ResolvedScene& want
     scene::SceneOverrides overrides = wanted.overrides;
     if (!overrides.environment)
         overrides.environment = scene.environment && scene.environment->studio ? "studio" : "none";
-    if (wanted.is_camera_seeded) overrides.camera = request.camera.name; // numbers
+    if (wanted.is_camera_seeded) overrides.camera = request.camera.name; // stores the camera as numbers
     write_file(path, scene::scene_file_text(overrides, options.common.scene));
     note(options.common.manners, "written: " + path.string());
 }
@@ -132,7 +132,7 @@ int about_scene(const InfoOptions& options) {
     SceneWords words{.info = app::scene_info(request)};
     words.warnings = request.scene.warnings;
     words.auto_exposure = request.auto_exposure;
-    words.exposure = exposure_of(request, options); // takes the scene
+    words.exposure = exposure_of(request, options); // moves the scene away
     words.ambient = request.ambient;
     if (asked.wanted.scene_file) words.scene_file = asked.wanted.scene_file->string();
     put(options.common.manners.json ? scene_json(words) : scene_text(words));

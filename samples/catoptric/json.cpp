@@ -29,12 +29,12 @@ Json to_json(const app::DeviceInfo& device) {
     return row;
 }
 
-/// As report.json has them.
+/// Returns the times in the format of report.json.
 Json times_of(const app::Result& result, const app::DeviceInfo& device) {
     report::Row row;
     app::fill_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
     const std::vector<app::PassTime>& last = result.frames.back().passes;
-    std::erase_if(row.passes, [&](const report::PassFacts& pass) { // that only others had
+    std::erase_if(row.passes, [&](const report::PassFacts& pass) { // passes that only other frames had
         return std::ranges::find(last, pass.name, &app::PassTime::name) == last.end();
     });
     return report::times_json(row);
@@ -47,7 +47,7 @@ Json left_out_json(const app::Part& part) {
     return list;
 }
 
-/// How many captures a frame draws again, and how old what they show can be.
+/// Returns how many captures a frame draws again, and how old their contents can be.
 Json slices_json(const std::optional<app::CaptureBudget>& slices, double budget_ms) {
     if (!slices) return nullptr;
     return {{"budget_ms", budget_ms},
@@ -68,7 +68,7 @@ Json settings_json(const std::vector<Setting>& list) {
     return settings;
 }
 
-/// What is better, in a word; null where neither is.
+/// Returns which direction is better, in one word; null if neither is.
 Json better_json(measure::Better better) {
     switch (better) {
     case measure::Better::less: return "less";
@@ -124,7 +124,7 @@ std::string render_json(const app::Request& request, const app::DeviceInfo& devi
     document["captures"] = slices_json(part.slices, request.budget_ms);
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
-    // The frames of a still compile what they use first: their times say nothing.
+    // The frames of a still picture compile shaders at first use, so their times mean nothing.
     const Json times = times_of(result, device);
     for (const auto& [name, value] : times.items())
         document[name] = request.until_settled ? Json() : value;
@@ -146,7 +146,7 @@ std::string trace_json(const app::FrameTimes& frame, const std::string& process)
     };
     name_of("process_name", process);
     name_of("thread_name", "device");
-    for (const app::PassTime& pass : frame.passes) // the format wants microseconds
+    for (const app::PassTime& pass : frame.passes) // the format uses microseconds
         events.push_back({{"name", pass.name},
                           {"cat", "pass"},
                           {"ph", "X"},

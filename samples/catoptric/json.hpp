@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-/// The small JSON documents of the verbs, each whole with a newline at its end. A number that is
-/// not finite is null; bytes that are not UTF-8 (in a path) are replaced.
+/// The small JSON documents of the verbs. Each is complete and ends with a newline. A number that
+/// is not finite becomes null. Bytes that are not UTF-8 (in a path) are replaced.
 namespace catoptric::cli {
 
 struct DiffFacts {
@@ -19,14 +19,14 @@ struct DiffFacts {
     std::string flip_source; ///< see measure/flip.hpp
     measure::Difference difference;
     measure::Mean a_mean, b_mean, a_clamped, b_clamped;
-    std::vector<std::string> over; ///< what is over its threshold, in words
+    std::vector<std::string> over; ///< quantities that exceed their threshold, in words
 };
 std::string diff_json(const DiffFacts& facts);
 
 std::string render_json(const app::Request& request, const app::DeviceInfo& device,
                         const app::Result& result, const std::string& output);
 
-/// Chrome's trace-event format (chrome://tracing, Perfetto): the passes of one frame.
+/// Returns the passes of one frame in Chrome's trace-event format (chrome://tracing, Perfetto).
 std::string trace_json(const app::FrameTimes& frame, const std::string& process);
 
 std::string devices_json(const std::vector<app::DeviceInfo>& devices);
@@ -35,28 +35,28 @@ std::string techniques_json(const std::vector<app::TechniqueInfo>& techniques);
 struct Named {
     std::string name, summary;
 };
-/// {"schema": "catoptric/list/1", KIND: [{"name", "summary"}]}
+/// Returns {"schema": "catoptric/list/1", KIND: [{"name", "summary"}]}.
 std::string named_json(const std::string& kind, const std::vector<Named>& rows);
 
-/// The table of quantities: {"name", "summary", "unit", "mask", "better"}.
+/// Returns the table of metrics: {"name", "summary", "unit", "mask", "better"}.
 std::string metrics_json();
 
 struct InfoFacts {
     std::optional<app::DeviceInfo> device;
-    int lanes = 0; ///< of the device's shaders that run together
+    int lanes = 0; ///< lanes that run together in the device's shaders
     std::string why_no_device;
-    /// Name of a group and what is in it.
+    /// Name of each group of features, and its features.
     std::vector<std::pair<std::string, std::vector<std::string>>> features;
 };
 std::string info_json(const InfoFacts& facts);
 
-/// What `info SCENE` has to say.
+/// Facts that `info SCENE` reports.
 struct SceneWords {
     app::SceneInfo info;
-    std::optional<double> exposure; ///< stops; none: not known
+    std::optional<double> exposure; ///< stops; none: unknown
     bool auto_exposure = false;
     double ambient = 0;
-    std::string scene_file; ///< that was read; empty: none
+    std::string scene_file; ///< scene file that was read; empty: none
     std::vector<std::string> warnings;
 };
 std::string scene_json(const SceneWords& words);

@@ -1,4 +1,4 @@
-// What `info SCENE --json` says.
+// Writes the JSON of `info SCENE --json`.
 #include "app/engine.hpp"
 #include "json.hpp"
 #include "report/json.hpp"

@@ -1,4 +1,4 @@
-// catoptric list: what there is.
+// catoptric list: lists techniques, scenes and metrics.
 #include "app/engine.hpp"
 #include "core/error.hpp"
 #include "json.hpp"
@@ -39,7 +39,7 @@ std::string technique_line(const std::string& name, const std::string& summary) 
     return fmt::format("{:<12} {}\n", name, summary);
 }
 
-/// A line a technique.
+/// Returns one line per technique.
 std::string techniques_text(const std::vector<app::TechniqueInfo>& techniques) {
     std::string text;
     for (const app::TechniqueInfo& technique : techniques)
@@ -48,15 +48,14 @@ std::string techniques_text(const std::vector<app::TechniqueInfo>& techniques) {
            "\nKnobs of one: catoptric list techniques NAME\n";
 }
 
-/// One technique with its knobs.
+/// Returns the text of one technique with its knobs.
 std::string technique_text(const app::TechniqueInfo& technique) {
     std::string text = technique_line(technique.name, technique.summary);
     for (const app::KnobInfo& knob : technique.knobs) text += knob_text(knob);
     return text;
 }
 
-/// Returns the technique of this name alone. Throws `usage` for a name that is none, with the
-/// nearest.
+/// Returns only the technique of this name. Throws `usage` for an unknown name, with the nearest.
 std::vector<app::TechniqueInfo> only(std::vector<app::TechniqueInfo> techniques,
                                      const std::string& name) {
     if (name == "auto") return {{.name = "auto", .summary = kAutoSummary}};
@@ -97,7 +96,7 @@ std::vector<Named> scenes() {
     return rows;
 }
 
-/// Unit, pixels and what is better, as far as there is something to say.
+/// Returns unit, pixels and better direction of a metric, as far as they exist.
 std::string facts_of(const measure::Metric& quantity) {
     std::vector<std::string> facts;
     if (!quantity.unit.empty()) facts.emplace_back(quantity.unit);

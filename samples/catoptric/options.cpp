@@ -72,7 +72,7 @@ scene::Camera choose_camera(const Common& common, app::ResolvedScene& wanted) {
     return app::camera_of(wanted, double(common.size.x) / double(common.size.y));
 }
 
-/// One warning, with what to type.
+/// Warns of a scene without a mirror, with options that add one.
 void warn_of_no_mirror(const scene::Scene& scene) {
     if (!scene::mirrors(scene).empty()) return;
     const std::vector<std::string> options = app::mirror_options(scene, 1);

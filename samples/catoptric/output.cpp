@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a line of stderr may show of `text`, which may quote a file or a name. Further lines of our
-/// own are indented, so a name cannot begin one that looks like a message.
+/// Returns the printable form of `text`, which may quote a file or a name. Our own further lines
+/// are indented. Therefore a quoted name cannot start a line that looks like a message.
 std::string message_text(std::string_view text) {
     std::string shown;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -43,14 +43,14 @@ void write_all(std::string_view bytes) {
 
 void check_writable(const fs::path& folder, const fs::path& path) {
     const bool writable = ::access(folder.c_str(), W_OK | X_OK) == 0;
-    const int error = errno; // before anything else is called
+    const int error = errno; // saved before any other call
     check(writable, Failure::cannot_create, path.string(), ": cannot be created in ",
           folder.string(), ": ", std::generic_category().message(error));
 }
 
-/// The folder that a new entry `path` would lie in.
+/// Returns the folder that a new entry `path` would lie in.
 fs::path parent_of(const fs::path& path) {
-    const fs::path named = path.has_filename() ? path : path.parent_path(); // "out/" is "out"
+    const fs::path named = path.has_filename() ? path : path.parent_path(); // "out/" means "out"
     return named.has_parent_path() ? named.parent_path() : fs::path(".");
 }
 
@@ -69,7 +69,8 @@ void prepare_streams() {
     std::signal(SIGXFSZ, SIG_IGN);
     for (int stream = 0; stream <= 2; ++stream) {
         if (::fcntl(stream, F_GETFD) != -1) continue;
-        // The lowest free number is this one. Open for reading, stdout still refuses to be written.
+        // `open` returns the lowest free number, which is this stream's. Opened for reading, stdout
+        // still refuses writes.
         const int opened = ::open("/dev/null", stream == 2 ? O_WRONLY : O_RDONLY);
         static_cast<void>(opened);
     }
@@ -81,7 +82,7 @@ void put_bytes(std::string_view result) { write_all(result); }
 
 void say(const std::string& text) {
     const std::string whole = message_text(text) + "\n";
-    std::fwrite(whole.data(), 1, whole.size(), stderr); // nobody is left to tell of a failure
+    std::fwrite(whole.data(), 1, whole.size(), stderr); // a failure here cannot be reported
 }
 
 void note(const Manners& manners, const std::string& text) {
@@ -112,7 +113,7 @@ void check_file_can_be_made(const fs::path& path) {
 void check_folder_can_be_made(const fs::path& path) {
     check(!path.empty(), Failure::cannot_create, "wanted the name of a folder, found none");
     std::error_code error;
-    fs::path there = path; // it, or the nearest above it
+    fs::path there = path; // the path, or its nearest existing parent
     while (!fs::exists(fs::symlink_status(there, error))) there = parent_of(there);
     check(fs::is_directory(there, error), Failure::cannot_create, path.string(),
           ": cannot be created: wanted ", there == path ? "" : there.string() + " to be ",

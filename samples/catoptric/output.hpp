@@ -10,7 +10,7 @@ namespace catoptric::cli {
 
 enum class ProgressMode { automatic, always, never };
 
-/// How a verb talks. The result is all that goes to stdout.
+/// How a verb writes its output. Only the result goes to stdout.
 struct Manners {
     bool json = false;
     bool quiet = false;
@@ -18,34 +18,35 @@ struct Manners {
     ProgressMode progress = ProgressMode::automatic;
 };
 
-/// Makes a write to a closed pipe or over the limit of file sizes fail instead of killing the
-/// program, and keeps files that are opened later from becoming a closed stdin, stdout or stderr.
+/// Prepares stdin, stdout and stderr. A write to a closed pipe or beyond the file size limit fails
+/// instead of killing the program. Files opened later cannot take the place of a closed stream.
 void prepare_streams();
 
-/// Writes and flushes the result, text or JSON, without what a terminal might obey (`printable`, of
-/// whole lines). Throws `Failure::io`, without text where the reader has gone.
+/// Writes the result, text or JSON, to stdout and flushes it. Removes characters that a terminal
+/// might obey (`printable`, of whole lines). Throws `Failure::io`, without a message if the reader
+/// has gone.
 void put(std::string_view result);
-/// The same of a picture, every byte as it is.
+/// Writes the bytes of a picture to stdout unchanged and flushes them. Throws as `put` does.
 void put_bytes(std::string_view result);
-/// Writes one message to stderr, as `put` does. Of several lines all but the first begin with two
-/// spaces; other line breaks are written out.
+/// Writes one message to stderr, with the same characters removed as by `put`. In a message of
+/// several lines, all lines but the first begin with two spaces. Other line breaks are escaped.
 void say(const std::string& text);
 
-/// Lines on stderr: what may interest (not with --quiet), what only -v shows, what must be seen.
+/// Write a line to stderr: `note` unless --quiet, `detail` only with -v, `warn` always.
 void note(const Manners& manners, const std::string& text);
 void detail(const Manners& manners, const std::string& text);
 void warn(const std::string& text);
 
-/// Throws what ended a run early, with how many rows it has and where they lie: nowhere if `folder`
-/// is empty. `where` is said after the rows.
+/// Throws the error that ended a run early, with the number of finished rows and their folder.
+/// `folder` is empty if there is none. The message has `where` after the rows.
 [[noreturn]] void fail_incomplete(const Error& stopped, std::size_t rows, std::size_t asked,
                                   const std::string& where, const std::filesystem::path& folder);
 
-/// Throws `cannot_create` where a file cannot be made at `path`, before work is spent on it: its
-/// folder is missing, or the name is a folder's.
+/// Throws `cannot_create` if no file can be made at `path`, before work is spent on it. Reasons are
+/// a missing folder, or a folder of this name.
 void check_file_can_be_made(const std::filesystem::path& path);
-/// The same for a folder, which is made with its parents: the nearest of them that is there is a
-/// folder and takes entries.
+/// Throws `cannot_create` if the folder and its parents cannot be made. The nearest existing parent
+/// must be a folder that accepts entries.
 void check_folder_can_be_made(const std::filesystem::path& path);
 
 } // namespace catoptric::cli

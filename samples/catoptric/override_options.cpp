@@ -1,4 +1,4 @@
-// What the user says of a scene.
+// The options for scene overrides.
 #include "core/error.hpp"
 #include "options.hpp"
 #include "parse.hpp"

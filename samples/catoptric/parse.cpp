@@ -11,7 +11,7 @@ namespace catoptric::cli {
 
 namespace {
 
-/// The whole of `text` as a number; false for anything left over.
+/// Reads the whole of `text` as a number. Returns false if any text is left over.
 template <typename Number>
 bool read(const std::string& text, Number& value) {
     const char* end = text.data() + text.size();
@@ -31,7 +31,7 @@ std::string range_text(double low, double high) {
 } // namespace
 
 uvec2 parse_size(const std::string& option, const std::string& text) {
-    constexpr std::uint32_t kMost = 1U << 20; // devices stop long before
+    constexpr std::uint32_t kMost = 1U << 20; // larger than any device allows
     const std::vector<std::string> parts = split(text, "x");
     uvec2 size{0, 0};
     const bool numbers = parts.size() == 2 && read(parts[0], size.x) && read(parts[1], size.y);
@@ -58,7 +58,7 @@ std::uint64_t parse_seed(const std::string& option, const std::string& text) {
 
 double parse_real(const std::string& option, const std::string& text, double low, double high) {
     double value = 0;
-    // NaN and infinities fail the comparison.
+    // NaN and infinities fail this comparison.
     check(read(text, value) && value >= low && value <= high, Failure::usage, option,
           ": wanted a finite number", range_text(low, high), ", found '", text, "'");
     return value;

@@ -7,27 +7,27 @@
 #include <string>
 #include <vector>
 
-/// Text of the command line to values. Each throws `Failure::usage` naming the option, what was
-/// wanted and what was found.
+/// Converts text of the command line to values. Each function throws `Failure::usage` with the
+/// option, the expected and the actual text.
 namespace catoptric::cli {
 
-/// "640x480", both at least 1.
+/// Returns a size such as "640x480", both edges at least 1.
 uvec2 parse_size(const std::string& option, const std::string& text);
 
 std::int64_t parse_whole(const std::string& option, const std::string& text, std::int64_t low,
                          std::int64_t high);
 std::uint64_t parse_seed(const std::string& option, const std::string& text);
 
-/// A finite number in [low, high].
+/// Returns a finite number in [low, high].
 double parse_real(const std::string& option, const std::string& text,
                   double low = -std::numeric_limits<double>::max(),
                   double high = std::numeric_limits<double>::max());
 
-/// Index of `text` in `choices`; the message suggests the nearest.
+/// Returns the index of `text` in `choices`. The error message suggests the nearest choice.
 std::size_t parse_choice(const std::string& option, const std::string& text,
                          const std::vector<std::string>& choices);
 
-/// "a, b, c".
+/// Returns the parts separated by commas: "a, b, c".
 std::string join(const std::vector<std::string>& parts);
 
 } // namespace catoptric::cli

@@ -14,14 +14,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Files by where they really lie and, those that are there, by number.
+/// Files by their resolved path and, if they exist, by inode number.
 class Files {
 public:
     struct File {
-        fs::path path; ///< as it was named
+        fs::path path; ///< path as the user named it
         bool is_input = false;
     };
-    /// What names the same file, or null. Devices and pipes are none.
+    /// Returns the known file that is the same file, or null. Devices and pipes are never the same.
     const File* find(const fs::path& path) const {
         struct stat status {};
         const bool is_there = ::stat(path.c_str(), &status) == 0;

@@ -1,4 +1,5 @@
-// catoptric VERB ...: one file a verb. Errors become exit codes here and nowhere else.
+// The program `catoptric VERB ...`, with one file per verb. Only this file turns errors into exit
+// codes.
 #include "program.hpp"
 
 #include "app/engine.hpp"
@@ -44,7 +45,7 @@ int run_program_checked(int argc, char** argv) {
     return program.parse({words.begin() + std::min(argc, 1), words.end()})();
 }
 
-/// Runs, and says on stderr what went wrong.
+/// Runs the work, and prints errors to stderr. Returns the exit code.
 int exit_code(const std::string& name, const std::function<int()>& work) {
     try {
         return work();
@@ -65,7 +66,7 @@ int exit_code(const std::string& name, const std::function<int()>& work) {
 int run_guarded(const std::string& name, const std::function<int()>& work) {
     prepare_streams();
     const int code = exit_code(name, work);
-    if (app::any_abandoned()) std::_Exit(code); // nothing is taken down under a driver at work
+    if (app::any_abandoned()) std::_Exit(code); // destroying objects that a driver still uses is unsafe
     return code;
 }
 

@@ -5,10 +5,10 @@
 
 namespace catoptric::cli {
 
-/// All of `main`: returns the exit code, or ends the process at once where a device was abandoned.
-/// Once a process.
+/// Runs the whole program and returns the exit code. Ends the process at once if a device was
+/// abandoned. May be called once per process.
 int run_program(int argc, char** argv);
-/// The same of another program's work: what it throws is said on stderr after the program's name.
+/// Runs the work of another program in the same way. Errors go to stderr after the program's name.
 int run_guarded(const std::string& name, const std::function<int()>& work);
 
 } // namespace catoptric::cli

@@ -55,7 +55,7 @@ Progress::Progress(const Manners& manners, OffTerminal off_terminal)
 Progress::~Progress() { clear(); }
 
 void Progress::row(const std::string& label, std::size_t index, std::size_t count) {
-    if (index == 0) start_ = Clock::now(), tenths_ = 0; // of a list of its own
+    if (index == 0) start_ = Clock::now(), tenths_ = 0; // a new list of rows begins
     label_ = printable(label);
     index_ = index;
     count_ = std::max<std::size_t>(count, 1);
@@ -83,7 +83,7 @@ void Progress::frame(int number, int total) {
     const Clock::time_point now = Clock::now();
     if (now - shown_at_ < std::chrono::milliseconds(100)) return;
     shown_at_ = now;
-    // Rows take different times; the guess is good enough to decide whether to wait.
+    // Rows take different times, but this estimate suffices to decide whether to wait.
     const double done = (static_cast<double>(index_) + static_cast<double>(number) / total) /
                         static_cast<double>(count_);
     const std::string place = count_ > 1 ? fmt::format("[{}/{}] ", index_ + 1, count_) : "";

@@ -1,4 +1,4 @@
-// catoptric render: one picture.
+// catoptric render: renders one picture, or a sequence.
 #include "app/exposure.hpp"
 #include "app/run.hpp"
 #include "core/error.hpp"
@@ -43,7 +43,7 @@ EXR: linear float. PNG: exposure, clamp, sRGB. '-': a PNG to stdout.)";
 struct RenderOptions {
     Common common;
     Drawn drawn;
-    std::string technique; ///< of the two, checked
+    std::string technique; ///< technique or plan, checked
     std::string output;
     std::string trace;
     std::string profile;
@@ -52,16 +52,16 @@ struct RenderOptions {
 bool is_stdout(const RenderOptions& options) { return options.output == "-"; }
 bool is_exr(const RenderOptions& options) { return options.output.ends_with(".exr"); }
 
-constexpr int kMostPictures = 100'000; ///< of a sequence
+constexpr int kMostPictures = 100'000; ///< limit of a sequence
 
-/// A picture, no measurement: nothing asks for times or for a certain number of frames.
+/// Returns whether only a picture is wanted, without times or a certain number of frames.
 bool is_still(const RenderOptions& options) {
     const Common& common = options.common;
     return !common.animate && !common.frames && !common.warmup && options.trace.empty() &&
            options.profile.empty();
 }
 
-/// Returns the files that pictures are written to; none where the picture goes to stdout.
+/// Returns the files that pictures are written to; none if the picture goes to stdout.
 std::vector<std::string> pictures_of(const RenderOptions& options) {
     if (is_stdout(options)) return {};
     const std::optional<Sequence> sequence = Sequence::find(options.output);
@@ -107,7 +107,7 @@ app::Request make_render_request(const RenderOptions& options) {
     request.techniques = {options.technique};
     request.model = options.common.model.value_or(app::Modelling::required);
     if (!is_still(options)) return request;
-    request.frames += request.warmup; // as many as compare renders
+    request.frames += request.warmup; // the same number as `compare` renders
     request.warmup = 0;
     request.until_settled = true;
     return request;
@@ -118,7 +118,7 @@ void write_picture(const app::Part& part, const std::string& file) {
     measure::write_png(part.display, file);
 }
 
-/// Renders all frames. Of a sequence each measured frame is written to its file.
+/// Renders all frames. In a sequence, each measured frame is written to its file.
 void render(app::Frames& frames, const std::vector<std::string>& files, int warmup,
             const app::Watcher& watcher) {
     watcher.check_stopped();
@@ -170,7 +170,7 @@ int run_render(const RenderOptions& options) {
     check_output(options);
     app::Request request = make_render_request(options);
     check_places(options, request.scene);
-    if (is_exr(options)) image_codecs(); // where they are missing nothing need be rendered
+    if (is_exr(options)) image_codecs(); // fail before rendering if the codecs are missing
     app::Engine engine(engine_options(options.common.device));
     introduce(engine, options.common.manners);
 

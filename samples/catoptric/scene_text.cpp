@@ -16,7 +16,7 @@ std::string point_text(const dvec3& p) {
     return fmt::format("{:.4g} {:.4g} {:.4g}", p.x, p.y, p.z);
 }
 
-/// One number where all channels are the same.
+/// Returns a colour as text: one number if all channels are equal, else three.
 std::string colour_text(const vec3& c) {
     return c.x == c.y && c.y == c.z ? fmt::format("{:.3g}", c.x)
                                     : fmt::format("{:.3g} {:.3g} {:.3g}", c.x, c.y, c.z);
@@ -31,7 +31,7 @@ std::string line(const std::string& name, const std::string& value) {
     return fmt::format("{:<12} {}\n", name, value);
 }
 
-/// A table under its title; `left`: the first columns that are to the left.
+/// Returns a table under its title; empty if it has no rows.
 std::string table(const std::string& title, const SceneCells& cells) {
     return cells.size() < 2 ? "" : "\n" + title + "\n" + aligned(cells, 0);
 }
@@ -117,7 +117,7 @@ std::string environment_text(const report::SceneFacts& facts) {
 
 std::string exposure_text(const SceneWords& words) {
     if (!words.exposure) return "auto; not told";
-    // As `render` finds it: for the camera that is given, or added.
+    // The exposure that `render` finds, for the camera that is given or added.
     const std::string how = words.auto_exposure ? " (auto, by camera " +
                                                       in_quotes(words.info.facts.camera.name) + ")"
                                                 : "";

@@ -6,7 +6,8 @@
 
 namespace catoptric::cli {
 
-/// What `info SCENE` prints: what the scene is, a line a material, mirror, light, camera and gap.
+/// Returns the output of `info SCENE`: a summary, then a line per material, mirror, light, camera
+/// and unsupported feature.
 std::string scene_text(const SceneWords& words);
 
 } // namespace catoptric::cli

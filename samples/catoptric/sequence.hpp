@@ -5,12 +5,12 @@
 
 namespace catoptric::cli {
 
-/// The file names of a sequence of pictures: a name with one place for the frame's number, written
-/// {n}, {n:W}, %d or %0Wd, where W is the number of digits, filled up with zeros.
+/// The file names of a sequence of pictures. A name has one place for the frame's number: {n},
+/// {n:W}, %d or %0Wd. W is the number of digits, padded with zeros.
 class Sequence {
 public:
-    /// Returns the sequence that `name` asks for, or none where it names one picture. Throws
-    /// `usage` for two places, or for one that begins with "{n" and is none of these.
+    /// Returns the sequence that `name` describes, or none if it names one picture. Throws `usage`
+    /// for two places, and for a place that begins with "{n" but has none of these forms.
     static std::optional<Sequence> find(const std::string& name);
 
     /// Returns the file name of frame `number`.

@@ -15,9 +15,9 @@ namespace {
 constexpr std::int64_t kRepeat = 1'000'000'000; // nanoseconds
 
 std::atomic<const char*> program{"catoptric"};
-std::atomic<bool> is_looked_at{false}; ///< the number below
+std::atomic<bool> is_looked_at{false}; ///< whether the program polls `number_of_signal`
 std::atomic<int> number_of_signal{0};
-std::atomic<std::int64_t> first_at{0}; ///< nanoseconds of the steady clock; 0: not yet
+std::atomic<std::int64_t> first_at{0}; ///< nanoseconds of the steady clock; 0: none yet
 
 static_assert(std::atomic<int>::is_always_lock_free &&
                   std::atomic<std::int64_t>::is_always_lock_free &&
@@ -26,11 +26,12 @@ static_assert(std::atomic<int>::is_always_lock_free &&
 
 std::int64_t now() {
     timespec time{};
-    ::clock_gettime(CLOCK_MONOTONIC, &time); // a handler may
+    ::clock_gettime(CLOCK_MONOTONIC, &time); // allowed in a signal handler
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-/// Ends the program with its sentence and exit code, by calls that a handler may make.
+/// Ends the program with its sentence and exit code, using only calls that are allowed in a signal
+/// handler.
 [[noreturn]] void leave(int number) {
     const char digits[] = {static_cast<char>('0' + number / 10),
                            static_cast<char>('0' + number % 10), '\n'};
@@ -46,7 +47,7 @@ std::int64_t now() {
     add(text, sizeof text - 1);
     add(digits + skipped, sizeof digits - skipped);
     const ssize_t written = ::write(STDERR_FILENO, line, size);
-    static_cast<void>(written); // nobody is left to tell
+    static_cast<void>(written); // a failure here cannot be reported
     ::_exit(128 + number);
 }
 
@@ -58,7 +59,7 @@ void on_signal(int number) {
         number_of_signal.store(number);
     } else if (now() - first_at.load() > kRepeat) {
         std::signal(number, SIG_DFL);
-        std::raise(number); // when this returns
+        std::raise(number); // delivered when this handler returns
     }
     errno = error;
 }

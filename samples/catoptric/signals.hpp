@@ -4,14 +4,15 @@
 
 namespace catoptric::cli {
 
-/// From now on SIGHUP, SIGINT and SIGTERM end the program at once, with a sentence on stderr after
-/// `program` (which must live on) and exit code 128 + number. A signal that is being ignored
-/// (nohup) stays so. Needs nothing that is made before main.
+/// Makes SIGHUP, SIGINT and SIGTERM end the program at once. The program writes a sentence to
+/// stderr after `program`, and its exit code is 128 + number. The string `program` must stay valid.
+/// A signal that is already ignored (nohup) stays ignored. May be called before static objects are
+/// constructed.
 void answer_signals(const char* program);
 
-/// From now on the first of these signals is stored in what is returned (0 before), so that work
-/// can end after its frame. More of them within a second count as one with it (`timeout` sends
-/// two); a later one ends the program at once.
+/// Makes the first of these signals be stored instead, so that work can end after its frame.
+/// Returns the stored number; 0 before a signal. Further signals within a second count as the same
+/// one (`timeout` sends two). A later one ends the program at once.
 const std::atomic<int>& stop_on_signals();
 
 } // namespace catoptric::cli

@@ -1,5 +1,5 @@
-// catoptric stress: properties that pictures must have at the extremes, measured beside their
-// thresholds.
+// catoptric stress: tests properties that pictures must have in extreme cases, with measured values
+// and thresholds.
 #include "stress/run.hpp"
 
 #include "core/error.hpp"
@@ -50,14 +50,14 @@ std::string table_of(const report::Stress& stress) {
 }
 
 int run_stress(const StressOptions& options) {
-    for (const std::string& id : options.only) stress::find_property(id); // before any work
+    for (const std::string& id : options.only) stress::find_property(id); // fails before any work
     if (!options.folder.empty()) {
         const std::filesystem::path folder = options.folder;
         check_folder_can_be_made(folder);
         check_folder_can_be_made(folder / "images");
         std::vector<std::filesystem::path> outputs{kStdout, folder / "stress.json",
                                                    folder / "stress.html", folder / "stress.md"};
-        std::error_code none_yet; // pictures of what fails may replace any that are there
+        std::error_code none_yet; // failure pictures of earlier runs may be replaced
         for (const auto& entry : std::filesystem::directory_iterator(folder / "images", none_yet))
             outputs.push_back(entry.path());
         check_apart(outputs, {});
@@ -78,7 +78,7 @@ int run_stress(const StressOptions& options) {
                                                       .watcher = watcher_of(progress),
                                                       .on_finished_row = write});
     progress.clear();
-    if (!found.rows.empty()) write(found); // else a table of before is worth more
+    if (!found.rows.empty()) write(found); // an earlier table is worth more than an empty one
     put(options.manners.json ? report::to_json(found) : table_of(found));
     if (found.stopped)
         fail_incomplete(*found.stopped, found.rows.size(), found.asked, "", options.folder);

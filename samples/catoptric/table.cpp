@@ -15,7 +15,7 @@ namespace {
 
 std::string milliseconds(double ms) { return fmt::format("{:.3f}", ms); }
 
-/// Five digits; what cannot be said is a dash.
+/// Returns a number with five decimals, or a dash if it is not finite.
 std::string figure(double value) {
     return std::isfinite(value) ? fmt::format("{:.5f}", value) : "-";
 }

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-/// Each adds its verb.
+/// Functions that each add one verb to the program.
 namespace catoptric::cli {
 
-/// `command`: the whole command line, for the record.
+/// `command` is the whole command line, which reports record.
 void add_compare(CommandLine& program, std::vector<std::string> command);
 void add_stress(CommandLine& program, std::vector<std::string> command);
 void add_bench(CommandLine& program, std::vector<std::string> command);
