@@ -6,9 +6,9 @@
 namespace catoptric::graph {
 
 /// How the passes of a frame are timed.
-/// isolated: an execution barrier follows each timestamp. No two passes overlap, and their times
+/// - isolated: an execution barrier follows each timestamp. No two passes overlap, and their times
 /// add up.
-/// pipelined: only the barriers of the plan. Passes may overlap, and only the span is meaningful.
+/// - pipelined: only the barriers of the plan. Passes may overlap, and only the span is meaningful.
 enum class Timing { isolated, pipelined };
 
 struct PassTime {

@@ -88,10 +88,12 @@ struct Culled {
 struct Plan {
     std::vector<PlannedPass> passes;
     /// Barriers after the final pass, with the use that each resource is left for:
-    /// outputs: copy_from;
-    /// all layers of images with a `previous`: sampled, also if they are outputs;
-    /// touched layers of persistent images: sampled;
-    /// imported images: as the import says.
+    /// - outputs: copy_from
+    /// - all layers of images with a `previous`: sampled, also if they are outputs
+    /// - touched layers of persistent images: sampled
+    /// - imported images: as the import says
+    /// - touched imported buffers: copy_from
+    ///
     /// A layer gets a barrier even if its layout is right already. `after` means every stage, also
     /// of the next frame, where `previous` is sampled without a barrier.
     std::vector<Barrier> last;

@@ -227,7 +227,9 @@ int run_bench(const BenchOptions& options) {
                                       {options.tunes && in_turn, "--tune and --against"}})
         check(!both, Failure::usage, names, ": wanted one of them, found both");
     if (options.tunes) return tune(options);
-    return compares ? compare_benchmark_files(options) : in_turn ? run_against(options) : measure(options);
+    return compares  ? compare_benchmark_files(options)
+           : in_turn ? run_against(options)
+                     : measure(options);
 }
 
 } // namespace

@@ -95,8 +95,9 @@ std::string changes_table(const measure::Changes& changes) {
     Cells cells{{"benchmark", "before", "after", "ratio", "[95 %]", "ms ratio", "[95 %]", ""}};
     for (const Change& change : changes.list)
         cells.push_back({printable(change.name), cost_text(change.medians[0], change.cost),
-                         cost_text(change.medians[1], change.cost), benchmark_figure(change.ratio.median),
-                         interval_text(change.ratio.ci95), benchmark_figure(change.real_ratio.median),
+                         cost_text(change.medians[1], change.cost),
+                         benchmark_figure(change.ratio.median), interval_text(change.ratio.ci95),
+                         benchmark_figure(change.real_ratio.median),
                          interval_text(change.real_ratio.ci95), name_of(change.outcome())});
     return (changes.list.empty()
                 ? "nothing is in both\n"

@@ -21,7 +21,7 @@ constexpr int kLook = 100; // milliseconds between two checks of `stop`
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// A started program. The destructor waits for its end in any case.
+/// A started program. The destructor ends the program and waits for its end.
 class Child {
 public:
     explicit Child(const std::vector<std::string>& command) : name_(command.front()) {

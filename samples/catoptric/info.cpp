@@ -120,7 +120,8 @@ void write_scene_file(const InfoOptions& options, const app::ResolvedScene& want
     scene::SceneOverrides overrides = wanted.overrides;
     if (!overrides.environment)
         overrides.environment = scene.environment && scene.environment->studio ? "studio" : "none";
-    if (wanted.is_camera_seeded) overrides.camera = request.camera.name; // stores the camera as numbers
+    if (wanted.is_camera_seeded)
+        overrides.camera = request.camera.name; // the name holds the camera's numbers
     write_file(path, scene::scene_file_text(overrides, options.common.scene));
     note(options.common.manners, "written: " + path.string());
 }

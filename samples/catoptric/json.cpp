@@ -34,9 +34,10 @@ Json times_of(const app::Result& result, const app::DeviceInfo& device) {
     report::Row row;
     app::fill_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
     const std::vector<app::PassTime>& last = result.frames.back().passes;
-    std::erase_if(row.passes, [&](const report::PassFacts& pass) { // passes that only other frames had
-        return std::ranges::find(last, pass.name, &app::PassTime::name) == last.end();
-    });
+    std::erase_if(row.passes,
+                  [&](const report::PassFacts& pass) { // passes that only other frames had
+                      return std::ranges::find(last, pass.name, &app::PassTime::name) == last.end();
+                  });
     return report::times_json(row);
 }
 

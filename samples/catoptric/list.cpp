@@ -1,4 +1,4 @@
-// catoptric list: lists techniques, scenes and metrics.
+// catoptric list: lists techniques, scenes, devices or metrics.
 #include "app/engine.hpp"
 #include "core/error.hpp"
 #include "json.hpp"

@@ -29,7 +29,7 @@ struct Common {
     Manners manners;
     std::string scene = "cornell-mirrors";
     scene::BudgetOverride budget; ///< limits for loading the scene
-    std::string root;             ///< folder in which files of the scene may lie as well; empty: none
+    std::string root; ///< folder in which files of the scene may lie as well; empty: none
     uvec2 size{512, 512};
     std::optional<int> frames; ///< default: 20
     std::optional<int> warmup; ///< default: 8

@@ -31,9 +31,9 @@ void say_failure(const std::string& name, const std::string& message) {
 
 int run_program_checked(int argc, char** argv) {
     const std::vector<std::string> words(argv, argv + argc);
-    CommandLine program("catoptric",
-                        "Measures what each way of rendering mirrors costs and gets wrong.",
-                        "catoptric " + app::version() + " (" + app::commit() + ")", kProgramExamples);
+    CommandLine program(
+        "catoptric", "Measures what each way of rendering mirrors costs and gets wrong.",
+        "catoptric " + app::version() + " (" + app::commit() + ")", kProgramExamples);
     add_compare(program, words);
     add_render(program);
     add_stress(program, words);
@@ -66,7 +66,8 @@ int exit_code(const std::string& name, const std::function<int()>& work) {
 int run_guarded(const std::string& name, const std::function<int()>& work) {
     prepare_streams();
     const int code = exit_code(name, work);
-    if (app::any_abandoned()) std::_Exit(code); // destroying objects that a driver still uses is unsafe
+    if (app::any_abandoned())
+        std::_Exit(code); // destroying objects that a driver still uses is unsafe
     return code;
 }
 

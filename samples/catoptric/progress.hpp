@@ -10,9 +10,9 @@
 
 namespace catoptric::cli {
 
-/// Writes "[3/14] reuse  frame 12/28  about 0:35 left" to stderr, rewritten in place on a terminal.
-/// With --progress always elsewhere (or TERM=dumb): one line a row. No colours, no escape
-/// sequences.
+/// Writes progress to stderr, such as "[3/14] reuse  frame 12/28  about 0:35 left". On a terminal,
+/// the line is rewritten in place. Elsewhere, or with TERM=dumb, --progress always writes one line
+/// per row. Uses no colours and no escape sequences.
 class Progress {
 public:
     /// Output if stderr is no terminal and --progress is automatic.

@@ -136,7 +136,8 @@ std::vector<double> gpu_times(const app::Result& result) {
     return ms;
 }
 
-void describe(const RenderOptions& options, const app::Request& request, const app::Result& result) {
+void describe(const RenderOptions& options, const app::Request& request,
+              const app::Result& result) {
     const Manners& manners = options.common.manners;
     const app::Part& part = result.parts.front();
     for (const std::string& what : part.notes) note(manners, part.label + ": " + what);

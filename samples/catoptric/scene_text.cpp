@@ -49,7 +49,8 @@ std::string how(const app::MaterialInfo& material) {
 
 SceneCells materials(const app::SceneInfo& info) {
     constexpr std::size_t kMost = 50;
-    SceneCells cells{{"material", "is", "objects", "colour", "metallic", "roughness", "F0", "more"}};
+    SceneCells cells{
+        {"material", "is", "objects", "colour", "metallic", "roughness", "F0", "more"}};
     for (const app::MaterialInfo& material : info.materials) {
         if (cells.size() > kMost) {
             cells.push_back({fmt::format("... {} more: --json", info.materials.size() - kMost), "",

@@ -1,4 +1,4 @@
-// What keys and buttons do.
+// Actions of keys and buttons.
 #include "command.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -12,15 +12,16 @@ namespace catoptric::view {
 
 namespace {
 
-/// As --camera takes it: in numbers, or the scene's own where numbers do not say all, by a name
-/// that no other has, since a scene file may order them otherwise.
+/// Returns the camera as text for --camera: numbers, or the scene's own camera if numbers do not
+/// describe it fully. The scene's camera is given by a unique name, because a scene file may order
+/// cameras otherwise.
 std::string camera_word(const scene::Scene& scene, const scene::Camera& camera) {
     std::string text = scene::camera_text(camera);
     try {
         scene::Camera typed = scene::camera_named(text, {});
         typed.name = camera.name;
         if (typed == camera) return text;
-    } catch (const Error&) { // out of what may be typed
+    } catch (const Error&) { // the numbers are outside the range of --camera
     }
     const auto own = std::ranges::find(scene.cameras, camera);
     if (own == scene.cameras.end()) return text;
@@ -29,20 +30,20 @@ std::string camera_word(const scene::Scene& scene, const scene::Camera& camera) 
     return is_known ? own->name : std::to_string(own - scene.cameras.begin());
 }
 
-/// "view-1", or the first number of which there is no file with any of the extensions.
+/// Returns "view-1", or the first such name for which no file with any of the extensions exists.
 std::filesystem::path free_name(const std::string& stem,
                                 const std::vector<std::string>& extensions) {
     for (int i = 1;; ++i) {
         const std::string name = stem + "-" + std::to_string(i);
         const auto exists = [&](const std::string& extension) {
-            std::error_code error; // what cannot be looked at is told when it is written
+            std::error_code error; // errors are reported when the file is written
             return std::filesystem::exists(name + extension, error);
         };
         if (std::ranges::none_of(extensions, exists)) return name;
     }
 }
 
-/// What a plan says of another scene: nothing of its mirrors.
+/// Returns the part of a plan that fits another scene: nothing about single mirrors.
 PlanState without_mirrors(PlanState plan) {
     plan.own.clear();
     return plan.typed.empty() || plan.typed == "auto" ? plan : PlanState{};
@@ -122,7 +123,8 @@ void Loop::carry_out(const Wants& wants) try {
     say(error.what());
 }
 
-/// Another scene in place of this one; where it cannot be read or held, this one stays.
+/// Loads another scene in place of this one. If the scene cannot be read or does not fit the
+/// device, the current scene stays.
 void Loop::load(const std::string& file) {
     const Options options = options_;
     const app::Request request = request_;

@@ -11,11 +11,11 @@ namespace catoptric::view {
 
 namespace {
 
-constexpr double kTurn = .005;       // radians a pixel
-constexpr double kSteepest = 1.5533; // 89 degrees: up stays up
-constexpr double kNotch = .9;        // of the distance that a notch leaves
+constexpr double kTurn = .005;       // radians per pixel
+constexpr double kSteepest = 1.5533; // 89 degrees, so that up stays up
+constexpr double kNotch = .9;        // factor on the distance per wheel notch
 
-/// From the eye, unit, turned by pixels of the mouse.
+/// Returns the unit viewing direction turned by pixels of the mouse.
 dvec3 turned(const dvec3& direction, const dvec2& pixels) {
     const double pitch = std::clamp(std::asin(std::clamp(direction.y, -1., 1.)) + kTurn * pixels.y,
                                     -kSteepest, kSteepest);
@@ -23,7 +23,7 @@ dvec3 turned(const dvec3& direction, const dvec2& pixels) {
     return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch)};
 }
 
-/// World units that a pixel covers at the target.
+/// Returns how many world units a pixel covers at the target.
 double pixel_at(const scene::Camera& camera, double distance, double height) {
     if (camera.orthographic_height > 0) return camera.orthographic_height / height;
     const double half = camera.vertical_fov_degrees * std::numbers::pi / 360;
@@ -65,7 +65,7 @@ scene::Camera moved(const scene::Camera& camera, const Moves& moves, bool flies,
         scene::Camera typed = scene::camera_named(scene::camera_text(next), {});
         typed.name = next.name;
         return typed;
-    } catch (const Error&) { // nearer, farther or wider than a camera may be
+    } catch (const Error&) { // the camera would leave its allowed range
         return camera;
     }
 }

@@ -2,23 +2,26 @@
 
 #include "scene/scene.hpp"
 
-/// How mouse and keys move a camera. Plain values in, a camera out.
+/// Moves a camera by mouse and keys. All input and output is plain data.
 namespace catoptric::view {
 
-/// What was asked for since the frame before.
+/// Moves that the user asked for since the previous frame.
 struct Moves {
-    dvec2 turned{0};  ///< pixels that the mouse was dragged by with its left button
-    dvec2 shifted{0}; ///< with its right or middle button
-    double wheel = 0; ///< notches, forwards positive
-    dvec3 flown{0};   ///< seconds to the right, up and forwards
+    dvec2 turned{0};  ///< pixels dragged with the left mouse button
+    dvec2 shifted{0}; ///< pixels dragged with the right or middle button
+    double wheel = 0; ///< wheel notches, forwards positive
+    dvec3 flown{0};   ///< seconds of flight to the right, up and forwards
     bool any() const;
 };
 
-/// Turns around the target, shifts eye and target in the picture's plane, comes nearer or goes
-/// away; where `flies`, turns around the eye instead and flies. `height`: of the picture, pixels;
-/// `reach`: world units that are crossed in about three seconds. The camera stands still in the
-/// scene from then on (it rides on nothing), up is +y, and it is what `--camera` says of it, to the
-/// last bit. Without moves it is left as it was.
+/// Returns the camera after the moves. It turns around the target, shifts eye and target in the
+/// picture's plane, and comes nearer or goes away. If `flies`, it turns around the eye and flies
+/// instead.
+///
+/// `height` is the picture's height in pixels. `reach` is the distance in world units that flight
+/// covers in about three seconds. A moved camera is fixed in the scene (it follows no object), and
+/// up is +y. It equals to the last bit the camera that `--camera` makes of its text. Without moves,
+/// the camera is returned unchanged.
 scene::Camera moved(const scene::Camera& camera, const Moves& moves, bool flies, double height,
                     double reach);
 

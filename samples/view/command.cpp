@@ -12,7 +12,7 @@ namespace catoptric::view {
 
 namespace {
 
-/// What the state says, or what a picture has no use for.
+/// Options that the state replaces, or that a single picture does not need.
 constexpr std::array<std::string_view, 13> kReplaced{
     "--camera", "--time",       "--size",     "--technique", "--plan",     "--model",    "--frames",
     "--warmup", "--screenshot", "--exposure", "--timing",    "--progress", "--budget-ms"};
@@ -24,7 +24,7 @@ bool is_one_of(const std::array<std::string_view, N>& names, std::string_view wo
     return std::ranges::find(names, word) != names.end();
 }
 
-/// -q, -v, -qv.
+/// Returns whether the word is -q, -v, or both, such as -qv.
 bool is_short_flags(const std::string& word) {
     return word.size() > 1 && word.starts_with('-') &&
            word.find_first_not_of("qv", 1) == std::string::npos;
@@ -35,14 +35,15 @@ bool is_short_flags(const std::string& word) {
 std::vector<std::string> render_words(const std::vector<std::string>& words, const State& state,
                                       const std::string& camera, uvec2 size) {
     std::vector<std::string> made{"render"};
-    const auto end = std::ranges::find(words, "--"); // of options; a scene's name may follow
+    const auto end = std::ranges::find(words,
+                                       "--"); // end of the options; the scene's name may follow
     const auto options = static_cast<std::size_t>(end - words.begin());
     for (std::size_t i = 0; i < options; ++i) {
         const std::string& word = words[i];
         const std::string name = word.substr(0, word.find('='));
         if (is_one_of(kFlags, word) || is_short_flags(word)) continue;
         if (is_one_of(kReplaced, name)) {
-            if (name == word) ++i; // its value is the next word
+            if (name == word) ++i; // the next word is its value
             continue;
         }
         made.push_back(word);

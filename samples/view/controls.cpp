@@ -9,7 +9,7 @@ namespace catoptric::view {
 
 namespace {
 
-/// The part of a rectangle that lies within the window; nothing: none does.
+/// Returns the part of a rectangle that lies within the window, or none.
 std::optional<std::array<std::uint32_t, 4>> area_of(const ImVec4& clip, const ImVec2& size) {
     const float left = std::max(clip.x, 0.f), top = std::max(clip.y, 0.f),
                 right = std::min(clip.z, size.x), bottom = std::min(clip.w, size.y);
@@ -25,7 +25,7 @@ Controls::Controls(Window& window) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr; // the program's settings are its own
+    io.IniFilename = nullptr; // the program stores its own settings
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     io.Fonts->Flags |= ImFontAtlasFlags_NoBakedLines;
     ImGui::StyleColorsDark();
@@ -33,7 +33,8 @@ Controls::Controls(Window& window) {
     ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
-    io.Fonts->GetTexDataAsAlpha8(&texels, &width, &height); // or it is refused to begin
+    io.Fonts->GetTexDataAsAlpha8(&texels, &width,
+                                 &height); // ImGui refuses to begin without a built font
 }
 
 Controls::~Controls() {

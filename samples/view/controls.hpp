@@ -5,22 +5,22 @@
 
 namespace catoptric::view {
 
-/// Dear ImGui in a window: one a process. Its triangles are drawn by Session::show.
+/// Dear ImGui in a window, at most one per process. Session::show draws its triangles.
 class Controls {
 public:
-    /// Installs its own callbacks after the window's, which it calls.
+    /// Installs callbacks that also call the window's earlier callbacks.
     explicit Controls(Window& window);
     ~Controls();
     Controls(const Controls&) = delete;
     Controls& operator=(const Controls&) = delete;
 
-    /// Of each new screen.
+    /// Gives the font to a screen. Needed once per new screen.
     void give_font(app::Screen& screen) const;
-    /// Between these, ImGui:: calls make controls. `window`: as it is, pixels. What the mouse does
-    /// is what the inputs say.
+    /// Begin and end the controls of a frame. ImGui:: calls in between add controls. `window` is
+    /// the window's size in pixels. `inputs` supplies the mouse.
     void begin(uvec2 window, const Inputs& inputs);
     app::Overlay end();
-    /// Of the last frame: the mouse is over controls, or a text is being typed.
+    /// Return whether, in the last frame, the mouse was over controls, or a text was being typed.
     bool has_mouse() const;
     bool has_keys() const;
 };

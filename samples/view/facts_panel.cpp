@@ -1,4 +1,4 @@
-// Times of passes and of the host; the scene.
+// Panels with the times of passes and host, and with facts about the scene.
 #include "panels.hpp"
 
 #include <fmt/format.h>

@@ -9,8 +9,8 @@ namespace catoptric::view {
 
 namespace {
 
-constexpr double kGrip = 6;  // pixels beside the divider
-constexpr double kStray = 3; // pixels: further is no click
+constexpr double kGrip = 6;  // distance in pixels at which the divider can be dragged
+constexpr double kStray = 3; // most pixels that the mouse moves during a click
 
 } // namespace
 

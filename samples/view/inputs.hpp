@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// What the user does, as plain data: a window fills it, or a test.
+/// User input as plain data. A window or a test fills it.
 namespace catoptric::view {
 
 enum class Act {
@@ -28,9 +28,9 @@ enum class Act {
     mode
 };
 
-/// A key and what it does; `mode`: of Act::mode, its number.
+/// A key and its action. `mode` is the mode's number for Act::mode.
 struct Key {
-    int code; ///< as the window library numbers it
+    int code; ///< key code of the window library
     Act act;
     int mode;
     const char* name;
@@ -38,26 +38,26 @@ struct Key {
 };
 const std::vector<Key>& keys();
 
-/// Since the frame before.
+/// User input since the previous frame.
 struct Inputs {
-    uvec2 window{0, 0};         ///< pixels; 0: minimised
-    dvec2 scale{1};             ///< pixels per unit of the desktop, as pixels_per_unit has them
-    dvec2 mouse{0};             ///< pixels from the upper left corner
-    std::array<bool, 3> down{}; ///< buttons: left, right, middle
+    uvec2 window{0, 0};         ///< size in pixels; 0: minimised
+    dvec2 scale{1};             ///< pixels per desktop unit (pixels_per_unit)
+    dvec2 mouse{0};             ///< position in pixels from the upper left corner
+    std::array<bool, 3> down{}; ///< pressed buttons: left, right, middle
     double wheel = 0;
-    bool on_controls = false; ///< the mouse is theirs
-    dvec3 flies{0};           ///< -1 to 1: right, up, forwards
+    bool on_controls = false; ///< whether the mouse is over controls
+    dvec3 flies{0};           ///< flight, each from -1 to 1: right, up, forwards
     std::vector<Key> acts;
-    std::vector<std::string> dropped; ///< files
+    std::vector<std::string> dropped; ///< files dropped on the window
     bool closes = false;
     double seconds = 0;
 };
 
-/// What a drag has got hold of, from frame to frame.
+/// The object that a drag moves, kept from frame to frame.
 class Hand {
 public:
-    /// Moves the divider or the camera of `state`. `size`: of the picture; `reach`: as `moved` has
-    /// it. Returns the pixel that was clicked, without dragging, if one was.
+    /// Moves the divider or the camera of `state`. `size` is the picture's size; `reach` is that of
+    /// `moved`. Returns the pixel that was clicked without dragging, if any.
     std::optional<uvec2> apply(const Inputs& inputs, State& state, uvec2 size, double reach);
 
 private:
@@ -69,11 +69,12 @@ private:
     bool strayed_ = false;
 };
 
-/// How many pixels a window has along one unit in which the desktop says its size and where the
-/// mouse is: more than 1 where the display is scaled, 1 where there is nothing to tell it by.
+/// Returns how many pixels a window has per desktop unit, in which the desktop gives window sizes
+/// and mouse positions. The result is above 1 if the display is scaled, and 1 if the sizes are
+/// unknown.
 dvec2 pixels_per_unit(uvec2 pixels, uvec2 units);
 
-/// Of the picture beside or under the controls; at least 16x16.
+/// Returns the size of the picture beside or under the controls, at least 16x16.
 uvec2 picture_size(uvec2 window, bool shows_panels);
 inline constexpr std::uint32_t kPanelWidth = 360;
 

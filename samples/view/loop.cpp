@@ -1,5 +1,5 @@
-// From the window's opening to its end: what the user does changes the state, of which a frame is
-// made.
+// The loop of a window, from opening to closing. User actions change the state, and each frame is
+// rendered from the state.
 #include "app/exposure.hpp"
 #include "catoptric/program.hpp"
 #include "catoptric/signals.hpp"
@@ -15,7 +15,7 @@ namespace catoptric::view {
 
 namespace {
 
-/// How far it is from one end of the scene to the other.
+/// Returns the diagonal of the scene's bounds, in world units.
 double reach_of(const scene::Scene& scene) {
     const Bounds<double> bounds = scene::bounds(scene);
     return bounds.empty() ? 1 : std::max(glm::length(bounds.hi - bounds.lo), 1e-9);
@@ -35,7 +35,8 @@ Loop::Loop(const Options& options, const Driver& driver)
     open(Scene::another);
 }
 
-/// Room for the picture and for controls beside it, as Window takes it.
+/// Returns the first window size, with room for the picture and for controls beside it, in desktop
+/// units.
 uvec2 Loop::first_window() const {
     const bool is_size_said = std::ranges::any_of(
         options_.words, [](const std::string& word) { return word.starts_with("--size"); });
@@ -43,14 +44,14 @@ uvec2 Loop::first_window() const {
     return options_.common.size + uvec2(settings_.shows_panels ? kPanelWidth : 0, 0);
 }
 
-/// An engine, a screen and a session, for the scene as it is asked for.
+/// Opens engine, screen and session for the requested scene.
 void Loop::open(Scene scene) {
-    viewer_.reset(); // gives its surface back before another is made
+    viewer_.reset(); // releases its surface before another is made
     entries_of_.clear();
     app::EngineOptions options = cli::engine_options(options_.common.device);
     viewer_ = std::make_unique<Viewer>(window_, options, request_);
     controls_.give_font(viewer_->screen());
-    if (scene == Scene::same) return; // the state is as it was
+    if (scene == Scene::same) return; // the state stays the same
     cli::introduce(viewer_->engine(), options_.common.manners);
     app::settle_exposure(viewer_->session(), request_);
     state_.camera = request_.camera;
@@ -62,7 +63,7 @@ void Loop::open(Scene scene) {
     good_ = state_;
 }
 
-/// A frame of the state.
+/// Renders a frame of the state.
 void Loop::render(const Inputs& inputs, app::Overlay overlay) {
     const bool is_first = inputs.window == first_ || inputs.window == uvec2(0);
     const uvec2 size = is_scripted() && is_first && state_.shows_panels == settings_.shows_panels
@@ -74,17 +75,17 @@ void Loop::render(const Inputs& inputs, app::Overlay overlay) {
     viewer_->frame(state_, size, std::move(overlay), is_seen);
     good_ = state_, losses_ = 0;
     const std::string text = text_of(state_.plan) + " " + std::to_string(viewer_->cuts());
-    if (text != entries_of_) { // what is suggested may be another plan after each cut
+    if (text != entries_of_) { // a suggested plan may change after each cut
         entries_ = state_.plan.typed.empty() ? std::vector<PlanEntry>() : viewer_->entries();
         entries_of_ = text;
     }
 }
 
-/// After a frame that was refused, back to what the last good one was made of; after a lost device
-/// an engine, a screen and a session made anew. Called while `error` is handled, and throws it
-/// again where neither helps.
+/// Recovers from an error. After a refused frame, it restores the state of the last good frame.
+/// After a device loss, it opens engine, screen and session again. Must be called while `error` is
+/// handled, and rethrows it if recovery fails.
 void Loop::recover(const Error& error) {
-    constexpr int kMostLosses = 2; // without a frame between
+    constexpr int kMostLosses = 2; // device losses without a frame in between
     const auto asked = [](const State& state) {
         return std::tie(state.plan, state.other, state.mode, state.model, state.camera,
                         state.motion.time);
@@ -93,7 +94,7 @@ void Loop::recover(const Error& error) {
     losses_ += is_lost;
     const bool is_new = asked(state_) != asked(good_);
     if (frame_ == 0 || losses_ > kMostLosses || (!is_lost && !is_new)) throw;
-    if (!is_lost || losses_ > 1) { // one loss may be chance
+    if (!is_lost || losses_ > 1) { // a single loss may be chance
         state_.plan = good_.plan, state_.other = good_.other;
         state_.mode = good_.mode, state_.model = good_.model;
         state_.camera = good_.camera, state_.motion.time = good_.motion.time;
@@ -119,7 +120,7 @@ void Loop::show(const Inputs& inputs) {
     if (driver_.after) driver_.after({frame_, state_, *viewer_, command()});
 }
 
-/// One frame, or none where it was refused; false: it was the last.
+/// Runs one frame, which may be refused. Returns false after the last frame.
 bool Loop::turn() try {
     Inputs inputs = window_.poll(waits_);
     inputs.on_controls = controls_.has_mouse();
@@ -138,7 +139,7 @@ bool Loop::turn() try {
         state_.motion.time = advanced(state_.motion, inputs.seconds);
     if (ends_ || inputs.closes || cli::stop_on_signals().load() != 0) return false;
     if (inputs.window == uvec2(0) && !is_scripted()) {
-        waits_ = true; // minimised: nothing is rendered until it comes back
+        waits_ = true; // minimised: no frame is rendered until the window comes back
         return true;
     }
     show(inputs);
@@ -148,7 +149,7 @@ bool Loop::turn() try {
     return true;
 }
 
-/// With -v: what the last frames took.
+/// Prints the times of the last frames, with -v.
 void Loop::tell_times() const {
     const Times& times = viewer_->times();
     std::vector<Line> lines = times.passes();
@@ -169,7 +170,7 @@ int Loop::end() {
         save_settings({uvec2(glm::round(dvec2(last_) / scale_)), state_.shows_panels, state_.flies,
                        state_.motion.speed, state_.gain},
                       settings_file());
-    } catch (const Error& error) { // no reason for a session to have failed
+    } catch (const Error& error) { // no reason for the whole run to fail
         cli::warn(error.what());
     }
     return 0;

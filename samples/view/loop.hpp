@@ -8,24 +8,24 @@
 
 namespace catoptric::view {
 
-/// What a test looks at, after each frame.
+/// State that a test can inspect after each frame.
 struct Report {
-    std::size_t frame = 0; ///< from 1
+    std::size_t frame = 0; ///< number of the frame, from 1
     const State& state;
     const Viewer& viewer;
-    std::string command; ///< that renders the picture without a window
+    std::string command; ///< command that renders the picture without a window
 };
 
-/// Takes the user's place in a test: what it writes comes after what the window says.
+/// Simulates the user in a test. Its inputs replace those of the window.
 struct Driver {
     std::function<void(std::size_t frame, Inputs&, State&, Window&)> before = {};
     std::function<void(const Report&)> after = {};
 };
 
-/// The window, from its opening to its end. Returns the exit code; throws as its parts do.
+/// Runs the window from opening to closing. Returns the exit code. Throws as its parts do.
 int run(const Options& options, const Driver& driver = {});
 
-/// All of `main`: errors become exit codes. Once a process.
+/// Runs the whole program and turns errors into exit codes. May be called once per process.
 int run_view(int argc, char** argv);
 
 } // namespace catoptric::view

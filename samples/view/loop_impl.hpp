@@ -6,7 +6,7 @@
 #include "panels.hpp"
 #include "settings.hpp"
 
-// What a window's loop is made of, for loop.cpp and acts.cpp alone.
+// Parts of the window's loop, shared by loop.cpp and acts.cpp only.
 namespace catoptric::view {
 
 class Loop {
@@ -36,18 +36,18 @@ private:
     const Driver& driver_;
     Settings settings_;
     app::Request request_;
-    State state_, good_; ///< good: of the last frame that could be rendered
+    State state_, good_; ///< good: state of the last frame that could be rendered
     Window window_;
     Controls controls_;
     std::unique_ptr<Viewer> viewer_;
     Hand hand_;
     std::vector<PlanEntry> entries_;
     std::string entries_of_;
-    uvec2 first_, last_{0, 0}; ///< sizes of the window
-    dvec2 scale_{1};           ///< as Inputs has it
-    bool waits_ = false;       ///< for the window's events: nothing can be shown
+    uvec2 first_, last_{0, 0}; ///< window sizes: at the start and last seen
+    dvec2 scale_{1};           ///< Inputs::scale
+    bool waits_ = false;       ///< whether it waits for window events, because nothing can be shown
     std::size_t frame_ = 0;
-    int losses_ = 0; ///< of the device since a frame was rendered
+    int losses_ = 0; ///< device losses since the last rendered frame
     double reach_ = 1, period_ = 0;
     bool ends_ = false;
 };

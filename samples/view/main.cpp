@@ -3,7 +3,7 @@
 
 namespace {
 
-/// Before any object of the program is made; main would be later by all of them.
+/// Runs before all constructors of the program. In `main`, signals would be handled too late.
 [[gnu::constructor(101)]] void begin() { catoptric::cli::answer_signals("catoptric-view"); }
 
 } // namespace

@@ -8,21 +8,21 @@
 
 namespace catoptric::view {
 
-/// What the command line says.
+/// The options of the command line.
 struct Options {
     cli::Common common;
     cli::Drawn drawn;
     std::string technique; ///< as app::FrameSpec::techniques takes it
     std::string screenshot;
-    std::vector<std::string> words; ///< all of it, without the program's name
+    std::vector<std::string> words; ///< all words without the program's name
 };
 
-/// `catoptric-view WORDS...`: what is to be done, which may be printing help. Throws `usage`, and
-/// `cannot_create` for a screenshot that cannot be written.
+/// Parses `catoptric-view WORDS...` and returns the function to call, which may print help. Throws
+/// `usage`, and `cannot_create` for a screenshot that cannot be written.
 std::function<int()> parse(const std::vector<std::string>& words,
                            const std::function<int(const Options&)>& run);
 
-/// The scene and its first frame.
+/// Returns the request for the scene and its first frame.
 cli::Asked ask(const Options& options);
 
 } // namespace catoptric::view

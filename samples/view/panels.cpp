@@ -1,4 +1,4 @@
-// The controls beside the picture.
+// Draws the controls beside the picture.
 #include "panels.hpp"
 
 #include "inputs.hpp"

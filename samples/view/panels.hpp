@@ -5,25 +5,26 @@
 
 namespace catoptric::view {
 
-/// What panels show beside the state.
+/// Data that panels show in addition to the state.
 struct Seen {
     const scene::Scene& scene;
     const Viewer& viewer;
-    const std::vector<PlanEntry>& entries; ///< of the plan as it was typed
-    double period = 0;                     ///< of the scene's motion, seconds; 0: nothing moves
+    const std::vector<PlanEntry>& entries; ///< entries of the plan as the user typed it
+    double period = 0; ///< period of the scene's motion, seconds; 0: nothing moves
 };
 
-/// What a panel's button asks for.
+/// Requests from the buttons of the panels.
 struct Wants {
     bool copies = false, writes = false, saves_plan = false, cuts = false;
-    std::optional<std::size_t> camera; ///< of the scene
+    std::optional<std::size_t> camera; ///< index of a camera in the scene
 };
 
-/// The controls at the right of the window; edits the state. Within Controls::begin and end.
+/// Draws the controls at the right of the window and edits the state. Call between Controls::begin
+/// and end.
 void draw_panels(State& state, const Seen& seen, uvec2 window, Wants& wants);
 
-// Its parts, one file each.
-/// `entries`: of the plan as it was typed.
+// Parts of draw_panels, one file each.
+/// `entries` are those of the plan as the user typed it.
 void draw_plan(State& state, const scene::Scene& scene, const std::vector<PlanEntry>& entries);
 void draw_times(const Viewer& viewer);
 void draw_scene(const Seen& seen, Wants& wants);

@@ -1,4 +1,4 @@
-// Techniques and their knobs, from the table.
+// Draws the controls for techniques and their knobs, from the table of techniques.
 #include "panels.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ void draw_choice(Drawing& drawing, const app::KnobInfo& knob) {
     ImGui::EndCombo();
 }
 
-/// A number, and beside it what halves, doubles or replaces it by its word.
+/// Draws a number with buttons that halve it, double it or replace it by the knob's special word.
 void draw_number(Drawing& drawing, const app::KnobInfo& knob) {
     constexpr int kFew = 64;
     const std::string text = value_of(drawing, knob);

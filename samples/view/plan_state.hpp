@@ -7,46 +7,47 @@
 #include <string>
 #include <vector>
 
-/// A plan as controls edit it: a technique with its knobs for all mirrors, and for some their own.
+/// A plan as the controls edit it: a technique with knobs for all mirrors, and exceptions for
+/// single mirrors.
 namespace catoptric::view {
 
 struct Drawing {
     std::string technique = "secant";
-    std::map<std::string, std::string> knobs; ///< those that are not at their default
+    std::map<std::string, std::string> knobs; ///< knobs that differ from their default
     bool operator==(const Drawing&) const = default;
 };
 
 struct PlanState {
-    Drawing rest;                         ///< of mirrors without their own
-    std::map<std::uint32_t, Drawing> own; ///< by mirror, from 1
-    /// As it was typed, where it is no list of techniques by number yet ("auto", "plan:FILE",
-    /// patterns of names); empty: the members above say all.
+    Drawing rest;                         ///< for mirrors without an entry in `own`
+    std::map<std::uint32_t, Drawing> own; ///< by mirror number, from 1
+    /// The plan as the user typed it, unless it lists techniques by mirror number. Examples are
+    /// "auto", "plan:FILE" and patterns of names. Empty: the other members define the plan.
     std::string typed;
     bool operator==(const PlanState&) const = default;
 };
 
-/// "secant:face=64".
+/// Returns the technique with its knobs, such as "secant:face=64".
 std::string text_of(const Drawing& drawing);
-/// As app::FrameSpec::techniques takes it.
+/// Returns the plan as app::FrameSpec::techniques takes it.
 std::string text_of(const PlanState& plan);
-/// The options of `catoptric render` that draw it, in words.
+/// Returns the words of the options by which `catoptric render` draws the plan.
 std::vector<std::string> words_of(const PlanState& plan);
-/// Of what the command line says. Throws `usage` as app::parse_technique does.
+/// Returns the plan of a command-line text. Throws `usage` as app::parse_technique does.
 PlanState plan_of(const std::string& text);
-/// The same plan, mirror by mirror, so that it can be edited. `entries`: how it was drawn.
+/// Returns the same plan mirror by mirror, for editing. `entries` tells how each mirror was drawn.
 PlanState resolved(const PlanState& plan, const std::vector<PlanEntry>& entries);
-/// Sets a knob; its default is not kept.
+/// Sets a knob. Removes its entry if the value is the default.
 void set(Drawing& drawing, const app::KnobInfo& knob, const std::string& value);
-/// The value of a knob.
+/// Returns the value of a knob.
 std::string value_of(const Drawing& drawing, const app::KnobInfo& knob);
-/// The same plan with a knob set wherever the technique has it.
+/// Returns the plan with the knob set in each technique that has it.
 PlanState with(PlanState plan, const std::string& knob, const std::string& value);
-/// A file that --plan reads.
+/// Returns the plan as JSON that --plan reads.
 std::string json_of(const PlanState& plan);
 
-/// Every technique, asked for once.
+/// Returns all techniques. The list is built once.
 const std::vector<app::TechniqueInfo>& table();
-/// Null: there is none of that name.
+/// Returns the technique of this name, or null.
 const app::TechniqueInfo* find(const std::string& technique);
 
 } // namespace catoptric::view

@@ -8,20 +8,22 @@
 
 namespace catoptric::view {
 
-/// The traced picture, better from pass to pass while nothing changes: first one ray through each
-/// pixel's centre, against which errors are figured as compare does, then more of them on average.
+/// The ray-traced reference picture, which improves with each pass while nothing changes. The first
+/// pass traces one ray through each pixel's centre. Errors are measured against this pass, as in
+/// `compare`. Further passes are averaged.
 class Reference {
 public:
     static constexpr int kMostPasses = 64;
 
     void reset() { *this = {}; }
-    /// Renders one pass more beside the session's frames; waits for it. `spec`: of the live frame.
-    /// False: it is as good as it gets.
+    /// Renders one more pass outside the session's frame sequence and waits for it. `spec` is that
+    /// of the live frame. Returns false if no further pass is needed.
     bool advance(app::Session& session, const app::FrameSpec& spec);
     int passes() const { return passes_; }
-    /// As the screen shows it; null before the first pass.
+    /// Returns the picture as the screen shows it; null before the first pass.
     std::shared_ptr<const measure::Picture> display() const { return display_; }
-    /// Of a live picture, over mirror pixels, after the first pass. Costs a FLIP.
+    /// Returns the errors of a live picture over mirror pixels. Needs the first pass. Costs one
+    /// FLIP.
     measure::Difference judge(const measure::Picture& hdr, double exposure) const;
 
 private:
@@ -31,7 +33,8 @@ private:
     std::shared_ptr<const measure::Picture> display_;
 };
 
-/// What camera rays meet first (app::Part::hits), by a frame beside the session's.
+/// Returns what camera rays meet first (app::Part::hits), by a frame outside the session's
+/// sequence.
 std::vector<std::uint32_t> hits_of(app::Session& session, const app::FrameSpec& spec);
 
 } // namespace catoptric::view

@@ -26,7 +26,7 @@ void take(const Json& document, const char* name, Value& value, const Good& is_g
         const Value said = found->get<Value>();
         if (is_good(said)) value = said;
     } catch (const Json::exception&) {
-        // Another kind of value: what a hand or another version wrote.
+        // A value of another type, written by hand or by another version, is ignored.
     }
 }
 
@@ -74,14 +74,14 @@ Settings load_settings(const fs::path& file) {
     try {
         if (!file.empty()) return settings_of(read_file(file));
     } catch (const Error&) {
-        // None yet, or not to be read: as by default.
+        // No readable file: use defaults.
     }
     return {};
 }
 
 void save_settings(const Settings& settings, const fs::path& file) {
     if (file.empty()) return;
-    std::error_code error; // write_file says what came of it
+    std::error_code error; // write_file reports a failure
     fs::create_directories(file.parent_path(), error);
     write_file(file, text_of(settings));
 }

@@ -57,7 +57,7 @@ double advanced(const Motion& motion, double seconds) {
 
 vec3 colour_of(std::uint32_t mirror) {
     if (mirror == 0) return vec3(0);
-    // Hues a golden angle apart; every other round is paler.
+    // Hues are a golden angle apart. Every other group of eight is paler.
     const float hue = std::fmod(static_cast<float>(mirror - 1) * .381966f, 1.f) * 6;
     const float low = (mirror - 1) / 8 % 2 == 0 ? .1f : .45f;
     const auto channel = [&](float shift) {

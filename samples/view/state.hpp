@@ -9,21 +9,21 @@
 #include <string>
 #include <vector>
 
-/// All that the window shows and the user changes, as plain data.
+/// The state that the window shows and the user changes, as plain data.
 namespace catoptric::view {
 
 enum class Mode {
     plan,       ///< the plan's picture
-    split,      ///< the plan left of the divider, the other right of it
-    difference, ///< how far they are apart
-    answers,    ///< what searches answered: hit, unknown, miss
-    numbers,    ///< which mirror each pixel shows
-    causes,     ///< what taking a cause of error away changes
+    split,      ///< the plan left of the divider, the comparison right of it
+    difference, ///< the difference of the two
+    answers,    ///< answers of searches: hit, unknown, miss
+    numbers,    ///< number of the mirror that each pixel shows
+    causes,     ///< change of the picture when a cause of error is removed
 };
 inline constexpr int kModes = 6;
 const char* name_of(Mode mode);
 
-/// What the plan is compared with.
+/// The picture that the plan is compared with.
 enum class Against { other, reference };
 
 /// Scene time, in seconds.
@@ -38,47 +38,47 @@ struct State {
     PlanState plan, other;
     Mode mode = Mode::plan;
     Against against = Against::other;
-    double divider = .5;      ///< share of the picture's width
-    int gain = 4;             ///< of differences: 1, 2, 4 ... 64
-    std::uint32_t cause = 16; ///< shared::kMend...
+    double divider = .5;      ///< position as a share of the picture's width
+    int gain = 4;             ///< factor on differences: 1, 2, 4 ... 64
+    std::uint32_t cause = 16; ///< the cause of error to remove, a bit of shared::kMend...
     scene::Camera camera;
     bool flies = false;
     Motion motion;
     app::Modelling model = app::Modelling::required;
     double exposure = 0;
-    bool judges = false; ///< error figures against the traced reference are found at rest
+    bool judges = false; ///< whether errors against the traced reference are measured at rest
     bool shows_panels = true, shows_keys = false;
-    std::uint32_t chosen = 0; ///< mirror whose technique is edited; 0: all
-    bool edits_other = false; ///< of two plans
-    std::string said;         ///< to the user, until something else is
+    std::uint32_t chosen = 0; ///< number of the mirror whose technique is edited; 0: all
+    bool edits_other = false; ///< whether the controls edit `other` instead of `plan`
+    std::string said;         ///< message to the user, until the next message
 };
 
-/// What one frame renders and what of it is shown.
+/// The techniques that one frame renders, and the pictures that it shows.
 struct Shown {
     std::vector<std::string> techniques;
     app::Showing::Kind kind = app::Showing::Kind::one;
-    std::size_t first = 0, second = 0; ///< of app::Showing
+    std::size_t first = 0, second = 0; ///< indices for app::Showing
 };
 
-/// Whether the mode shows a picture that is made beside the frames: of the reference, of numbers or
-/// of a cause.
+/// Returns whether the mode shows a picture that is made outside the frames: the reference, mirror
+/// numbers, or a cause of error.
 bool wants_canvas(const State& state);
 Shown shown(const State& state);
 
-/// Cause of error, for the user; names of shared::kMend...
+/// A cause of error with its name for the user. Bits are shared::kMend...
 struct Cause {
     std::uint32_t bit;
     const char* name;
 };
 const std::vector<Cause>& causes();
 
-/// The scene's time after a frame that took so long.
+/// Returns the scene's time after a frame of this duration. All times are in seconds.
 double advanced(const Motion& motion, double seconds);
-/// A colour for each mirror's number, told apart; black for 0. As the screen shows it.
+/// Returns a distinct display colour for each mirror number; black for 0.
 vec3 colour_of(std::uint32_t mirror);
-/// Of what camera rays met first (app::Part::hits).
+/// Returns a picture of mirror numbers from the first hits of camera rays (app::Part::hits).
 measure::Picture numbers_picture(const std::vector<std::uint32_t>& hits, uvec2 size);
-/// How far two displays are apart, times `gain`.
+/// Returns the difference of two displayed pictures times `gain`.
 measure::Picture difference_picture(const measure::Picture& a, const measure::Picture& b,
                                     float gain);
 

@@ -9,20 +9,20 @@
 
 namespace catoptric::view {
 
-/// One line of the table of times, milliseconds.
+/// One line of the table of times, in milliseconds.
 struct Line {
     std::string name;
     double median = 0;
-    measure::Interval ci95; ///< of the median; not known below six frames
+    measure::Interval ci95; ///< of the median; unknown below six frames
 };
 
-/// Times of the last frames; begins anew where their passes are others.
+/// Times of the last frames. Starts again if the passes change.
 class Times {
 public:
     static constexpr std::size_t kFrames = 60;
 
-    /// `host_ms`: update, record and submit, as a clock beside them says; `interval_ms`: since the
-    /// frame before was begun.
+    /// Times of one frame. `host_ms` covers update, record and submit, measured by the host's
+    /// clock. `interval_ms` is the time since the start of the previous frame.
     struct Sample {
         app::FrameTimes frame;
         double host_ms = 0, acquire_ms = 0, present_ms = 0, interval_ms = 0;
@@ -30,11 +30,11 @@ public:
     void add(Sample sample);
     std::size_t count() const { return samples_.size(); }
     std::vector<Line> passes() const;
-    /// What the host did, its parts first.
+    /// Returns the times of the host, parts first.
     std::vector<Line> host() const;
     Line gpu() const;
     Line frame() const;
-    /// Frames a second, from the median of the intervals; 0: not known.
+    /// Returns frames per second, from the median of the intervals; 0: unknown.
     double fps() const;
 
 private:

@@ -12,9 +12,9 @@ namespace catoptric::view {
 namespace {
 
 constexpr std::uint32_t kInFlight = 2;
-constexpr int kRests = 3;    // frames without a change: the camera rests
+constexpr int kRests = 3;    // after this many frames without a change, the camera rests
 constexpr int kHidden = 4;   // frames after a cut that are not shown
-constexpr int kSettled = 12; // frames at rest after which errors and their causes are figured
+constexpr int kSettled = 12; // frames at rest before errors and their causes are measured
 
 double now_ms() {
     return std::chrono::duration<double, std::milli>(
@@ -44,7 +44,7 @@ std::vector<PlanEntry> Viewer::entries() const {
     return last_ ? last_->read().plan : std::vector<PlanEntry>();
 }
 
-/// The oldest frames have ended: their times are known.
+/// Collects the times of the oldest frames until at most `most` are in flight.
 void Viewer::collect(std::size_t most) {
     while (pending_.size() > most) {
         pending_.front().sample.frame = pending_.front().frame.times();
@@ -60,7 +60,7 @@ void Viewer::cut() {
     ++cuts_;
 }
 
-/// What the state asks for becomes the specification; counts frames at rest.
+/// Updates the frame specification from the state, and counts frames at rest.
 void Viewer::follow(const State& state, uvec2 size) {
     app::FrameSpec next = spec_;
     next.techniques = shown(state).techniques;
@@ -85,9 +85,9 @@ void Viewer::follow(const State& state, uvec2 size) {
     spec_ = std::move(next);
 }
 
-/// Once the view comes to rest its sequence begins anew, as that of `catoptric render` does: edges
-/// that are left to the scene are those of this view, and the picture becomes the same bytes. The
-/// first frames, in which mirrors do not show each other yet, are not shown.
+/// Works while the view is at rest. When the view comes to rest, the frame sequence begins anew, as
+/// in `catoptric render`. Automatic capture edges then fit this view, and the picture becomes the
+/// same bytes. The first frames are not shown, because mirrors do not show each other yet.
 void Viewer::work_at_rest(const State& state) {
     if (still_ >= kRests && was_moved_ && !state.motion.plays) {
         cut();
@@ -99,11 +99,11 @@ void Viewer::work_at_rest(const State& state) {
     const bool compares = (state.mode == Mode::split || state.mode == Mode::difference) &&
                           state.against == Against::reference;
     if (still_ >= kRests && (compares || state.judges)) {
-        collect(0); // frames beside the sequence take the places of those before
+        collect(0); // frames outside the sequence use the slots of earlier frames
         reference_.advance(*session_, spec_);
     }
-    // What a search says of itself is no picture to be judged.
-    const bool waits = last_ && last_->waiting() > 0; // the picture is still to come
+    // A picture of search answers has no error to measure.
+    const bool waits = last_ && last_->waiting() > 0; // shaders are still being prepared
     if (still_ >= kSettled && !waits && state.judges && state.mode != Mode::answers && !error_ &&
         reference_.passes() > 0) {
         last_ = session_->frame(spec_);
@@ -145,7 +145,7 @@ void Viewer::frame(const State& state, uvec2 size, app::Overlay overlay, bool is
                 nullptr,
                 std::move(overlay)};
     if (wants_canvas(state)) showing_.canvas = canvas(state);
-    if (!showing_.canvas) { // not there yet: the plan's picture
+    if (!showing_.canvas) { // not made yet: show the plan's picture
         if (showing_.first == app::Showing::kCanvas) showing_.first = 0;
         if (showing_.second == app::Showing::kCanvas) showing_.second = 0;
     }

@@ -12,13 +12,14 @@
 
 namespace catoptric::view {
 
-/// A scene on a device and its frames in a window: two on their way. What the user sees and changes
-/// is a State, which outlives this.
+/// A scene on a device, with its frames in a window. Two frames are in flight. The user's view of
+/// it is a State, which outlives this object.
 class Viewer {
 public:
-    /// The request's scene, size and first instant. Throws as Engine, Screen and Session do.
+    /// Opens the request's scene with its size and first instant. Throws as Engine, Screen and
+    /// Session do.
     Viewer(Window& window, app::EngineOptions options, const app::Request& request);
-    /// Waits for frames on their way.
+    /// Waits for frames in flight.
     ~Viewer();
 
     app::Screen& screen() { return *screen_; }
@@ -27,20 +28,20 @@ public:
     const Times& times() const { return times_; }
     const Reference& reference() const { return reference_; }
     const std::optional<measure::Difference>& error() const { return error_; }
-    /// How each mirror was drawn in the last frame, and what was left out of it.
+    /// Returns how each mirror was drawn in the last frame. `left_out` returns its culled work.
     std::vector<PlanEntry> entries() const;
     const std::vector<require::CulledWork>& left_out() const { return left_out_; }
-    /// Of the first technique, where there is a budget.
+    /// Returns the capture budget of the first technique, if there is one.
     const std::optional<app::CaptureBudget>& slices() const { return slices_; }
 
-    /// Renders a frame of `size` and shows it where the window can (`is_seen`). Throws `usage` for
-    /// a plan that does not fit the scene, `device_lost` and `exhausted`.
+    /// Renders a frame of `size`, and shows it if the window is visible (`is_seen`). Throws `usage`
+    /// for a plan that does not fit the scene, `device_lost` and `exhausted`.
     void frame(const State& state, uvec2 size, app::Overlay overlay, bool is_seen);
-    /// The mirror, from 1, that a pixel of the last frame shows; 0: none.
+    /// Returns the number, from 1, of the mirror that a pixel of the last frame shows; 0: none.
     std::uint32_t mirror_at(uvec2 pixel);
     void cut();
-    /// The picture of the last frame: PNG as it is shown, without overlay; EXR: linear, of the
-    /// plan.
+    /// Writes the picture of the last frame. A PNG is the picture as shown, without overlay. An EXR
+    /// holds the plan's linear picture.
     void write(const std::filesystem::path& file) const;
     app::FrameSpec spec() const { return spec_; }
     std::size_t cuts() const { return cuts_; }
@@ -61,7 +62,7 @@ private:
     std::unique_ptr<app::Session> session_;
     std::deque<Pending> pending_;
     std::optional<app::Frame> last_;
-    app::Showing showing_; ///< of the last frame
+    app::Showing showing_; ///< what the last frame showed
     app::FrameSpec spec_;
     Times times_;
     Reference reference_;
@@ -69,13 +70,13 @@ private:
     std::vector<require::CulledWork> left_out_;
     std::optional<app::CaptureBudget> slices_;
     double budget_ms_ = 0;
-    std::shared_ptr<const measure::Picture> made_; ///< for `made_mode_`
+    std::shared_ptr<const measure::Picture> made_; ///< picture made for `made_mode_`
     Mode made_mode_ = Mode::plan;
     std::uint32_t made_cause_ = 0;
     int made_gain_ = 0;
     std::size_t frames_ = 0, cuts_ = 0;
-    int still_ = 0;          ///< frames since something changed
-    bool was_moved_ = false; ///< since the last cut
+    int still_ = 0;          ///< frames since the last change
+    bool was_moved_ = false; ///< whether the view moved since the last cut
     double began_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The only file that names the window library's and Vulkan's types for a surface.
+// The only file that uses types of the window library and Vulkan surface types.
 #include "window.hpp"
 
 #include "core/error.hpp"
@@ -34,7 +34,7 @@ std::uint64_t make_surface(GLFWwindow* window, void* instance) {
 
 } // namespace
 
-/// What the window library calls while events are polled.
+/// Callbacks of the window library, called while events are polled.
 struct Callbacks {
     static Inputs& of(GLFWwindow* window) {
         return static_cast<Window*>(glfwGetWindowUserPointer(window))->gathered_;
@@ -73,7 +73,7 @@ Window::Window(const std::string& title, uvec2 size) {
         glfwTerminate();
         fail(Failure::no_device, "no window could be opened: ", why);
     }
-    // A click between two frames is seen by the next.
+    // Keeps a click between two frames until the next frame.
     glfwSetInputMode(window_, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, Callbacks::key);
@@ -97,7 +97,7 @@ void Window::add_to(app::EngineOptions& options) const {
 }
 
 Inputs Window::poll(bool wait) {
-    constexpr double kLongest = .1; // seconds
+    constexpr double kLongest = .1; // longest wait in seconds
     if (wait)
         glfwWaitEventsTimeout(kLongest);
     else

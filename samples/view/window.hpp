@@ -9,28 +9,30 @@ struct GLFWwindow;
 
 namespace catoptric::view {
 
-/// A window of the desktop. One a process; of the main thread.
+/// A window of the desktop. At most one per process, used by the main thread only.
 class Window {
 public:
-    /// `size`: in the desktop's units. Throws `no_device` where there is no display, or none that
-    /// Vulkan can show pictures on.
+    /// Opens a window of `size`, in desktop units. Throws `no_device` if there is no display, or
+    /// none that Vulkan can show pictures on.
     Window(const std::string& title, uvec2 size);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// What an engine needs to show pictures here. The window must outlive it.
+    /// Adds to the options what an engine needs to show pictures in this window. The window must
+    /// outlive the engine.
     void add_to(app::EngineOptions& options) const;
-    /// What has happened; `wait`: sleeps up to a tenth of a second for something to happen.
+    /// Returns the input since the last call. With `wait`, sleeps up to a tenth of a second until
+    /// something happens.
     Inputs poll(bool wait);
-    void resize(uvec2 size); ///< in the desktop's units
+    void resize(uvec2 size); ///< in desktop units
     void copy(const std::string& text);
     GLFWwindow* handle() const { return window_; }
 
 private:
     friend struct Callbacks;
     GLFWwindow* window_ = nullptr;
-    Inputs gathered_; ///< by callbacks, since the last poll
+    Inputs gathered_; ///< gathered by callbacks since the last poll
     double polled_ = 0;
 };
 
