@@ -9,23 +9,19 @@
 /// Content hashes of captures and shadow maps.
 namespace catoptric::require {
 
-/// World objects smaller than this part of the size of the scene may get a coordinate space of
-/// their own on the device (render::kSmallPart). When such an object comes or goes, the shaders of
-/// other objects change as well.
+/// World objects may get a coordinate space of their own on the device if they are small
+/// (render::kSmallPart). This is the limit, as a part of their largest possible distance from the
+/// scene's origin. When such an object comes or goes, the shaders of other objects change as well.
 inline constexpr double kSmall = 0x1p-12;
 /// Most pairs of shadow landing and capture that are tested one by one per frame.
 inline constexpr std::size_t kMostLandings = 1 << 17;
 
 /// Content hashes of the faces of captures. The hash of a face stands for:
-///
 /// - the epoch: all objects that never moved, materials, environment and lights;
-///
 /// - the mirror itself, because it places the capture's centre;
-///
 /// - each mover, including mirrors, whose box and ball may meet the face;
-///
 /// - each mover whose shadow may fall on an object in the face. If only the receiver moves, the
-/// receiver's own hash covers the change.
+///   receiver's own hash covers the change.
 ///
 /// Equal hashes stand for equal bytes, except for the contents of other mirrors, while the views
 /// stay the same. The hashes do not cover views: near planes and the windows of a directional light

@@ -59,8 +59,8 @@ struct LightNeeds {
     std::uint64_t content_hash = 0; ///< content hash of the light and of all that never moved
 };
 
-/// A mover that casts shadows. A face of a shadow map stays valid while LightNeeds::content_hash,
-/// the face's view and the content hashes of the casters that it may show stay the same.
+/// A mover that casts shadows. A face of a shadow map stays valid while three things stay the same:
+/// LightNeeds::content_hash, the face's view, and the content hashes of its possible casters.
 struct Caster {
     std::uint32_t object = 0;
     std::uint64_t content_hash = 0; ///< content hash of its shape and place

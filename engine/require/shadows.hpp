@@ -17,9 +17,8 @@ inline constexpr double kShadowTexels = 5;
 ///
 /// With a lamp or a point light at L, shaded points are L + t (b - L), t >= 1. With a directional
 /// light along a, they are b + t a, t >= 0. While they are in E, t is at most T. T follows from the
-/// axes along which B lies wholly to one side of L. The points lie in the hull of B and of B scaled
-/// T times away from L (or moved by T a), which is a box as well. If B lies around L, both boxes
-/// are E.
+/// axes along which B lies wholly to one side of L. The points lie in the hull of B and a second
+/// box: B scaled T times away from L, or moved by T a. If B lies around L, both boxes are E.
 struct Shade {
     Bounds<double> from, to;
 };

@@ -32,7 +32,7 @@ void put_bytes(std::string_view result);
 /// several lines, all lines but the first begin with two spaces. Other line breaks are escaped.
 void say(const std::string& text);
 
-/// Write a line to stderr: `note` unless --quiet, `detail` only with -v, `warn` always.
+/// Writes a line to stderr: `note` unless --quiet, `detail` only with -v, `warn` always.
 void note(const Manners& manners, const std::string& text);
 void detail(const Manners& manners, const std::string& text);
 void warn(const std::string& text);

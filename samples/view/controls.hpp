@@ -16,11 +16,12 @@ public:
 
     /// Gives the font to a screen. Needed once per new screen.
     void give_font(app::Screen& screen) const;
-    /// Begin and end the controls of a frame. ImGui:: calls in between add controls. `window` is
+    /// Begins and ends the controls of a frame. ImGui:: calls in between add controls. `window` is
     /// the window's size in pixels. `inputs` supplies the mouse.
     void begin(uvec2 window, const Inputs& inputs);
     app::Overlay end();
-    /// Return whether, in the last frame, the mouse was over controls, or a text was being typed.
+    /// Returns whether, in the last frame, the mouse was over controls (`has_mouse`) or a text was
+    /// being typed (`has_keys`).
     bool has_mouse() const;
     bool has_keys() const;
 };

@@ -16,7 +16,7 @@ struct Report {
     std::string command; ///< command that renders the picture without a window
 };
 
-/// Simulates the user in a test. Its inputs replace those of the window.
+/// Simulates the user in a test. `before` may change the inputs after the window has set them.
 struct Driver {
     std::function<void(std::size_t frame, Inputs&, State&, Window&)> before = {};
     std::function<void(const Report&)> after = {};

@@ -103,7 +103,7 @@ void Viewer::work_at_rest(const State& state) {
         reference_.advance(*session_, spec_);
     }
     // A picture of search answers has no error to measure.
-    const bool waits = last_ && last_->waiting() > 0; // shaders are still being prepared
+    const bool waits = last_ && last_->waiting() > 0; // the capture budget has put off captures
     if (still_ >= kSettled && !waits && state.judges && state.mode != Mode::answers && !error_ &&
         reference_.passes() > 0) {
         last_ = session_->frame(spec_);
